@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfaceCheck_h
+#define volumicSurfaceCheck_h
+
+#include "LevelImage.h"
+#include "SurfaceFeatures.h"
+
+#include <string>
+
+namespace volumic
+{
+class SurfaceMesh;
+
+/**
+ * Refuses a surface that can't be evolved: empty, indices or coordinates out of range, open, not
+ * manifold, not oriented, inside out, self-intersecting. `surface` may be in any space.
+ * @throws std::invalid_argument whose message names what is wrong, how often, and the way out.
+ */
+void CheckInitialSurface(const IndexedSurface& surface);
+
+/**
+ * Refuses a surface (workspace) that lies wholly outside the image.
+ * @throws std::invalid_argument
+ */
+void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image);
+
+/**
+ * Number of intersecting pairs of triangles, neighbours included, by exact tests over a grid.
+ * Stops counting at `limit` (0: never).
+ */
+int CountSelfIntersections(const IndexedSurface& surface, int limit = 0);
+
+/**
+ * Every invariant of a live mesh that holds at any time: consistent rings, no duplicate
+ * neighbours, both orientations of each edge, finite positions, free list. For tests.
+ * @return an empty string, or what is broken.
+ */
+std::string DescribeBrokenInvariant(const SurfaceMesh& mesh);
+}
+
+#endif

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfaceEvolution_h
+#define volumicSurfaceEvolution_h
+
+#include "Executor.h"
+#include "LevelImage.h"
+#include "Monitor.h"
+#include "SurfaceFeatures.h"
+#include "SurfaceOptions.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace volumic
+{
+enum class StopReason
+{
+  Converged,
+  IterationLimit,
+  Cancelled,
+  Vanished ///< No component is left.
+};
+
+/** The words of the output's field data: converged, iteration limit, cancelled, vanished. */
+const char* Describe(StopReason reason);
+
+/** Parts of an iteration, in the order of HistoryRow::PhaseSeconds. */
+enum class Phase
+{
+  Forces,
+  Contact,
+  Proximity,
+  Verification,
+  Remeshing,
+  Topology,
+  Division, ///< Division, start, recovery of lost parts, final regularisation.
+  Count
+};
+
+/** One iteration. Lengths are those of the workspace. */
+struct HistoryRow
+{
+  int Iteration = 0; ///< Counted over all levels, from 1.
+  int Level = 0;
+  int Vertices = 0;
+  double KineticEnergy = 0.; ///< Mean over vertices of half the squared speed along the normal.
+  double MeanEdgeLength = 0.;
+  double Seconds = 0.;  ///< Duration of this iteration.
+  double TimeStep = 0.;
+  int ActiveVertices = 0;
+  int Merges = 0;
+  int Cuts = 0;
+  int Splits = 0;
+  int Collapses = 0;
+  int Flips = 0;
+  int EulerCharacteristic = 0;
+  int Components = 0;
+  std::array<double, static_cast<int>(Phase::Count)> PhaseSeconds{};
+};
+
+/** The surface as handed out: compact, workspace coordinates. */
+struct SurfaceResult : IndexedSurface
+{
+  std::vector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
+  std::vector<float> Residual;                ///< Field minus iso-value, per point.
+  std::vector<unsigned char> Motionless;      ///< 1 where frozen, per point.
+  double Delta = 0.;                          ///< delta_h, workspace.
+};
+
+/**
+ * The deformable surface: a closed triangulated mesh that follows an isopotential from coarse to
+ * fine (method.md sections 3-5 and 10). Usage:
+ *
+ *   SurfaceEvolution evolution(options, executor, monitor);
+ *   evolution.StartEnclosing(coarsest, h);      // or StartSeeds, StartSurface
+ *   StopReason reason = evolution.Run();        // until it rests
+ *   SurfaceResult surface = evolution.Result();
+ *   evolution.Divide(finer, h - 1);             // sqrt 3 division, then Run() again
+ *
+ * Between the calls the surface is always closed, oriented, manifold and free of
+ * self-intersections. Results are bit-identical for any executor.
+ * Executor, monitor and the values of the current level must outlive the object.
+ */
+class SurfaceEvolution
+{
+public:
+  /** @throws std::invalid_argument for options outside their range. */
+  SurfaceEvolution(const SurfaceOptions& options, Executor& executor, Monitor& monitor);
+  ~SurfaceEvolution();
+  SurfaceEvolution(const SurfaceEvolution&) = delete;
+  SurfaceEvolution& operator=(const SurfaceEvolution&) = delete;
+
+  /** Start from an icosahedron mapped to a rounded box about the image, divided to delta. */
+  void StartEnclosing(const LevelImage& image, int level);
+
+  /**
+   * Start from icosahedra of SeedRadius about the centres (workspace); where there are none, on a
+   * grid of points inside the object. Centres outside the object or too near to each other are
+   * left out. @return the number of seeds set.
+   * @throws std::invalid_argument when none is left or a centre lies outside the image.
+   */
+  int StartSeeds(const LevelImage& image, int level, const std::vector<Point>& centres);
+
+  /**
+   * Start from a closed surface (workspace), remeshed to the constraints of delta.
+   * @throws std::invalid_argument as CheckInitialSurface and CheckOverlapsImage.
+   */
+  void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface);
+
+  /** Evolve on the current level until rest, limit, cancel or nothing is left; then snap. */
+  StopReason Run();
+
+  /** Global division down to delta of a finer level; lost parts are seeded again. */
+  void Divide(const LevelImage& image, int level);
+
+  /** The surface as it is. */
+  SurfaceResult Result() const;
+
+  /** A row per iteration since the object was made. */
+  const std::vector<HistoryRow>& History() const;
+
+  /** Iterations of the last Run(). */
+  int Iterations() const;
+
+  /** Lost parts that the last Divide() found and seeded again, and those too small to be. */
+  struct LostParts
+  {
+    int Found = 0;
+    int Seeded = 0;
+  };
+  LostParts Lost() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+}
+
+#endif

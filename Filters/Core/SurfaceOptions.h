@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfaceOptions_h
+#define volumicSurfaceOptions_h
+
+namespace volumic
+{
+/** What the field is outside the image. */
+enum class Border
+{
+  Background = 0, ///< Away from the object, ramping over one voxel: surfaces close at the border.
+  Replicate = 1   ///< The nearest voxel.
+};
+
+/**
+ * All properties of the deformable surface, with their only defaults.
+ * Weights are relative to a mass of 1 per vertex; forces are measured in delta, so that one set
+ * of weights serves every level.
+ */
+struct SurfaceOptions
+{
+  double IsoValue = 0.;        ///< Field value of the isopotential that is searched.
+  bool ObjectIsBright = true;  ///< The object is where the field is above (off: below) IsoValue.
+
+  double SeedRadius = 0.;      ///< Radius of seeds, workspace; 0 = 3 delta.
+  double SamplingRatio = 0.85; ///< delta_h / U_h, in [sqrt(3)/2.5, 1] (eq. 7).
+
+  double TensionWeight = 0.2;      ///< F_c, towards the barycentre of the neighbours.
+  double ElasticityWeight = 0.1;   ///< F_e, springs along edges, rest length 1.6 delta.
+  double IsopotentialWeight = 1.;  ///< F_i, along the normal, bounded by 1.
+  double GradientWeight = 0.;      ///< F_di, descent along the discrete gradient; see Forces.h.
+  double Friction = 3.;            ///< Per unit of time.
+
+  Border BorderValue = Border::Background;
+  bool TopologyChanges = true;     ///< Off: contacts only stop the surface.
+
+  int MaximumNumberOfIterations = 1000; ///< Per level.
+  /**
+   * A level rests when the enclosed volume changes by less than max(delta^3, this share of it)
+   * over the last 10 and over the last 20 iterations.
+   */
+  double ConvergenceTolerance = 2e-4;
+  bool FreezeMotionlessVertices = true; ///< Skip vertices at rest until something near changes.
+  bool SnapToIsoValue = true;           ///< Vertices onto the isopotential at the end of a level.
+
+  /**
+   * After a division, seeds are set into parts of the object that the coarser level did not
+   * resolve and that the surface therefore has lost (method.md section 10, last paragraph).
+   */
+  bool RecoverLostParts = true;
+  int MinimumPartSize = 40; ///< Voxels of the level that a lost part must have to be recovered.
+
+  double MaximumStep = 0.5; ///< Largest displacement of an iteration, in delta; at most 0.5.
+};
+}
+
+#endif
