@@ -1,0 +1,101 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# From a bare Debian 12 to all tests passed: installs what is missing, builds Volumic for VTK and
+# for ParaView under build/, and runs the tests of both. Quick when run again.
+
+set -eo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
+
+usage()
+{
+  cat << 'USAGE'
+Usage: bash Testing/run.sh [OPTION]...
+  --vtk-only        the library, the Python package and their tests only
+  --paraview-only   the ParaView plugin and its tests only
+  -R REGEX          only the tests whose name matches
+  --help            this text
+USAGE
+}
+
+flavours=(vtk paraview)
+selection=(--no-tests=error)
+while [ $# -gt 0 ]; do
+  case $1 in
+    --vtk-only) flavours=(vtk) ;;
+    --paraview-only) flavours=(paraview) ;;
+    -R)
+      [ $# -ge 2 ] || fail "-R needs a regular expression"
+      selection=(-R "$2") # may well select none of one flavour's tests
+      shift
+      ;;
+    -h | --help)
+      usage
+      exit 0
+      ;;
+    *)
+      usage >&2
+      fail "Unknown option: $1"
+      ;;
+  esac
+  shift
+done
+
+# run_tests FLAVOUR: one step, whose output is shown as it comes. Failures don't stop the script, so
+# that the other flavour's tests are run too.
+failed=0
+run_tests()
+{
+  local flavour=$1 log=$logs/test-$1 status
+  step_number=$((step_number + 1))
+  say "[$step_number/$step_total] Testing ($flavour)"
+  set +e
+  (cd "$build/$flavour" && ctest --output-on-failure -j "$(job_count)" "${selection[@]}") \
+    2>&1 < /dev/null | tee "$log"
+  status=${PIPESTATUS[0]}
+  set -e
+  [ "$status" -eq 0 ] || failed=1
+}
+
+# summarize FLAVOUR: one line from ctest's output.
+summarize()
+{
+  local log=$logs/test-$1 passed skipped broken seconds
+  passed=$(grep -cE '^ *[0-9]+/[0-9]+ Test .* Passed ' "$log" || true)
+  skipped=$(grep -cE '^ *[0-9]+/[0-9]+ Test .*\*\*\*(Skipped|Not Run \(Disabled\))' "$log" || true)
+  broken=$(sed -n 's/.* \([0-9][0-9]*\) tests failed out of .*/\1/p' "$log")
+  seconds=$(sed -n 's/^Total Test time (real) = *//p' "$log")
+  printf '  %-9s %4d passed  %3d failed  %3d skipped   %s   %s\n' "$1" "$passed" \
+    "${broken:-0}" "$skipped" "$seconds" "$log"
+}
+
+check_system
+plan_steps $((1 + 3 * ${#flavours[@]}))
+
+packages=("${tool_packages[@]}" "${test_packages[@]}" "${example_packages[@]}")
+for flavour in "${flavours[@]}"; do
+  mapfile -t needed < <("${flavour}_packages")
+  packages+=("${needed[@]}")
+done
+install_packages "${packages[@]}"
+
+for flavour in "${flavours[@]}"; do
+  "build_${flavour}_flavour" -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=ON
+done
+for flavour in "${flavours[@]}"; do
+  run_tests "$flavour"
+done
+
+if ! cat "${flavours[@]/#/$logs/test-}" | grep -qE '^ *1/[0-9]+ Test '; then
+  fail "No test was selected."
+fi
+say ""
+say "Summary, after $SECONDS s:"
+for flavour in "${flavours[@]}"; do
+  summarize "$flavour"
+done
+if [ "$failed" -ne 0 ]; then
+  fail "Some tests failed; see above, or the logs."
+fi
+say "All tests passed."
