@@ -219,11 +219,18 @@ unpack_beside()
   rm -rf download
   # shellcheck disable=SC2086 # a list
   dpkg -L $linked | grep -E '^/usr/(bin|include|lib)/' | while read -r path; do
-    [ -d "$path" ] || echo "$path"
-  done > links
-  grep '/cmake/' links | xargs -r -d '\n' cp -n --parents -t "$prefix"
-  grep -v '/cmake/' links | xargs -r -d '\n' cp -s -n --parents -t "$prefix"
-  rm links
+    if [ -d "$path" ]; then
+      continue
+    elif [[ $path == */cmake/* ]]; then
+      echo "$path" >> copies
+    else
+      echo "$path" >> links
+    fi
+  done
+  touch copies links
+  xargs -r -d '\n' -a copies cp -n --parents -t "$prefix"
+  xargs -r -d '\n' -a links cp -s -n --parents -t "$prefix"
+  rm copies links
   echo "$stamp" > "$prefix/packages"
 }
 
