@@ -19,7 +19,7 @@ build=$root/build
 logs=$build/logs
 mkdir -p "$logs"
 
-tool_packages=(g++ cmake ninja-build python3 python3-numpy)
+tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
 test_packages=(libgtest-dev libcgal-dev xvfb xauth libgl1-mesa-dri)
 example_packages=(invesalius-examples)
 
@@ -34,7 +34,10 @@ paraview_free_packages=(paraview paraview-dev)
 paraview_bound_packages=(python3-paraview)
 # What find_package(ParaView) looks for without paraview-dev depending on it.
 paraview_needs=(qtbase5-dev libqt5svg5-dev qttools5-dev libqt5xmlpatterns5-dev
-  qtxmlpatterns5-dev-tools libqt5opengl5-dev libqt5x11extras5-dev qtdeclarative5-dev python3-mpi4py)
+  qtxmlpatterns5-dev-tools libqt5opengl5-dev libqt5x11extras5-dev qtdeclarative5-dev python3-mpi4py
+  libxml2-dev libutfcpp-dev libhdf5-mpi-dev libogg-dev libtheora-dev libavformat-dev libavcodec-dev
+  libavutil-dev libswscale-dev libgl2ps-dev libpng-dev libnetcdf-dev libgdal-dev libglew-dev
+  libdouble-conversion-dev libfreetype-dev)
 
 # ---- Steps -------------------------------------------------------------------------------------
 
