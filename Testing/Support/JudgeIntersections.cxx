@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The only file that includes CGAL: it takes a while to compile.
+
+#include "SurfaceJudge.h"
+
+#include "JudgeInternals.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
+
+#include <utility>
+
+namespace volumic
+{
+namespace support
+{
+namespace
+{
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
+{
+  return { p[0], p[1], p[2] };
+}
+
+/** False where the triangles are no halfedge mesh (edges shared by three, or run through twice in
+   the same direction, or vertices where fans touch). */
+bool BuildMesh(const TriangleSurface& surface, Mesh& mesh)
+{
+  mesh.reserve(surface.Points.size(), 3 * surface.Triangles.size() / 2, surface.Triangles.size());
+  for (const auto& p : surface.Points)
+  {
+    mesh.add_vertex(CgalPoint(p));
+  }
+  for (const auto& t : surface.Triangles)
+  {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+    {
+      return false;
+    }
+    const auto face =
+      mesh.add_face(Mesh::Vertex_index(t[0]), Mesh::Vertex_index(t[1]), Mesh::Vertex_index(t[2]));
+    if (face == Mesh::null_face())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/** The test that CGAL makes on a pair of faces, for triangles that are no halfedge mesh. */
+class SoupTest
+{
+public:
+  explicit SoupTest(const TriangleSurface& surface) : Surface(surface) {}
+
+  Kernel::Point_3 Corner(std::size_t t, int c) const
+  {
+    return CgalPoint(this->Surface.Points[this->Surface.Triangles[t][c]]);
+  }
+
+  Kernel::Triangle_3 Triangle(std::size_t t) const
+  {
+    return { this->Corner(t, 0), this->Corner(t, 1), this->Corner(t, 2) };
+  }
+
+  bool Meet(std::size_t t, std::size_t u) const
+  {
+    int shared = 0;
+    int freeT = 0, freeU = 0;       // corners outside a shared edge; sums of the shared ones before
+    int sharedT = -1, sharedU = -1; // the last shared corner
+    for (int c = 0; c < 3; ++c)
+    {
+      for (int d = 0; d < 3; ++d)
+      {
+        if (this->Surface.Triangles[t][c] == this->Surface.Triangles[u][d])
+        {
+          ++shared;
+          freeT += c;
+          freeU += d;
+          sharedT = c;
+          sharedU = d;
+        }
+      }
+    }
+    if (shared == 0)
+    {
+      return CGAL::do_intersect(this->Triangle(t), this->Triangle(u));
+    }
+    if (shared == 1)
+    {
+      const Kernel::Segment_3 oppositeT(
+        this->Corner(t, (sharedT + 1) % 3), this->Corner(t, (sharedT + 2) % 3));
+      const Kernel::Segment_3 oppositeU(
+        this->Corner(u, (sharedU + 1) % 3), this->Corner(u, (sharedU + 2) % 3));
+      return CGAL::do_intersect(this->Triangle(t), oppositeU) ||
+        CGAL::do_intersect(this->Triangle(u), oppositeT);
+    }
+    if (shared == 2)
+    {
+      // Two triangles at one edge overlap when they lie in a plane, on the same side of the edge.
+      freeT = 3 - freeT;
+      freeU = 3 - freeU;
+      const Kernel::Point_3 from = this->Corner(t, (freeT + 1) % 3);
+      const Kernel::Point_3 to = this->Corner(t, (freeT + 2) % 3);
+      const Kernel::Point_3 tipT = this->Corner(t, freeT), tipU = this->Corner(u, freeU);
+      return CGAL::coplanar(from, to, tipT, tipU) &&
+        CGAL::coplanar_orientation(from, to, tipT, tipU) == CGAL::POSITIVE;
+    }
+    return true; // the same triangle twice
+  }
+
+private:
+  const TriangleSurface& Surface;
+};
+
+IntersectionVerdict JudgeSoup(const TriangleSurface& surface)
+{
+  const SoupTest test(surface);
+  IntersectionVerdict verdict;
+  std::vector<Box> boxes;
+  boxes.reserve(surface.Triangles.size());
+  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
+  {
+    const Kernel::Point_3 p = test.Corner(t, 0), q = test.Corner(t, 1), r = test.Corner(t, 2);
+    if (CGAL::collinear(p, q, r))
+    {
+      ++verdict.FlatTriangles;
+      continue;
+    }
+    boxes.emplace_back(p.bbox() + q.bbox() + r.bbox(), t);
+  }
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
+    [&](const Box& a, const Box& b) { verdict.Pairs += test.Meet(a.info(), b.info()); });
+  return verdict;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+IntersectionVerdict JudgeIntersections(const TriangleSurface& surface)
+{
+  CheckSurface(surface);
+  Mesh mesh;
+  if (!BuildMesh(surface, mesh))
+  {
+    return JudgeSoup(surface);
+  }
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
+  IntersectionVerdict verdict;
+  for (const auto& pair : pairs)
+  {
+    // CGAL reports a triangle without area as a pair with itself.
+    ++(pair.first == pair.second ? verdict.FlatTriangles : verdict.Pairs);
+  }
+  return verdict;
+}
+
+} // namespace support
+} // namespace volumic

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "SurfaceJudge.h"
+
+#include "JudgeInternals.h"
+#include "PointGrid.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace volumic
+{
+namespace support
+{
+namespace
+{
+
+constexpr double Rounding = 1e-6;
+constexpr int HopsThatMakeAPair = 4;
+
+/** Neighbours of all vertices, one list behind the other. */
+struct Neighbours
+{
+  std::vector<int> Start;
+  std::vector<int> Members;
+
+  Neighbours(std::size_t numberOfPoints, const std::vector<std::pair<int, int>>& edges)
+    : Start(numberOfPoints + 1, 0), Members(2 * edges.size())
+  {
+    for (const auto& e : edges)
+    {
+      ++this->Start[e.first + 1];
+      ++this->Start[e.second + 1];
+    }
+    for (std::size_t v = 0; v < numberOfPoints; ++v)
+    {
+      this->Start[v + 1] += this->Start[v];
+    }
+    std::vector<int> next(this->Start.begin(), this->Start.end() - 1);
+    for (const auto& e : edges)
+    {
+      this->Members[next[e.first]++] = e.second;
+      this->Members[next[e.second]++] = e.first;
+    }
+  }
+};
+
+void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int, int>>& edges,
+  double bound, LengthVerdict& verdict)
+{
+  const Neighbours neighbours(surface.Points.size(), edges);
+  const PointGrid grid(surface.Points, bound);
+  // near[v] == i: v is at most HopsThatMakeAPair - 1 hops from i.
+  std::vector<int> near(surface.Points.size(), -1);
+  std::vector<int> queue;
+  double nearestSquared = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < surface.Points.size(); ++p)
+  {
+    const int vertex = static_cast<int>(p);
+    if (neighbours.Start[p] == neighbours.Start[p + 1])
+    {
+      continue; // no vertex of the surface
+    }
+    queue.assign(1, vertex);
+    near[p] = vertex;
+    for (std::size_t hop = 1, done = 0; hop < HopsThatMakeAPair; ++hop)
+    {
+      for (const std::size_t end = queue.size(); done < end; ++done)
+      {
+        for (int m = neighbours.Start[queue[done]]; m < neighbours.Start[queue[done] + 1]; ++m)
+        {
+          const int other = neighbours.Members[m];
+          if (near[other] != vertex)
+          {
+            near[other] = vertex;
+            queue.push_back(other);
+          }
+        }
+      }
+    }
+    grid.ForEachWithin(surface.Points[p], bound * (1.0 - Rounding),
+      [&](int other, double squared)
+      {
+        if (other > vertex && near[other] != vertex &&
+          neighbours.Start[other] != neighbours.Start[other + 1])
+        {
+          ++verdict.NearPairs;
+          nearestSquared = std::min(nearestSquared, squared);
+        }
+        return true;
+      });
+  }
+  verdict.NearestPair = std::sqrt(nearestSquared);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
+{
+  CheckSurface(surface);
+  const std::vector<std::pair<int, int>> edges = UniqueEdges(surface);
+  LengthVerdict verdict;
+  verdict.Edges = edges.size();
+  verdict.Shortest = edges.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (const auto& e : edges)
+  {
+    const double length = Norm(Difference(surface.Points[e.first], surface.Points[e.second]));
+    verdict.Shortest = std::min(verdict.Shortest, length);
+    verdict.Longest = std::max(verdict.Longest, length);
+    verdict.EdgesTooShort += length < delta * (1.0 - Rounding);
+    verdict.EdgesTooLong += length > 2.5 * delta * (1.0 + Rounding);
+    sum += length;
+  }
+  if (!edges.empty())
+  {
+    verdict.Mean = sum / edges.size();
+    verdict.ShareOutside =
+      static_cast<double>(verdict.EdgesTooShort + verdict.EdgesTooLong) / edges.size();
+  }
+  JudgePairs(surface, edges, 2.5 / std::sqrt(3.0) * delta, verdict);
+  return verdict;
+}
+
+//------------------------------------------------------------------------------
+ShapeVerdict JudgeShapes(const TriangleSurface& surface)
+{
+  CheckSurface(surface);
+  std::vector<double> ratios;
+  ratios.reserve(surface.Triangles.size());
+  double sum = 0.0;
+  for (const auto& t : surface.Triangles)
+  {
+    const std::array<double, 3> u = Difference(surface.Points[t[1]], surface.Points[t[0]]);
+    const std::array<double, 3> v = Difference(surface.Points[t[2]], surface.Points[t[0]]);
+    const double a = Norm(u), b = Norm(v);
+    const double c = Norm(Difference(surface.Points[t[2]], surface.Points[t[1]]));
+    const double area = 0.5 * Norm(Cross(u, v));
+    const double product = a * b * c * 0.5 * (a + b + c);
+    // r = area / s and R = a b c / (4 area), with s half of the perimeter.
+    ratios.push_back(product > 0.0 ? 8.0 * area * area / product : 0.0);
+    sum += ratios.back();
+  }
+  ShapeVerdict verdict;
+  if (!ratios.empty())
+  {
+    verdict.Mean = sum / ratios.size();
+    verdict.Least = *std::min_element(ratios.begin(), ratios.end());
+    verdict.Quantile01 = Quantile(ratios, 0.01);
+  }
+  return verdict;
+}
+
+} // namespace support
+} // namespace volumic

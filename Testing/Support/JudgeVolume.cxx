@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "SurfaceJudge.h"
+
+#include "JudgeInternals.h"
+#include "PointGrid.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+
+namespace volumic
+{
+namespace support
+{
+namespace
+{
+
+void CheckVolume(const JudgedVolume& volume)
+{
+  if (!volume.Values || volume.Size[0] < 1 || volume.Size[1] < 1 || volume.Size[2] < 1)
+  {
+    throw std::invalid_argument("SurfaceJudge: the volume is empty");
+  }
+}
+
+/** Value and gradient between the voxels; outside, the nearest voxel counts. */
+class Field
+{
+public:
+  explicit Field(const JudgedVolume& volume) : Volume(volume) {}
+
+  void Sample(
+    const std::array<double, 3>& place, double& value, std::array<double, 3>& gradient) const
+  {
+    int low[3];
+    double part[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      const double inside = std::clamp(place[a], 0.0, this->Volume.Size[a] - 1.0);
+      low[a] = std::min(static_cast<int>(inside), std::max(this->Volume.Size[a] - 2, 0));
+      part[a] = inside - low[a];
+    }
+    value = 0.0;
+    gradient = { 0.0, 0.0, 0.0 };
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      int at[3];
+      double weight = 1.0;
+      for (int a = 0; a < 3; ++a)
+      {
+        const int step = corner >> a & 1;
+        at[a] = low[a] + step;
+        weight *= step ? part[a] : 1.0 - part[a];
+      }
+      value += weight * this->Voxel(at[0], at[1], at[2]);
+      gradient[0] += 0.5 * weight *
+        (this->Voxel(at[0] + 1, at[1], at[2]) - this->Voxel(at[0] - 1, at[1], at[2]));
+      gradient[1] += 0.5 * weight *
+        (this->Voxel(at[0], at[1] + 1, at[2]) - this->Voxel(at[0], at[1] - 1, at[2]));
+      gradient[2] += 0.5 * weight *
+        (this->Voxel(at[0], at[1], at[2] + 1) - this->Voxel(at[0], at[1], at[2] - 1));
+    }
+  }
+
+private:
+  double Voxel(int i, int j, int k) const
+  {
+    const auto& size = this->Volume.Size;
+    i = std::clamp(i, 0, size[0] - 1);
+    j = std::clamp(j, 0, size[1] - 1);
+    k = std::clamp(k, 0, size[2] - 1);
+    return this->Volume.Values[(static_cast<std::size_t>(k) * size[1] + j) * size[0] + i];
+  }
+
+  const JudgedVolume& Volume;
+};
+
+double DistanceAt(
+  const Field& field, const std::array<double, 3>& place, double isoValue, double largest)
+{
+  double value;
+  std::array<double, 3> gradient;
+  field.Sample(place, value, gradient);
+  const double difference = std::abs(value - isoValue);
+  const double slope = Norm(gradient);
+  return difference < largest * slope ? difference / slope : (difference > 0.0 ? largest : 0.0);
+}
+
+//------------------------------------------------------------------------------
+/** The volume with a border of air, as flags. */
+class AirMap
+{
+public:
+  enum Flag : unsigned char
+  {
+    Object = 1,
+    Clear = 2, ///< a ball of air fits around it
+    Reached = 4
+  };
+
+  // Object voxels at the border of the volume must leave room for a ball of air and its neighbours.
+  static constexpr int Border = 5;
+
+  explicit AirMap(const JudgedVolume& volume)
+  {
+    std::size_t count = 1;
+    for (int a = 0; a < 3; ++a)
+    {
+      this->Size[a] = volume.Size[a] + 2 * Border;
+      count *= static_cast<std::size_t>(this->Size[a]);
+    }
+    this->Flags.assign(count, 0);
+    const float* value = volume.Values;
+    for (int k = 0; k < volume.Size[2]; ++k)
+    {
+      for (int j = 0; j < volume.Size[1]; ++j)
+      {
+        unsigned char* row = &this->Flags[this->Index(Border, j + Border, k + Border)];
+        for (int i = 0; i < volume.Size[0]; ++i, ++value)
+        {
+          row[i] = (*value > volume.IsoValue) == volume.ObjectIsBright && *value != volume.IsoValue
+            ? Object
+            : 0;
+        }
+      }
+    }
+  }
+
+  /** Offsets, as differences of indices, of all voxels within a radius of at most Border. */
+  std::vector<std::ptrdiff_t> Ball(double radius) const
+  {
+    std::vector<std::ptrdiff_t> offsets;
+    for (int k = -Border; k <= Border; ++k)
+    {
+      for (int j = -Border; j <= Border; ++j)
+      {
+        for (int i = -Border; i <= Border; ++i)
+        {
+          if (i * i + j * j + k * k <= radius * radius)
+          {
+            offsets.push_back(this->Offset(i, j, k));
+          }
+        }
+      }
+    }
+    return offsets;
+  }
+
+  /** Marks where a ball of air fits, then where it gets to from outside. */
+  void Flood(double radius)
+  {
+    const std::vector<std::ptrdiff_t> ball = this->Ball(radius);
+    // The outermost voxels are no centres: their balls would leave the map.
+    this->ForEachInner([&](std::size_t voxel)
+      { this->Flags[voxel] |= this->NoneIs(voxel, ball, Object) ? Clear : 0; });
+    const std::size_t start = this->Index(2, 2, 2);
+    const std::vector<std::ptrdiff_t> faces = this->Ball(1.0);
+    std::vector<std::size_t> stack(1, start);
+    this->Flags[start] |= Reached;
+    while (!stack.empty())
+    {
+      const std::size_t voxel = stack.back();
+      stack.pop_back();
+      for (const std::ptrdiff_t offset : faces)
+      {
+        if ((this->Flags[voxel + offset] & (Clear | Reached)) == Clear)
+        {
+          this->Flags[voxel + offset] |= Reached;
+          stack.push_back(voxel + offset);
+        }
+      }
+    }
+  }
+
+  bool NoneIs(std::size_t voxel, const std::vector<std::ptrdiff_t>& offsets, Flag flag) const
+  {
+    for (const std::ptrdiff_t offset : offsets)
+    {
+      if (this->Flags[voxel + offset] & flag)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool NoneIsAir(std::size_t voxel, const std::vector<std::ptrdiff_t>& offsets) const
+  {
+    for (const std::ptrdiff_t offset : offsets)
+    {
+      if (!(this->Flags[voxel + offset] & Object))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool Is(std::size_t voxel, Flag flag) const { return (this->Flags[voxel] & flag) != 0; }
+
+  /** All voxels but the two outermost layers, by index. */
+  template <typename Visitor>
+  void ForEachInner(Visitor visit)
+  {
+    for (int k = 2; k < this->Size[2] - 2; ++k)
+    {
+      for (int j = 2; j < this->Size[1] - 2; ++j)
+      {
+        const std::size_t row = this->Index(0, j, k);
+        for (int i = 2; i < this->Size[0] - 2; ++i)
+        {
+          visit(row + i);
+        }
+      }
+    }
+  }
+
+  /** Index coordinates in the volume, without the border. */
+  std::array<double, 3> Place(std::size_t voxel) const
+  {
+    const std::size_t row = voxel / this->Size[0];
+    return { static_cast<double>(voxel % this->Size[0]) - Border,
+      static_cast<double>(row % this->Size[1]) - Border,
+      static_cast<double>(row / this->Size[1]) - Border };
+  }
+
+private:
+  std::ptrdiff_t Offset(int i, int j, int k) const
+  {
+    return (static_cast<std::ptrdiff_t>(k) * this->Size[1] + j) * this->Size[0] + i;
+  }
+
+  std::size_t Index(int i, int j, int k) const
+  {
+    return static_cast<std::size_t>(this->Offset(i, j, k));
+  }
+
+  std::array<int, 3> Size;
+  std::vector<unsigned char> Flags;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+IsoDistanceVerdict JudgeIsoDistance(
+  const TriangleSurface& surface, const JudgedVolume& volume, double largest)
+{
+  CheckSurface(surface);
+  CheckVolume(volume);
+  const Field field(volume);
+  IsoDistanceVerdict verdict;
+  std::vector<char> used(surface.Points.size(), 0);
+  double sum = 0.0;
+  for (const auto& t : surface.Triangles)
+  {
+    std::array<double, 3> centroid = { 0.0, 0.0, 0.0 };
+    for (const int v : t)
+    {
+      used[v] = 1;
+      for (int a = 0; a < 3; ++a)
+      {
+        centroid[a] += surface.Points[v][a] / 3.0;
+      }
+    }
+    sum += DistanceAt(field, centroid, volume.IsoValue, largest);
+  }
+  if (surface.Triangles.empty())
+  {
+    return verdict;
+  }
+  verdict.MeanAtCentroids = sum / surface.Triangles.size();
+  std::vector<double> distances;
+  sum = 0.0;
+  for (std::size_t v = 0; v < surface.Points.size(); ++v)
+  {
+    if (used[v])
+    {
+      distances.push_back(DistanceAt(field, surface.Points[v], volume.IsoValue, largest));
+      sum += distances.back();
+    }
+  }
+  verdict.MeanAtVertices = sum / distances.size();
+  verdict.LargestAtVertices = *std::max_element(distances.begin(), distances.end());
+  verdict.Quantile99AtVertices = Quantile(distances, 0.99);
+  return verdict;
+}
+
+//------------------------------------------------------------------------------
+ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volume)
+{
+  CheckSurface(surface);
+  CheckVolume(volume);
+  AirMap map(volume);
+  map.Flood(1.5);
+  const std::vector<std::ptrdiff_t> faces = map.Ball(1.0);
+  const std::vector<std::ptrdiff_t> touched = map.Ball(2.5);
+  const PointGrid grid(surface.Points, 2.0);
+  ReachVerdict verdict;
+  map.ForEachInner(
+    [&](std::size_t voxel)
+    {
+      if (!map.Is(voxel, AirMap::Object) || map.NoneIsAir(voxel, faces) ||
+        map.NoneIs(voxel, touched, AirMap::Reached))
+      {
+        return;
+      }
+      ++verdict.ReachableVoxels;
+      bool found = false;
+      grid.ForEachWithin(map.Place(voxel), 2.0,
+        [&found](int, double)
+        {
+          found = true;
+          return false;
+        });
+      verdict.FoundVoxels += found;
+    });
+  verdict.Share = verdict.ReachableVoxels == 0
+    ? 1.0
+    : static_cast<double>(verdict.FoundVoxels) / verdict.ReachableVoxels;
+  return verdict;
+}
+
+} // namespace support
+} // namespace volumic

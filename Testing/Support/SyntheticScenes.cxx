@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "SyntheticScenes.h"
+
+#include "SceneShapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace volumic
+{
+namespace support
+{
+namespace
+{
+
+constexpr double Background = 20.0;
+constexpr double Contrast = 100.0;
+constexpr double ReferenceSize = 64.0;
+// As thin as a wall between two sheets of one surface may be is lambda delta = 1.44 * 0.85 voxels;
+// the rest is for the sheets being triangles, not planes.
+constexpr double ThinWall = 2.0;
+
+void CheckOptions(const SceneOptions& options)
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    if (options.Size[a] < 16)
+    {
+      throw std::invalid_argument("MakeScene: at least 16 voxels are needed along every axis");
+    }
+    if (!(options.Spacing[a] > 0.0))
+    {
+      throw std::invalid_argument("MakeScene: the spacing must be positive");
+    }
+  }
+  if (!(options.EdgeWidth > 0.0) || !(options.NoiseShare >= 0.0))
+  {
+    throw std::invalid_argument("MakeScene: edge width must be positive, noise not negative");
+  }
+}
+
+/** std::normal_distribution gives other numbers with other standard libraries; this does not. */
+class GaussianNoise
+{
+public:
+  explicit GaussianNoise(unsigned int seed) : Generator(seed) {}
+
+  double Next()
+  {
+    const double u = (this->Generator() + 1.0) / 4294967297.0;
+    const double v = this->Generator() / 4294967296.0;
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * v);
+  }
+
+private:
+  std::mt19937 Generator;
+};
+
+/** Share of the light at relative place x in [0, 1]: 50 % of it are lost across the volume. */
+double Shading(double x)
+{
+  return 1.25 - 0.5 * x;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Scene MakeScene(SceneKind kind, const SceneOptions& options)
+{
+  CheckOptions(options);
+
+  // Places are measured in voxels, or in the shortest side of a voxel where shapes are to be round
+  // in the world; the smallest extent then gives the size of a reference unit.
+  const double shortest = *std::min_element(options.Spacing.begin(), options.Spacing.end());
+  std::array<double, 3> step = { 1.0, 1.0, 1.0 };
+  double smallestExtent = 1e30;
+  for (int a = 0; a < 3; ++a)
+  {
+    step[a] = options.RoundInWorld ? options.Spacing[a] / shortest : 1.0;
+    smallestExtent = std::min(smallestExtent, options.Size[a] * step[a]);
+  }
+  const double scale = smallestExtent / ReferenceSize;
+  const SceneShape shape = MakeSceneShape(kind, ThinWall / scale);
+
+  Scene scene;
+  scene.Name = SceneName(kind);
+  scene.Size = options.Size;
+  scene.Spacing = options.Spacing;
+  scene.ObjectIsBright = options.ObjectIsBright;
+  scene.OneIsoValueFits = !shape.Shaded;
+  scene.Components = shape.Components;
+  scene.Genus = shape.Genus;
+  scene.ComponentsFromOutside = shape.ComponentsFromOutside;
+  scene.GenusFromOutside = shape.GenusFromOutside;
+  scene.CoarsestFaithfulLevel = shape.CoarsestFaithfulLevel;
+  scene.SeedRadius = shape.SeedRadius * scale;
+  for (const std::array<double, 3>& seed : shape.Seeds)
+  {
+    std::array<double, 3> index;
+    for (int a = 0; a < 3; ++a)
+    {
+      index[a] = 0.5 * (options.Size[a] - 1) + seed[a] * scale / step[a];
+    }
+    scene.Seeds.push_back(index);
+  }
+
+  // With shading, background and contrast are such that the dark end of the object is darker than
+  // the bright end of the background.
+  const double background = shape.Shaded ? 0.9 * Contrast : Background;
+  const double contrast = shape.Shaded ? 0.4 * Contrast : Contrast;
+  scene.IsoValue = background + 0.5 * contrast;
+
+  const std::size_t count = static_cast<std::size_t>(options.Size[0]) *
+    static_cast<std::size_t>(options.Size[1]) * static_cast<std::size_t>(options.Size[2]);
+  scene.Values.resize(count);
+  scene.Inside.resize(count);
+  GaussianNoise noise(options.NoiseSeed);
+  const double blur = std::sqrt(0.5) / (0.5 * options.EdgeWidth);
+  std::size_t voxel = 0;
+  for (int k = 0; k < options.Size[2]; ++k)
+  {
+    for (int j = 0; j < options.Size[1]; ++j)
+    {
+      for (int i = 0; i < options.Size[0]; ++i, ++voxel)
+      {
+        const int index[3] = { i, j, k };
+        std::array<double, 3> place;
+        for (int a = 0; a < 3; ++a)
+        {
+          place[a] = (index[a] - 0.5 * (options.Size[a] - 1)) * step[a] / scale;
+        }
+        const double distance = shape.Distance(place) * scale;
+        const double occupied = 0.5 * std::erfc(distance * blur);
+        const double share = options.ObjectIsBright ? occupied : 1.0 - occupied;
+        double value = background + contrast * share;
+        if (shape.Shaded)
+        {
+          value *= Shading(i / (options.Size[0] - 1.0));
+        }
+        if (options.NoiseShare > 0.0)
+        {
+          value += options.NoiseShare * contrast * noise.Next();
+        }
+        scene.Values[voxel] = static_cast<float>(value);
+        scene.Inside[voxel] = distance < 0.0 ? 1 : 0;
+      }
+    }
+  }
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+std::string SceneName(SceneKind kind)
+{
+  switch (kind)
+  {
+    case SceneKind::Sphere:
+      return "Sphere";
+    case SceneKind::TwoSpheres:
+      return "TwoSpheres";
+    case SceneKind::Torus:
+      return "Torus";
+    case SceneKind::BoxWithTwoTunnels:
+      return "BoxWithTwoTunnels";
+    case SceneKind::ShellWithOpening:
+      return "ShellWithOpening";
+    case SceneKind::NestedBalls:
+      return "NestedBalls";
+    case SceneKind::ClosedNestedBalls:
+      return "ClosedNestedBalls";
+    case SceneKind::ThinShellWithEightHoles:
+      return "ThinShellWithEightHoles";
+    case SceneKind::FourBubbles:
+      return "FourBubbles";
+    case SceneKind::TorusOfTwoBubbles:
+      return "TorusOfTwoBubbles";
+    case SceneKind::ShadedEllipsoid:
+      return "ShadedEllipsoid";
+  }
+  throw std::invalid_argument("SceneName: unknown kind of scene");
+}
+
+std::vector<SceneKind> AllSceneKinds()
+{
+  return { SceneKind::Sphere, SceneKind::TwoSpheres, SceneKind::Torus, SceneKind::BoxWithTwoTunnels,
+    SceneKind::ShellWithOpening, SceneKind::NestedBalls, SceneKind::ClosedNestedBalls,
+    SceneKind::ThinShellWithEightHoles, SceneKind::FourBubbles, SceneKind::TorusOfTwoBubbles,
+    SceneKind::ShadedEllipsoid };
+}
+
+std::vector<SceneKind> SceneKindsReachableFromOutside()
+{
+  std::vector<SceneKind> kinds = AllSceneKinds();
+  kinds.erase(std::remove_if(kinds.begin(), kinds.end(),
+                [](SceneKind kind) {
+                  return kind == SceneKind::ClosedNestedBalls || kind == SceneKind::ShadedEllipsoid;
+                }),
+    kinds.end());
+  return kinds;
+}
+
+} // namespace support
+} // namespace volumic

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#ifndef TriangleSurface_h
+#define TriangleSurface_h
+
+#include <array>
+#include <vector>
+
+namespace volumic
+{
+namespace support
+{
+
+/** A surface as plain arrays, whoever made it. Corners count counter-clockwise seen from outside.
+ */
+struct TriangleSurface
+{
+  std::vector<std::array<double, 3>> Points;
+  std::vector<std::array<int, 3>> Triangles; ///< indices into Points
+};
+
+} // namespace support
+} // namespace volumic
+
+#endif
