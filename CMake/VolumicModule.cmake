@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# Builds the VTK module Volumic::FiltersVolumic, for VTK or for ParaView.
+
+# Both flavours can be installed under one prefix: what is for ParaView says so in its name, as
+# Debian's own libraries do.
+if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+  set(volumic_flavour "pv${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}")
+  set(volumic_flavour_suffix "-${volumic_flavour}")
+else ()
+  set(volumic_flavour "")
+  set(volumic_flavour_suffix "")
+endif ()
+set(volumic_cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/Volumic${volumic_flavour_suffix}")
+
+# Installed things find each other wherever the prefix is moved to, and VTK wherever it was found.
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
+
+function (volumic_build_module)
+  vtk_module_scan(
+    MODULE_FILES "${CMAKE_SOURCE_DIR}/vtk.module"
+    REQUEST_MODULES Volumic::FiltersVolumic
+    PROVIDES_MODULES modules
+    HIDE_MODULES_FROM_CACHE ON
+    ENABLE_TESTS OFF)
+  # The folder of vtk.module is the project's own, and so would be its binary folder: a folder
+  # below serves, within this function.
+  set(library_destination "${CMAKE_INSTALL_LIBDIR}")
+  list(PREPEND CMAKE_INSTALL_RPATH "$ORIGIN")
+  set(CMAKE_BINARY_DIR "${CMAKE_BINARY_DIR}/module")
+  vtk_module_build(
+    MODULES ${modules}
+    PACKAGE Volumic
+    INSTALL_EXPORT Volumic
+    LIBRARY_NAME_SUFFIX "${volumic_flavour}"
+    VERSION "${Volumic_VERSION}"
+    SOVERSION "${Volumic_VERSION_MAJOR}"
+    ENABLE_WRAPPING ON
+    HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/volumic"
+    LIBRARY_DESTINATION "${library_destination}"
+    ARCHIVE_DESTINATION "${library_destination}"
+    RUNTIME_DESTINATION "${CMAKE_INSTALL_BINDIR}"
+    CMAKE_DESTINATION "${volumic_cmake_destination}"
+    HIERARCHY_DESTINATION "${library_destination}/vtk/hierarchy/Volumic${volumic_flavour_suffix}")
+  set(modules "${modules}" PARENT_SCOPE)
+endfunction ()
+
+volumic_build_module()

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# What a user can choose, and what follows from it for all targets.
+
+include(CMakeDependentOption)
+include(GNUInstallDirs)
+
+option(VOLUMIC_BUILD_PARAVIEW_PLUGIN "Build against ParaView, with its plugin (OFF: against VTK)" OFF)
+option(VOLUMIC_BUILD_TESTING "Build the tests" OFF)
+option(VOLUMIC_BUILD_EXAMPLES "Build the C++ examples" OFF)
+option(VOLUMIC_BUILD_BENCHMARKS "Build the benchmarks" OFF)
+
+# Debian's VTK works with Debian's interpreter only, which need not be the first on PATH:
+# -DPython3_EXECUTABLE=/usr/bin/python3 chooses it.
+find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
+option(VOLUMIC_WRAP_PYTHON "Build the Python package `volumic`" "${Python3_FOUND}")
+
+# The Python wrappers can't be linked to static libraries.
+option(BUILD_SHARED_LIBS "Build shared libraries" ON)
+
+get_property(volumic_is_multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+if (NOT CMAKE_BUILD_TYPE AND NOT volumic_is_multi_config)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Kind of build" FORCE)
+endif ()
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")

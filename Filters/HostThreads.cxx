@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HostThreads.h"
+
+#include <vtkSMPTools.h>
+
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+
+namespace volumic
+{
+namespace
+{
+std::string ChooseBackend(int numberOfThreads)
+{
+  const std::string host = vtkSMPTools::GetBackend();
+  const bool isChosenByUser = std::getenv("VTK_SMP_BACKEND_IN_USE") != nullptr;
+  if (host == "Sequential" && !isChosenByUser && numberOfThreads != 1)
+  {
+    return "STDThread";
+  }
+  return host;
+}
+
+/// The backends let exceptions end the program: the first one is kept and thrown again.
+class Body
+{
+public:
+  explicit Body(const std::function<void(std::size_t, std::size_t)>& function) : Function(function)
+  {
+  }
+
+  void operator()(vtkIdType begin, vtkIdType end)
+  {
+    try
+    {
+      this->Function(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      if (!this->Exception)
+      {
+        this->Exception = std::current_exception();
+      }
+    }
+  }
+
+  void Rethrow() const
+  {
+    if (this->Exception)
+    {
+      std::rethrow_exception(this->Exception);
+    }
+  }
+
+private:
+  const std::function<void(std::size_t, std::size_t)>& Function;
+  std::mutex Mutex;
+  std::exception_ptr Exception;
+};
+}
+
+HostThreads::HostThreads(int numberOfThreads)
+  : NumberOfThreads(numberOfThreads), Backend(ChooseBackend(numberOfThreads))
+{
+}
+
+void HostThreads::Run(const std::function<void()>& work)
+{
+  if (this->NumberOfThreads == 1)
+  {
+    work();
+    return;
+  }
+  // What is thrown must not pass through VTK's scope, which would not restore the backend.
+  std::exception_ptr exception;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ this->NumberOfThreads, this->Backend, false },
+    [&]
+    {
+      this->Running = true;
+      try
+      {
+        work();
+      }
+      catch (...)
+      {
+        exception = std::current_exception();
+      }
+      this->Running = false;
+    });
+  if (exception)
+  {
+    std::rethrow_exception(exception);
+  }
+}
+
+void HostThreads::For(
+  std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)
+{
+  if (n == 0)
+  {
+    return;
+  }
+  if (!this->Running || n <= grain)
+  {
+    body(0, n);
+    return;
+  }
+  Body guarded(body);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(n), static_cast<vtkIdType>(grain), guarded);
+  guarded.Rethrow();
+}
+}

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HostThreads_h
+#define HostThreads_h
+
+#include "Core/Executor.h"
+
+#include <functional>
+#include <string>
+
+namespace volumic
+{
+/**
+ * The threads of the host program, through vtkSMPTools, for the core.
+ *
+ * The host's backend is used as it is (TBB in Debian's VTK). Only where that is sequential by
+ * default, as in Debian's ParaView, threads of the standard library are used instead; a user who
+ * wants it sequential all the same sets VTK_SMP_BACKEND_IN_USE=Sequential or asks for one thread.
+ */
+class HostThreads final : public Executor
+{
+public:
+  /// @param numberOfThreads 0 = all that the host has.
+  explicit HostThreads(int numberOfThreads);
+
+  /// Runs `work`, within which For() may be called; choosing a backend has its price, which is paid
+  /// here once.
+  void Run(const std::function<void()>& work);
+
+  /// @see Executor. Outside Run() everything is done on the calling thread.
+  void For(std::size_t n, std::size_t grain,
+    const std::function<void(std::size_t, std::size_t)>& body) override;
+
+private:
+  int NumberOfThreads;
+  std::string Backend;
+  bool Running = false;
+};
+}
+
+#endif

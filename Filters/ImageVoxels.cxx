@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ImageVoxels.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkAlgorithm.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataObject.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <sstream>
+#include <stdexcept>
+
+namespace volumic
+{
+namespace
+{
+std::string Quote(const char* name)
+{
+  return name ? "'" + std::string(name) + "'" : std::string("without a name");
+}
+
+[[noreturn]] void Refuse(const std::string& message)
+{
+  throw std::invalid_argument(message);
+}
+
+/// `it has 'a' and 'b'`, so that a user sees what could have been chosen.
+std::string ArraysOf(vtkImageData* image)
+{
+  std::ostringstream text;
+  vtkPointData* points = image->GetPointData();
+  vtkCellData* cells = image->GetCellData();
+  if (points->GetNumberOfArrays() == 0)
+  {
+    text << "it has no point data";
+  }
+  for (int i = 0; i < points->GetNumberOfArrays(); ++i)
+  {
+    text << (i == 0 ? "its point arrays are " : ", ") << Quote(points->GetArrayName(i));
+  }
+  if (cells->GetNumberOfArrays() > 0)
+  {
+    text << "; it has cell data, which the filter Cell Data to Point Data turns into point data";
+  }
+  return text.str();
+}
+
+/// The array that the selection names, whatever its type; the reason in a message if there is none.
+vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
+{
+  if (selection && selection->Has(vtkDataObject::FIELD_ASSOCIATION()))
+  {
+    const int association = selection->Get(vtkDataObject::FIELD_ASSOCIATION());
+    if (association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+      association == vtkDataObject::FIELD_ASSOCIATION_NONE)
+    {
+      const char* name = selection->Get(vtkDataObject::FIELD_NAME());
+      Refuse("the chosen array " + (name ? Quote(name) + " " : std::string()) +
+        "is not point data; voxels are points. Apply Cell Data to Point Data, or choose a point " +
+        "array: " + ArraysOf(image) + ".");
+    }
+  }
+  if (selection && selection->Has(vtkDataObject::FIELD_NAME()))
+  {
+    const char* name = selection->Get(vtkDataObject::FIELD_NAME());
+    vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name);
+    if (!array)
+    {
+      Refuse("the image has no point array " + Quote(name) + "; " + ArraysOf(image) + ".");
+    }
+    return array;
+  }
+  const int attribute = selection && selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
+    ? selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
+    : static_cast<int>(vtkDataSetAttributes::SCALARS);
+  vtkAbstractArray* array = image->GetPointData()->GetAbstractAttribute(attribute);
+  if (!array)
+  {
+    Refuse("the image has no active point scalars; " + ArraysOf(image) +
+      ". Choose an array with SetInputArrayToProcess.");
+  }
+  return array;
+}
+}
+
+std::string NameOf(vtkDataArray* array)
+{
+  return "array " + Quote(array->GetName());
+}
+
+std::string SizeOf(vtkImageData* image)
+{
+  const int* size = image->GetDimensions();
+  std::ostringstream text;
+  text << size[0] << " x " << size[1] << " x " << size[2];
+  return text.str();
+}
+
+vtkDataArray* ChooseVoxels(vtkAlgorithm* algorithm, vtkImageData* image)
+{
+  if (image->GetNumberOfPoints() == 0)
+  {
+    Refuse("the image is empty: it has " + SizeOf(image) + " voxels.");
+  }
+  vtkAbstractArray* found = FindArray(algorithm->GetInputArrayInformation(0), image);
+  auto* array = vtkDataArray::SafeDownCast(found);
+  if (!array)
+  {
+    Refuse("array " + Quote(found->GetName()) + " holds " + found->GetDataTypeAsString() +
+      "s, not numbers; choose another one: " + ArraysOf(image) + ".");
+  }
+  if (array->GetNumberOfComponents() != 1)
+  {
+    Refuse(NameOf(array) + " has " + std::to_string(array->GetNumberOfComponents()) +
+      " components; an image of one component is needed. Extract one (vtkImageExtractComponents)" +
+      " or take the magnitude.");
+  }
+  if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
+  {
+    Refuse(NameOf(array) + " has " + std::to_string(array->GetNumberOfTuples()) +
+      " values, but the image has " + SizeOf(image) + " voxels.");
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels)
+{
+  const bool isPacked = voxels->GetDataType() == VTK_BIT;
+  if (voxels->HasStandardMemoryLayout() && !isPacked)
+  {
+    return voxels;
+  }
+  vtkSmartPointer<vtkDataArray> copy;
+  copy.TakeReference(
+    isPacked ? vtkUnsignedCharArray::New() : vtkDataArray::CreateDataArray(voxels->GetDataType()));
+  copy->DeepCopy(voxels);
+  return copy;
+}
+}

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ImageVoxels_h
+#define ImageVoxels_h
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkAlgorithm;
+class vtkDataArray;
+class vtkImageData;
+
+/// What the filters ask of an image before they believe it. Errors are std::invalid_argument with
+/// a message that names the array and the way out.
+namespace volumic
+{
+/**
+ * The array of voxels that was chosen by SetInputArrayToProcess(0, …).
+ * @throws if the image has no voxels, or there is no such array, or it is not numeric point data
+ *         of one component with a value for every voxel.
+ */
+vtkDataArray* ChooseVoxels(vtkAlgorithm* algorithm, vtkImageData* image);
+
+/// The same values in one plain block of memory: the array itself where it is one already.
+vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
+
+/// `array 'name'`, for messages.
+std::string NameOf(vtkDataArray* array);
+
+/// `256 x 256 x 108`, for messages.
+std::string SizeOf(vtkImageData* image);
+}
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef VersionCompatibility_h
+#define VersionCompatibility_h
+
+#include <vtkAlgorithm.h>
+#include <vtkVersion.h>
+#include <vtkVersionMacros.h>
+
+/// What differs between VTK 9.1, ParaView 5.11's VTK 9.2 and newer ones.
+namespace volumic
+{
+/// Has someone asked the filter to stop? Newer VTKs can also be asked through filters downstream.
+inline bool IsAbortRequested(vtkAlgorithm* algorithm)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230000)
+  return algorithm->GetAbortExecute() || algorithm->CheckAbort();
+#else
+  return algorithm->GetAbortExecute() != 0;
+#endif
+}
+}
+
+#endif

@@ -1,0 +1,376 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkImagePyramid.h"
+
+#include "Core/LevelReduction.h"
+#include "Core/PyramidGeometry.h"
+#include "HostThreads.h"
+#include "ImageVoxels.h"
+#include "VersionCompatibility.h"
+
+#include <vtkAOSDataArrayTemplate.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
+
+#include <cstdlib>
+#include <functional>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkImagePyramid);
+
+namespace
+{
+/// The share of the whole work that is done, in [0, 1], and the text for it; false asks to stop.
+using Progress = std::function<bool(double share, const std::string& text)>;
+
+std::vector<volumic::LevelGeometry> Plan(
+  vtkImageData* image, const volumic::PyramidOptions& options)
+{
+  const int* size = image->GetDimensions();
+  const double* spacing = image->GetSpacing();
+  return volumic::PlanPyramid(
+    { size[0], size[1], size[2] }, { spacing[0], spacing[1], spacing[2] }, options);
+}
+
+/// An array of n values in memory that may turn out not to be had, which is no reason to abort.
+template <typename Real>
+vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int level)
+{
+  auto* values = static_cast<Real*>(std::malloc(static_cast<std::size_t>(n) * sizeof(Real)));
+  if (!values)
+  {
+    std::ostringstream message;
+    message << "the memory does not suffice for level " << level << ", which takes "
+            << static_cast<double>(n) * sizeof(Real) / (1024. * 1024.)
+            << " MB. Ask for fewer levels, or crop the image.";
+    throw std::runtime_error(message.str());
+  }
+  vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> array;
+  array.TakeReference(vtkAOSDataArrayTemplate<Real>::FastDownCast(
+    vtkDataArray::CreateDataArray(vtkTypeTraits<Real>::VTK_TYPE_ID)));
+  array->SetArray(values, n, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  return array;
+}
+
+/// Input voxels of each level that are looked at: what progress is measured by.
+std::vector<double> ShareDoneBefore(const std::vector<volumic::LevelGeometry>& levels)
+{
+  std::vector<double> share(levels.size(), 0.0);
+  for (std::size_t h = 1; h < levels.size(); ++h)
+  {
+    share[h] = share[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
+  }
+  const double total = share.back();
+  for (double& s : share)
+  {
+    s = total > 0.0 ? s / total : 1.0;
+  }
+  return share;
+}
+
+/**
+ * The voxels of the levels above level 0, as far as they were finished before `progress` said stop.
+ */
+template <typename T>
+std::vector<vtkSmartPointer<vtkDataArray>> MakeLevels(const T* level0,
+  const std::vector<volumic::LevelGeometry>& levels, volumic::Executor& executor,
+  const Progress& progress)
+{
+  using Real = typename volumic::RealOf<T>::Type;
+  const std::vector<double> before = ShareDoneBefore(levels);
+  std::vector<vtkSmartPointer<vtkDataArray>> made;
+  const Real* below = nullptr;
+  for (std::size_t h = 1; h < levels.size(); ++h)
+  {
+    const auto array = NewArray<Real>(levels[h].NumberOfVoxels(), static_cast<int>(h));
+    std::ostringstream text;
+    text << "Level " << h << " of " << levels.size() - 1;
+    const auto levelProgress = [&](double share)
+    { return progress(before[h - 1] + share * (before[h] - before[h - 1]), text.str()); };
+    const bool isFinished = levelProgress(0.0) &&
+      (h == 1 ? volumic::ReduceLevel(
+                  level0, levels[0], array->GetPointer(0), levels[1], executor, levelProgress)
+              : volumic::ReduceLevel(
+                  below, levels[h - 1], array->GetPointer(0), levels[h], executor, levelProgress));
+    if (!isFinished)
+    {
+      break;
+    }
+    below = array->GetPointer(0);
+    made.emplace_back(array);
+  }
+  return made;
+}
+
+template <typename T>
+void CheckVoxelsAreFinite(
+  const T* values, vtkDataArray* array, vtkImageData* image, volumic::Executor& executor)
+{
+  const volumic::NotFiniteVoxels found =
+    volumic::FindNotFiniteVoxels(values, image->GetNumberOfPoints(), executor);
+  if (found.Count == 0)
+  {
+    return;
+  }
+  const int* extent = image->GetExtent();
+  const int* size = image->GetDimensions();
+  const std::int64_t row = found.First / size[0];
+  std::ostringstream message;
+  message << volumic::NameOf(array) << " has " << found.Count << " NaN or infinite voxel"
+          << (found.Count == 1 ? "" : "s") << ", the first at ("
+          << extent[0] + found.First % size[0] << ", " << extent[2] + row % size[1] << ", "
+          << extent[4] + row / size[1]
+          << "). Replace them by numbers, for instance by the value of the background.";
+  throw std::invalid_argument(message.str());
+}
+
+void AddLevelFieldData(vtkImageData* image, int level, double unit)
+{
+  vtkNew<vtkIntArray> levelArray;
+  levelArray->SetName("Level");
+  levelArray->InsertNextValue(level);
+  vtkNew<vtkDoubleArray> unitArray;
+  unitArray->SetName("Unit");
+  unitArray->InsertNextValue(unit);
+  // Not into the input's own field data, which a shallow copy may share.
+  vtkNew<vtkFieldData> fieldData;
+  fieldData->ShallowCopy(image->GetFieldData());
+  fieldData->AddArray(levelArray);
+  fieldData->AddArray(unitArray);
+  image->SetFieldData(fieldData);
+}
+
+void AddLevel(vtkMultiBlockDataSet* pyramid, int level, vtkImageData* image, double unit)
+{
+  AddLevelFieldData(image, level, unit);
+  pyramid->SetBlock(level, image);
+  pyramid->GetMetaData(level)->Set(
+    vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
+}
+
+/// Level 0: the input with the chosen array as its active scalars; no voxel is copied.
+vtkSmartPointer<vtkImageData> ShareInput(vtkImageData* input, vtkDataArray* voxels)
+{
+  vtkSmartPointer<vtkImageData> image;
+  image.TakeReference(input->NewInstance());
+  image->ShallowCopy(input);
+  if (voxels->GetName())
+  {
+    image->GetPointData()->SetActiveScalars(voxels->GetName());
+  }
+  return image;
+}
+
+vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* input, const char* name, vtkDataArray* voxels,
+  const volumic::LevelGeometry& geometry)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetExtent(0, static_cast<int>(geometry.Size[0]) - 1, 0,
+    static_cast<int>(geometry.Size[1]) - 1, 0, static_cast<int>(geometry.Size[2]) - 1);
+  image->SetSpacing(geometry.Spacing.data());
+  image->SetDirectionMatrix(input->GetDirectionMatrix());
+  const int* extent = input->GetExtent();
+  double origin[3];
+  input->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], origin);
+  image->SetOrigin(origin);
+  voxels->SetName(name);
+  image->GetPointData()->SetScalars(voxels);
+  return image;
+}
+
+/// @return whether all levels were finished.
+bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const volumic::PyramidOptions& options,
+  int numberOfThreads, const Progress& progress, vtkMultiBlockDataSet* pyramid)
+{
+  const std::vector<volumic::LevelGeometry> levels = Plan(input, options);
+  const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
+  std::vector<vtkSmartPointer<vtkDataArray>> made;
+
+  volumic::HostThreads threads(numberOfThreads);
+  threads.Run(
+    [&]
+    {
+      switch (contiguous->GetDataType())
+      {
+        vtkTemplateMacro({
+          const auto* values = static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0));
+          CheckVoxelsAreFinite(values, voxels, input, threads);
+          made = MakeLevels(values, levels, threads, progress);
+        });
+        default:
+          throw std::invalid_argument(volumic::NameOf(voxels) + " has voxels of type " +
+            voxels->GetDataTypeAsString() + ", which is not supported.");
+      }
+    });
+
+  AddLevel(pyramid, 0, ShareInput(input, voxels), levels[0].Unit);
+  for (std::size_t h = 1; h <= made.size(); ++h)
+  {
+    AddLevel(pyramid, static_cast<int>(h),
+      MakeImage(input, voxels->GetName(), made[h - 1], levels[h]), levels[h].Unit);
+  }
+  return made.size() + 1 == levels.size();
+}
+
+void AddStopReason(vtkMultiBlockDataSet* pyramid, bool isComplete)
+{
+  vtkNew<vtkStringArray> reason;
+  reason->SetName("StopReason");
+  reason->InsertNextValue(isComplete ? "complete" : "cancelled");
+  pyramid->GetFieldData()->AddArray(reason);
+}
+}
+
+//------------------------------------------------------------------------------
+vtkImagePyramid::vtkImagePyramid()
+{
+  const volumic::PyramidOptions defaults;
+  this->ReductionFactor = defaults.ReductionFactor;
+  this->NumberOfLevels = defaults.NumberOfLevels;
+  this->MinimumLevelSize = defaults.MinimumLevelSize;
+  this->NumberOfThreads = 0;
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkImagePyramid::~vtkImagePyramid() = default;
+
+//------------------------------------------------------------------------------
+vtkMultiBlockDataSet* vtkImagePyramid::GetOutput()
+{
+  return this->GetOutput(0);
+}
+
+vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
+{
+  return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkImagePyramid::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  // vtkImageAlgorithm knows images only and leaves this request to others.
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(output);
+  }
+  return this->Superclass::ProcessRequest(request, input, output);
+}
+
+int vtkImagePyramid::RequestDataObject(vtkInformationVector* output)
+{
+  vtkInformation* info = output->GetInformationObject(0);
+  if (!vtkMultiBlockDataSet::GetData(info))
+  {
+    vtkNew<vtkMultiBlockDataSet> pyramid;
+    info->Set(vtkDataObject::DATA_OBJECT(), pyramid);
+  }
+  return 1;
+}
+
+int vtkImagePyramid::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkMultiBlockDataSet");
+  return 1;
+}
+
+int vtkImagePyramid::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  // What the executive copied from the input speaks of an image: blocks have no whole extent.
+  vtkInformation* info = output->GetInformationObject(0);
+  info->Remove(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
+  info->Remove(vtkDataObject::ORIGIN());
+  info->Remove(vtkDataObject::SPACING());
+  return 1;
+}
+
+int vtkImagePyramid::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
+{
+  // A level depends on all voxels within a few units: the whole image is asked for.
+  vtkInformation* info = input[0]->GetInformationObject(0);
+  if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    int extent[6];
+    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent, 6);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkImagePyramid::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* input = vtkImageData::GetData(inputVector[0]);
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  if (!input || !output)
+  {
+    vtkErrorMacro("Input port 0: there is no image.");
+    return 0;
+  }
+  try
+  {
+    vtkDataArray* voxels = volumic::ChooseVoxels(this, input);
+    volumic::PyramidOptions options;
+    options.ReductionFactor = this->ReductionFactor;
+    options.NumberOfLevels = this->NumberOfLevels;
+    options.MinimumLevelSize = this->MinimumLevelSize;
+    const auto progress = [this](double share, const std::string& text)
+    {
+      this->SetProgressText(text.c_str());
+      this->UpdateProgress(share);
+      return !volumic::IsAbortRequested(this);
+    };
+
+    vtkNew<vtkMultiBlockDataSet> pyramid;
+    const bool isComplete =
+      BuildPyramid(input, voxels, options, this->NumberOfThreads, progress, pyramid);
+    AddStopReason(pyramid, isComplete);
+    output->ShallowCopy(pyramid);
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorMacro("Input port 0: the memory does not suffice for the pyramid of an image of "
+      << volumic::SizeOf(input) << " voxels.");
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Input port 0: " << error.what());
+    return 0;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ReductionFactor: " << this->ReductionFactor << endl;
+  os << indent << "NumberOfLevels: " << this->NumberOfLevels << endl;
+  os << indent << "MinimumLevelSize: " << this->MinimumLevelSize << endl;
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
+}

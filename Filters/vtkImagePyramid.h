@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkImagePyramid
+ * @brief   images of one scene at decreasing resolutions, with any reduction factor under two
+ *
+ * vtkImagePyramid makes level after level of a pyramid from a 2D or 3D image: each level is
+ * smoothed by a Gaussian kernel of five voxels and holds T times fewer voxels along every axis
+ * than the one below it, where T, the reduction factor, may be any number between 1 and 2. The
+ * default sqrt(3) is the factor by which vtkDeformableSurface divides its mesh.
+ *
+ * @par Input:
+ * Port 0: a vtkImageData of any extent, origin, spacing and direction, with point data. The array
+ * is chosen by SetInputArrayToProcess(); by default it is the active point scalars. It must have
+ * one component, of any numeric type, and only finite values.
+ *
+ * @par Output:
+ * Port 0: a vtkMultiBlockDataSet. Block h is the vtkImageData of level h, named `Level h`; block 0
+ * is the input itself, whose arrays are shared, not copied. All levels have the origin (the place
+ * of the first voxel), the direction and the real size of the input; the spacing of level h is
+ * spacing * size / size of level h, in world units, and its extent starts at 0. Each level from 1
+ * on has one array, under the name that it has on the input: double if that is double, else float.
+ * Field data of every level: `Level` (int) and `Unit` (double, the U_h of the paper: the distance
+ * that stands for one voxel at that level, world units). Field data of the whole: `StopReason`
+ * (string), `complete` or, after AbortExecute, `cancelled`: then the levels that were finished are
+ * there.
+ *
+ * @par Algorithm:
+ * Equations 3 to 5 of the paper, with all places as there: voxel i of level h lies at i times the
+ * level's spacing. The offset between two places of the kernel is U_h along every axis, also where
+ * voxels are longer: the kernel is cubic in the real space. Past the border the nearest voxel
+ * counts. Kernel and interpolation are folded into one banded operator per axis, which gives the
+ * same numbers to rounding. U_h is T^h U_0 (eq. 4); the minimum over the axes that the paper also
+ * states would differ from it, as sizes are rounded down. Axes of one voxel stay one voxel.
+ * Results are the same bits for any number of threads.
+ *
+ * @par Errors:
+ * A message names the port, the array or the value, and the output is empty, when: the image is
+ * empty; there is no such array, or it is cell data, not numeric or has several components; it has
+ * voxels that are NaN or infinite; ReductionFactor is not between 1 and 2; more levels are asked
+ * for than the image can give; the memory does not suffice.
+ *
+ * @par Thanks:
+ * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
+ * Triangulated Surface", ECCV 1996, section 4.
+ *
+ * @sa
+ * vtkImageGaussianSmooth vtkImageResize
+ */
+#ifndef vtkImagePyramid_h
+#define vtkImagePyramid_h
+
+#include "vtkFiltersVolumicModule.h" // For export macro
+#include "vtkImageAlgorithm.h"
+
+class vtkMultiBlockDataSet;
+
+class VTKFILTERSVOLUMIC_EXPORT vtkImagePyramid : public vtkImageAlgorithm
+{
+public:
+  static vtkImagePyramid* New();
+  vtkTypeMacro(vtkImagePyramid, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The pyramid. The output is not an image, whatever the superclass says.
+   */
+  vtkMultiBlockDataSet* GetOutput();
+  vtkMultiBlockDataSet* GetOutput(int port);
+  ///@}
+
+  ///@{
+  /**
+   * T: how many times fewer voxels a level has along each axis than the level below it. Between 1
+   * and 2, both excluded. Default: sqrt(3).
+   */
+  vtkSetMacro(ReductionFactor, double);
+  vtkGetMacro(ReductionFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * Number of levels, level 0 (the input) included. 0, the default: as many as MinimumLevelSize
+   * allows.
+   */
+  vtkSetMacro(NumberOfLevels, int);
+  vtkGetMacro(NumberOfLevels, int);
+  ///@}
+
+  ///@{
+  /**
+   * With NumberOfLevels 0: no level after level 0 has an axis of fewer voxels than this. Axes
+   * along which the input has one voxel do not count. Default: 10.
+   */
+  vtkSetMacro(MinimumLevelSize, int);
+  vtkGetMacro(MinimumLevelSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+protected:
+  vtkImagePyramid();
+  ~vtkImagePyramid() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+  double ReductionFactor;
+  int NumberOfLevels;
+  int MinimumLevelSize;
+  int NumberOfThreads;
+
+private:
+  vtkImagePyramid(const vtkImagePyramid&) = delete;
+  void operator=(const vtkImagePyramid&) = delete;
+
+  int RequestDataObject(vtkInformationVector* output);
+};
+
+#endif
