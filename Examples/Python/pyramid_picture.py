@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The picture of a pyramid: middle slices and iso-surface of every level, coarsest first."""
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
+
+import render
+
+PANEL_WIDTH = 400
+# Heading, camera and upper side of the slices of each kind; axial ones as radiologists look at
+# them, from the feet.
+SLICES = (("Axial slices", "I", "A"), ("Sagittal slices", "L", "S"))
+THREE_QUARTERS = ("AAAALLS", "S")
+
+
+def pyramid_levels(pyramid):
+    """The images of a vtkMultiBlockDataSet from vtkImagePyramid, level 0 first."""
+    return [pyramid.GetBlock(h) for h in range(pyramid.GetNumberOfBlocks())]
+
+
+def level_unit(image):
+    """U_h, the smallest distance of two voxels, in world units."""
+    return image.GetFieldData().GetArray("Unit").GetTuple1(0)
+
+
+def iso_surface(image, iso):
+    """Iso-surface of the active scalars, for a picture only: open at the image's border."""
+    contour = vtkFlyingEdges3D()
+    contour.SetInputData(image)
+    contour.SetValue(0, iso)
+    contour.ComputeNormalsOn()
+    contour.Update()
+    return contour.GetOutput()
+
+
+def world_bounds(image):
+    """Bounds of all places of the image, its direction included."""
+    bounds = [0.0] * 6
+    image.GetBounds(bounds)
+    return bounds
+
+
+def index_bounds(image):
+    """Bounds of the whole voxels in the coordinates of render.slice_actor."""
+    size, spacing = image.GetDimensions(), image.GetSpacing()
+    return [(side * size[c] - 0.5) * spacing[c] for c in range(3) for side in (0, 1)]
+
+
+def grey_window(image):
+    """Values to be shown black and white: what nearly all voxels lie between."""
+    voxels = vtk_to_numpy(image.GetPointData().GetScalars())
+    sample = voxels[:: max(1, voxels.size // 500000)]
+    black, white = np.percentile(sample, (1, 99.7))
+    return (black, white) if white > black else (voxels.min(), max(voxels.max(), 1))
+
+
+def middle_slice(image, frame, look_from, up, window, size, bounds):
+    """The middle slice across the index axis that leads to the camera."""
+    axis = int(np.argmax(np.abs(frame.vector(look_from))))
+    actor = render.slice_actor(image, axis, image.GetDimensions()[axis] // 2, window)
+    return render.draw([actor], size, frame, look_from, up, bounds, shaded=False)
+
+
+def pyramid_picture(pyramid, iso, title):
+    """Array of pixels; see render.py. A row for each kind of slice and one of iso-surfaces."""
+    levels = pyramid_levels(pyramid)[::-1]
+    finest = levels[-1]
+    frame, window = render.index_frame(finest), grey_window(finest)
+    bounds = index_bounds(finest)
+    rows = []
+    for _, look_from, up in SLICES:
+        size = PANEL_WIDTH, render.fitting_height(PANEL_WIDTH, frame, look_from, up, bounds)
+        rows.append([middle_slice(image, frame, look_from, up, window, size, bounds)
+                     for image in levels])
+
+    surfaces = [iso_surface(image, iso) for image in levels]
+    frame = render.world_frame(finest)
+    box = surfaces[-1].GetBounds() if surfaces[-1].GetNumberOfPoints() else world_bounds(finest)
+    size = PANEL_WIDTH, render.fitting_height(PANEL_WIDTH, frame, *THREE_QUARTERS, box)
+    rows.append([render.draw([render.surface_actor(surface)], size, frame, *THREE_QUARTERS, box,
+                             zoom=1.05) for surface in surfaces])
+
+    captions = [(f"Level {len(levels) - 1 - column}",
+                 f"{' x '.join(map(str, image.GetDimensions()))} voxels, U = {level_unit(image):.4g}")
+                for column, image in enumerate(levels)]
+    headings = [name for name, _, _ in SLICES] + [f"Iso-surfaces at {iso:g}"]
+    return render.compose(rows, [[], [], captions], title, headings)

@@ -1,0 +1,223 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package `volumic` as it is installed: what a user's script relies on."""
+
+import os
+import pydoc
+import re
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import volumic
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+from volumic import vtkImagePyramid
+
+PREFIX = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
+
+
+def image_of(voxels, spacing=(1, 1, 1)):
+    """vtkImageData with the voxels[z, y, x] as active scalars named `density`."""
+    scalars = numpy_to_vtk(voxels.ravel(), deep=True)
+    scalars.SetName("density")
+    image = vtkImageData()
+    image.SetDimensions(voxels.shape[::-1])
+    image.SetSpacing(spacing)
+    image.GetPointData().SetScalars(scalars)
+    return image
+
+
+def voxels_of(image):
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions()[::-1])
+
+
+def collect_errors(algorithm):
+    """List to which the algorithm's error messages will be added."""
+    errors = []
+
+    @calldata_type(VTK_STRING)
+    def keep(_caller, _event, text):
+        errors.append(text)
+
+    algorithm.AddObserver("ErrorEvent", keep)
+    if algorithm.IsA("vtkAlgorithm"):
+        # Its own report of the failure would only clutter the log.
+        algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+    return errors
+
+
+class PackageTest(unittest.TestCase):
+    def test_it_is_the_installed_one(self):
+        self.assertTrue(os.path.realpath(volumic.__file__).startswith(os.path.realpath(PREFIX)))
+
+    def test_version(self):
+        self.assertRegex(volumic.__version__, r"^\d+\.\d+\.\d+$")
+
+    def test_classes_come_without_importing_vtk_first(self):
+        code = "from volumic import vtkImagePyramid; print(vtkImagePyramid().GetClassName())"
+        printed = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+        self.assertEqual(printed.stdout.decode().strip(), "vtkImagePyramid")
+
+    def test_help_tells_units_and_defaults(self):
+        text = pydoc.render_doc(vtkImagePyramid, renderer=pydoc.plaintext)
+        text = re.sub(r"[\s|]+", " ", text)
+        for words in ("world units", "ReductionFactor", "Default: sqrt(3)", "SetNumberOfLevels",
+                      "NumberOfThreads"):
+            self.assertTrue(words in text, words)
+
+
+class PyramidTest(unittest.TestCase):
+    def setUp(self):
+        self.pyramid = vtkImagePyramid()
+
+    def output_of(self, voxels, **settings):
+        self.pyramid.SetInputData(image_of(voxels))
+        for name, value in settings.items():
+            getattr(self.pyramid, f"Set{name}")(value)
+        self.pyramid.Update()
+        return self.pyramid.GetOutput()
+
+    def test_defaults(self):
+        self.assertAlmostEqual(self.pyramid.GetReductionFactor(), 3 ** 0.5, places=15)
+        self.assertEqual(self.pyramid.GetNumberOfLevels(), 0)
+        self.assertEqual(self.pyramid.GetMinimumLevelSize(), 10)
+        self.assertEqual(self.pyramid.GetNumberOfThreads(), 0)
+
+    def test_output_is_a_multiblock_before_and_after_update(self):
+        self.pyramid.SetInputData(image_of(np.zeros((30, 30, 30), "f4")))
+        self.pyramid.Update()
+        self.assertIsInstance(self.pyramid.GetOutput(), vtkMultiBlockDataSet)
+        self.assertIsInstance(self.pyramid.GetOutputDataObject(0), vtkMultiBlockDataSet)
+
+    def test_blocks_are_named_and_know_their_level_and_unit(self):
+        output = self.output_of(np.zeros((40, 50, 60), "i2"))
+        self.assertEqual(output.GetNumberOfBlocks(), 3)
+        for h, size in enumerate(((60, 50, 40), (34, 28, 23), (19, 16, 13))):
+            name = output.GetMetaData(h).Get(vtkCompositeDataSet.NAME())
+            self.assertEqual(name, f"Level {h}")
+            block = output.GetBlock(h)
+            self.assertEqual(block.GetDimensions(), size)
+            self.assertEqual(block.GetFieldData().GetArray("Level").GetValue(0), h)
+            unit = block.GetFieldData().GetArray("Unit").GetValue(0)
+            self.assertAlmostEqual(unit, 3 ** (h / 2), places=12)
+            self.assertEqual(block.GetPointData().GetScalars().GetName(), "density")
+
+    def test_numpy_goes_in_and_out(self):
+        random = np.random.default_rng(4)
+        voxels = random.integers(-1000, 1000, (24, 25, 26)).astype("i2")
+        output = self.output_of(voxels)
+        np.testing.assert_array_equal(voxels_of(output.GetBlock(0)), voxels)
+        coarse = voxels_of(output.GetBlock(1))
+        self.assertEqual(coarse.dtype, np.float32)
+        self.assertEqual(coarse.shape, (13, 14, 15))
+        self.assertLess(coarse.std(), voxels.std())
+        self.assertGreater(coarse.std(), 0)
+
+    def test_double_stays_double(self):
+        output = self.output_of(np.full((24, 24, 24), 0.1))
+        coarse = voxels_of(output.GetBlock(1))
+        self.assertEqual(coarse.dtype, np.float64)
+        np.testing.assert_allclose(coarse, 0.1, rtol=1e-12)
+
+    def test_level_0_shares_the_array_of_the_input(self):
+        image = image_of(np.zeros((20, 20, 20), "u1"))
+        self.pyramid.SetInputData(image)
+        self.pyramid.Update()
+        shared = self.pyramid.GetOutput().GetBlock(0).GetPointData().GetScalars()
+        self.assertIs(shared, image.GetPointData().GetScalars())
+
+    def test_an_array_is_chosen_by_name(self):
+        image = image_of(np.zeros((20, 20, 20), "f4"))
+        other = numpy_to_vtk(np.full(8000, 7.0, "f4"), deep=True)
+        other.SetName("other")
+        image.GetPointData().AddArray(other)
+        self.pyramid.SetInputData(image)
+        self.pyramid.SetInputArrayToProcess(0, 0, 0, vtkImageData.FIELD_ASSOCIATION_POINTS, "other")
+        self.pyramid.Update()
+        coarse = self.pyramid.GetOutput().GetBlock(1)
+        self.assertEqual(coarse.GetPointData().GetScalars().GetName(), "other")
+        np.testing.assert_allclose(voxels_of(coarse), 7.0, rtol=1e-6)
+
+    def test_it_follows_a_source_in_a_pipeline(self):
+        source = vtkRTAnalyticSource()
+        source.SetWholeExtent(-10, 10, -12, 12, 3, 30)
+        self.pyramid.SetInputConnection(source.GetOutputPort())
+        self.pyramid.Update()
+        self.assertEqual(self.pyramid.GetOutput().GetBlock(0).GetDimensions(), (21, 25, 28))
+        self.assertEqual(self.pyramid.GetOutput().GetBlock(1).GetDimensions(), (12, 14, 16))
+        source.SetWholeExtent(0, 39, 0, 39, 0, 39)
+        self.pyramid.Update()
+        self.assertEqual(self.pyramid.GetOutput().GetNumberOfBlocks(), 3)
+
+    def test_progress_rises_to_one_with_a_text(self):
+        seen = []
+        self.pyramid.AddObserver("ProgressEvent", lambda filter_, _: seen.append(
+            (filter_.GetProgress(), filter_.GetProgressText())))
+        self.output_of(np.zeros((40, 40, 40), "f4"))
+        shares = [share for share, _ in seen]
+        self.assertEqual(shares, sorted(shares))
+        self.assertEqual(shares[-1], 1.0)
+        self.assertTrue(any("Level 1" in (text or "") for _, text in seen))
+
+    def test_cancelling_hands_over_the_finished_levels(self):
+        def stop(filter_, _event):
+            if "Level 2" in (filter_.GetProgressText() or ""):
+                filter_.SetAbortExecute(1)
+
+        self.pyramid.AddObserver("ProgressEvent", stop)
+        output = self.output_of(np.zeros((60, 60, 60), "f4"))
+        self.assertEqual(output.GetNumberOfBlocks(), 2)
+        reason = output.GetFieldData().GetAbstractArray("StopReason").GetValue(0)
+        self.assertEqual(reason, "cancelled")
+
+    def refused(self, voxels, reason, **settings):
+        errors = collect_errors(self.pyramid)
+        output = self.output_of(voxels, **settings)
+        self.assertEqual(len(errors), 1, errors)
+        self.assertRegex(errors[0], reason)
+        self.assertEqual(output.GetNumberOfBlocks(), 0)
+
+    def test_nan_is_refused_with_its_place(self):
+        voxels = np.zeros((20, 20, 20), "f4")
+        voxels[4, 3, 2] = voxels[9, 9, 9] = np.nan
+        self.refused(voxels, r"2 NaN or infinite voxels.*\(2, 3, 4\)")
+
+    def test_factor_of_two_is_refused(self):
+        self.refused(np.zeros((20, 20, 20), "f4"), "ReductionFactor.*2", ReductionFactor=2.0)
+
+    def test_too_many_levels_are_refused(self):
+        self.refused(np.zeros((20, 20, 20), "f4"), "levels", NumberOfLevels=30)
+
+    def test_an_error_is_followed_by_a_good_run(self):
+        errors = collect_errors(self.pyramid)
+        self.output_of(np.zeros((20, 20, 20), "f4"), ReductionFactor=2.5)
+        self.assertEqual(len(errors), 1)
+        output = self.output_of(np.zeros((20, 20, 20), "f4"), ReductionFactor=1.5)
+        self.assertEqual(len(errors), 1)
+        self.assertGreater(output.GetNumberOfBlocks(), 1)
+
+    def test_no_input(self):
+        # The pipeline itself reports it, through the executive.
+        errors = collect_errors(self.pyramid.GetExecutive())
+        self.pyramid.Update()
+        self.assertEqual(len(errors), 1)
+        self.assertIn("has 0 connections", errors[0])
+
+    def test_empty_image(self):
+        errors = collect_errors(self.pyramid)
+        producer = vtkTrivialProducer()
+        producer.SetOutput(vtkImageData())
+        self.pyramid.SetInputConnection(producer.GetOutputPort())
+        self.pyramid.Update()
+        self.assertEqual(len(errors), 1)
+        self.assertIn("empty", errors[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
