@@ -59,4 +59,4 @@ PYTHONPATH="$(dirname "$site")${PYTHONPATH:+:$PYTHONPATH}" PYTHONDONTWRITEBYTECO
   xvfb-run -a -s "-screen 0 1280x1024x24" \
   "$(vtk_python)" "$script_folder/Python/quickstart.py" --output "$output" -- "${inputs[@]}" \
   2> >(tee "$logs/quickstart-errors.log" >&2) \
-  || fail "The example failed. Its messages are above, the errors also in $logs/quickstart-errors.log"
+  || fail "The example failed. Its errors are above and in $logs/quickstart-errors.log"

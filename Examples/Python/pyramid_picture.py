@@ -83,7 +83,8 @@ def pyramid_picture(pyramid, iso, title):
                              zoom=1.05) for surface in surfaces])
 
     captions = [(f"Level {len(levels) - 1 - column}",
-                 f"{' x '.join(map(str, image.GetDimensions()))} voxels, U = {level_unit(image):.4g}")
+                 f"{' x '.join(map(str, image.GetDimensions()))} voxels,"
+                 f" U = {level_unit(image):.4g}")
                 for column, image in enumerate(levels)]
     headings = [name for name, _, _ in SLICES] + [f"Iso-surfaces at {iso:g}"]
     return render.compose(rows, [[], [], captions], title, headings)
