@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "PeakMemory.h"
+
+#include <fstream>
+#include <string>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace volumic
+{
+namespace bench
+{
+namespace
+{
+
+/** A line of /proc/self/status, in bytes; -1 without it. */
+long long StatusBytes(const std::string& name)
+{
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word)
+  {
+    if (word == name + ":")
+    {
+      long long kilobytes = -1;
+      return status >> kilobytes ? kilobytes * 1024 : -1;
+    }
+  }
+  return -1;
+}
+
+} // namespace
+
+long long PeakGrowth(const std::function<void()>& run)
+{
+#if defined(__GLIBC__)
+  malloc_trim(0); // memory that was freed before must not serve what is measured
+#endif
+  {
+    std::ofstream refs("/proc/self/clear_refs");
+    refs << "5"; // the peak starts again from what is resident now
+    refs.flush();
+    if (!refs)
+    {
+      return -1;
+    }
+  }
+  const long long before = StatusBytes("VmRSS");
+  run();
+  const long long peak = StatusBytes("VmHWM");
+  return before < 0 || peak < 0 ? -1 : peak - before;
+}
+
+} // namespace bench
+} // namespace volumic
