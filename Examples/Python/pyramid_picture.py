@@ -7,11 +7,13 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
 import render
+from volume_image import world_axes
 
 PANEL_WIDTH = 400
-# Heading, camera and upper side of the slices of each kind; axial ones as radiologists look at
-# them, from the feet.
-SLICES = (("Axial slices", "I", "A"), ("Sagittal slices", "L", "S"))
+# Heading (where it is known how the body lies, and where not), camera and upper side of the slices
+# of each kind; axial ones as radiologists look at them, from the feet.
+SLICES = (("Axial slices", "Slices across z", "I", "A"),
+          ("Sagittal slices", "Slices across x", "L", "S"))
 THREE_QUARTERS = ("AAAALLS", "S")
 
 
@@ -48,12 +50,13 @@ def index_bounds(image):
     return [(side * size[c] - 0.5) * spacing[c] for c in range(3) for side in (0, 1)]
 
 
-def grey_window(image):
-    """Values to be shown black and white: what nearly all voxels lie between."""
+def grey_window(image, iso):
+    """Values to be shown black and white: nearly all voxels and the iso-value lie between."""
     voxels = vtk_to_numpy(image.GetPointData().GetScalars())
     sample = voxels[:: max(1, voxels.size // 500000)]
     black, white = np.percentile(sample, (1, 99.7))
-    return (black, white) if white > black else (voxels.min(), max(voxels.max(), 1))
+    white = max(white, iso + 0.35 * (voxels.max() - iso))
+    return black, max(white, black + 1e-6 * max(1, abs(black)))
 
 
 def middle_slice(image, frame, look_from, up, window, size, bounds):
@@ -67,10 +70,10 @@ def pyramid_picture(pyramid, iso, title):
     """Array of pixels; see render.py. A row for each kind of slice and one of iso-surfaces."""
     levels = pyramid_levels(pyramid)[::-1]
     finest = levels[-1]
-    frame, window = render.index_frame(finest), grey_window(finest)
+    frame, window = render.index_frame(finest), grey_window(finest, iso)
     bounds = index_bounds(finest)
     rows = []
-    for _, look_from, up in SLICES:
+    for _, _, look_from, up in SLICES:
         size = PANEL_WIDTH, render.fitting_height(PANEL_WIDTH, frame, look_from, up, bounds)
         rows.append([middle_slice(image, frame, look_from, up, window, size, bounds)
                      for image in levels])
@@ -86,5 +89,6 @@ def pyramid_picture(pyramid, iso, title):
                  f"{' x '.join(map(str, image.GetDimensions()))} voxels,"
                  f" U = {level_unit(image):.4g}")
                 for column, image in enumerate(levels)]
-    headings = [name for name, _, _ in SLICES] + [f"Iso-surfaces at {iso:g}"]
+    headings = [entry[world_axes(finest) is None] for entry in SLICES]
+    headings.append(f"Iso-surfaces at {iso:g}")
     return render.compose(rows, [[], [], captions], title, headings)

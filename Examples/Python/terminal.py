@@ -17,7 +17,7 @@ class FilterError(Exception):
 
 
 def run_filter(algorithm, title):
-    """Update the filter; returns the seconds it took.
+    """Update the filter; returns the seconds it took, and its warnings.
 
     On a terminal the line shows the progress and the filter's progress text as it goes; in a log
     there is one line at the end. Warnings are printed below it.
@@ -64,7 +64,7 @@ def run_filter(algorithm, title):
         print(f"  Warning: {text}")
     if errors or echoes:
         raise FilterError("; ".join(errors or echoes))
-    return seconds
+    return seconds, warnings
 
 
 def plain_message(text):
