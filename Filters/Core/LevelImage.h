@@ -20,10 +20,10 @@ namespace volumic
  */
 struct LevelImage
 {
-  const float* Values = nullptr;                ///< x fastest, Size[0] * Size[1] * Size[2] of them.
-  std::array<int, 3> Size = { 0, 0, 0 };        ///< Number of voxels along each axis.
-  std::array<double, 3> Step = { 1., 1., 1. };  ///< Distance of neighbouring voxels, workspace.
-  double Unit = 1.;                             ///< U_h = T^h, workspace (U_0 = 1).
+  const float* Values = nullptr;               ///< x fastest, Size[0] * Size[1] * Size[2] of them.
+  std::array<int, 3> Size = { 0, 0, 0 };       ///< Number of voxels along each axis.
+  std::array<double, 3> Step = { 1., 1., 1. }; ///< Distance of neighbouring voxels, workspace.
+  double Unit = 1.;                            ///< U_h = T^h, workspace (U_0 = 1).
 };
 }
 

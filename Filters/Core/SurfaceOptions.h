@@ -22,7 +22,7 @@ struct SurfaceOptions
   double IsoValue = 0.;        ///< Field value of the isopotential that is searched.
   bool ObjectIsBright = true;  ///< The object is where the field is above (off: below) IsoValue.
 
-  double SeedRadius = 0.;      ///< Radius of seeds, workspace; 0 = 3 delta.
+  double SeedRadius = 0.;      ///< Radius of seeds, workspace; 0 = 1.2 delta.
   double SamplingRatio = 0.85; ///< delta_h / U_h, in [sqrt(3)/2.5, 1] (eq. 7).
 
   double TensionWeight = 0.2;      ///< F_c, towards the barycentre of the neighbours.

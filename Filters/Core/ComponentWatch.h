@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicComponentWatch_h
+#define volumicComponentWatch_h
+
+#include "SurfaceState.h"
+
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Keeps the labels of the components and watches the small ones: those that have shrunk to
+ * nothing, that lie wholly on the side where they must vanish, or whose signed volume has changed
+ * sign in a step are deleted (rule 10 of method.md section 10).
+ */
+class ComponentWatch
+{
+public:
+  /** Labels components afresh, by their smallest vertex. Call after merges and cuts. */
+  void Label(SurfaceState& state);
+
+  /** Deletes what must go. @return whether anything was deleted (labels are fresh then). */
+  bool DeleteDoomed(SurfaceState& state);
+
+  int NumberOfComponents() const { return this->Components; }
+
+private:
+  struct Small
+  {
+    std::vector<int> Vertices;
+    bool Positive; ///< Sign of the volume.
+  };
+  std::vector<Small> Smalls;
+  std::vector<int> Stack;
+  int Components = 0;
+};
+
+/** Six times the signed volume of the faces about the vertices, each face counted three times. */
+double SignedVolume(const SurfaceMesh& mesh, const std::vector<int>& vertices);
+}
+
+#endif

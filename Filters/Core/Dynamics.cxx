@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+constexpr std::size_t BlockSize = 1024;
+/** Distance, in delta, over which the isopotential force grows to its bound. */
+constexpr float ForceRange = 0.75f;
+/** Floor of the gradient, in TypicalSlope. */
+constexpr float GradientFloor = 0.15f;
+/** A vertex has moved visibly when it is this far from its anchor, in delta. */
+constexpr float Visible = 0.03f;
+/** Iterations without visible motion after which a vertex sleeps. */
+constexpr int Patience = 5;
+
+float Clamp(float x)
+{
+  return std::min(std::max(x, -1.f), 1.f);
+}
+}
+
+Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
+{
+  const Vector& n = state.Normal[v];
+  const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
+  value = sample.Value;
+  const float floor = GradientFloor * this->TheField.TypicalSlope();
+  const float slope = std::max(Length(sample.Gradient), floor);
+  float along = static_cast<float>(this->Options.IsopotentialWeight) *
+    Clamp(sample.Value / (slope * ForceRange * state.Delta));
+  if (this->Options.GradientWeight > 0)
+  {
+    // Value has the sign of the object; the potential is the image itself.
+    const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
+    along -= static_cast<float>(this->Options.GradientWeight) *
+      Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+  }
+  const Ring& ring = state.Mesh.Rings[v];
+  Vector tension = state.Pull[v];
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const int w = ring.Item[i];
+    tension -= state.Pull[w] * (1.f / static_cast<float>(state.Mesh.Rings[w].Count));
+  }
+  const float inverse = 1.f / state.Delta;
+  Vector force = n * along +
+    tension * (static_cast<float>(this->Options.TensionWeight) * inverse) +
+    state.Spring[v] * (static_cast<float>(this->Options.ElasticityWeight) * inverse);
+  force.Unused = 0;
+  return force;
+}
+
+void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
+  const std::vector<Proximity::ClosePair>& pairs)
+{
+  const std::size_t n = awake.size();
+  this->Force.resize(n);
+  this->Fastest.assign((n + BlockSize - 1) / BlockSize, 0.f);
+  const float friction = static_cast<float>(this->Options.Friction);
+  const float drive =
+    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight);
+  const float step = static_cast<float>(this->Options.MaximumStep) * state.Delta;
+  // A free vertex at its final speed under full force goes just the largest step.
+  const float longest =
+    static_cast<float>(this->Options.MaximumStep) * friction / std::max(drive, 0.5f);
+  ForBlocks(this->Threads, n, BlockSize,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      float fastest = 0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = awake[i];
+        this->Force[i] = this->ForceAt(state, v, state.Value[v]) * state.Delta;
+        const Vector speed =
+          (state.Velocity[v] + this->Force[i] * longest) * (1 / (1 + friction * longest));
+        fastest = std::max(fastest, SquaredLength(speed));
+      }
+      this->Fastest[b] = fastest;
+    });
+  float fastest = 0;
+  for (float x : this->Fastest)
+  {
+    fastest = std::max(fastest, x);
+  }
+  fastest = std::sqrt(fastest);
+  this->Step = fastest * longest > step ? step / fastest : longest;
+  this->Threads.For(n, BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Vector& velocity = state.Velocity[awake[i]];
+        velocity =
+          (velocity + this->Force[i] * this->Step) * (1 / (1 + friction * this->Step));
+      }
+    });
+  this->Resist(state, pairs);
+}
+
+void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
+{
+  this->Groups.clear();
+  for (std::size_t begin = 0; begin < pairs.size();)
+  {
+    std::size_t end = begin + 1;
+    while (end < pairs.size() && pairs[end].V == pairs[begin].V)
+    {
+      ++end;
+    }
+    if (state.Mesh.IsAlive(pairs[begin].V) && state.Awake[pairs[begin].V])
+    {
+      this->Groups.push_back({ begin, end, Vector() });
+    }
+    begin = end;
+  }
+  const float near = constraint::NearestOthers * state.Delta;
+  constexpr int sweeps = 3;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+  {
+    this->Threads.For(this->Groups.size(), 256,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t g = first; g < last; ++g)
+        {
+          Group& group = this->Groups[g];
+          const int v = pairs[group.Begin].V;
+          Vector sum;
+          int count = 0;
+          for (std::size_t i = group.Begin; i < group.End; ++i)
+          {
+            const int w = pairs[i].W;
+            if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w))
+            {
+              continue;
+            }
+            const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
+            const float distance = Length(across);
+            if (distance > near || distance <= 0)
+            {
+              continue;
+            }
+            const Vector direction = across * (1 / distance);
+            float approach = Dot(state.Velocity[v], direction);
+            if (state.Awake[w])
+            {
+              approach = 0.5f * (approach - Dot(state.Velocity[w], direction));
+            }
+            if (sweep == 0 && distance < state.Delta)
+            {
+              approach =
+                std::max(approach, 0.f) + 0.25f * (state.Delta - distance) / this->Step;
+            }
+            if (approach > 0)
+            {
+              sum += direction * approach;
+              ++count;
+            }
+          }
+          group.Correction = sum * (1.f / static_cast<float>(std::max(count, 1)));
+        }
+      });
+    for (const Group& group : this->Groups)
+    {
+      state.Velocity[pairs[group.Begin].V] -= group.Correction;
+    }
+  }
+}
+
+void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
+{
+  const float longest = static_cast<float>(this->Options.MaximumStep) * state.Delta;
+  this->Threads.For(awake.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = awake[i];
+        Vector& p = state.Mesh.Position[v];
+        state.Before[v] = p;
+        Vector move = state.Velocity[v] * this->Step;
+        const float length = Length(move);
+        if (length > longest)
+        {
+          move *= longest / length;
+        }
+        p += move;
+        p.Unused = 0;
+      }
+    });
+  for (int v : awake)
+  {
+    state.Grid.Move(v, state.Mesh.Position[v]);
+  }
+}
+
+void Dynamics::Freeze(SurfaceState& state, const std::vector<int>& awake)
+{
+  const float visible = Visible * state.Delta;
+  for (int v : awake)
+  {
+    if (!state.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    if (SquaredDistance(state.Mesh.Position[v], state.Anchor[v]) > visible * visible)
+    {
+      state.Anchor[v] = state.Mesh.Position[v];
+      state.Wake(v);
+      const Ring& ring = state.Mesh.Rings[v];
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        state.Wake(ring.Item[i]);
+      }
+    }
+    else if (this->Options.FreezeMotionlessVertices && ++state.Quiet[v] >= Patience)
+    {
+      state.Awake[v] = 0;
+      state.Velocity[v] = Vector();
+    }
+  }
+}
+}

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicDynamics_h
+#define volumicDynamics_h
+
+#include "Field.h"
+#include "Proximity.h"
+#include "SurfaceOptions.h"
+#include "SurfaceState.h"
+
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Forces, time step, Newton's law with friction, contact, displacement and freezing: everything
+ * of an iteration that moves vertices. Forces are gathered per vertex, so threads need no locks.
+ *
+ * Forces, in delta per unit of time squared (mass 1):
+ * - tension F_c: TensionWeight times the pull to the barycentre of the neighbours, less its
+ *   reaction on them. The reaction keeps the sum of the forces zero, so closed surfaces do not
+ *   shrink (a pure barycentre pull does).
+ * - elasticity F_e: springs along the edges with rest length 1.6 delta.
+ * - isopotential F_i: along the normal, Value / (|gradient| 0.75 delta), clamped to 1; the
+ *   gradient has a floor, so that plateaus do not make the force arbitrarily stiff.
+ * - gradient F_di: the image is taken as a potential and the vertex descends it along its normal:
+ *   - (gradient of the image . n) / (0.5 TypicalSlope), clamped to 1. To segment by edges instead
+ *   of by value, give an image with valleys where the contours are (such as minus the gradient
+ *   magnitude), GradientWeight 1, and a small IsopotentialWeight whose iso-value drives the
+ *   surface over the flat parts.
+ */
+class Dynamics
+{
+public:
+  Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
+    : TheField(field)
+    , Options(options)
+    , Threads(executor)
+  {
+  }
+
+  /**
+   * Computes forces and velocities of the awake vertices; `pairs` are the contacts known from the
+   * last examination.
+   */
+  void Accelerate(SurfaceState& state, const std::vector<int>& awake,
+    const std::vector<Proximity::ClosePair>& pairs);
+
+  /** Displaces them; the place before is kept in SurfaceState::Before. */
+  void Displace(SurfaceState& state, const std::vector<int>& awake);
+
+  /** After roll back: puts vertices at rest to sleep and wakes the neighbours of moved ones. */
+  void Freeze(SurfaceState& state, const std::vector<int>& awake);
+
+  /** Of the last step. */
+  double TimeStep() const { return this->Step; }
+
+private:
+  Vector ForceAt(const SurfaceState& state, int v, float& value) const;
+  void Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs);
+
+  const Field& TheField;
+  const SurfaceOptions& Options;
+  Executor& Threads;
+  float Step = 0;
+  std::vector<Vector> Force;
+  std::vector<float> Fastest;
+  struct Group
+  {
+    std::size_t Begin, End;
+    Vector Correction;
+  };
+  std::vector<Group> Groups;
+};
+}
+
+#endif

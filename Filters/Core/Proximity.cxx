@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Proximity.h"
+
+#include <algorithm>
+
+namespace volumic
+{
+namespace
+{
+Vector Minimum(const Vector& a, const Vector& b)
+{
+  return Vector(std::min(a.X, b.X), std::min(a.Y, b.Y), std::min(a.Z, b.Z));
+}
+Vector Maximum(const Vector& a, const Vector& b)
+{
+  return Vector(std::max(a.X, b.X), std::max(a.Y, b.Y), std::max(a.Z, b.Z));
+}
+bool Apart(const Vector& lowA, const Vector& highA, const Vector& lowB, const Vector& highB)
+{
+  return lowA.X > highB.X || lowB.X > highA.X || lowA.Y > highB.Y || lowB.Y > highA.Y ||
+    lowA.Z > highB.Z || lowB.Z > highA.Z;
+}
+
+/** Whether a plane with normal `direction` lies between the stars of v and w, v's side below. */
+bool PlaneBetween(const SurfaceMesh& mesh, int v, int w, const Vector& direction, float gap)
+{
+  float highest = Dot(direction, mesh.Position[v]);
+  for (int i = 0; i < mesh.Rings[v].Count; ++i)
+  {
+    highest = std::max(highest, Dot(direction, mesh.Position[mesh.Rings[v].Item[i]]));
+  }
+  if (Dot(direction, mesh.Position[w]) < highest + gap)
+  {
+    return false;
+  }
+  for (int i = 0; i < mesh.Rings[w].Count; ++i)
+  {
+    if (Dot(direction, mesh.Position[mesh.Rings[w].Item[i]]) < highest + gap)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool AreSeparated(const SurfaceState& state, int v, int w)
+{
+  const SurfaceMesh& mesh = state.Mesh;
+  const float gap = 2e-3f * state.Delta;
+  const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
+  Vector direction = state.Normal[v] - state.Normal[w];
+  direction.Unused = 0;
+  if (Dot(direction, across) < 0)
+  {
+    direction = -direction;
+  }
+  return PlaneBetween(mesh, v, w, Normalized(direction), gap) ||
+    PlaneBetween(mesh, v, w, Normalized(across), gap);
+}
+
+struct Star
+{
+  Star(const SurfaceMesh& mesh, int v)
+    : Centre(v)
+    , Neighbours(mesh.Rings[v])
+  {
+    const Vector p = mesh.Position[v];
+    for (int i = 0; i < this->Neighbours.Count; ++i)
+    {
+      const Vector& a = mesh.Position[this->Neighbours.Item[i]];
+      const Vector& b = mesh.Position[this->Neighbours.Next(i)];
+      this->Low[i] = Minimum(p, Minimum(a, b));
+      this->High[i] = Maximum(p, Maximum(a, b));
+    }
+  }
+  std::array<int, 3> Face(int i) const
+  {
+    return { this->Centre, this->Neighbours.Item[i], this->Neighbours.Next(i) };
+  }
+
+  int Centre;
+  const Ring& Neighbours;
+  Vector Low[Ring::Capacity];
+  Vector High[Ring::Capacity];
+};
+
+bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
+{
+  const auto has = [&g](int v) { return g[0] == v || g[1] == v || g[2] == v; };
+  return has(f[0]) && has(f[1]) && has(f[2]);
+}
+
+void TestStars(
+  const SurfaceState& state, int v, int w, std::vector<Proximity::Meeting>& meetings)
+{
+  const Star first(state.Mesh, v);
+  const Star second(state.Mesh, w);
+  for (int i = 0; i < first.Neighbours.Count; ++i)
+  {
+    for (int j = v == w ? i + 1 : 0; j < second.Neighbours.Count; ++j)
+    {
+      if (Apart(first.Low[i], first.High[i], second.Low[j], second.High[j]))
+      {
+        continue;
+      }
+      const std::array<int, 3> f = first.Face(i);
+      const std::array<int, 3> g = second.Face(j);
+      if (!SameFace(f, g) &&
+        TrianglesMeet(TriangleOf(state.Mesh, f[0], f[1], f[2]),
+          TriangleOf(state.Mesh, g[0], g[1], g[2]), constraint::Contact * state.Delta))
+      {
+        meetings.push_back({ f, g });
+      }
+    }
+  }
+}
+}
+
+NamedTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
+{
+  return { { a, b, c },
+    { VectorD(mesh.Position[a]), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
+}
+
+void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
+{
+  const SurfaceMesh& mesh = state.Mesh;
+  const Vector p = mesh.Position[v];
+  const float reach = constraint::Reach * state.Delta;
+  const float near = constraint::NearestOthers * state.Delta;
+  bool anything = false;
+  if (state.AreOpposed(v, v))
+  {
+    anything = true;
+    TestStars(state, v, v, block.Meetings);
+  }
+  state.Grid.Visit(p, reach,
+    [&](int w)
+    {
+      const float squared = SquaredDistance(p, mesh.Position[w]);
+      if (squared > reach * reach || w == v || !state.AreOpposed(v, w))
+      {
+        return;
+      }
+      anything = true;
+      if (squared < near * near && !mesh.AreNeighbours(v, w))
+      {
+        block.Pairs.push_back({ v, w, squared });
+      }
+      if ((v < w || !this->Listed[w]) && !AreSeparated(state, v, w))
+      {
+        TestStars(state, v, w, block.Meetings);
+      }
+    });
+  state.Near[v] = anything;
+}
+
+void Proximity::Examine(
+  SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
+{
+  this->Listed.resize(state.Mesh.Rings.size(), 0);
+  for (int v : vertices)
+  {
+    this->Listed[v] = 1;
+  }
+  constexpr std::size_t size = 512;
+  const std::size_t blocks = (vertices.size() + size - 1) / size;
+  if (this->Blocks.size() < blocks)
+  {
+    this->Blocks.resize(blocks);
+  }
+  ForBlocks(executor, vertices.size(), size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      this->Blocks[b].Pairs.clear();
+      this->Blocks[b].Meetings.clear();
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (state.Mesh.IsAlive(vertices[i]))
+        {
+          this->ExamineVertex(state, vertices[i], this->Blocks[b]);
+        }
+      }
+    });
+  this->AllPairs.clear();
+  this->AllMeetings.clear();
+  for (std::size_t b = 0; b < blocks; ++b)
+  {
+    const Block& block = this->Blocks[b];
+    this->AllPairs.insert(this->AllPairs.end(), block.Pairs.begin(), block.Pairs.end());
+    this->AllMeetings.insert(
+      this->AllMeetings.end(), block.Meetings.begin(), block.Meetings.end());
+  }
+  for (int v : vertices)
+  {
+    this->Listed[v] = 0;
+  }
+}
+
+bool NewFacesMeet(
+  const SurfaceState& state, const std::vector<NamedTriangle>& faces, const GoneFaces& gone)
+{
+  const double tolerance = constraint::Contact * state.Delta;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < faces.size(); ++j)
+    {
+      if (TrianglesMeet(faces[i], faces[j], tolerance))
+      {
+        return true;
+      }
+    }
+  }
+  Vector low(faces[0].Corner[0]);
+  Vector high = low;
+  std::vector<std::pair<Vector, Vector>> boxes;
+  boxes.reserve(faces.size());
+  for (const NamedTriangle& face : faces)
+  {
+    const Vector a(face.Corner[0]);
+    const Vector b(face.Corner[1]);
+    const Vector c(face.Corner[2]);
+    boxes.emplace_back(Minimum(a, Minimum(b, c)), Maximum(a, Maximum(b, c)));
+    low = Minimum(low, boxes.back().first);
+    high = Maximum(high, boxes.back().second);
+  }
+  const Vector centre = (low + high) * 0.5f;
+  const float radius = 0.5f * Length(high - low) + constraint::Reach * state.Delta;
+  const SurfaceMesh& mesh = state.Mesh;
+  bool meets = false;
+  state.Grid.Visit(centre, radius,
+    [&](int w)
+    {
+      if (meets || SquaredDistance(centre, mesh.Position[w]) > radius * radius)
+      {
+        return;
+      }
+      const Star star(mesh, w);
+      for (int i = 0; i < star.Neighbours.Count && !meets; ++i)
+      {
+        if (Apart(star.Low[i], star.High[i], low, high))
+        {
+          continue;
+        }
+        const std::array<int, 3> g = star.Face(i);
+        if (gone.Contains(g))
+        {
+          continue;
+        }
+        const NamedTriangle other = TriangleOf(mesh, g[0], g[1], g[2]);
+        for (std::size_t k = 0; k < faces.size() && !meets; ++k)
+        {
+          meets = !Apart(star.Low[i], star.High[i], boxes[k].first, boxes[k].second) &&
+            TrianglesMeet(faces[k], other, tolerance);
+        }
+      }
+    });
+  return meets;
+}
+}

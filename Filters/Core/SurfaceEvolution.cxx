@@ -1,0 +1,539 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceEvolution.h"
+
+#include "ComponentWatch.h"
+#include "Division.h"
+#include "Dynamics.h"
+#include "Field.h"
+#include "InitialSurface.h"
+#include "Proximity.h"
+#include "Remesher.h"
+#include "RestCriterion.h"
+#include "SurfaceCheck.h"
+#include "SurfaceState.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace volumic
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+/** Adds the time since the last call to a phase. */
+class Stopwatch
+{
+public:
+  explicit Stopwatch(HistoryRow& row)
+    : Row(row)
+    , Start(Clock::now())
+    , Last(Start)
+  {
+  }
+  void Lap(Phase phase)
+  {
+    const Clock::time_point now = Clock::now();
+    this->Row.PhaseSeconds[static_cast<int>(phase)] +=
+      std::chrono::duration<double>(now - this->Last).count();
+    this->Last = now;
+  }
+  void Stop() { this->Row.Seconds = std::chrono::duration<double>(Clock::now() - this->Start).count(); }
+
+private:
+  HistoryRow& Row;
+  Clock::time_point Start;
+  Clock::time_point Last;
+};
+
+void CheckRange(const char* name, double value, double low, double high)
+{
+  if (!(value >= low && value <= high))
+  {
+    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
+      ", it must lie in [" + std::to_string(low) + ", " + std::to_string(high) + "].");
+  }
+}
+}
+
+const char* Describe(StopReason reason)
+{
+  switch (reason)
+  {
+    case StopReason::Converged:
+      return "converged";
+    case StopReason::IterationLimit:
+      return "iteration limit";
+    case StopReason::Cancelled:
+      return "cancelled";
+    default:
+      return "vanished";
+  }
+}
+
+struct SurfaceEvolution::Implementation
+{
+  SurfaceOptions Options;
+  Executor& Threads;
+  Monitor& Listener;
+  SurfaceState State;
+  std::unique_ptr<Field> TheField;
+  int Level = 0;
+  std::vector<HistoryRow> Rows;
+  int LastIterations = 0;
+  LostParts LastLost;
+  Proximity Near;
+  Proximity Recheck;
+  ComponentWatch Watch;
+  RestCriterion Rest;
+  std::vector<int> Awake;
+  std::vector<int> Working;
+  std::vector<std::uint8_t> Marked;
+  std::vector<double> Swept;
+  double Volume = 0;
+  int Unresolved = 0;
+
+  Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
+    : Options(options)
+    , Threads(executor)
+    , Listener(monitor)
+  {
+  }
+
+  void Enter(const LevelImage& image, int level);
+  void Reset();
+  void CollectAwake();
+  void CollectWorking();
+  void MarkRing(int v);
+  void RollBack();
+  void UpdateTouched();
+  double SweptVolume();
+  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher);
+  void FillRow(HistoryRow& row) const;
+  StopReason Run();
+};
+
+void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
+{
+  this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
+  this->Level = level;
+  this->State.Delta = static_cast<float>(this->Options.SamplingRatio * image.Unit);
+}
+
+void SurfaceEvolution::Implementation::Reset()
+{
+  SurfaceState& s = this->State;
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  const LevelImage& image = this->TheField->Image();
+  Vector low(0, 0, 0);
+  Vector high(static_cast<float>(image.Size[0] * image.Step[0]),
+    static_cast<float>(image.Size[1] * image.Step[1]),
+    static_cast<float>(image.Size[2] * image.Step[2]));
+  for (const Vector& p : s.Mesh.Position)
+  {
+    low = Vector(std::min(low.X, p.X), std::min(low.Y, p.Y), std::min(low.Z, p.Z));
+    high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
+  }
+  const Vector margin(2 * s.Delta, 2 * s.Delta, 2 * s.Delta);
+  s.Reset(low - margin, high + margin);
+  this->CollectAwake();
+  s.UpdateShape(this->Awake, this->Threads);
+  // Verification relies on it that no edge is longer than the constraints allow.
+  Remesher(s, nullptr, false).Split(this->Awake);
+  s.Touched.clear();
+  s.UpdateShape(this->Awake, this->Threads);
+  this->Near.Examine(s, this->Awake, this->Threads);
+  this->Watch.Label(s);
+}
+
+void SurfaceEvolution::Implementation::CollectAwake()
+{
+  this->Awake.clear();
+  for (int v = 0; v < this->State.Mesh.Size(); ++v)
+  {
+    if (this->State.Awake[v])
+    {
+      this->Awake.push_back(v);
+    }
+  }
+}
+
+void SurfaceEvolution::Implementation::MarkRing(int v)
+{
+  const Ring& ring = this->State.Mesh.Rings[v];
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const int w = ring.Item[i];
+    if (!this->Marked[w])
+    {
+      this->Marked[w] = 1;
+      this->Working.push_back(w);
+    }
+  }
+}
+
+void SurfaceEvolution::Implementation::CollectWorking()
+{
+  // The awake vertices and the corners of all triangles that move with them.
+  this->Marked.assign(this->State.Mesh.Rings.size(), 0);
+  this->Working = this->Awake;
+  for (int v : this->Awake)
+  {
+    this->Marked[v] = 1;
+  }
+  for (int v : this->Awake)
+  {
+    this->MarkRing(v);
+  }
+  for (std::size_t i = this->Awake.size(); i < this->Working.size(); ++i)
+  {
+    this->State.Before[this->Working[i]] = this->State.Mesh.Position[this->Working[i]];
+  }
+}
+
+void SurfaceEvolution::Implementation::UpdateTouched()
+{
+  std::vector<int>& touched = this->State.Touched;
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  this->State.UpdateShape(touched, this->Threads);
+  touched.clear();
+}
+
+void SurfaceEvolution::Implementation::RollBack()
+{
+  // The mesh before the displacement was free of intersections, and so is any mesh all of whose
+  // vertices have gone back: take back more and more about each hit until none is left.
+  SurfaceState& s = this->State;
+  const std::vector<Proximity::Meeting>* meetings = &this->Near.Meetings();
+  std::vector<int> back;
+  std::vector<int> list;
+  constexpr int rounds = 12;
+  for (int round = 0; round < rounds && !meetings->empty(); ++round)
+  {
+    back.clear();
+    for (const Proximity::Meeting& meeting : *meetings)
+    {
+      back.insert(back.end(), meeting.First.begin(), meeting.First.end());
+      back.insert(back.end(), meeting.Second.begin(), meeting.Second.end());
+    }
+    for (int widening = 0; widening < round - 1; ++widening)
+    {
+      const std::size_t n = back.size();
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const Ring& ring = s.Mesh.Rings[back[i]];
+        back.insert(back.end(), ring.Item, ring.Item + ring.Count);
+      }
+      std::sort(back.begin(), back.end());
+      back.erase(std::unique(back.begin(), back.end()), back.end());
+    }
+    std::sort(back.begin(), back.end());
+    back.erase(std::unique(back.begin(), back.end()), back.end());
+    bool moved = false;
+    list = back;
+    for (int v : back)
+    {
+      // Vertices that are not in the working list have not moved; their Before may be old.
+      if (!this->Marked[v])
+      {
+        continue;
+      }
+      const Vector& before = s.Before[v];
+      moved = moved || SquaredDistance(before, s.Mesh.Position[v]) > 0;
+      s.MoveTo(v, before);
+      s.Velocity[v] = Vector();
+      s.Stuck[v] = static_cast<std::uint8_t>(std::min(s.Stuck[v] + 2, 200));
+      s.Awake[v] = 1;
+      s.Quiet[v] = 0;
+      list.insert(list.end(), s.Mesh.Rings[v].Item, s.Mesh.Rings[v].Item + s.Mesh.Rings[v].Count);
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    s.UpdateShape(list, this->Threads);
+    this->Recheck.Examine(s, list, this->Threads);
+    meetings = &this->Recheck.Meetings();
+    (void)moved;
+  }
+  if (!meetings->empty())
+  {
+    ++this->Unresolved;
+  }
+}
+
+double SurfaceEvolution::Implementation::SweptVolume()
+{
+  const SurfaceState& s = this->State;
+  constexpr std::size_t size = 2048;
+  this->Swept.assign((this->Working.size() + size - 1) / size, 0.);
+  ForBlocks(this->Threads, this->Working.size(), size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      double sum = 0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = this->Working[i];
+        sum += static_cast<double>(Dot(s.Mesh.Position[v] - s.Before[v], s.Normal[v])) *
+          s.Pull[v].Unused;
+      }
+      this->Swept[b] = sum;
+    });
+  double sum = 0;
+  for (double x : this->Swept)
+  {
+    sum += x;
+  }
+  return sum;
+}
+
+void SurfaceEvolution::Implementation::Iterate(
+  HistoryRow& row, Dynamics& dynamics, Remesher& remesher)
+{
+  SurfaceState& s = this->State;
+  Stopwatch watch(row);
+  s.Counts = EditCounts();
+  this->CollectAwake();
+  row.ActiveVertices = static_cast<int>(this->Awake.size());
+  dynamics.Accelerate(s, this->Awake, this->Near.Pairs());
+  row.TimeStep = dynamics.TimeStep();
+  watch.Lap(Phase::Forces);
+
+  dynamics.Displace(s, this->Awake);
+  this->CollectWorking();
+  s.UpdateShape(this->Working, this->Threads);
+  watch.Lap(Phase::Contact);
+
+  remesher.Split(this->Working);
+  this->Marked.resize(s.Mesh.Rings.size(), 1);
+  for (int v : s.Touched)
+  {
+    if (!this->Marked[v])
+    {
+      this->Marked[v] = 1;
+      s.Before[v] = s.Mesh.Position[v];
+      this->Working.push_back(v);
+    }
+  }
+  this->UpdateTouched();
+  watch.Lap(Phase::Remeshing);
+
+  this->Near.Examine(s, this->Working, this->Threads);
+  watch.Lap(Phase::Proximity);
+  this->RollBack();
+  this->Volume += this->SweptVolume();
+  dynamics.Freeze(s, this->Awake);
+  watch.Lap(Phase::Verification);
+
+  remesher.Merge(this->Near.Pairs());
+  watch.Lap(Phase::Topology);
+  remesher.Collapse(this->Working);
+  remesher.Flip(this->Working);
+  remesher.Unstick(this->Working);
+  for (int v : this->Working)
+  {
+    if (s.Stuck[v] > 0)
+    {
+      --s.Stuck[v];
+    }
+  }
+  this->UpdateTouched();
+  watch.Lap(Phase::Remeshing);
+
+  if (s.Counts.Merges + s.Counts.Cuts > 0)
+  {
+    this->Watch.Label(s);
+  }
+  this->Watch.DeleteDoomed(s);
+  watch.Lap(Phase::Topology);
+  this->FillRow(row);
+  watch.Stop();
+}
+
+void SurfaceEvolution::Implementation::FillRow(HistoryRow& row) const
+{
+  const SurfaceState& s = this->State;
+  row.Iteration = static_cast<int>(this->Rows.size()) + 1;
+  row.Level = this->Level;
+  row.Vertices = s.Mesh.NumberOfVertices();
+  row.Merges = s.Counts.Merges;
+  row.Cuts = s.Counts.Cuts;
+  row.Splits = s.Counts.Splits;
+  row.Collapses = s.Counts.Collapses;
+  row.Flips = s.Counts.Flips;
+  row.EulerCharacteristic = s.EulerCharacteristic;
+  row.Components = this->Watch.NumberOfComponents();
+  double energy = 0;
+  for (int v : this->Awake)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      const double speed = Dot(s.Velocity[v], s.Normal[v]);
+      energy += 0.5 * speed * speed;
+    }
+  }
+  row.KineticEnergy = energy / std::max(row.Vertices, 1);
+}
+
+StopReason SurfaceEvolution::Implementation::Run()
+{
+  SurfaceState& s = this->State;
+  this->LastIterations = 0;
+  this->Rest.Reset();
+  {
+    std::vector<int> all;
+    for (int v = 0; v < s.Mesh.Size(); ++v)
+    {
+      if (s.Mesh.IsAlive(v))
+      {
+        all.push_back(v);
+      }
+    }
+    this->Volume = all.empty() ? 0. : SignedVolume(s.Mesh, all);
+  }
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  const bool evidence = this->Options.IsopotentialWeight > 0;
+  Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
+  const double cube = std::pow(static_cast<double>(s.Delta), 3);
+  while (true)
+  {
+    if (s.Mesh.NumberOfVertices() == 0)
+    {
+      return StopReason::Vanished;
+    }
+    if (this->LastIterations >= this->Options.MaximumNumberOfIterations)
+    {
+      return StopReason::IterationLimit;
+    }
+    HistoryRow row;
+    this->Iterate(row, dynamics, remesher);
+    this->Rows.push_back(row);
+    ++this->LastIterations;
+    this->Rest.Add(this->Volume);
+    Monitor::Status status;
+    status.Level = this->Level;
+    status.Iteration = this->LastIterations;
+    status.Vertices = row.Vertices;
+    status.ActiveVertices = row.ActiveVertices;
+    status.Fraction = 1. - std::exp(-this->LastIterations / 80.);
+    if (!this->Listener.Continue(status))
+    {
+      return StopReason::Cancelled;
+    }
+    if (this->Rest.IsMet(
+          std::max(cube, this->Options.ConvergenceTolerance * std::abs(this->Volume))))
+    {
+      return s.Mesh.NumberOfVertices() == 0 ? StopReason::Vanished : StopReason::Converged;
+    }
+  }
+}
+
+SurfaceEvolution::SurfaceEvolution(
+  const SurfaceOptions& options, Executor& executor, Monitor& monitor)
+{
+  CheckRange("SamplingRatio", options.SamplingRatio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
+  CheckRange("TensionWeight", options.TensionWeight, 0., 1e6);
+  CheckRange("ElasticityWeight", options.ElasticityWeight, 0., 1e6);
+  CheckRange("IsopotentialWeight", options.IsopotentialWeight, 0., 1e6);
+  CheckRange("GradientWeight", options.GradientWeight, 0., 1e6);
+  CheckRange("Friction", options.Friction, 1e-6, 1e6);
+  CheckRange("SeedRadius", options.SeedRadius, 0., 1e9);
+  CheckRange("ConvergenceTolerance", options.ConvergenceTolerance, 0., 1.);
+  CheckRange("MaximumStep", options.MaximumStep, 1e-3, 0.5);
+  this->Self = std::make_unique<Implementation>(options, executor, monitor);
+}
+
+SurfaceEvolution::~SurfaceEvolution() = default;
+
+void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
+{
+  Implementation& self = *this->Self;
+  self.Enter(image, level);
+  self.State.Mesh.Clear();
+  self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Delta));
+  self.Reset();
+}
+
+int SurfaceEvolution::StartSeeds(
+  const LevelImage& image, int level, const std::vector<Point>& centres)
+{
+  Implementation& self = *this->Self;
+  self.Enter(image, level);
+  const double delta = self.State.Delta;
+  const double radius = std::max(
+    self.Options.SeedRadius > 0. ? self.Options.SeedRadius : 1.2 * delta, SmallestSeed * delta);
+  const std::vector<Point> places =
+    ChooseSeeds(*self.TheField, centres, 2. * radius + 1.6 * delta);
+  self.State.Mesh.Clear();
+  for (const Point& centre : places)
+  {
+    self.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
+  }
+  self.Reset();
+  return static_cast<int>(places.size());
+}
+
+void SurfaceEvolution::StartSurface(
+  const LevelImage& image, int level, const IndexedSurface& surface)
+{
+  CheckInitialSurface(surface);
+  CheckOverlapsImage(surface, image);
+  Implementation& self = *this->Self;
+  self.Enter(image, level);
+  self.State.Mesh.Clear();
+  self.State.Mesh.Append(surface);
+  self.Reset();
+}
+
+StopReason SurfaceEvolution::Run()
+{
+  return this->Self->Run();
+}
+
+void SurfaceEvolution::Divide(const LevelImage& image, int level)
+{
+  Implementation& self = *this->Self;
+  self.State.Mesh.Reorder(SpaceFillingOrder(self.State.Mesh, self.State.Delta));
+  volumic::Divide(self.State.Mesh);
+  self.Enter(image, level);
+  self.Reset();
+}
+
+SurfaceResult SurfaceEvolution::Result() const
+{
+  const SurfaceState& s = this->Self->State;
+  SurfaceResult result;
+  static_cast<IndexedSurface&>(result) = s.Mesh.ToIndexed();
+  result.Delta = s.Delta;
+  const float sign = this->Self->Options.ObjectIsBright ? 1.f : -1.f;
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      const Vector& n = s.Normal[v];
+      result.Normals.push_back({ n.X, n.Y, n.Z });
+      result.Residual.push_back(sign * this->Self->TheField->ValueAt(s.Mesh.Position[v]));
+      result.Motionless.push_back(!s.Awake[v]);
+    }
+  }
+  return result;
+}
+
+const std::vector<HistoryRow>& SurfaceEvolution::History() const
+{
+  return this->Self->Rows;
+}
+
+int SurfaceEvolution::Iterations() const
+{
+  return this->Self->LastIterations;
+}
+
+SurfaceEvolution::LostParts SurfaceEvolution::Lost() const
+{
+  return this->Self->LastLost;
+}
+}
