@@ -3,7 +3,6 @@
 
 # What a user can choose, and what follows from it for all targets.
 
-include(CMakeDependentOption)
 include(GNUInstallDirs)
 
 option(VOLUMIC_BUILD_PARAVIEW_PLUGIN "Build against ParaView, with its plugin (OFF: against VTK)" OFF)
@@ -33,3 +32,11 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+
+# What is wanted of VTK: the module's own dependencies, and the wrapper's. Tests, examples and
+# benchmarks ask for more themselves.
+set(volumic_vtk_components
+  CommonCore CommonDataModel CommonExecutionModel CommonMath FiltersCore ImagingCore)
+if (VOLUMIC_WRAP_PYTHON)
+  list(APPEND volumic_vtk_components Python WrappingPythonCore)
+endif ()

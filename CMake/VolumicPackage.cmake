@@ -6,16 +6,22 @@
 include(CMakePackageConfigHelpers)
 
 set(volumic_vtk_dir "${${VOLUMIC_VTK_PACKAGE}_DIR}")
-configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/Volumic-config.cmake.in"
-  "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/Volumic-config.cmake"
+# ParaView is found as a whole, of VTK the modules that ours needs.
+set(volumic_dependency_components "")
+if (NOT VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+  list(JOIN volumic_vtk_components " " volumic_dependency_components)
+  string(PREPEND volumic_dependency_components "COMPONENTS ")
+endif ()
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/VolumicConfig.cmake.in"
+  "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/VolumicConfig.cmake"
   INSTALL_DESTINATION "${volumic_cmake_destination}")
 write_basic_package_version_file(
-  "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/Volumic-config-version.cmake"
+  "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/VolumicConfigVersion.cmake"
   VERSION "${Volumic_VERSION}"
   COMPATIBILITY SameMinorVersion)
 install(
   FILES
-    "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/Volumic-config.cmake"
-    "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/Volumic-config-version.cmake"
+    "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/VolumicConfig.cmake"
+    "${CMAKE_BINARY_DIR}/${volumic_cmake_destination}/VolumicConfigVersion.cmake"
   DESTINATION "${volumic_cmake_destination}"
   COMPONENT development)

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef FilterTestTools_h
+#define FilterTestTools_h
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkExecutive.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+#include <vtkWeakPointer.h>
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What the tests of the VTK classes share.
+namespace volumic
+{
+/// Collects what an algorithm or executive says under an event (errors, warnings), unprinted.
+class MessagesOf
+{
+public:
+  explicit MessagesOf(vtkObject* speaker, unsigned long event = vtkCommand::ErrorEvent)
+  {
+    this->Command->SetClientData(&this->Text);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* client, void* message)
+      { *static_cast<std::string*>(client) += static_cast<const char*>(message); });
+    this->Observe(speaker, event, this->Command);
+    auto* algorithm = vtkAlgorithm::SafeDownCast(speaker);
+    if (algorithm && event == vtkCommand::ErrorEvent)
+    {
+      // The executive reports each failure again, without the reason.
+      this->Silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+      this->Observe(algorithm->GetExecutive(), event, this->Silent);
+    }
+  }
+  ~MessagesOf()
+  {
+    for (const auto& observed : this->Observed)
+    {
+      if (observed.first)
+      {
+        observed.first->RemoveObserver(observed.second);
+      }
+    }
+  }
+  MessagesOf(const MessagesOf&) = delete;
+  MessagesOf& operator=(const MessagesOf&) = delete;
+
+  const std::string& Get() const { return this->Text; }
+  bool Has(const std::string& part) const { return this->Text.find(part) != std::string::npos; }
+
+private:
+  void Observe(vtkObject* speaker, unsigned long event, vtkCommand* command)
+  {
+    this->Observed.emplace_back(speaker, speaker->AddObserver(event, command));
+  }
+
+  std::string Text;
+  vtkNew<vtkCallbackCommand> Command;
+  vtkNew<vtkCallbackCommand> Silent;
+  std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
+};
+
+/// An image with random voxels in [0, 100], named `Voxels`, first voxel at extent 0.
+inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int scalarType = VTK_FLOAT)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(nx, ny, nz);
+  image->AllocateScalars(scalarType, 1);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  voxels->SetName("Voxels");
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> value(0.0, 100.0);
+  for (vtkIdType i = 0; i < voxels->GetNumberOfTuples(); ++i)
+  {
+    voxels->SetComponent(i, 0, value(generator));
+  }
+  return image;
+}
+}
+
+#endif

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterTestTools.h"
+#include "vtkImagePyramid.h"
+
+#include <vtkCellData.h>
+#include <vtkExecutive.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/// Runs the filter, which must refuse, and gives its message; the output must be empty.
+class ImagePyramidErrors : public ::testing::Test
+{
+protected:
+  std::string ErrorOf(vtkImageData* image)
+  {
+    MessagesOf errors(this->Filter);
+    this->Filter->SetInputDataObject(image);
+    this->Filter->Update();
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
+    return errors.Get();
+  }
+
+  void ExpectError(vtkImageData* image, const std::vector<std::string>& parts)
+  {
+    const std::string error = this->ErrorOf(image);
+    for (const std::string& part : parts)
+    {
+      EXPECT_NE(error.find(part), std::string::npos) << "no `" << part << "` in: " << error;
+    }
+  }
+
+  vtkNew<vtkImagePyramid> Filter;
+};
+}
+
+TEST_F(ImagePyramidErrors, NoInput)
+{
+  const MessagesOf errors(this->Filter->GetExecutive());
+  this->Filter->Update();
+  EXPECT_TRUE(errors.Has("Input port 0")) << errors.Get();
+  EXPECT_TRUE(errors.Has("has 0 connections")) << errors.Get();
+}
+
+TEST_F(ImagePyramidErrors, InputThatIsNoImage)
+{
+  const MessagesOf errors(this->Filter->GetExecutive());
+  vtkNew<vtkPolyData> surface;
+  this->Filter->SetInputDataObject(surface);
+  this->Filter->Update();
+  EXPECT_TRUE(errors.Has("vtkImageData")) << errors.Get();
+}
+
+TEST_F(ImagePyramidErrors, EmptyImage)
+{
+  vtkNew<vtkImageData> image;
+  this->ExpectError(image, { "Input port 0", "empty", "0 x 0 x 0" });
+}
+
+TEST_F(ImagePyramidErrors, NoArray)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(20, 20, 20);
+  this->ExpectError(image, { "no active point scalars", "no point data" });
+}
+
+TEST_F(ImagePyramidErrors, NoActiveArrayNamesThoseThereAre)
+{
+  const auto image = RandomImage(20, 20, 20);
+  image->GetPointData()->SetActiveScalars(nullptr);
+  this->ExpectError(image, { "no active point scalars", "'Voxels'", "SetInputArrayToProcess" });
+}
+
+TEST_F(ImagePyramidErrors, NamedArrayMissing)
+{
+  this->Filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  this->ExpectError(RandomImage(20, 20, 20), { "no point array 'Density'", "'Voxels'" });
+}
+
+TEST_F(ImagePyramidErrors, CellDataHasAWayOut)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(5, 5, 5);
+  vtkNew<vtkFloatArray> cells;
+  cells->SetName("Density");
+  cells->SetNumberOfTuples(64);
+  image->GetCellData()->SetScalars(cells);
+  this->ExpectError(image, { "no active point scalars", "Cell Data to Point Data" });
+  this->Filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Density");
+  this->ExpectError(image, { "'Density'", "not point data", "Cell Data to Point Data" });
+}
+
+TEST_F(ImagePyramidErrors, SeveralComponents)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(20, 20, 20);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  image->GetPointData()->GetScalars()->SetName("Colour");
+  this->ExpectError(image, { "'Colour'", "3 components" });
+}
+
+TEST_F(ImagePyramidErrors, StringArray)
+{
+  const auto image = RandomImage(4, 4, 4);
+  vtkNew<vtkStringArray> strings;
+  strings->SetName("Words");
+  strings->SetNumberOfValues(64);
+  image->GetPointData()->AddArray(strings);
+  this->Filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Words");
+  this->ExpectError(image, { "'Words'", "string", "'Voxels'" });
+}
+
+TEST_F(ImagePyramidErrors, WrongNumberOfValues)
+{
+  const auto image = RandomImage(20, 20, 20);
+  image->GetPointData()->GetScalars()->SetNumberOfTuples(7999);
+  this->ExpectError(image, { "'Voxels'", "7999 values", "20 x 20 x 20" });
+}
+
+TEST_F(ImagePyramidErrors, NotFiniteVoxelsAreCountedAndTheFirstIsNamed)
+{
+  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    const auto image = RandomImage(20, 30, 40, type);
+    image->SetExtent(100, 119, 0, 29, -5, 34);
+    vtkDataArray* voxels = image->GetPointData()->GetScalars();
+    voxels->SetComponent((12 * 30 + 7) * 20 + 3, 0, std::numeric_limits<double>::quiet_NaN());
+    voxels->SetComponent((39 * 30 + 1) * 20, 0, -std::numeric_limits<double>::infinity());
+    this->ExpectError(
+      image, { "'Voxels'", "2 NaN or infinite voxels", "the first at (103, 7, 7)" });
+  }
+}
+
+TEST_F(ImagePyramidErrors, ReductionFactorOutsideItsRange)
+{
+  for (const double factor : { 1.0, 2.0, -3.0 })
+  {
+    this->Filter->SetReductionFactor(factor);
+    this->ExpectError(RandomImage(20, 20, 20), { "ReductionFactor", "between 1 and 2" });
+  }
+}
+
+TEST_F(ImagePyramidErrors, MoreLevelsThanTheImageGives)
+{
+  this->Filter->SetNumberOfLevels(12);
+  this->ExpectError(
+    RandomImage(20, 20, 20), { "NumberOfLevels is 12", "20 x 20 x 20", "at most 5 levels" });
+}
+
+TEST_F(ImagePyramidErrors, NegativeOptions)
+{
+  this->Filter->SetNumberOfLevels(-2);
+  this->ExpectError(RandomImage(20, 20, 20), { "NumberOfLevels is -2" });
+  this->Filter->SetNumberOfLevels(0);
+  this->Filter->SetMinimumLevelSize(-1);
+  this->ExpectError(RandomImage(20, 20, 20), { "MinimumLevelSize is -1" });
+}
+
+TEST_F(ImagePyramidErrors, ZeroSpacing)
+{
+  const auto image = RandomImage(20, 20, 20);
+  image->SetSpacing(1, 1, 0);
+  this->ExpectError(image, { "spacing along axis z is 0" });
+}
+
+TEST_F(ImagePyramidErrors, WorksAgainAfterAnError)
+{
+  this->Filter->SetNumberOfLevels(12);
+  this->ErrorOf(RandomImage(20, 20, 20));
+  this->Filter->SetNumberOfLevels(2);
+  this->Filter->Update();
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
+}
+
+TEST_F(ImagePyramidErrors, AnErrorLeavesNoOldOutput)
+{
+  this->Filter->SetInputDataObject(RandomImage(20, 20, 20));
+  this->Filter->SetNumberOfLevels(2);
+  this->Filter->Update();
+  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  this->Filter->SetNumberOfLevels(12);
+  this->ErrorOf(RandomImage(20, 20, 20));
+}
+
+namespace
+{
+/// Memory of this process in bytes, or 0 where that can't be told.
+std::size_t AddressSpaceInUse()
+{
+  std::size_t pages = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
+  {
+    if (std::fscanf(file, "%zu", &pages) != 1)
+    {
+      pages = 0;
+    }
+    std::fclose(file);
+  }
+  return pages * 4096;
+}
+
+/// In a process of its own, because the limit is for the whole process: exits with 0 if the filter
+/// says that the memory does not suffice.
+[[noreturn]] void RunWithoutMemory()
+{
+  const auto image = RandomImage(300, 300, 300, VTK_UNSIGNED_CHAR);
+  vtkNew<vtkImagePyramid> filter;
+  filter->SetNumberOfThreads(1);
+  filter->SetInputDataObject(image);
+  MessagesOf errors(filter);
+  // Level 1 takes 21 MB.
+  const rlim_t limit = AddressSpaceInUse() + 8 * 1024 * 1024;
+  const rlimit limits = { limit, limit };
+  setrlimit(RLIMIT_AS, &limits);
+  filter->Update();
+  const bool isRight = errors.Has("memory does not suffice") && errors.Has("level 1") &&
+    filter->GetOutput()->GetNumberOfBlocks() == 0;
+  std::fprintf(stderr, "%s", isRight ? "refused in words" : errors.Get().c_str());
+  std::_Exit(isRight ? 0 : 1);
+}
+}
+
+TEST_F(ImagePyramidErrors, MemoryThatCannotBeHad)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve more address space than the limit";
+#endif
+  if (AddressSpaceInUse() == 0)
+  {
+    GTEST_SKIP() << "the system does not tell the memory in use";
+  }
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(RunWithoutMemory(), ::testing::ExitedWithCode(0), "refused in words");
+}

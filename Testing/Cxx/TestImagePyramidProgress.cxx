@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterTestTools.h"
+#include "vtkImagePyramid.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/// Listens to the progress and asks to stop once it has heard a share.
+struct Listener
+{
+  std::vector<double> Shares;
+  std::set<std::string> Texts;
+  double StopAt = 2.0;
+
+  explicit Listener(vtkAlgorithm* algorithm)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject* caller, unsigned long, void* client, void* data)
+      {
+        auto* self = static_cast<Listener*>(client);
+        auto* filter = vtkAlgorithm::SafeDownCast(caller);
+        self->Shares.push_back(*static_cast<double*>(data));
+        if (filter->GetProgressText())
+        {
+          self->Texts.insert(filter->GetProgressText());
+        }
+        if (self->Shares.back() >= self->StopAt)
+        {
+          filter->SetAbortExecute(1);
+        }
+      });
+    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
+  }
+
+  vtkNew<vtkCallbackCommand> Command;
+};
+
+std::string StopReason(vtkMultiBlockDataSet* pyramid)
+{
+  auto* reason =
+    vtkStringArray::SafeDownCast(pyramid->GetFieldData()->GetAbstractArray("StopReason"));
+  return reason ? reason->GetValue(0) : "";
+}
+
+vtkSmartPointer<vtkImageData> LargeImage()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(256, 256, 256);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  image->GetPointData()->GetScalars()->FillComponent(0, 1);
+  return image;
+}
+}
+
+TEST(ImagePyramidProgress, GrowsWithinALevelAndNamesIt)
+{
+  vtkNew<vtkImagePyramid> filter;
+  filter->SetInputData(LargeImage());
+  filter->SetNumberOfLevels(3);
+  Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
+  const auto inside = [](double share) { return share > 0.01 && share < 0.5; };
+  EXPECT_TRUE(std::any_of(listener.Shares.begin(), listener.Shares.end(), inside));
+  EXPECT_EQ(listener.Shares.back(), 1.0);
+  EXPECT_TRUE(listener.Texts.count("Level 1 of 2"));
+  EXPECT_TRUE(listener.Texts.count("Level 2 of 2"));
+}
+
+TEST(ImagePyramidProgress, CancellingWithinALevelHandsOverTheLevelsBefore)
+{
+  vtkNew<vtkImagePyramid> filter;
+  filter->SetInputData(LargeImage());
+  filter->SetNumberOfLevels(3);
+  Listener listener(filter);
+  listener.StopAt = 0.2; // within level 1
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 1u);
+  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
+}
+
+TEST(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
+{
+  vtkNew<vtkImagePyramid> filter;
+  filter->SetInputData(LargeImage());
+  filter->SetNumberOfLevels(3);
+  Listener listener(filter);
+  listener.StopAt = 0.83; // level 1 is 0.84 of the work
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
+  auto* level1 = vtkImageData::SafeDownCast(filter->GetOutput()->GetBlock(1));
+  const double* range = level1->GetPointData()->GetScalars()->GetRange();
+  EXPECT_NEAR(range[0], 1.0, 1e-6) << "what is handed over is finished";
+  EXPECT_NEAR(range[1], 1.0, 1e-6);
+}
+
+TEST(ImagePyramidProgress, RunsToTheEndAfterACancelledRun)
+{
+  vtkNew<vtkImagePyramid> filter;
+  filter->SetInputData(LargeImage());
+  filter->SetNumberOfLevels(3);
+  Listener listener(filter);
+  listener.StopAt = 0.0;
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 1u);
+  listener.StopAt = 2.0;
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
+  EXPECT_EQ(StopReason(filter->GetOutput()), "complete");
+}

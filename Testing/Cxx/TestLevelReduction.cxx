@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LevelReduction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+const LevelProgress GoOn = [](double) { return true; };
+
+/// Hands out ranges as scheduling might: short ones, last first.
+class ScrambledExecutor : public Executor
+{
+public:
+  explicit ScrambledExecutor(std::size_t chunk) : Chunk(chunk) {}
+  void For(
+    std::size_t n, std::size_t, const std::function<void(std::size_t, std::size_t)>& body) override
+  {
+    for (std::size_t end = n; end > 0;)
+    {
+      const std::size_t begin = end > this->Chunk ? end - this->Chunk : 0;
+      body(begin, end);
+      end = begin;
+    }
+  }
+
+private:
+  std::size_t Chunk;
+};
+
+template <typename T>
+std::vector<T> RandomVoxels(std::int64_t n)
+{
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::vector<T> voxels(n);
+  for (T& voxel : voxels)
+  {
+    voxel = static_cast<T>(share(generator) * 120.0);
+  }
+  return voxels;
+}
+
+template <typename T>
+std::vector<typename RealOf<T>::Type> Reduce(
+  const std::vector<T>& voxels, const std::vector<LevelGeometry>& levels, Executor& executor)
+{
+  std::vector<typename RealOf<T>::Type> out(levels[1].NumberOfVoxels(), -1);
+  EXPECT_TRUE(ReduceLevel(voxels.data(), levels[0], out.data(), levels[1], executor, GoOn));
+  return out;
+}
+
+std::vector<LevelGeometry> TwoLevels(
+  const LevelSize& size, const std::array<double, 3>& spacing = { 1, 1, 1 })
+{
+  PyramidOptions options;
+  options.NumberOfLevels = 2;
+  return PlanPyramid(size, spacing, options);
+}
+}
+
+TEST(LevelReduction, IsTheSameBitsForAnyChunks)
+{
+  // Long enough along y for several tiles; sizes that no vector length divides.
+  const auto levels = TwoLevels({ 61, 203, 23 }, { 1, 1, 2.5 });
+  const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
+  SequentialExecutor sequential;
+  const auto expected = Reduce(voxels, levels, sequential);
+  for (const std::size_t chunk : { 1, 3, 7 })
+  {
+    ScrambledExecutor scrambled(chunk);
+    const auto found = Reduce(voxels, levels, scrambled);
+    EXPECT_EQ(std::memcmp(found.data(), expected.data(), expected.size() * sizeof(expected[0])), 0)
+      << "chunks of " << chunk;
+  }
+}
+
+template <typename T>
+class LevelReductionOf : public ::testing::Test
+{
+};
+using Scalars = ::testing::Types<char, signed char, unsigned char, short, unsigned short, int,
+  unsigned int, long, unsigned long, long long, unsigned long long, float, double>;
+TYPED_TEST_SUITE(LevelReductionOf, Scalars);
+
+TYPED_TEST(LevelReductionOf, GivesWhatDoublesGive)
+{
+  using Real = typename RealOf<TypeParam>::Type;
+  const bool isDouble = std::is_same<TypeParam, double>::value;
+  EXPECT_EQ((std::is_same<Real, double>::value), isDouble);
+  const auto levels = TwoLevels({ 19, 14, 9 }, { 1, 1.3, 2.5 });
+  const auto voxels = RandomVoxels<TypeParam>(levels[0].NumberOfVoxels());
+  SequentialExecutor executor;
+  const auto found = Reduce(voxels, levels, executor);
+  const auto expected = Reduce(std::vector<double>(voxels.begin(), voxels.end()), levels, executor);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_NEAR(found[i], expected[i], isDouble ? 0.0 : 1e-4) << "voxel " << i;
+  }
+}
+
+TEST(LevelReduction, EveryVectorLengthLeavesARightRemainder)
+{
+  SequentialExecutor executor;
+  for (std::int64_t width = 1; width <= 40; ++width)
+  {
+    const auto levels = TwoLevels({ width, 11, 5 });
+    const auto voxels = RandomVoxels<short>(levels[0].NumberOfVoxels());
+    const auto found = Reduce(voxels, levels, executor);
+    const auto expected =
+      Reduce(std::vector<double>(voxels.begin(), voxels.end()), levels, executor);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      ASSERT_NEAR(found[i], expected[i], 1e-4) << "width " << width << ", voxel " << i;
+    }
+  }
+}
+
+TEST(LevelReduction, WritesNothingPastTheOutput)
+{
+  const auto levels = TwoLevels({ 37, 21, 7 });
+  const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
+  const std::int64_t n = levels[1].NumberOfVoxels();
+  std::vector<float> out(n + 64, -77.f);
+  SequentialExecutor executor;
+  ReduceLevel(voxels.data(), levels[0], out.data() + 32, levels[1], executor, GoOn);
+  EXPECT_EQ(std::count(out.begin(), out.begin() + 32, -77.f), 32);
+  EXPECT_EQ(std::count(out.end() - 32, out.end(), -77.f), 32);
+  EXPECT_EQ(std::count(out.begin(), out.end(), -77.f), 64) << "every voxel of the level is written";
+}
+
+TEST(LevelReduction, StopsWhenAsked)
+{
+  // Large enough for several reports: one per few million voxels.
+  const auto levels = TwoLevels({ 256, 256, 200 });
+  const std::vector<unsigned char> voxels(levels[0].NumberOfVoxels(), 1);
+  std::vector<float> out(levels[1].NumberOfVoxels(), -1.f);
+  SequentialExecutor executor;
+  int reports = 0;
+  const auto stop = [&](double share)
+  {
+    EXPECT_LT(share, 1.0);
+    ++reports;
+    return false;
+  };
+  EXPECT_FALSE(ReduceLevel(voxels.data(), levels[0], out.data(), levels[1], executor, stop));
+  EXPECT_EQ(reports, 1);
+  EXPECT_EQ(out.back(), -1.f) << "the rest is not computed after a stop";
+}
+
+TEST(LevelReduction, ReportsGrowingShares)
+{
+  const auto levels = TwoLevels({ 256, 256, 200 });
+  const std::vector<unsigned char> voxels(levels[0].NumberOfVoxels(), 1);
+  std::vector<float> out(levels[1].NumberOfVoxels());
+  SequentialExecutor executor;
+  std::vector<double> shares;
+  ReduceLevel(voxels.data(), levels[0], out.data(), levels[1], executor,
+    [&](double share)
+    {
+      shares.push_back(share);
+      return true;
+    });
+  EXPECT_GE(shares.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1.0);
+}
+
+TEST(FindNotFiniteVoxels, CountsAndFindsTheFirst)
+{
+  std::vector<float> voxels(300000, 1.f);
+  SequentialExecutor executor;
+  EXPECT_EQ(FindNotFiniteVoxels(voxels.data(), 300000, executor).Count, 0);
+  EXPECT_EQ(FindNotFiniteVoxels(voxels.data(), 300000, executor).First, -1);
+  voxels[299999] = std::numeric_limits<float>::quiet_NaN();
+  voxels[70001] = -std::numeric_limits<float>::infinity();
+  voxels[70007] = std::numeric_limits<float>::infinity();
+  ScrambledExecutor scrambled(2);
+  for (Executor* e : { static_cast<Executor*>(&executor), static_cast<Executor*>(&scrambled) })
+  {
+    const NotFiniteVoxels found = FindNotFiniteVoxels(voxels.data(), 300000, *e);
+    EXPECT_EQ(found.Count, 3);
+    EXPECT_EQ(found.First, 70001);
+  }
+}
+
+TEST(FindNotFiniteVoxels, FindsNoneInIntegers)
+{
+  const std::vector<int> voxels(10, std::numeric_limits<int>::max());
+  SequentialExecutor executor;
+  EXPECT_EQ(FindNotFiniteVoxels(voxels.data(), 10, executor).Count, 0);
+}
