@@ -201,8 +201,8 @@ def add_occlusion(renderer, bounds, zoom):
     radius = np.linalg.norm(np.diff(np.reshape(bounds, (3, 2)))) / zoom
     occlusion = vtkSSAOPass()
     occlusion.SetDelegatePass(vtkRenderStepsPass())
-    occlusion.SetRadius(0.05 * radius)
-    occlusion.SetBias(0.002 * radius)
+    occlusion.SetRadius(0.12 * radius)
+    occlusion.SetBias(0.012 * radius)
     occlusion.SetKernelSize(64)
     occlusion.BlurOn()
     renderer.SetPass(occlusion)
