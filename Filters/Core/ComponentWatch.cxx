@@ -7,7 +7,7 @@ namespace volumic
 namespace
 {
 /** Components up to this many vertices are watched. */
-constexpr int SmallSize = 120;
+constexpr int SmallSize = 400;
 /** Up to this many they are deleted when wholly on the wrong side. */
 constexpr int TinySize = 24;
 /** Up to this many they are nothing any more. */

@@ -95,6 +95,7 @@ struct SurfaceEvolution::Implementation
   std::vector<std::uint8_t> Marked;
   std::vector<double> Swept;
   double Volume = 0;
+  int Shrunk = 0; ///< Collapses since components were labelled last.
   int Unresolved = 0;
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
@@ -261,7 +262,7 @@ void SurfaceEvolution::Implementation::RollBack()
   }
   if (!meetings->empty())
   {
-    ++this->Unresolved;
+    ++this->Unresolved; if(getenv("VDBG")) for(auto&m:*meetings) printf("unresolved %d %d %d / %d %d %d\n",m.First[0],m.First[1],m.First[2],m.Second[0],m.Second[1],m.Second[2]);
   }
 }
 
@@ -307,8 +308,13 @@ void SurfaceEvolution::Implementation::Iterate(
   s.UpdateShape(this->Working, this->Threads);
   watch.Lap(Phase::Contact);
 
+  const std::size_t unsplit = this->Working.size();
   remesher.Split(this->Working);
-  this->Marked.resize(s.Mesh.Rings.size(), 1);
+  this->Marked.resize(s.Mesh.Rings.size(), 0);
+  for (std::size_t i = unsplit; i < this->Working.size(); ++i)
+  {
+    this->Marked[this->Working[i]] = 1; // New, with a place before of its own.
+  }
   for (int v : s.Touched)
   {
     if (!this->Marked[v])
@@ -343,9 +349,13 @@ void SurfaceEvolution::Implementation::Iterate(
   this->UpdateTouched();
   watch.Lap(Phase::Remeshing);
 
-  if (s.Counts.Merges + s.Counts.Cuts > 0)
+  // A component may become a small one without any change of topology.
+  this->Shrunk += s.Counts.Collapses;
+  constexpr int suspicious = 40;
+  if (s.Counts.Merges + s.Counts.Cuts > 0 || this->Shrunk > suspicious)
   {
     this->Watch.Label(s);
+    this->Shrunk = 0;
   }
   this->Watch.DeleteDoomed(s);
   watch.Lap(Phase::Topology);
