@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""ParaView's real window on a screen of its own (Xvfb): events are played, then a picture is taken.
+
+The events are those that ParaView's own test recorder writes (Tools > Record Test): an object's path
+in the tree of widgets, a command and its arguments.
+"""
+
+import os
+import select
+import subprocess
+import tempfile
+import time
+from xml.sax.saxutils import quoteattr
+
+import numpy
+from paraview.vtk.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
+
+WINDOW = "pqClientMainWindow"
+PANEL = f"{WINDOW}/propertiesDock/propertiesPanel"
+
+
+def event(path, command, arguments=""):
+    return f"<pqevent object={quoteattr(path)} command={quoteattr(command)} " \
+           f"arguments={quoteattr(arguments)}/>"
+
+
+def check(path, property_, value):
+    """Fails the session unless the widget's Qt property has that value."""
+    return f"<pqcheck object={quoteattr(path)} property={quoteattr(property_)} " \
+           f"arguments={quoteattr(value)}/>"
+
+
+def pause(milliseconds):
+    return event(WINDOW, "pause", str(milliseconds))
+
+
+class Session:
+    """Starts Xvfb and paraview; `play` returns when all events have been played or one failed."""
+
+    def __init__(self, paraview, plugin, xvfb, size=(1400, 1000)):
+        self._paraview = paraview
+        self._plugin = plugin
+        self._folder = tempfile.TemporaryDirectory(prefix="volumic-window-")
+        self._server, display = self._start_server(xvfb, size)
+        # A home of its own: neither the user's settings nor a first start's dialogs play a part.
+        self._environment = dict(os.environ, DISPLAY=display, QT_QPA_PLATFORM="xcb",
+                                 HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name,
+                                 LIBGL_ALWAYS_SOFTWARE="1")
+        self._window = None
+        self.output = ""
+
+    def _start_server(self, xvfb, size):
+        read_end, write_end = os.pipe()
+        server = subprocess.Popen(
+            [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24",
+             "-fbdir", self._folder.name, "-nolisten", "tcp"],
+            pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+        os.close(write_end)
+        ready, _, _ = select.select([read_end], [], [], 30)
+        with os.fdopen(read_end) as answer:
+            number = answer.readline().strip() if ready else ""
+        if not number:
+            server.kill()
+            raise RuntimeError("Xvfb did not start")
+        return server, f":{number}"
+
+    def play(self, events, timeout=240):
+        """Play the events in a new window, which stays open. Returns whether all succeeded."""
+        script = os.path.join(self._folder.name, "events.xml")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(events) +
+                       "\n</pqevents>\n")
+        self._window = subprocess.Popen(
+            [self._paraview, "--dr", f"--plugin-search-paths={os.path.dirname(self._plugin)}",
+             "--plugins=Volumic", f"--test-script={script}"],
+            env=self._environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT)
+        deadline = time.monotonic() + timeout
+        said = b""
+        # It says no more than the latter when an event failed.
+        while not any(end in said for end in (b"Success = ", b"critical: In event")) \
+                and time.monotonic() < deadline:
+            ready, _, _ = select.select([self._window.stdout], [], [], 0.5)
+            if ready:
+                piece = os.read(self._window.stdout.fileno(), 65536)
+                if not piece:
+                    break
+                said += piece
+        self.output = said.decode(errors="replace")
+        return "Success =  true" in self.output
+
+    def screenshot(self, path):
+        """Write the window, without the empty rest of the screen, as PNG; return its pixels."""
+        with open(os.path.join(self._folder.name, "Xvfb_screen0"), "rb") as file:
+            data = file.read()
+        # The format of xwd: a header of big-endian words, a colour map, rows of 4 bytes a pixel.
+        words = numpy.frombuffer(data, ">u4", 25)
+        header_size, width, height, row, colours = (int(words[i]) for i in (0, 4, 5, 12, 19))
+        pixels = numpy.frombuffer(data, numpy.uint8, row * height, header_size + 12 * colours)
+        pixels = pixels.reshape(height, row)[:, : 4 * width].reshape(height, width, 4)
+        pixels = pixels[..., 2::-1] if words[7] == 0 else pixels[..., 1:]
+        lit = pixels.any(axis=2)
+        if lit.any():
+            pixels = pixels[: lit.any(axis=1).nonzero()[0][-1] + 1,
+                            : lit.any(axis=0).nonzero()[0][-1] + 1]
+        image = vtkImageData()
+        image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
+        flipped = numpy.ascontiguousarray(pixels[::-1]).reshape(-1, 3)
+        image.GetPointData().SetScalars(numpy_to_vtk(flipped, deep=True))
+        writer = vtkPNGWriter()
+        writer.SetFileName(path)
+        writer.SetInputData(image)
+        writer.SetCompressionLevel(9)
+        writer.Write()
+        return pixels
+
+    def close_window(self):
+        if self._window:
+            self._window.kill()
+            self._window.wait()
+            self._window.stdout.close()
+            self._window = None
+
+    def close(self):
+        self.close_window()
+        self._server.terminate()
+        self._server.wait()
+        self._folder.cleanup()

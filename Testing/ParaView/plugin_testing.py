@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the plugin share: loading it, images to filter, and reading what came out."""
+
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import servermanager
+from paraview import simple
+from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkImageData
+
+SQRT3 = 3.0**0.5
+
+
+def plugin_path():
+    return os.environ["VOLUMIC_PLUGIN"]
+
+
+def program(name):
+    """Path of one of ParaView's programs."""
+    return os.path.join(os.environ["VOLUMIC_PARAVIEW_BIN"], name)
+
+
+def output_path(name):
+    """Path for a file that a test writes."""
+    return os.path.join(os.environ["VOLUMIC_TEST_OUTPUT"], name)
+
+
+def load_plugin(remote=False):
+    simple.LoadPlugin(plugin_path(), remote=remote, ns=simple.__dict__)
+
+
+def make_image(values, spacing=(1.0, 1.0, 1.0), origin=(0.0, 0.0, 0.0), start=(0, 0, 0), name="v"):
+    """vtkImageData of values[z, y, x], whose extent begins at `start`."""
+    image = vtkImageData()
+    size = values.shape[::-1]
+    image.SetExtent(*[bound for s, n in zip(start, size) for bound in (s, s + n - 1)])
+    image.SetSpacing(spacing)
+    image.SetOrigin(origin)
+    add_array(image, values, name)
+    image.GetPointData().SetActiveScalars(name)
+    return image
+
+
+def add_array(image, values, name):
+    array = numpy_to_vtk(values.ravel(), deep=True)
+    array.SetName(name)
+    image.GetPointData().AddArray(array)
+
+
+def produce(data):
+    """A source of the pipeline whose output is the data object (not over a remote connection)."""
+    source = simple.TrivialProducer(registrationName="data")
+    source.GetClientSideObject().SetOutput(data)
+    source.UpdatePipeline()
+    return source
+
+
+def fetch(proxy):
+    """The output of a filter, on the client."""
+    proxy.UpdatePipeline()
+    return servermanager.Fetch(proxy)
+
+
+def levels(pyramid):
+    return [pyramid.GetBlock(h) for h in range(pyramid.GetNumberOfBlocks())]
+
+
+def voxels(image, name):
+    """Values of a point array as [z, y, x]."""
+    return vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(image.GetDimensions()[::-1])
+
+
+class CapturedMessages:
+    """With this, VTK's errors and warnings go to `text` and not to the console."""
+
+    def __enter__(self):
+        self._previous = vtkOutputWindow.GetInstance()
+        self._window = vtkStringOutputWindow()
+        vtkOutputWindow.SetInstance(self._window)
+        return self
+
+    def __exit__(self, *unused):
+        vtkOutputWindow.SetInstance(self._previous)
+
+    @property
+    def text(self):
+        return self._window.GetOutput()
+
+
+def main():
+    """Run the script's tests; the exit code says whether they passed."""
+    result = unittest.main(argv=["test"], exit=False, verbosity=2).result
+    sys.stdout.flush()
+    sys.stderr.flush()
+    # Not sys.exit: pvbatch 5.11 does not pass its code on in every case.
+    os._exit(0 if result.wasSuccessful() and result.testsRun > 0 else 1)
