@@ -103,6 +103,42 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
   this->Resist(state, pairs);
 }
 
+void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
+  const std::vector<Proximity::ClosePair>& pairs, bool snap)
+{
+  const float longest = 0.15f * state.Delta;
+  const float floor = GradientFloor * this->TheField.TypicalSlope();
+  this->Step = 1;
+  this->Threads.For(vertices.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = vertices[i];
+        Vector n = state.Normal[v];
+        n.Unused = 0;
+        Vector pull = state.Pull[v];
+        pull.Unused = 0;
+        Vector move = (pull - n * Dot(pull, n)) * 0.4f;
+        if (snap)
+        {
+          const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
+          const float slope = -Dot(sample.Gradient, n);
+          // Where the normal says nothing about the gradient the step would only do harm.
+          if (slope > floor && slope > 0.5f * Length(sample.Gradient))
+          {
+            const float step = sample.Value / slope;
+            move += n * std::min(std::max(step, -longest), longest);
+          }
+        }
+        const float length = Length(move);
+        state.Velocity[v] = length > longest ? move * (longest / length) : move;
+      }
+    });
+  // Contacts: nothing may come nearer than it is.
+  this->Resist(state, pairs);
+}
+
 void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
 {
   this->Groups.clear();

@@ -46,6 +46,14 @@ public:
   void Accelerate(SurfaceState& state, const std::vector<int>& awake,
     const std::vector<Proximity::ClosePair>& pairs);
 
+  /**
+   * Instead of Accelerate, at the end of a level: velocities that even the mesh out tangentially
+   * and, on request, lead onto the isopotential (Newton's step along the normal), never towards a
+   * contact.
+   */
+  void Relax(SurfaceState& state, const std::vector<int>& vertices,
+    const std::vector<Proximity::ClosePair>& pairs, bool snap);
+
   /** Displaces them; the place before is kept in SurfaceState::Before. */
   void Displace(SurfaceState& state, const std::vector<int>& awake);
 

@@ -7,6 +7,7 @@
 #include "Dynamics.h"
 #include "Field.h"
 #include "InitialSurface.h"
+#include "LostParts.h"
 #include "Proximity.h"
 #include "Remesher.h"
 #include "RestCriterion.h"
@@ -42,13 +43,19 @@ public:
       std::chrono::duration<double>(now - this->Last).count();
     this->Last = now;
   }
-  void Stop() { this->Row.Seconds = std::chrono::duration<double>(Clock::now() - this->Start).count(); }
+  void Stop()
+  {
+    this->Row.Seconds += std::chrono::duration<double>(Clock::now() - this->Start).count();
+  }
 
 private:
   HistoryRow& Row;
   Clock::time_point Start;
   Clock::time_point Last;
 };
+
+/** Passes of tangential smoothing and snapping at the end of a level. */
+constexpr int RegularisationPasses = 6;
 
 void CheckRange(const char* name, double value, double low, double high)
 {
@@ -107,14 +114,18 @@ struct SurfaceEvolution::Implementation
 
   void Enter(const LevelImage& image, int level);
   void Reset();
+  void Recover();
   void CollectAwake();
   void CollectWorking();
   void MarkRing(int v);
   void RollBack();
   void UpdateTouched();
   double SweptVolume();
-  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher);
+  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, bool relax);
   void FillRow(HistoryRow& row) const;
+  void FillCounts(HistoryRow& row) const;
+  void Regularise(Dynamics& dynamics);
+  StopReason Evolve();
   StopReason Run();
 };
 
@@ -149,6 +160,30 @@ void SurfaceEvolution::Implementation::Reset()
   s.UpdateShape(this->Awake, this->Threads);
   this->Near.Examine(s, this->Awake, this->Threads);
   this->Watch.Label(s);
+}
+
+void SurfaceEvolution::Implementation::Recover()
+{
+  this->LastLost = LostParts();
+  // Without an isopotential there is no object's side to look for.
+  if (!this->Options.RecoverLostParts || !(this->Options.IsopotentialWeight > 0.))
+  {
+    return;
+  }
+  SurfaceState& s = this->State;
+  const double radius = SmallestSeed * s.Delta;
+  const LostPartSeeds lost =
+    FindLostParts(s, *this->TheField, this->Options.MinimumPartSize, radius);
+  this->LastLost = { lost.Found, lost.Seeded };
+  if (lost.Centres.empty())
+  {
+    return;
+  }
+  for (const Point& centre : lost.Centres)
+  {
+    s.Mesh.Append(Icosahedron(centre, radius));
+  }
+  this->Reset();
 }
 
 void SurfaceEvolution::Implementation::CollectAwake()
@@ -262,7 +297,7 @@ void SurfaceEvolution::Implementation::RollBack()
   }
   if (!meetings->empty())
   {
-    ++this->Unresolved; if(getenv("VDBG")) for(auto&m:*meetings) printf("unresolved %d %d %d / %d %d %d\n",m.First[0],m.First[1],m.First[2],m.Second[0],m.Second[1],m.Second[2]);
+    ++this->Unresolved;
   }
 }
 
@@ -292,14 +327,21 @@ double SurfaceEvolution::Implementation::SweptVolume()
 }
 
 void SurfaceEvolution::Implementation::Iterate(
-  HistoryRow& row, Dynamics& dynamics, Remesher& remesher)
+  HistoryRow& row, Dynamics& dynamics, Remesher& remesher, bool relax)
 {
   SurfaceState& s = this->State;
   Stopwatch watch(row);
   s.Counts = EditCounts();
   this->CollectAwake();
   row.ActiveVertices = static_cast<int>(this->Awake.size());
-  dynamics.Accelerate(s, this->Awake, this->Near.Pairs());
+  if (relax)
+  {
+    dynamics.Relax(s, this->Awake, this->Near.Pairs(), this->Options.SnapToIsoValue);
+  }
+  else
+  {
+    dynamics.Accelerate(s, this->Awake, this->Near.Pairs());
+  }
   row.TimeStep = dynamics.TimeStep();
   watch.Lap(Phase::Forces);
 
@@ -331,10 +373,16 @@ void SurfaceEvolution::Implementation::Iterate(
   watch.Lap(Phase::Proximity);
   this->RollBack();
   this->Volume += this->SweptVolume();
-  dynamics.Freeze(s, this->Awake);
+  if (!relax)
+  {
+    dynamics.Freeze(s, this->Awake);
+  }
   watch.Lap(Phase::Verification);
 
-  remesher.Merge(this->Near.Pairs());
+  if (!relax)
+  {
+    remesher.Merge(this->Near.Pairs());
+  }
   watch.Lap(Phase::Topology);
   remesher.Collapse(this->Working);
   remesher.Flip(this->Working);
@@ -363,19 +411,24 @@ void SurfaceEvolution::Implementation::Iterate(
   watch.Stop();
 }
 
+void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
+{
+  row.Vertices = this->State.Mesh.NumberOfVertices();
+  row.EulerCharacteristic = this->State.EulerCharacteristic;
+  row.Components = this->Watch.NumberOfComponents();
+}
+
 void SurfaceEvolution::Implementation::FillRow(HistoryRow& row) const
 {
   const SurfaceState& s = this->State;
   row.Iteration = static_cast<int>(this->Rows.size()) + 1;
   row.Level = this->Level;
-  row.Vertices = s.Mesh.NumberOfVertices();
   row.Merges = s.Counts.Merges;
   row.Cuts = s.Counts.Cuts;
   row.Splits = s.Counts.Splits;
   row.Collapses = s.Counts.Collapses;
   row.Flips = s.Counts.Flips;
-  row.EulerCharacteristic = s.EulerCharacteristic;
-  row.Components = this->Watch.NumberOfComponents();
+  this->FillCounts(row);
   double energy = 0;
   for (int v : this->Awake)
   {
@@ -388,7 +441,51 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row) const
   row.KineticEnergy = energy / std::max(row.Vertices, 1);
 }
 
+void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
+{
+  // The same verified displacements and edits, driven by shape and residual instead of forces.
+  SurfaceState& s = this->State;
+  const std::vector<std::uint8_t> awake = s.Awake;
+  Remesher remesher(s, this->TheField.get(), false);
+  std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
+  HistoryRow row;
+  for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0; ++pass)
+  {
+    for (int v = 0; v < s.Mesh.Size(); ++v)
+    {
+      s.Awake[v] = s.Mesh.IsAlive(v);
+    }
+    this->Iterate(row, dynamics, remesher, true);
+  }
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.Awake[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(awake.size()) || awake[v]);
+    s.Velocity[v] = Vector();
+  }
+  if (!this->Rows.empty())
+  {
+    HistoryRow& last = this->Rows.back();
+    last.PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
+    this->FillCounts(last);
+  }
+}
+
 StopReason SurfaceEvolution::Implementation::Run()
+{
+  const StopReason reason = this->Evolve();
+  if (reason == StopReason::Converged || reason == StopReason::IterationLimit)
+  {
+    Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+    this->Regularise(dynamics);
+    if (this->State.Mesh.NumberOfVertices() == 0)
+    {
+      return StopReason::Vanished;
+    }
+  }
+  return reason;
+}
+
+StopReason SurfaceEvolution::Implementation::Evolve()
 {
   SurfaceState& s = this->State;
   this->LastIterations = 0;
@@ -419,7 +516,7 @@ StopReason SurfaceEvolution::Implementation::Run()
       return StopReason::IterationLimit;
     }
     HistoryRow row;
-    this->Iterate(row, dynamics, remesher);
+    this->Iterate(row, dynamics, remesher, false);
     this->Rows.push_back(row);
     ++this->LastIterations;
     this->Rest.Add(this->Volume);
@@ -510,6 +607,7 @@ void SurfaceEvolution::Divide(const LevelImage& image, int level)
   volumic::Divide(self.State.Mesh);
   self.Enter(image, level);
   self.Reset();
+  self.Recover();
 }
 
 SurfaceResult SurfaceEvolution::Result() const

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LostParts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+enum : std::uint8_t
+{
+  Unknown = 0,
+  Covered = 1,
+  Lost = 2
+};
+
+class Search
+{
+public:
+  Search(const SurfaceState& state, const Field& field)
+    : State(state)
+    , TheField(field)
+    , Size(field.Image().Size)
+    , Mark(static_cast<std::size_t>(Size[0]) * Size[1] * Size[2], Unknown)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Inverse[k] = 1. / field.Image().Step[k];
+    }
+  }
+
+  void CoverInside();
+  void CoverNear();
+  /** Connected sets of uncovered voxels of the object, each sorted, best voxels first. */
+  std::vector<std::vector<int>> Parts();
+
+  Point Place(int voxel) const
+  {
+    const auto& step = this->TheField.Image().Step;
+    const int i = voxel % this->Size[0];
+    const int j = voxel / this->Size[0] % this->Size[1];
+    const int k = voxel / this->Size[0] / this->Size[1];
+    return { i * step[0], j * step[1], k * step[2] };
+  }
+
+private:
+  float Value(int voxel) const
+  {
+    return this->TheField.Voxel(voxel % this->Size[0], voxel / this->Size[0] % this->Size[1],
+      voxel / this->Size[0] / this->Size[1]);
+  }
+  void Cross(int a, int b, int c);
+
+  const SurfaceState& State;
+  const Field& TheField;
+  std::array<int, 3> Size;
+  double Inverse[3];
+  std::vector<std::uint8_t> Mark;
+  std::vector<std::pair<int, float>> Crossings; ///< Row of voxels and place along it.
+};
+
+void Search::Cross(int a, int b, int c)
+{
+  // Rows pass a little beside the voxels, so that none meets an edge or a corner exactly.
+  constexpr double aside = 1.2345e-4;
+  double x[3];
+  double y[3];
+  double z[3];
+  const int corner[3] = { a, b, c };
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vector& p = this->State.Mesh.Position[corner[k]];
+    x[k] = p.X * this->Inverse[0];
+    y[k] = p.Y * this->Inverse[1] - aside;
+    z[k] = p.Z * this->Inverse[2] - 1.7 * aside;
+  }
+  const double area = (y[1] - y[0]) * (z[2] - z[0]) - (z[1] - z[0]) * (y[2] - y[0]);
+  if (area == 0.)
+  {
+    return;
+  }
+  const int firstJ = std::max(0, static_cast<int>(std::ceil(std::min({ y[0], y[1], y[2] }))));
+  const int lastJ =
+    std::min(this->Size[1] - 1, static_cast<int>(std::floor(std::max({ y[0], y[1], y[2] }))));
+  const int firstK = std::max(0, static_cast<int>(std::ceil(std::min({ z[0], z[1], z[2] }))));
+  const int lastK =
+    std::min(this->Size[2] - 1, static_cast<int>(std::floor(std::max({ z[0], z[1], z[2] }))));
+  for (int k = firstK; k <= lastK; ++k)
+  {
+    for (int j = firstJ; j <= lastJ; ++j)
+    {
+      double weight[3];
+      bool inside = true;
+      for (int e = 0; e < 3; ++e)
+      {
+        // An edge gives both its triangles the same number, so that exactly one has the row.
+        int from = (e + 1) % 3;
+        int to = (e + 2) % 3;
+        const bool swapped = corner[from] > corner[to];
+        if (swapped)
+        {
+          std::swap(from, to);
+        }
+        const double side =
+          (y[to] - y[from]) * (k - z[from]) - (z[to] - z[from]) * (j - y[from]);
+        weight[e] = (swapped ? -side : side) / area;
+        inside = inside && weight[e] >= 0.;
+      }
+      if (inside)
+      {
+        const double at = weight[0] * x[0] + weight[1] * x[1] + weight[2] * x[2];
+        this->Crossings.emplace_back(k * this->Size[1] + j, static_cast<float>(at));
+      }
+    }
+  }
+}
+
+void Search::CoverInside()
+{
+  this->State.Mesh.VisitFaces([this](int a, int b, int c) { this->Cross(a, b, c); });
+  std::sort(this->Crossings.begin(), this->Crossings.end());
+  for (std::size_t i = 0; i + 1 < this->Crossings.size();)
+  {
+    if (this->Crossings[i].first != this->Crossings[i + 1].first)
+    {
+      ++i; // An odd crossing, from a row that runs in a face: ignored.
+      continue;
+    }
+    const int row = this->Crossings[i].first;
+    const int first = std::max(0, static_cast<int>(std::ceil(this->Crossings[i].second)));
+    const int last =
+      std::min(this->Size[0] - 1, static_cast<int>(std::floor(this->Crossings[i + 1].second)));
+    for (int x = first; x <= last; ++x)
+    {
+      this->Mark[static_cast<std::size_t>(row) * this->Size[0] + x] = Covered;
+    }
+    i += 2;
+  }
+}
+
+void Search::CoverNear()
+{
+  constexpr int width = 2;
+  for (int v = 0; v < this->State.Mesh.Size(); ++v)
+  {
+    if (!this->State.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const Vector& p = this->State.Mesh.Position[v];
+    const double place[3] = { p.X * this->Inverse[0], p.Y * this->Inverse[1],
+      p.Z * this->Inverse[2] };
+    int low[3];
+    int high[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      low[k] = std::max(0, static_cast<int>(std::ceil(place[k] - width)));
+      high[k] = std::min(this->Size[k] - 1, static_cast<int>(std::floor(place[k] + width)));
+    }
+    for (int k = low[2]; k <= high[2]; ++k)
+    {
+      for (int j = low[1]; j <= high[1]; ++j)
+      {
+        const std::size_t row = static_cast<std::size_t>(k * this->Size[1] + j) * this->Size[0];
+        for (int i = low[0]; i <= high[0]; ++i)
+        {
+          this->Mark[row + i] = Covered;
+        }
+      }
+    }
+  }
+}
+
+std::vector<std::vector<int>> Search::Parts()
+{
+  const int count = static_cast<int>(this->Mark.size());
+  for (int k = 0, voxel = 0; k < this->Size[2]; ++k)
+  {
+    for (int j = 0; j < this->Size[1]; ++j)
+    {
+      for (int i = 0; i < this->Size[0]; ++i, ++voxel)
+      {
+        if (this->Mark[voxel] == Unknown && this->TheField.Voxel(i, j, k) > 0)
+        {
+          this->Mark[voxel] = Lost;
+        }
+      }
+    }
+  }
+  std::vector<std::vector<int>> parts;
+  const int stride[3] = { 1, this->Size[0], this->Size[0] * this->Size[1] };
+  for (int seed = 0; seed < count; ++seed)
+  {
+    if (this->Mark[seed] != Lost)
+    {
+      continue;
+    }
+    std::vector<int> part(1, seed);
+    this->Mark[seed] = Covered;
+    for (std::size_t n = 0; n < part.size(); ++n)
+    {
+      const int voxel = part[n];
+      const int place[3] = { voxel % this->Size[0], voxel / stride[1] % this->Size[1],
+        voxel / stride[2] };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (int side : { -1, 1 })
+        {
+          const int next = place[axis] + side;
+          const int other = voxel + side * stride[axis];
+          if (next >= 0 && next < this->Size[axis] && this->Mark[other] == Lost)
+          {
+            this->Mark[other] = Covered;
+            part.push_back(other);
+          }
+        }
+      }
+    }
+    parts.push_back(std::move(part));
+  }
+  for (auto& part : parts)
+  {
+    std::sort(part.begin(), part.end(),
+      [this](int a, int b)
+      {
+        const float x = this->Value(a);
+        const float y = this->Value(b);
+        return x != y ? x > y : a < b;
+      });
+  }
+  return parts;
+}
+}
+
+LostPartSeeds FindLostParts(
+  const SurfaceState& state, const Field& field, int minimumSize, double radius)
+{
+  Search search(state, field);
+  search.CoverInside();
+  search.CoverNear();
+  LostPartSeeds result;
+  const float delta = state.Delta;
+  const float spacing = std::max(4.f * delta, static_cast<float>(2. * radius) + 1.6f * delta);
+  // A triangle of legal edges with all corners this far cannot reach the icosahedron.
+  const float clear = static_cast<float>(radius) + 1.5f * delta;
+  const LevelImage& image = field.Image();
+  VertexGrid seeds;
+  seeds.Reset(Vector(0, 0, 0),
+    Vector(static_cast<float>(image.Size[0] * image.Step[0]),
+      static_cast<float>(image.Size[1] * image.Step[1]),
+      static_cast<float>(image.Size[2] * image.Step[2])),
+    spacing);
+  std::vector<Vector> places;
+  for (const std::vector<int>& part : search.Parts())
+  {
+    if (static_cast<int>(part.size()) < minimumSize)
+    {
+      continue;
+    }
+    ++result.Found;
+    const std::size_t before = places.size();
+    for (int voxel : part)
+    {
+      const Point p = search.Place(voxel);
+      const Vector place(
+        static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+      bool free = true;
+      seeds.Visit(place, spacing,
+        [&](int s) { free = free && SquaredDistance(place, places[s]) >= spacing * spacing; });
+      if (!free)
+      {
+        continue;
+      }
+      state.Grid.Visit(place, clear,
+        [&](int v)
+        { free = free && SquaredDistance(place, state.Mesh.Position[v]) > clear * clear; });
+      if (free)
+      {
+        seeds.Insert(static_cast<int>(places.size()), place);
+        places.push_back(place);
+        result.Centres.push_back(p);
+      }
+    }
+    result.Seeded += places.size() > before;
+  }
+  return result;
+}
+}
