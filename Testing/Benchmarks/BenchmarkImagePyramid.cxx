@@ -248,6 +248,11 @@ void PrintTimeTargets(const MedianReporter& times, const std::vector<Contender>&
   }
   PrintTarget("P1 one level, 2 threads, times faster",
     times.WallSeconds(RunName(ours, false, 1)) / Seconds(times, ours, false, 2), ">=", 1.7);
+  // Two threads need a processor each: where others run too, only this can show what they gain.
+  PrintTarget("P1 the same, by the quickest repetition of each",
+    times.LeastWallSeconds(RunName(ours, false, 1)) /
+      times.LeastWallSeconds(RunName(ours, false, 2)),
+    ">=", 1.7);
   PrintTarget(
     "P2 all levels relative to the first", Seconds(times, ours, true, 1) / one, "<=", 1.35);
 }

@@ -58,6 +58,12 @@ double MedianReporter::WallSeconds(const std::string& name) const
   return Median(this->Measured.at(name).Wall);
 }
 
+double MedianReporter::LeastWallSeconds(const std::string& name) const
+{
+  const std::vector<double>& wall = this->Measured.at(name).Wall;
+  return *std::min_element(wall.begin(), wall.end());
+}
+
 double MedianReporter::ProcessorSeconds(const std::string& name) const
 {
   return Median(this->Measured.at(name).Processor);

@@ -30,6 +30,9 @@ public:
      measured under that name. */
   double WallSeconds(const std::string& name) const;
 
+  /** The shortest time that passed, of all repetitions: the one least disturbed by others. */
+  double LeastWallSeconds(const std::string& name) const;
+
   /** Median of the processor time of all threads, in seconds: what others do on the machine counts
       less. Throws as above. */
   double ProcessorSeconds(const std::string& name) const;
