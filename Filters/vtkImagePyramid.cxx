@@ -6,6 +6,7 @@
 #include "Core/PyramidGeometry.h"
 #include "HostThreads.h"
 #include "ImageVoxels.h"
+#include "NotFiniteVoxels.h"
 #include "VersionCompatibility.h"
 
 #include <vtkAOSDataArrayTemplate.h>
@@ -122,28 +123,6 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevels(const T* level0,
   return made;
 }
 
-template <typename T>
-void CheckVoxelsAreFinite(
-  const T* values, vtkDataArray* array, vtkImageData* image, volumic::Executor& executor)
-{
-  const volumic::NotFiniteVoxels found =
-    volumic::FindNotFiniteVoxels(values, image->GetNumberOfPoints(), executor);
-  if (found.Count == 0)
-  {
-    return;
-  }
-  const int* extent = image->GetExtent();
-  const int* size = image->GetDimensions();
-  const std::int64_t row = found.First / size[0];
-  std::ostringstream message;
-  message << volumic::NameOf(array) << " has " << found.Count << " NaN or infinite voxel"
-          << (found.Count == 1 ? "" : "s") << ", the first at ("
-          << extent[0] + found.First % size[0] << ", " << extent[2] + row % size[1] << ", "
-          << extent[4] + row / size[1]
-          << "). Replace them by numbers, for instance by the value of the background.";
-  throw std::invalid_argument(message.str());
-}
-
 void AddLevelFieldData(vtkImageData* image, int level, double unit)
 {
   vtkNew<vtkIntArray> levelArray;
@@ -214,7 +193,6 @@ bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const volumic::Pyra
       {
         vtkTemplateMacro({
           const auto* values = static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0));
-          CheckVoxelsAreFinite(values, voxels, input, threads);
           made = MakeLevels(values, levels, threads, progress);
         });
         default:

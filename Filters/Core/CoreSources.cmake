@@ -5,15 +5,64 @@
 
 set(volumic_core_sources
   AxisOperator.cxx
+  ComponentWatch.cxx
+  CycleCut.cxx
+  Division.cxx
+  Dynamics.cxx
+  EdgeCollapse.cxx
+  EdgeFlip.cxx
+  EdgeSplit.cxx
+  Field.cxx
+  InitialSurface.cxx
   LevelReduction.cxx
+  LostParts.cxx
+  Proximity.cxx
   PyramidGeometry.cxx
-  RowKernels.cxx)
+  Remesher.cxx
+  RowKernels.cxx
+  StarMerge.cxx
+  SurfaceCheck.cxx
+  SurfaceEditor.cxx
+  SurfaceEvolution.cxx
+  SurfaceFeatures.cxx
+  SurfaceMesh.cxx
+  SurfaceState.cxx
+  TriangleTests.cxx
+  VertexGrid.cxx
+  VertexRemoval.cxx)
 set(volumic_core_headers
   AxisOperator.h
+  ComponentWatch.h
+  CycleCut.h
+  Division.h
+  Dynamics.h
+  EdgeCollapse.h
+  EdgeFlip.h
+  EdgeSplit.h
   Executor.h
+  Field.h
+  InitialSurface.h
+  LevelImage.h
   LevelReduction.h
+  LostParts.h
+  Monitor.h
+  Proximity.h
   PyramidGeometry.h
-  RowKernels.h)
+  Remesher.h
+  RestCriterion.h
+  RowKernels.h
+  StarMerge.h
+  SurfaceCheck.h
+  SurfaceEditor.h
+  SurfaceEvolution.h
+  SurfaceFeatures.h
+  SurfaceMesh.h
+  SurfaceOptions.h
+  SurfaceState.h
+  TriangleTests.h
+  Vector.h
+  VertexGrid.h
+  VertexRemoval.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InitialSurfaces.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkFloatArray.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkTriangleFilter.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+/// Points that no triangle uses are left out.
+IndexedSurface Triangles(vtkPolyData* polyData)
+{
+  IndexedSurface surface;
+  std::vector<int> index(static_cast<std::size_t>(polyData->GetNumberOfPoints()), -1);
+  auto cells = vtk::TakeSmartPointer(polyData->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    cells->GetCurrentCell(size, ids);
+    Triangle triangle;
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      int& place = index[ids[corner]];
+      if (place < 0)
+      {
+        place = static_cast<int>(surface.Points.size());
+        Point point;
+        polyData->GetPoint(ids[corner], point.data());
+        surface.Points.push_back(point);
+      }
+      triangle[corner] = place;
+    }
+    surface.Triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+void TurnRound(IndexedSurface& surface)
+{
+  for (Triangle& triangle : surface.Triangles)
+  {
+    std::swap(triangle[1], triangle[2]);
+  }
+}
+
+/// The level with a voxel of background on all sides.
+vtkSmartPointer<vtkImageData> PadByBackground(
+  const LevelImage& image, const SurfaceOptions& options)
+{
+  auto padded = vtkSmartPointer<vtkImageData>::New();
+  padded->SetExtent(-1, image.Size[0], -1, image.Size[1], -1, image.Size[2]);
+  padded->SetSpacing(image.Step.data());
+  padded->AllocateScalars(VTK_FLOAT, 1);
+  auto* values = static_cast<float*>(padded->GetScalarPointer());
+  const std::ptrdiff_t n =
+    static_cast<std::ptrdiff_t>(image.Size[0]) * image.Size[1] * image.Size[2];
+  const auto range = std::minmax_element(image.Values, image.Values + n);
+  const float background = options.ObjectIsBright ? *range.first : *range.second;
+  std::fill(values, values + padded->GetNumberOfPoints(), background);
+  for (int k = 0; k < image.Size[2]; ++k)
+  {
+    for (int j = 0; j < image.Size[1]; ++j)
+    {
+      const float* row =
+        image.Values + (static_cast<std::ptrdiff_t>(k) * image.Size[1] + j) * image.Size[0];
+      std::copy(row, row + image.Size[0], static_cast<float*>(padded->GetScalarPointer(0, j, k)));
+    }
+  }
+  return padded;
+}
+}
+
+IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
+{
+  if (!polyData || polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() == 0)
+  {
+    throw std::invalid_argument("Input port 1: the initial surface has no polygons. Give a closed "
+                                "surface, or choose another Initialization.");
+  }
+  vtkNew<vtkTriangleFilter> triangulate;
+  triangulate->SetInputData(polyData);
+  triangulate->PassVertsOff();
+  triangulate->PassLinesOff();
+  triangulate->Update();
+  IndexedSurface surface = Triangles(triangulate->GetOutput());
+  for (Point& point : surface.Points)
+  {
+    point = space.ToWorkspace(point);
+  }
+  if (space.IsMirrored())
+  {
+    TurnRound(surface);
+  }
+  return surface;
+}
+
+std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space)
+{
+  std::vector<Point> seeds;
+  const auto add = [&](vtkIdType id)
+  {
+    Point point;
+    polyData->GetPoint(id, point.data());
+    seeds.push_back(space.ToWorkspace(point));
+  };
+  if (!polyData)
+  {
+    return seeds;
+  }
+  if (polyData->GetNumberOfCells() == 0)
+  {
+    for (vtkIdType p = 0; p < polyData->GetNumberOfPoints(); ++p)
+    {
+      add(p);
+    }
+    return seeds;
+  }
+  if (polyData->GetNumberOfVerts() == 0)
+  {
+    throw std::invalid_argument("Input port 1: the seeds must be vertices or mere points, but the "
+                                "data has other cells. Give the centres of the seeds, or set "
+                                "Initialization to InputSurface.");
+  }
+  auto cells = vtk::TakeSmartPointer(polyData->GetVerts()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    cells->GetCurrentCell(size, ids);
+    std::for_each(ids, ids + size, add);
+  }
+  return seeds;
+}
+
+IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& options)
+{
+  vtkNew<vtkFlyingEdges3D> contour;
+  contour->SetInputData(PadByBackground(image, options));
+  contour->SetValue(0, options.IsoValue);
+  contour->ComputeNormalsOff();
+  contour->ComputeGradientsOff();
+  contour->ComputeScalarsOff();
+  contour->Update();
+  IndexedSurface surface = Triangles(contour->GetOutput());
+  // VTK orients iso-surfaces towards low values.
+  if (!options.ObjectIsBright)
+  {
+    TurnRound(surface);
+  }
+  return surface;
+}
+}

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef InitialSurfaces_h
+#define InitialSurfaces_h
+
+#include "Core/LevelImage.h"
+#include "Core/SurfaceFeatures.h"
+#include "Core/SurfaceOptions.h"
+#include "Workspace.h"
+
+#include <vector>
+
+class vtkPolyData;
+
+namespace volumic
+{
+/// The polygons of a poly data, triangulated, as a surface of the workspace.
+/// @throws std::invalid_argument if there is none.
+IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space);
+
+/// The points of its vertices, or all points where it has no cells, in the workspace.
+/// @throws std::invalid_argument if it has polygons or lines only.
+std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space);
+
+/// The iso-surface of a level (workspace), closed at the border of the image by background, outward
+/// oriented, by vtkFlyingEdges3D.
+IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& options);
+}
+
+#endif

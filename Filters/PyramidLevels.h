@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef PyramidLevels_h
+#define PyramidLevels_h
+
+#include "Core/Executor.h"
+#include "Core/LevelImage.h"
+#include "Core/SurfaceFeatures.h"
+#include "Workspace.h"
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkDataArray;
+class vtkImageData;
+class vtkMultiBlockDataSet;
+
+namespace volumic
+{
+/**
+ * The blocks of vtkImagePyramid's output as the levels that the core wants.
+ *
+ * Errors are std::invalid_argument; messages name the block and the way out.
+ */
+class PyramidLevels
+{
+public:
+  /// The fewest voxels along an axis on which a surface can evolve.
+  static constexpr int MinimumSize = 8;
+
+  /**
+   * @param blocks    block h is the vtkImageData of level h
+   * @param algorithm says which array holds the voxels (SetInputArrayToProcess)
+   * @throws if a block is not an image, has no such array, or its size or place are not those of a
+   *         level of a pyramid; if the image is 2D or under MinimumSize along an axis.
+   */
+  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm);
+
+  int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
+  const Workspace& GetWorkspace() const { return this->Space; }
+
+  /// U_h in world units.
+  double UnitInWorld(int level) const;
+
+  /// Smallest and largest voxel of a level.
+  std::array<double, 2> Range(int level) const;
+
+  /**
+   * The voxels of a level as float; they stay valid until the next call. Float voxels are shared,
+   * others converted.
+   * @throws if the level is under MinimumSize along an axis, or has voxels that are not finite.
+   */
+  LevelImage Load(int level, Executor& executor);
+
+private:
+  std::vector<vtkImageData*> Images;
+  std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
+  std::vector<double> Units; ///< workspace
+  Workspace Space;
+  std::vector<float> Converted;
+};
+}
+
+#endif

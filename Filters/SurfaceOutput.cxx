@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceOutput.h"
+
+#include "Core/SurfaceFeatures.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space)
+{
+  IndexedSurface world;
+  world.Points.reserve(surface.Points.size());
+  for (const Point& point : surface.Points)
+  {
+    world.Points.push_back(space.ToWorld(point));
+  }
+  world.Triangles = surface.Triangles;
+  if (space.IsMirrored())
+  {
+    for (Triangle& triangle : world.Triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  return world;
+}
+
+template <typename Array, typename Value>
+void AddField(vtkPolyData* polyData, const char* name, Value value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  polyData->GetFieldData()->AddArray(array);
+}
+
+/// An array with an entry per component, of as many values as `get` gives.
+template <typename Array, int N, typename Get>
+void AddComponentField(
+  vtkPolyData* polyData, const char* name, const SurfaceFeatures& features, const Get& get)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(N);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(features.Components.size()));
+  for (std::size_t c = 0; c < features.Components.size(); ++c)
+  {
+    for (int i = 0; i < N; ++i)
+    {
+      array->SetTypedComponent(static_cast<vtkIdType>(c), i, get(features.Components[c], i));
+    }
+  }
+  polyData->GetFieldData()->AddArray(array);
+}
+
+void SetGeometry(vtkPolyData* polyData, const IndexedSurface& world)
+{
+  const auto numberOfPoints = static_cast<vtkIdType>(world.Points.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(numberOfPoints);
+  for (vtkIdType p = 0; p < numberOfPoints; ++p)
+  {
+    points->SetPoint(p, world.Points[p].data());
+  }
+  vtkNew<vtkCellArray> triangles;
+  triangles->AllocateExact(static_cast<vtkIdType>(world.Triangles.size()),
+    3 * static_cast<vtkIdType>(world.Triangles.size()));
+  for (const Triangle& triangle : world.Triangles)
+  {
+    triangles->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
+  }
+  polyData->SetPoints(points);
+  polyData->SetPolys(triangles);
+}
+
+void SetPointArrays(vtkPolyData* polyData, const SurfaceResult& surface, const Workspace& space)
+{
+  const auto numberOfPoints = static_cast<vtkIdType>(surface.Points.size());
+  vtkNew<vtkFloatArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(numberOfPoints);
+  vtkNew<vtkFloatArray> residual;
+  residual->SetName("Residual");
+  residual->SetNumberOfTuples(numberOfPoints);
+  vtkNew<vtkUnsignedCharArray> motionless;
+  motionless->SetName("Motionless");
+  motionless->SetNumberOfTuples(numberOfPoints);
+  for (vtkIdType p = 0; p < numberOfPoints; ++p)
+  {
+    normals->SetTypedTuple(p, space.NormalToWorld(surface.Normals[p]).data());
+    residual->SetValue(p, surface.Residual[p]);
+    motionless->SetValue(p, surface.Motionless[p]);
+  }
+  polyData->GetPointData()->SetNormals(normals);
+  polyData->GetPointData()->AddArray(residual);
+  polyData->GetPointData()->AddArray(motionless);
+}
+
+void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features)
+{
+  vtkNew<vtkIntArray> component;
+  component->SetName("Component");
+  component->SetNumberOfTuples(static_cast<vtkIdType>(features.ComponentOfTriangle.size()));
+  std::copy(features.ComponentOfTriangle.begin(), features.ComponentOfTriangle.end(),
+    component->GetPointer(0));
+  polyData->GetCellData()->AddArray(component);
+
+  AddField<vtkIntArray>(
+    polyData, "NumberOfComponents", static_cast<int>(features.Components.size()));
+  AddField<vtkIntArray>(polyData, "EulerCharacteristic", features.EulerCharacteristic);
+  AddField<vtkIntArray>(polyData, "Genus", features.Genus);
+  AddField<vtkDoubleArray>(polyData, "Area", features.Area);
+  AddField<vtkDoubleArray>(polyData, "Volume", features.Volume);
+  using Component = ComponentFeatures;
+  AddComponentField<vtkDoubleArray, 1>(
+    polyData, "ComponentArea", features, [](const Component& c, int) { return c.Area; });
+  AddComponentField<vtkDoubleArray, 1>(
+    polyData, "ComponentVolume", features, [](const Component& c, int) { return c.Volume; });
+  AddComponentField<vtkIntArray, 1>(
+    polyData, "ComponentGenus", features, [](const Component& c, int) { return c.Genus; });
+  AddComponentField<vtkDoubleArray, 3>(polyData, "ComponentCentroid", features,
+    [](const Component& c, int i) { return c.Centroid[i]; });
+  AddComponentField<vtkDoubleArray, 6>(
+    polyData, "ComponentInertia", features, [](const Component& c, int i) { return c.Inertia[i]; });
+}
+
+template <typename Array, typename Get>
+void AddColumn(
+  vtkTable* table, const char* name, const std::vector<HistoryRow>& rows, const Get& get)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  column->SetNumberOfTuples(static_cast<vtkIdType>(rows.size()));
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    column->SetValue(static_cast<vtkIdType>(r), get(rows[r]));
+  }
+  table->AddColumn(column);
+}
+}
+
+vtkSmartPointer<vtkPolyData> MakePolyData(
+  const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space)
+{
+  auto polyData = vtkSmartPointer<vtkPolyData>::New();
+  const IndexedSurface world = ToWorld(surface, space);
+  SetGeometry(polyData, world);
+  SetPointArrays(polyData, surface, space);
+  AddField<vtkIntArray>(polyData, "Level", description.Level);
+  AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
+  AddField<vtkDoubleArray>(polyData, "Unit", description.Unit);
+  AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
+  AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
+  AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
+  AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
+  SetFeatures(polyData, ComputeFeatures(world));
+  return polyData;
+}
+
+vtkSmartPointer<vtkTable> MakeHistory(const std::vector<HistoryRow>& rows, const Workspace& space)
+{
+  using Row = HistoryRow;
+  const double unit = space.WorldUnit();
+  auto table = vtkSmartPointer<vtkTable>::New();
+  AddColumn<vtkIntArray>(table, "Iteration", rows, [](const Row& r) { return r.Iteration; });
+  AddColumn<vtkIntArray>(table, "Level", rows, [](const Row& r) { return r.Level; });
+  AddColumn<vtkIntArray>(table, "Vertices", rows, [](const Row& r) { return r.Vertices; });
+  AddColumn<vtkDoubleArray>(
+    table, "KineticEnergy", rows, [](const Row& r) { return r.KineticEnergy; });
+  AddColumn<vtkDoubleArray>(
+    table, "MeanEdgeLength", rows, [unit](const Row& r) { return r.MeanEdgeLength * unit; });
+  AddColumn<vtkDoubleArray>(table, "Seconds", rows, [](const Row& r) { return r.Seconds; });
+  AddColumn<vtkDoubleArray>(table, "TimeStep", rows, [](const Row& r) { return r.TimeStep; });
+  AddColumn<vtkIntArray>(
+    table, "ActiveVertices", rows, [](const Row& r) { return r.ActiveVertices; });
+  AddColumn<vtkIntArray>(table, "Merges", rows, [](const Row& r) { return r.Merges; });
+  AddColumn<vtkIntArray>(table, "Cuts", rows, [](const Row& r) { return r.Cuts; });
+  AddColumn<vtkIntArray>(table, "Splits", rows, [](const Row& r) { return r.Splits; });
+  AddColumn<vtkIntArray>(table, "Collapses", rows, [](const Row& r) { return r.Collapses; });
+  AddColumn<vtkIntArray>(table, "Flips", rows, [](const Row& r) { return r.Flips; });
+  AddColumn<vtkIntArray>(
+    table, "EulerCharacteristic", rows, [](const Row& r) { return r.EulerCharacteristic; });
+  AddColumn<vtkIntArray>(table, "Components", rows, [](const Row& r) { return r.Components; });
+  return table;
+}
+}

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SurfaceOutput_h
+#define SurfaceOutput_h
+
+#include "Core/SurfaceEvolution.h"
+#include "Workspace.h"
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+class vtkTable;
+
+namespace volumic
+{
+/// What is told of a surface beside its geometry.
+struct SurfaceDescription
+{
+  int Level = 0;
+  double Unit = 0.0; ///< U_h, world units
+  int Iterations = 0;
+  std::string StopReason;
+  int LostParts = 0;
+  int RecoveredParts = 0;
+};
+
+/// The surface in world coordinates with all arrays that vtkDeformableSurface documents.
+vtkSmartPointer<vtkPolyData> MakePolyData(
+  const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space);
+
+/// A row per iteration, the columns that vtkDeformableSurface documents.
+vtkSmartPointer<vtkTable> MakeHistory(const std::vector<HistoryRow>& rows, const Workspace& space);
+}
+
+#endif

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceSegmentation.h"
+
+#include "HostThreads.h"
+#include "InitialSurfaces.h"
+#include "SurfaceOutput.h"
+#include "vtkDeformableSurface.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+namespace volumic
+{
+namespace
+{
+template <typename... Parts>
+std::string Join(const Parts&... parts)
+{
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+template <typename... Parts>
+[[noreturn]] void Refuse(const Parts&... parts)
+{
+  throw std::invalid_argument(Join(parts...));
+}
+
+void CheckEnumeration(const char* name, int value, int last)
+{
+  if (value < 0 || value > last)
+  {
+    Refuse(name, " is ", value, "; it must be 0 to ", last, ".");
+  }
+}
+
+/// Tells the host of every iteration. A level has about three times the vertices of the one above.
+class ProgressMonitor final : public Monitor
+{
+public:
+  ProgressMonitor(const SegmentationSettings& settings, int coarsest, int finest)
+    : Settings(settings), Coarsest(coarsest), Finest(finest)
+  {
+  }
+
+  bool Continue(const Status& status) override
+  {
+    double before = 0.0;
+    double total = 0.0;
+    for (int level = this->Coarsest; level >= this->Finest; --level)
+    {
+      const double weight = std::pow(3.0, this->Coarsest - level);
+      before += level > status.Level ? weight : 0.0;
+      total += weight;
+    }
+    const double own = std::pow(3.0, this->Coarsest - status.Level);
+    const double share = (before + own * std::clamp(status.Fraction, 0.0, 1.0)) / total;
+    return this->Settings.Progress(share,
+      Join("Level ", status.Level, ", iteration ", status.Iteration, ", ", status.Vertices,
+        " vertices"));
+  }
+
+private:
+  const SegmentationSettings& Settings;
+  int Coarsest;
+  int Finest;
+};
+}
+
+SurfaceSegmentation::SurfaceSegmentation(
+  vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm, const SegmentationSettings& settings)
+  : Settings(settings), Pyramid(
+                          [&]
+                          {
+                            try
+                            {
+                              return PyramidLevels(blocks, algorithm);
+                            }
+                            catch (const std::invalid_argument& error)
+                            {
+                              Refuse("Input port 0: ", error.what());
+                            }
+                          }()),
+    Finest(vtkSmartPointer<vtkPolyData>::New()),
+    Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New())
+{
+  CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
+  CheckEnumeration("BorderValue", settings.BorderValue, vtkDeformableSurface::Replicate);
+  CheckEnumeration("Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjects);
+  if (settings.Options.SeedRadius < 0.0 || !std::isfinite(settings.Options.SeedRadius))
+  {
+    Refuse("SeedRadius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
+  }
+  this->Settings.Options.BorderValue = static_cast<Border>(settings.BorderValue);
+  this->Settings.Options.RecoverLostParts =
+    settings.Recovery == vtkDeformableSurface::RecoverObjects;
+  this->Settings.Options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
+}
+
+SurfaceSegmentation::~SurfaceSegmentation() = default;
+
+void SurfaceSegmentation::ChooseLevels()
+{
+  const int last = this->Pyramid.NumberOfLevels() - 1;
+  this->Coarsest = this->Settings.CoarsestLevel == -1 ? last : this->Settings.CoarsestLevel;
+  this->LastLevel = this->Settings.FinestLevel;
+  if (this->Coarsest < 0 || this->Coarsest > last)
+  {
+    Refuse("CoarsestLevel is ", this->Settings.CoarsestLevel,
+      ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
+  }
+  if (this->LastLevel < 0 || this->LastLevel > this->Coarsest)
+  {
+    Refuse("FinestLevel is ", this->LastLevel, "; it must lie between 0 and the coarsest level, ",
+      this->Coarsest, ".");
+  }
+}
+
+void SurfaceSegmentation::CheckIsoValue()
+{
+  const double iso = this->Settings.Options.IsoValue;
+  const std::array<double, 2> range = this->Pyramid.Range(0);
+  if (std::isnan(iso))
+  {
+    Refuse(
+      "IsoValue is not set. Set it to the value that parts the object from the background; the "
+      "voxels range from ",
+      range[0], " to ", range[1], ".");
+  }
+  if (iso <= range[0] || iso >= range[1])
+  {
+    Refuse("IsoValue is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
+      "; set it between them.");
+  }
+}
+
+void SurfaceSegmentation::CheckObjectIsThere(const LevelImage& image)
+{
+  const auto isObject = [this](float value)
+  {
+    const double difference = value - this->Settings.Options.IsoValue;
+    return this->Settings.Options.ObjectIsBright ? difference > 0 : difference < 0;
+  };
+  const std::ptrdiff_t n =
+    static_cast<std::ptrdiff_t>(image.Size[0]) * image.Size[1] * image.Size[2];
+  if (std::any_of(image.Values, image.Values + n, isObject))
+  {
+    return;
+  }
+  // Levels above this one have lost it too; the range of the others tells where it is still there.
+  int level = this->Coarsest;
+  const auto isThere = [&](int h)
+  {
+    const std::array<double, 2> range = this->Pyramid.Range(h);
+    return isObject(static_cast<float>(range[this->Settings.Options.ObjectIsBright ? 1 : 0]));
+  };
+  while (level > 0 && !isThere(level))
+  {
+    --level;
+  }
+  Refuse("the object has vanished at level ", this->Coarsest, ", the coarsest: no voxel is ",
+    this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",
+    this->Settings.Options.IsoValue, " there. It is too thin for that level; set CoarsestLevel to ",
+    level, ", where it is still there, or less.");
+}
+
+void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
+{
+  const Workspace& space = this->Pyramid.GetWorkspace();
+  switch (this->Settings.Initialization)
+  {
+    case vtkDeformableSurface::Seeds:
+      evolution.StartSeeds(image, this->Coarsest, SeedsOf(this->Settings.InitialSurface, space));
+      break;
+    case vtkDeformableSurface::IsoSurface:
+      evolution.StartSurface(
+        image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
+      break;
+    case vtkDeformableSurface::InputSurface:
+      evolution.StartSurface(
+        image, this->Coarsest, SurfaceOf(this->Settings.InitialSurface, space));
+      break;
+    default:
+      evolution.StartEnclosing(image, this->Coarsest);
+      break;
+  }
+}
+
+void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
+{
+  if (lost.Found > 0)
+  {
+    this->Settings.Warn(Join("Level ", level, " shows ", lost.Found,
+      lost.Found == 1 ? " part" : " parts", " of the object that level ", level + 1, " had lost; ",
+      lost.Seeded, lost.Seeded == 1 ? " was" : " were", " seeded again."));
+  }
+}
+
+bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
+{
+  const StopReason reason = evolution.Run();
+  SurfaceDescription description;
+  description.Level = level;
+  description.Unit = this->Pyramid.UnitInWorld(level);
+  description.Iterations = evolution.Iterations();
+  description.StopReason = Describe(reason);
+  if (level < this->Coarsest)
+  {
+    const SurfaceEvolution::LostParts lost = evolution.Lost();
+    description.LostParts = lost.Found;
+    description.RecoveredParts = lost.Seeded;
+  }
+  this->Finest = MakePolyData(evolution.Result(), description, this->Pyramid.GetWorkspace());
+  this->Blocks->SetBlock(level, this->Finest);
+  this->Table = MakeHistory(evolution.History(), this->Pyramid.GetWorkspace());
+  if (reason == StopReason::Vanished)
+  {
+    this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
+      ": the object is too thin for it. Set CoarsestLevel to a finer level."));
+  }
+  return reason == StopReason::Converged || reason == StopReason::IterationLimit ||
+    (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
+}
+
+void SurfaceSegmentation::Run()
+{
+  this->ChooseLevels();
+  this->CheckIsoValue();
+  for (int level = 0; level < this->Pyramid.NumberOfLevels(); ++level)
+  {
+    this->Blocks->SetBlock(level, nullptr);
+    this->Blocks->GetMetaData(level)->Set(
+      vtkCompositeDataSet::NAME(), Join("Level ", level).c_str());
+  }
+
+  HostThreads threads(this->Settings.NumberOfThreads);
+  ProgressMonitor monitor(this->Settings, this->Coarsest, this->LastLevel);
+  threads.Run(
+    [&]
+    {
+      SurfaceEvolution evolution(this->Settings.Options, threads, monitor);
+      for (int level = this->Coarsest; level >= this->LastLevel; --level)
+      {
+        LevelImage image;
+        try
+        {
+          image = this->Pyramid.Load(level, threads);
+        }
+        catch (const std::invalid_argument& error)
+        {
+          Refuse("Input port 0: ", error.what());
+        }
+        if (level == this->Coarsest)
+        {
+          this->CheckObjectIsThere(image);
+          this->Start(evolution, image);
+        }
+        else
+        {
+          evolution.Divide(image, level);
+          this->WarnOfLostParts(level, evolution.Lost());
+        }
+        if (!this->RunLevel(evolution, level))
+        {
+          break;
+        }
+      }
+    });
+}
+}

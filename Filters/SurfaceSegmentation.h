@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SurfaceSegmentation_h
+#define SurfaceSegmentation_h
+
+#include "Core/SurfaceEvolution.h"
+#include "Core/SurfaceOptions.h"
+#include "PyramidLevels.h"
+
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <string>
+
+class vtkAlgorithm;
+class vtkMultiBlockDataSet;
+class vtkPolyData;
+class vtkTable;
+
+namespace volumic
+{
+/// What a user of vtkDeformableSurface has chosen, and what hears of the work.
+struct SegmentationSettings
+{
+  /// SeedRadius in world units; BorderValue and RecoverLostParts follow from the enumerations
+  /// below.
+  SurfaceOptions Options;
+  int Initialization = 0; ///< vtkDeformableSurface::InitializationType, if it is one
+  int BorderValue = 0;    ///< vtkDeformableSurface::BorderValueType, if it is one
+  int Recovery = 0;       ///< vtkDeformableSurface::RecoveryType, if it is one
+  int CoarsestLevel = -1;
+  int FinestLevel = 0;
+  int NumberOfThreads = 0;
+  vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
+
+  /// Share of the work that is done and what is being done; false asks to stop.
+  std::function<bool(double share, const std::string& text)> Progress;
+  std::function<void(const std::string& text)> Warn;
+};
+
+/**
+ * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
+ * outputs of vtkDeformableSurface hold.
+ */
+class SurfaceSegmentation
+{
+public:
+  /// @throws std::invalid_argument if the blocks are not a pyramid or a setting is out of range.
+  SurfaceSegmentation(
+    vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm, const SegmentationSettings& settings);
+  ~SurfaceSegmentation();
+
+  /// @throws std::invalid_argument if settings and image do not fit.
+  void Run();
+
+  vtkPolyData* Surface() const { return this->Finest; }
+  vtkMultiBlockDataSet* Levels() const { return this->Blocks; }
+  vtkTable* History() const { return this->Table; }
+
+private:
+  void ChooseLevels();
+  void CheckIsoValue();
+  void CheckObjectIsThere(const LevelImage& image);
+  void Start(SurfaceEvolution& evolution, const LevelImage& image);
+  bool RunLevel(SurfaceEvolution& evolution, int level);
+  void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);
+
+  SegmentationSettings Settings;
+  PyramidLevels Pyramid;
+  int Coarsest = 0;
+  int LastLevel = 0; ///< the finest to visit
+  vtkSmartPointer<vtkPolyData> Finest;
+  vtkSmartPointer<vtkMultiBlockDataSet> Blocks;
+  vtkSmartPointer<vtkTable> Table;
+};
+}
+
+#endif

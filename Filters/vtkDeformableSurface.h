@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDeformableSurface
+ * @brief   segment an image with a closed surface that descends a pyramid, from coarse to fine
+ *
+ * vtkDeformableSurface searches the boundary of an object in a 3D image: the isopotential, the
+ * surface of equal value IsoValue of the interpolated image. A closed triangulated surface is
+ * moved and bent by forces, merges with itself and comes apart as the object demands, first at the
+ * coarsest level of an image pyramid, then, each time divided, at the finer ones. At any moment it
+ * is closed, oriented, manifold and free of self-intersections, and its triangles are even: every
+ * edge is between delta and 2.5 delta long, where delta is about one voxel of the level.
+ *
+ * @par Input:
+ * Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid is
+ * built here with default settings. Of each level the array chosen by SetInputArrayToProcess() is
+ * used, by default the active point scalars: one component, any numeric type, finite values. At
+ * least 8 voxels along each axis.
+ * Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
+ * surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
+ * polygons are triangulated). With Initialization Seeds, its vertices are the centres of the seeds
+ * (all its points if it has no cells). World coordinates.
+ *
+ * @par Output:
+ * All geometry is in world coordinates, through origin, spacing and direction of the input, and
+ * oriented outward: normals point from inside, where the object is, to outside. Points are double,
+ * so that the way to world coordinates makes no triangles intersect.
+ * Port 0, `Surface`: vtkPolyData, the surface of the finest level that was reached.
+ * Port 1, `Levels`: vtkMultiBlockDataSet, block h the surface that rested at level h, named
+ * `Level h`; blocks of levels that were not visited are empty.
+ * Port 2, `History`: vtkTable, a row per iteration.
+ *
+ * Point arrays of each surface: `Normals` (float, active), `Residual` (float, field minus IsoValue
+ * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest). Cell array: `Component`
+ * (int, 0 = largest area). Field data: `Level` (int), `Delta` and `Unit` (double, world units),
+ * `NumberOfComponents`, `EulerCharacteristic`, `Genus` (sum over the components), `Iterations`
+ * (int, at this level), `Area`, `Volume` (double), `StopReason` (string: `converged`, `iteration
+ * limit`, `cancelled`, `vanished`), `LostParts` and `RecoveredParts` (int, see Recovery) and, with
+ * an entry per component, `ComponentArea`, `ComponentVolume` (negative for a cavity),
+ * `ComponentGenus`, `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the
+ * enclosed solid of density 1 about its centroid).
+ *
+ * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
+ * (mean over the vertices, along the normals), `MeanEdgeLength` (world units, for voxels that are
+ * cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those
+ * awake), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this
+ * iteration), `EulerCharacteristic`, `Components`.
+ *
+ * @par Algorithm:
+ * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: every
+ * operation is verified by exact tests, displacements that would intersect are taken back, merges
+ * need the image's consent. The surface lives in a workspace where voxels are cubes (section 5.2);
+ * the lengths that the constraints speak of are lengths there. Results are the same bits for any
+ * number of threads.
+ *
+ * @par Errors:
+ * A message names the port, the array or the value, and the way out; the outputs are empty. A
+ * warning tells when parts of the object were lost at a level, or when nothing is left.
+ * AbortExecute stops after the current iteration: the surface as it is then is handed over, valid,
+ * with `StopReason` `cancelled`.
+ *
+ * @par Thanks:
+ * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
+ * Triangulated Surface", ECCV 1996.
+ *
+ * @sa
+ * vtkImagePyramid vtkFlyingEdges3D
+ */
+#ifndef vtkDeformableSurface_h
+#define vtkDeformableSurface_h
+
+#include "vtkFiltersVolumicModule.h" // For export macro
+#include "vtkPolyDataAlgorithm.h"
+
+class vtkAlgorithmOutput;
+class vtkMultiBlockDataSet;
+class vtkTable;
+
+class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkDeformableSurface* New();
+  vtkTypeMacro(vtkDeformableSurface, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// What the surface starts from.
+  enum InitializationType
+  {
+    EnclosingIcosahedron = 0,
+    Seeds = 1,
+    IsoSurface = 2,
+    InputSurface = 3
+  };
+  /// What the field is outside the image.
+  enum BorderValueType
+  {
+    Background = 0,
+    Replicate = 1
+  };
+  /// What is done about parts of the object that a coarser level has lost.
+  enum RecoveryType
+  {
+    NoRecovery = 0,
+    RecoverObjects = 1
+  };
+
+  ///@{
+  /**
+   * The isopotential that is searched, in the units of the voxels. Must be set (NaN, the default,
+   * is an error that tells the range).
+   */
+  vtkSetMacro(IsoValue, double);
+  vtkGetMacro(IsoValue, double);
+  ///@}
+
+  ///@{
+  /**
+   * The object is where the field is above IsoValue (off: below). Default: on.
+   */
+  vtkSetMacro(ObjectIsBright, bool);
+  vtkGetMacro(ObjectIsBright, bool);
+  vtkBooleanMacro(ObjectIsBright, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What the surface starts from. EnclosingIcosahedron (default): an icosahedron about the image,
+   * shrunk to a rounded box. Seeds: icosahedra of SeedRadius that grow inside the object, at the
+   * points of port 1, or on a grid if there are none. IsoSurface: the closed iso-surface of the
+   * coarsest level. InputSurface: the polygons of port 1.
+   */
+  vtkSetMacro(Initialization, int);
+  vtkGetMacro(Initialization, int);
+  void SetInitializationToEnclosingIcosahedron() { this->SetInitialization(EnclosingIcosahedron); }
+  void SetInitializationToSeeds() { this->SetInitialization(Seeds); }
+  void SetInitializationToIsoSurface() { this->SetInitialization(IsoSurface); }
+  void SetInitializationToInputSurface() { this->SetInitialization(InputSurface); }
+  ///@}
+
+  ///@{
+  /**
+   * Radius of the seeds in world units; 0, the default: three delta of the coarsest level. Lengths
+   * are those of the workspace, scaled so that the smallest voxel distance is right.
+   */
+  vtkSetMacro(SeedRadius, double);
+  vtkGetMacro(SeedRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * The levels to visit: from CoarsestLevel (-1, the default: the last of the pyramid) down to
+   * FinestLevel (0, the default: the input). Equal values run on one level alone.
+   */
+  vtkSetMacro(CoarsestLevel, int);
+  vtkGetMacro(CoarsestLevel, int);
+  vtkSetMacro(FinestLevel, int);
+  vtkGetMacro(FinestLevel, int);
+  ///@}
+
+  ///@{
+  /**
+   * delta_h / U_h (eq. 7): the smallest edge of the surface in units of the level, between
+   * sqrt(3)/2.5 = 0.693 and 1.
+   */
+  vtkSetMacro(SamplingRatio, double);
+  vtkGetMacro(SamplingRatio, double);
+  ///@}
+
+  ///@{
+  /**
+   * The weights of the four forces, at least 0, without unit: tension pulls a vertex to the
+   * barycentre of its neighbours, elasticity acts as springs along the edges, the isopotential
+   * force moves it along its normal to the iso-value, the gradient force descends along the
+   * gradient of the image (0 by default: give an image whose valleys are the boundaries, such as
+   * the negative gradient magnitude, to use it).
+   */
+  vtkSetMacro(TensionWeight, double);
+  vtkGetMacro(TensionWeight, double);
+  vtkSetMacro(ElasticityWeight, double);
+  vtkGetMacro(ElasticityWeight, double);
+  vtkSetMacro(IsopotentialWeight, double);
+  vtkGetMacro(IsopotentialWeight, double);
+  vtkSetMacro(GradientWeight, double);
+  vtkGetMacro(GradientWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * Friction per unit of the simulated time, more than 0: little oscillates, much is slow.
+   */
+  vtkSetMacro(Friction, double);
+  vtkGetMacro(Friction, double);
+  ///@}
+
+  ///@{
+  /**
+   * What the field is outside the image. Background (default): away from the object, so that
+   * surfaces close at the border. Replicate: the nearest voxel.
+   */
+  vtkSetMacro(BorderValue, int);
+  vtkGetMacro(BorderValue, int);
+  void SetBorderValueToBackground() { this->SetBorderValue(Background); }
+  void SetBorderValueToReplicate() { this->SetBorderValue(Replicate); }
+  ///@}
+
+  ///@{
+  /**
+   * Parts of the object that a coarser level could not resolve lie outside the surface when it
+   * comes to a level. RecoverObjects (default) seeds each part of at least MinimumPartSize voxels
+   * of that level, and the seed joins the evolution; NoRecovery is the paper's behaviour, where
+   * only what is connected to the surface is found again.
+   */
+  vtkSetMacro(Recovery, int);
+  vtkGetMacro(Recovery, int);
+  vtkSetMacro(MinimumPartSize, int);
+  vtkGetMacro(MinimumPartSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * Merges and cuts (default: on). Off: contacts only stop the surface, its topology stays.
+   */
+  vtkSetMacro(TopologyChanges, bool);
+  vtkGetMacro(TopologyChanges, bool);
+  vtkBooleanMacro(TopologyChanges, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Iterations per level at most. Default: 1000.
+   */
+  vtkSetMacro(MaximumNumberOfIterations, int);
+  vtkGetMacro(MaximumNumberOfIterations, int);
+  ///@}
+
+  ///@{
+  /**
+   * A level rests when the enclosed volume changes by less than this share of it over 10 and over
+   * 20 iterations. Differs from the paper, which waits for the kinetic energy: that either stops
+   * while tips still grow, or never.
+   */
+  vtkSetMacro(ConvergenceTolerance, double);
+  vtkGetMacro(ConvergenceTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Vertices at rest are skipped until something near them changes (the paper's heuristic).
+   * Default: on.
+   */
+  vtkSetMacro(FreezeMotionlessVertices, bool);
+  vtkGetMacro(FreezeMotionlessVertices, bool);
+  vtkBooleanMacro(FreezeMotionlessVertices, bool);
+  ///@}
+
+  ///@{
+  /**
+   * At the end of a level, move vertices onto the isopotential as far as the constraints allow.
+   * Default: on.
+   */
+  vtkSetMacro(SnapToIsoValue, bool);
+  vtkGetMacro(SnapToIsoValue, bool);
+  vtkBooleanMacro(SnapToIsoValue, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * The initial surface or the centres of the seeds: port 1.
+   */
+  void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
+  void SetInitialSurfaceData(vtkDataObject* data);
+  ///@}
+
+  ///@{
+  /**
+   * Outputs 1 and 2.
+   */
+  vtkMultiBlockDataSet* GetLevels();
+  vtkTable* GetHistory();
+  ///@}
+
+protected:
+  vtkDeformableSurface();
+  ~vtkDeformableSurface() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+  double IsoValue;
+  bool ObjectIsBright;
+  int Initialization;
+  double SeedRadius;
+  int CoarsestLevel;
+  int FinestLevel;
+  double SamplingRatio;
+  double TensionWeight;
+  double ElasticityWeight;
+  double IsopotentialWeight;
+  double GradientWeight;
+  double Friction;
+  int BorderValue;
+  int Recovery;
+  int MinimumPartSize;
+  bool TopologyChanges;
+  int MaximumNumberOfIterations;
+  double ConvergenceTolerance;
+  bool FreezeMotionlessVertices;
+  bool SnapToIsoValue;
+  int NumberOfThreads;
+
+private:
+  vtkDeformableSurface(const vtkDeformableSurface&) = delete;
+  void operator=(const vtkDeformableSurface&) = delete;
+};
+
+#endif
