@@ -143,7 +143,7 @@ apt_install()
     return 1
   fi
   "${privileged[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -q --no-install-recommends --no-remove "$@"
+    apt-get install -y -q -o DPkg::Lock::Timeout=300 --no-install-recommends --no-remove "$@"
 }
 
 # install_packages PACKAGE...: one step, which installs those that are missing.
