@@ -16,6 +16,8 @@ constexpr float ForceRange = 0.75f;
 constexpr float GradientFloor = 0.15f;
 /** A vertex has moved visibly when it is this far from its anchor, in delta. */
 constexpr float Visible = 0.03f;
+/** The same along the surface. */
+constexpr float Slide = 0.3f;
 /** Iterations without visible motion after which a vertex sleeps. */
 constexpr int Patience = 5;
 
@@ -225,6 +227,7 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
         {
           move *= longest / length;
         }
+        state.Drift[v] += length;
         p += move;
         p.Unused = 0;
       }
@@ -238,13 +241,16 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
 void Dynamics::Freeze(SurfaceState& state, const std::vector<int>& awake)
 {
   const float visible = Visible * state.Delta;
+  const float slide = Slide * state.Delta;
   for (int v : awake)
   {
     if (!state.Mesh.IsAlive(v))
     {
       continue;
     }
-    if (SquaredDistance(state.Mesh.Position[v], state.Anchor[v]) > visible * visible)
+    // Along the normal: sliding along the surface changes nothing, and is left to the end.
+    const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
+    if (std::abs(Dot(moved, state.Normal[v])) > visible || SquaredLength(moved) > slide * slide)
     {
       state.Anchor[v] = state.Mesh.Position[v];
       state.Wake(v);

@@ -91,11 +91,56 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
   return has(f[0]) && has(f[1]) && has(f[2]);
 }
 
-void TestStars(
-  const SurfaceState& state, int v, int w, std::vector<Proximity::Meeting>& meetings)
+/**
+ * Two faces are met from up to nine pairs of their corners. Only the first pair, in order of
+ * index, that an examination would look at tests them.
+ */
+class FirstPair
+{
+public:
+  FirstPair(const SurfaceState& state, const std::vector<std::uint8_t>& listed, int v, int w)
+    : State(state)
+    , Listed(listed)
+    , V(std::min(v, w))
+    , W(std::max(v, w))
+  {
+  }
+
+  bool IsFirstOf(const std::array<int, 3>& f, const std::array<int, 3>& g) const
+  {
+    const float reach = constraint::Reach * this->State.Delta;
+    for (int a : f)
+    {
+      for (int b : g)
+      {
+        const int x = std::min(a, b);
+        const int y = std::max(a, b);
+        if ((x < this->V || (x == this->V && y < this->W)) &&
+          (this->Listed[x] || this->Listed[y]) &&
+          SquaredDistance(this->State.Mesh.Position[x], this->State.Mesh.Position[y]) <=
+            0.999f * reach * reach &&
+          this->State.AreOpposed(x, y))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+private:
+  const SurfaceState& State;
+  const std::vector<std::uint8_t>& Listed;
+  int V;
+  int W;
+};
+
+void TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed, int v, int w,
+  std::vector<Proximity::Meeting>& meetings)
 {
   const Star first(state.Mesh, v);
   const Star second(state.Mesh, w);
+  const FirstPair pair(state, listed, v, w);
   for (int i = 0; i < first.Neighbours.Count; ++i)
   {
     for (int j = v == w ? i + 1 : 0; j < second.Neighbours.Count; ++j)
@@ -106,7 +151,7 @@ void TestStars(
       }
       const std::array<int, 3> f = first.Face(i);
       const std::array<int, 3> g = second.Face(j);
-      if (!SameFace(f, g) &&
+      if (!SameFace(f, g) && pair.IsFirstOf(f, g) &&
         TrianglesMeet(TriangleOf(state.Mesh, f[0], f[1], f[2]),
           TriangleOf(state.Mesh, g[0], g[1], g[2]), constraint::Contact * state.Delta))
       {
@@ -133,7 +178,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   if (state.AreOpposed(v, v))
   {
     anything = true;
-    TestStars(state, v, v, block.Meetings);
+    TestStars(state, this->Listed, v, v, block.Meetings);
   }
   state.Grid.Visit(p, reach,
     [&](int w)
@@ -150,7 +195,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
       }
       if ((v < w || !this->Listed[w]) && !AreSeparated(state, v, w))
       {
-        TestStars(state, v, w, block.Meetings);
+        TestStars(state, this->Listed, v, w, block.Meetings);
       }
     });
   state.Near[v] = anything;

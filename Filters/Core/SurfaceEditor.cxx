@@ -23,6 +23,9 @@ VectorD AreaNormal(const NamedTriangle& t)
 /** Smallest height relative to delta that a new face may have. */
 constexpr double LeastHeight = 0.05;
 
+/** Longest rung of a merge's band, in delta. */
+constexpr float LongestRung = 4.f;
+
 bool IsSound(const NamedTriangle& t, double delta)
 {
   const double longest = std::max({ SquaredDistance(t.Corner[0], t.Corner[1]),
@@ -279,7 +282,8 @@ bool SurfaceEditor::Merge(int u, int v)
   StarMerge merge;
   merge.U = u;
   merge.V = v;
-  const float longest = constraint::LongestEdge * s.Delta;
+  // Between sharp rims rungs are long; the next iteration splits them before anything moves.
+  const float longest = LongestRung * s.Delta;
   if (!merge.Plan(s.Mesh) || merge.SquaredLongestRung() > longest * longest)
   {
     return false;

@@ -54,6 +54,9 @@ private:
   Clock::time_point Last;
 };
 
+/** Way, in delta, after which a vertex far from all others is examined again. */
+constexpr float NoticeableDrift = 0.05f;
+
 /** Passes of tangential smoothing and snapping at the end of a level. */
 constexpr int RegularisationPasses = 6;
 
@@ -99,9 +102,11 @@ struct SurfaceEvolution::Implementation
   RestCriterion Rest;
   std::vector<int> Awake;
   std::vector<int> Working;
+  std::vector<int> Suspects;
   std::vector<std::uint8_t> Marked;
   std::vector<double> Swept;
   double Volume = 0;
+  int Unlabelled = 0; ///< Merges and cuts since components were labelled last.
   int Shrunk = 0; ///< Collapses since components were labelled last.
   int Unresolved = 0;
 
@@ -117,6 +122,7 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void CollectAwake();
   void CollectWorking();
+  void CollectSuspects();
   void MarkRing(int v);
   void RollBack();
   void UpdateTouched();
@@ -231,6 +237,41 @@ void SurfaceEvolution::Implementation::CollectWorking()
   }
 }
 
+void SurfaceEvolution::Implementation::CollectSuspects()
+{
+  // A vertex with nothing but smooth surface within reach stays so until it, or a neighbour whose
+  // triangles it shares, has gone a noticeable way; others that come near are examined themselves.
+  SurfaceState& s = this->State;
+  const float noticeable = NoticeableDrift * s.Delta;
+  this->Suspects.clear();
+  constexpr std::uint8_t chosen = 2;
+  const auto choose = [&](int v)
+  {
+    if (this->Marked[v] != chosen)
+    {
+      this->Marked[v] = chosen;
+      this->Suspects.push_back(v);
+    }
+  };
+  for (int v : this->Working)
+  {
+    if (s.Drift[v] > noticeable)
+    {
+      s.Drift[v] = 0;
+      choose(v);
+      const Ring& ring = s.Mesh.Rings[v];
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        choose(ring.Item[i]);
+      }
+    }
+    else if (s.Near[v])
+    {
+      choose(v);
+    }
+  }
+}
+
 void SurfaceEvolution::Implementation::UpdateTouched()
 {
   std::vector<int>& touched = this->State.Touched;
@@ -286,6 +327,7 @@ void SurfaceEvolution::Implementation::RollBack()
       s.Stuck[v] = static_cast<std::uint8_t>(std::min(s.Stuck[v] + 2, 200));
       s.Awake[v] = 1;
       s.Quiet[v] = 0;
+      s.Drift[v] = 1e6f;
       list.insert(list.end(), s.Mesh.Rings[v].Item, s.Mesh.Rings[v].Item + s.Mesh.Rings[v].Count);
     }
     std::sort(list.begin(), list.end());
@@ -334,6 +376,7 @@ void SurfaceEvolution::Implementation::Iterate(
   s.Counts = EditCounts();
   this->CollectAwake();
   row.ActiveVertices = static_cast<int>(this->Awake.size());
+  row.Vertices = s.Mesh.NumberOfVertices();
   if (relax)
   {
     dynamics.Relax(s, this->Awake, this->Near.Pairs(), this->Options.SnapToIsoValue);
@@ -369,7 +412,8 @@ void SurfaceEvolution::Implementation::Iterate(
   this->UpdateTouched();
   watch.Lap(Phase::Remeshing);
 
-  this->Near.Examine(s, this->Working, this->Threads);
+  this->CollectSuspects();
+  this->Near.Examine(s, this->Suspects, this->Threads);
   watch.Lap(Phase::Proximity);
   this->RollBack();
   this->Volume += this->SweptVolume();
@@ -400,8 +444,11 @@ void SurfaceEvolution::Implementation::Iterate(
   // A component may become a small one without any change of topology.
   this->Shrunk += s.Counts.Collapses;
   constexpr int suspicious = 40;
-  if (s.Counts.Merges + s.Counts.Cuts > 0 || this->Shrunk > suspicious)
+  this->Unlabelled += s.Counts.Merges + s.Counts.Cuts;
+  const bool due = row.Vertices < 20000 || this->LastIterations % 4 == 0;
+  if ((this->Unlabelled > 0 && due) || this->Shrunk > suspicious)
   {
+    this->Unlabelled = 0;
     this->Watch.Label(s);
     this->Shrunk = 0;
   }
