@@ -4,14 +4,23 @@
 
 #include <vtkSMPTools.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
+#include <thread>
 
 namespace volumic
 {
 namespace
 {
+/// More threads than processors gain nothing, and TBB complains.
+int LimitToProcessors(int numberOfThreads)
+{
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  return processors > 0 ? std::min(numberOfThreads, processors) : numberOfThreads;
+}
+
 std::string ChooseBackend(int numberOfThreads)
 {
   const std::string host = vtkSMPTools::GetBackend();

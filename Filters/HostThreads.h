@@ -20,7 +20,7 @@ namespace volumic
 class HostThreads final : public Executor
 {
 public:
-  /// @param numberOfThreads 0 = all that the host has.
+  /// @param numberOfThreads 0 = all that the host has; never more than there are processors.
   explicit HostThreads(int numberOfThreads);
 
   /// Runs `work`, within which For() may be called; choosing a backend has its price, which is paid

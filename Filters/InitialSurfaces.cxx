@@ -91,7 +91,7 @@ IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
 {
   if (!polyData || polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() == 0)
   {
-    throw std::invalid_argument("Input port 1: the initial surface has no polygons. Give a closed "
+    throw std::invalid_argument("The initial surface has no polygons. Give a closed "
                                 "surface, or choose another Initialization.");
   }
   vtkNew<vtkTriangleFilter> triangulate;
@@ -134,7 +134,7 @@ std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space)
   }
   if (polyData->GetNumberOfVerts() == 0)
   {
-    throw std::invalid_argument("Input port 1: the seeds must be vertices or mere points, but the "
+    throw std::invalid_argument("The seeds must be vertices or mere points, but the "
                                 "data has other cells. Give the centres of the seeds, or set "
                                 "Initialization to InputSurface.");
   }

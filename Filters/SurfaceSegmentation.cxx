@@ -99,6 +99,11 @@ SurfaceSegmentation::SurfaceSegmentation(
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
   CheckEnumeration("BorderValue", settings.BorderValue, vtkDeformableSurface::Replicate);
   CheckEnumeration("Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjects);
+  if (settings.Options.MaximumNumberOfIterations < 1)
+  {
+    Refuse("MaximumNumberOfIterations is ", settings.Options.MaximumNumberOfIterations,
+      "; it must be at least 1.");
+  }
   if (settings.Options.SeedRadius < 0.0 || !std::isfinite(settings.Options.SeedRadius))
   {
     Refuse("SeedRadius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
@@ -179,22 +184,31 @@ void SurfaceSegmentation::CheckObjectIsThere(const LevelImage& image)
 void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
 {
   const Workspace& space = this->Pyramid.GetWorkspace();
-  switch (this->Settings.Initialization)
+  try
   {
-    case vtkDeformableSurface::Seeds:
-      evolution.StartSeeds(image, this->Coarsest, SeedsOf(this->Settings.InitialSurface, space));
-      break;
-    case vtkDeformableSurface::IsoSurface:
-      evolution.StartSurface(
-        image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
-      break;
-    case vtkDeformableSurface::InputSurface:
-      evolution.StartSurface(
-        image, this->Coarsest, SurfaceOf(this->Settings.InitialSurface, space));
-      break;
-    default:
-      evolution.StartEnclosing(image, this->Coarsest);
-      break;
+    switch (this->Settings.Initialization)
+    {
+      case vtkDeformableSurface::Seeds:
+        evolution.StartSeeds(image, this->Coarsest, SeedsOf(this->Settings.InitialSurface, space));
+        break;
+      case vtkDeformableSurface::IsoSurface:
+        evolution.StartSurface(
+          image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
+        break;
+      case vtkDeformableSurface::InputSurface:
+        evolution.StartSurface(
+          image, this->Coarsest, SurfaceOf(this->Settings.InitialSurface, space));
+        break;
+      default:
+        evolution.StartEnclosing(image, this->Coarsest);
+        break;
+    }
+  }
+  catch (const std::invalid_argument& error)
+  {
+    const bool isGiven = this->Settings.Initialization == vtkDeformableSurface::InputSurface ||
+      this->Settings.Initialization == vtkDeformableSurface::Seeds;
+    Refuse(isGiven ? "Input port 1: " : "", error.what());
   }
 }
 

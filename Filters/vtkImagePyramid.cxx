@@ -189,6 +189,12 @@ bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const volumic::Pyra
   threads.Run(
     [&]
     {
+      const std::string notFinite =
+        volumic::DescribeNotFiniteVoxels(voxels, contiguous, input, threads);
+      if (!notFinite.empty())
+      {
+        throw std::invalid_argument(notFinite);
+      }
       switch (contiguous->GetDataType())
       {
         vtkTemplateMacro({

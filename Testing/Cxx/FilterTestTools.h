@@ -14,8 +14,10 @@
 #include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +71,37 @@ private:
   std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
 };
 
+/// Listens to the progress and asks to stop once it has heard a share.
+struct ProgressListener
+{
+  std::vector<double> Shares;
+  std::set<std::string> Texts;
+  double StopAt = 2.0;
+
+  explicit ProgressListener(vtkAlgorithm* algorithm)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject* caller, unsigned long, void* client, void* data)
+      {
+        auto* self = static_cast<ProgressListener*>(client);
+        auto* filter = vtkAlgorithm::SafeDownCast(caller);
+        self->Shares.push_back(*static_cast<double*>(data));
+        if (filter->GetProgressText())
+        {
+          self->Texts.insert(filter->GetProgressText());
+        }
+        if (self->Shares.back() >= self->StopAt)
+        {
+          filter->SetAbortExecute(1);
+        }
+      });
+    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
+  }
+
+  vtkNew<vtkCallbackCommand> Command;
+};
+
 /// An image with random voxels in [0, 100], named `Voxels`, first voxel at extent 0.
 inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int scalarType = VTK_FLOAT)
 {
@@ -82,6 +115,34 @@ inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int sca
   for (vtkIdType i = 0; i < voxels->GetNumberOfTuples(); ++i)
   {
     voxels->SetComponent(i, 0, value(generator));
+  }
+  return image;
+}
+
+/// A bright ball (100) in the dark (0), its radius a share of the shortest side; float `Voxels`.
+/// Values fall over about two voxels at the boundary, so that 50 is a sphere.
+inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double radiusShare = 0.3)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(nx, ny, nz);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  voxels->SetName("Voxels");
+  const double radius = radiusShare * std::min({ nx, ny, nz });
+  vtkIdType index = 0;
+  for (int k = 0; k < nz; ++k)
+  {
+    for (int j = 0; j < ny; ++j)
+    {
+      for (int i = 0; i < nx; ++i, ++index)
+      {
+        const double x = i - 0.5 * (nx - 1);
+        const double y = j - 0.5 * (ny - 1);
+        const double z = k - 0.5 * (nz - 1);
+        const double inside = radius - std::sqrt(x * x + y * y + z * z);
+        voxels->SetComponent(index, 0, 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0));
+      }
+    }
   }
   return image;
 }

@@ -3,8 +3,6 @@
 #include "FilterTestTools.h"
 #include "vtkImagePyramid.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -15,45 +13,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
-#include <vector>
 
 using namespace volumic;
 
 namespace
 {
-/// Listens to the progress and asks to stop once it has heard a share.
-struct Listener
-{
-  std::vector<double> Shares;
-  std::set<std::string> Texts;
-  double StopAt = 2.0;
-
-  explicit Listener(vtkAlgorithm* algorithm)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject* caller, unsigned long, void* client, void* data)
-      {
-        auto* self = static_cast<Listener*>(client);
-        auto* filter = vtkAlgorithm::SafeDownCast(caller);
-        self->Shares.push_back(*static_cast<double*>(data));
-        if (filter->GetProgressText())
-        {
-          self->Texts.insert(filter->GetProgressText());
-        }
-        if (self->Shares.back() >= self->StopAt)
-        {
-          filter->SetAbortExecute(1);
-        }
-      });
-    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
-  }
-
-  vtkNew<vtkCallbackCommand> Command;
-};
-
 std::string StopReason(vtkMultiBlockDataSet* pyramid)
 {
   auto* reason =
@@ -76,7 +41,7 @@ TEST(ImagePyramidProgress, GrowsWithinALevelAndNamesIt)
   vtkNew<vtkImagePyramid> filter;
   filter->SetInputData(LargeImage());
   filter->SetNumberOfLevels(3);
-  Listener listener(filter);
+  ProgressListener listener(filter);
   filter->Update();
   EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
   const auto inside = [](double share) { return share > 0.01 && share < 0.5; };
@@ -91,7 +56,7 @@ TEST(ImagePyramidProgress, CancellingWithinALevelHandsOverTheLevelsBefore)
   vtkNew<vtkImagePyramid> filter;
   filter->SetInputData(LargeImage());
   filter->SetNumberOfLevels(3);
-  Listener listener(filter);
+  ProgressListener listener(filter);
   listener.StopAt = 0.2; // within level 1
   filter->Update();
   ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 1u);
@@ -103,7 +68,7 @@ TEST(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
   vtkNew<vtkImagePyramid> filter;
   filter->SetInputData(LargeImage());
   filter->SetNumberOfLevels(3);
-  Listener listener(filter);
+  ProgressListener listener(filter);
   listener.StopAt = 0.83; // level 1 is 0.84 of the work
   filter->Update();
   ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
@@ -119,7 +84,7 @@ TEST(ImagePyramidProgress, RunsToTheEndAfterACancelledRun)
   vtkNew<vtkImagePyramid> filter;
   filter->SetInputData(LargeImage());
   filter->SetNumberOfLevels(3);
-  Listener listener(filter);
+  ProgressListener listener(filter);
   listener.StopAt = 0.0;
   filter->Update();
   ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 1u);

@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterTestTools.h"
+#include "vtkDeformableSurface.h"
+#include "vtkImagePyramid.h"
+
+#include <vtkAppendPolyData.h>
+#include <vtkCellArray.h>
+#include <vtkCleanPolyData.h>
+#include <vtkCubeSource.h>
+#include <vtkExecutive.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkReverseSense.h>
+#include <vtkSphereSource.h>
+#include <vtkTable.h>
+#include <vtkTriangleFilter.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/// A filter that would work: each test spoils one thing, and expects to be told.
+class DeformableSurfaceErrors : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Filter->SetInputDataObject(BallImage(32, 32, 32));
+    this->Filter->SetIsoValue(50.0);
+  }
+
+  void ExpectError(const std::vector<std::string>& parts)
+  {
+    MessagesOf errors(this->Filter);
+    this->Filter->Update();
+    for (const std::string& part : parts)
+    {
+      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
+    }
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0) << "no output half made";
+    EXPECT_EQ(this->Filter->GetLevels()->GetNumberOfBlocks(), 0u);
+    EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfRows(), 0);
+  }
+
+  void ExpectSurfaceError(vtkPolyData* surface, const std::vector<std::string>& parts)
+  {
+    this->Filter->SetInitializationToInputSurface();
+    this->Filter->SetInitialSurfaceData(surface);
+    this->ExpectError(parts);
+  }
+
+  static vtkSmartPointer<vtkPolyData> Ball(double x, double radius)
+  {
+    vtkNew<vtkSphereSource> source;
+    source->SetCenter(x, 16, 16);
+    source->SetRadius(radius);
+    source->Update();
+    vtkSmartPointer<vtkPolyData> ball = source->GetOutput();
+    return ball;
+  }
+
+  static vtkSmartPointer<vtkPolyData> Together(vtkPolyData* a, vtkPolyData* b)
+  {
+    vtkNew<vtkAppendPolyData> append;
+    append->AddInputData(a);
+    append->AddInputData(b);
+    append->Update();
+    vtkSmartPointer<vtkPolyData> both = append->GetOutput();
+    return both;
+  }
+
+  static vtkSmartPointer<vtkPolyData> WithoutCell(vtkPolyData* surface, vtkIdType cell)
+  {
+    auto copy = vtkSmartPointer<vtkPolyData>::New();
+    copy->DeepCopy(surface);
+    copy->BuildLinks();
+    copy->DeleteCell(cell);
+    copy->RemoveDeletedCells();
+    return copy;
+  }
+
+  vtkSmartPointer<vtkMultiBlockDataSet> Pyramid()
+  {
+    vtkNew<vtkImagePyramid> pyramid;
+    pyramid->SetInputData(BallImage(32, 32, 32));
+    pyramid->Update();
+    auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+    blocks->DeepCopy(pyramid->GetOutput());
+    return blocks;
+  }
+
+  vtkNew<vtkDeformableSurface> Filter;
+};
+}
+
+TEST_F(DeformableSurfaceErrors, NoInput)
+{
+  this->Filter->RemoveAllInputConnections(0);
+  const MessagesOf errors(this->Filter->GetExecutive());
+  this->Filter->Update();
+  EXPECT_TRUE(errors.Has("Input port 0")) << errors.Get();
+}
+
+TEST_F(DeformableSurfaceErrors, IsoValueNotSetTellsTheRange)
+{
+  this->Filter->SetIsoValue(std::nan(""));
+  this->ExpectError({ "IsoValue is not set", "range from 0 to 100" });
+}
+
+TEST_F(DeformableSurfaceErrors, IsoValueOutsideTheRangeTellsTheRange)
+{
+  for (const double iso : { -5.0, 100.0, 101.0, std::numeric_limits<double>::infinity() })
+  {
+    this->Filter->SetIsoValue(iso);
+    this->ExpectError({ "IsoValue is", "outside the range", "0 to 100" });
+  }
+}
+
+TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
+{
+  const auto image = BallImage(40, 40, 40);
+  image->GetPointData()->GetScalars()->FillComponent(0, 0.0);
+  image->SetScalarComponentFromDouble(20, 20, 20, 0, 100.0);
+  this->Filter->SetInputDataObject(image);
+  this->ExpectError({ "vanished at level 2", "above IsoValue 50", "set CoarsestLevel to 0" });
+}
+
+TEST_F(DeformableSurfaceErrors, Image2D)
+{
+  this->Filter->SetInputDataObject(RandomImage(64, 64, 1));
+  this->ExpectError({ "Input port 0", "2D", "64 x 64 x 1" });
+}
+
+TEST_F(DeformableSurfaceErrors, ImageUnderEightVoxels)
+{
+  this->Filter->SetInputDataObject(RandomImage(64, 7, 64));
+  this->ExpectError({ "Input port 0", "64 x 7 x 64", "at least 8" });
+}
+
+TEST_F(DeformableSurfaceErrors, WhatThePyramidRefusesIsToldOnce)
+{
+  const auto image = BallImage(32, 32, 32);
+  image->GetPointData()->GetScalars()->SetComponent(5, 0, std::nan(""));
+  this->Filter->SetInputDataObject(image);
+  this->ExpectError({ "Input port 0: array 'Voxels' has 1 NaN", "(5, 0, 0)" });
+}
+
+TEST_F(DeformableSurfaceErrors, NotFiniteVoxelsInABlock)
+{
+  const auto blocks = this->Pyramid();
+  auto* level1 = vtkImageData::SafeDownCast(blocks->GetBlock(1));
+  level1->GetPointData()->GetScalars()->SetComponent(2, 0, std::nan(""));
+  this->Filter->SetInputDataObject(blocks);
+  this->ExpectError({ "Input port 0: level 1", "NaN", "(2, 0, 0)" });
+}
+
+TEST_F(DeformableSurfaceErrors, NamedArrayMissing)
+{
+  this->Filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+  this->ExpectError({ "no point array 'Density'", "'Voxels'" });
+}
+
+TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
+{
+  struct Spoil
+  {
+    std::function<void(vtkMultiBlockDataSet*)> What;
+    std::vector<std::string> Parts;
+  };
+  const auto level1 = [](vtkMultiBlockDataSet* blocks)
+  { return vtkImageData::SafeDownCast(blocks->GetBlock(1)); };
+  const std::vector<Spoil> spoils = {
+    { [](vtkMultiBlockDataSet* b) { b->SetNumberOfBlocks(0); }, { "no level" } },
+    { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, nullptr); }, { "block 1 is empty" } },
+    { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, vtkNew<vtkPolyData>()); },
+      { "block 1 is vtkPolyData" } },
+    { [&](vtkMultiBlockDataSet* b) { level1(b)->SetSpacing(1, 1, 1); },
+      { "block 1", "real size along x is 18", "block 0 is 32" } },
+    { [&](vtkMultiBlockDataSet* b) { level1(b)->SetOrigin(0, 3, 0); },
+      { "block 1", "first voxel lies at 3 along y" } },
+    { [&](vtkMultiBlockDataSet* b)
+      {
+        const double turned[9] = { 0, 1, 0, -1, 0, 0, 0, 0, 1 };
+        level1(b)->SetDirectionMatrix(turned);
+      },
+      { "block 1", "direction differs" } },
+    { [&](vtkMultiBlockDataSet* b)
+      {
+        vtkSmartPointer<vtkDataObject> level0 = b->GetBlock(0);
+        b->SetBlock(1, level0);
+      },
+      { "block 1", "32 x 32 x 32 voxels, and block 0 below it 32 x 32 x 32" } },
+  };
+  for (const Spoil& spoil : spoils)
+  {
+    const auto blocks = this->Pyramid();
+    spoil.What(blocks);
+    this->Filter->SetInputDataObject(blocks);
+    this->ExpectError(spoil.Parts);
+  }
+}
+
+TEST_F(DeformableSurfaceErrors, LevelsThatThereAreNot)
+{
+  this->Filter->SetCoarsestLevel(5);
+  this->ExpectError({ "CoarsestLevel is 5", "levels 0 to 2" });
+  this->Filter->SetCoarsestLevel(1);
+  this->Filter->SetFinestLevel(2);
+  this->ExpectError({ "FinestLevel is 2", "between 0 and the coarsest level, 1" });
+}
+
+TEST_F(DeformableSurfaceErrors, NumbersOutsideTheirRange)
+{
+  struct Number
+  {
+    const char* Name;
+    void (vtkDeformableSurface::*Set)(double);
+    double Bad;
+    double Good;
+  };
+  using Surface = vtkDeformableSurface;
+  const std::vector<Number> numbers = {
+    { "SamplingRatio", &Surface::SetSamplingRatio, 0.5, 0.85 },
+    { "SamplingRatio", &Surface::SetSamplingRatio, 1.1, 0.85 },
+    { "SamplingRatio", &Surface::SetSamplingRatio, std::nan(""), 0.85 },
+    { "TensionWeight", &Surface::SetTensionWeight, -1, 0.2 },
+    { "ElasticityWeight", &Surface::SetElasticityWeight, -0.1, 0.1 },
+    { "IsopotentialWeight", &Surface::SetIsopotentialWeight, -1, 1 },
+    { "GradientWeight", &Surface::SetGradientWeight, std::nan(""), 0 },
+    { "Friction", &Surface::SetFriction, 0, 3 },
+    { "Friction", &Surface::SetFriction, -1, 3 },
+    { "ConvergenceTolerance", &Surface::SetConvergenceTolerance, -1, 1e-4 },
+    { "SeedRadius", &Surface::SetSeedRadius, -2, 0 },
+    { "SeedRadius", &Surface::SetSeedRadius, std::nan(""), 0 },
+  };
+  for (const Number& number : numbers)
+  {
+    (this->Filter->*number.Set)(number.Bad);
+    this->ExpectError({ number.Name });
+    (this->Filter->*number.Set)(number.Good);
+  }
+}
+
+TEST_F(DeformableSurfaceErrors, IntegersOutsideTheirRange)
+{
+  this->Filter->SetInitialization(4);
+  this->ExpectError({ "Initialization is 4", "0 to 3" });
+  this->Filter->SetInitialization(0);
+  this->Filter->SetBorderValue(2);
+  this->ExpectError({ "BorderValue is 2", "0 to 1" });
+  this->Filter->SetBorderValue(0);
+  this->Filter->SetRecovery(-1);
+  this->ExpectError({ "Recovery is -1" });
+  this->Filter->SetRecovery(0);
+  this->Filter->SetMaximumNumberOfIterations(0);
+  this->ExpectError({ "MaximumNumberOfIterations" });
+}
+
+TEST_F(DeformableSurfaceErrors, NoInitialSurface)
+{
+  this->Filter->SetInitializationToInputSurface();
+  this->ExpectError({ "Input port 1", "no polygons" });
+  this->ExpectSurfaceError(vtkNew<vtkPolyData>(), { "Input port 1", "no polygons" });
+}
+
+TEST_F(DeformableSurfaceErrors, OpenInitialSurface)
+{
+  this->ExpectSurfaceError(
+    WithoutCell(Ball(16, 10), 7), { "Input port 1", "initial surface", "open" });
+}
+
+TEST_F(DeformableSurfaceErrors, NonManifoldInitialSurface)
+{
+  // Two tetrahedra that share an edge: closed, but four triangles meet there.
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(16, 16, 10);
+  points->InsertNextPoint(16, 16, 22);
+  points->InsertNextPoint(8, 10, 16);
+  points->InsertNextPoint(8, 22, 16);
+  points->InsertNextPoint(24, 22, 16);
+  points->InsertNextPoint(24, 10, 16);
+  const vtkIdType triangles[8][3] = { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 },
+    { 0, 1, 4 }, { 0, 5, 1 }, { 0, 4, 5 }, { 1, 5, 4 } };
+  vtkNew<vtkCellArray> cells;
+  for (const auto& triangle : triangles)
+  {
+    cells->InsertNextCell(3, triangle);
+  }
+  vtkNew<vtkPolyData> glued;
+  glued->SetPoints(points);
+  glued->SetPolys(cells);
+  this->ExpectSurfaceError(glued, { "Input port 1", "manifold" });
+}
+
+TEST_F(DeformableSurfaceErrors, InsideOutInitialSurface)
+{
+  vtkNew<vtkReverseSense> reverse;
+  reverse->SetInputData(Ball(16, 10));
+  reverse->Update();
+  this->ExpectSurfaceError(reverse->GetOutput(), { "Input port 1", "inside out" });
+}
+
+TEST_F(DeformableSurfaceErrors, SelfIntersectingInitialSurface)
+{
+  this->ExpectSurfaceError(Together(Ball(12, 7), Ball(20, 7)), { "Input port 1", "intersect" });
+}
+
+TEST_F(DeformableSurfaceErrors, InitialSurfaceOutsideTheImage)
+{
+  this->ExpectSurfaceError(Ball(100, 10), { "Input port 1", "outside the image" });
+}
+
+TEST_F(DeformableSurfaceErrors, SeedsOutsideTheImage)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(16, 16, 16);
+  points->InsertNextPoint(16, 16, 99);
+  vtkNew<vtkPolyData> seeds;
+  seeds->SetPoints(points);
+  this->Filter->SetInitializationToSeeds();
+  this->Filter->SetInitialSurfaceData(seeds);
+  this->ExpectError({ "Input port 1", "Seed 1", "outside the image" });
+}
+
+TEST_F(DeformableSurfaceErrors, SeedsThatAreASurface)
+{
+  this->Filter->SetInitializationToSeeds();
+  this->Filter->SetInitialSurfaceData(Ball(16, 10));
+  this->ExpectError({ "Input port 1", "vertices" });
+}
+
+TEST_F(DeformableSurfaceErrors, WorksAgainAfterAnError)
+{
+  this->Filter->SetIsoValue(200.0);
+  this->ExpectError({ "outside the range" });
+  this->Filter->SetIsoValue(50.0);
+  this->Filter->Update();
+  EXPECT_GT(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+}
