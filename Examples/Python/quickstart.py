@@ -1,25 +1,33 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a volume to its pyramid with the installed package `volumic`; see quickstart.sh.
+"""From a volume to a closed surface with the installed package `volumic`; see quickstart.sh.
 
-Reads a volume (by default a CT of a skull from Debian's package invesalius-examples), builds the
-pyramid and writes into the output folder
+Reads a volume (by default a CT of a skull from Debian's package invesalius-examples), builds its
+pyramid, lets the surface evolve from the coarsest level to the finest, and writes into the output
+folder
 
-    pyramid.vtm   the levels, one image each (ParaView opens it)
-    pyramid.png   slices and iso-surfaces of every level
+    pyramid.vtm, pyramid.png   the images of all levels; their slices and iso-surfaces
+    levels.vtm, levels.png     the surface at the end of each level
+    surface.vtp                the surface of the finest level
+    surface-views.png          that surface from several sides, cut open, and on the slices
+    history.csv, history.png   what happened at each iteration; the four curves of the paper
+    report.json                components, genus, area, volume, seconds per level and more
 """
 
 import argparse
 import os
 import sys
 
-from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter
-
+from history_chart import history_chart
 from otsu import otsu_iso_value
 from pyramid_picture import level_unit, pyramid_levels, pyramid_picture
 from read_volume import VolumeError, read_volume
-from render import write_png
+from render import world_frame, write_png
+from surface_pictures import levels_picture, views_picture, visited_levels
+from surface_results import (
+    component_facts, input_facts, level_facts, summary_lines, surface_facts, versions,
+    write_blocks, write_history, write_report, write_surface)
 from terminal import FilterError, run_filter
 
 SKULL = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
@@ -56,47 +64,89 @@ def load(arguments):
 
 
 def build_pyramid(image):
-    """The vtkMultiBlockDataSet of the levels."""
+    """The filter with the levels, and the seconds it took."""
     from volumic import vtkImagePyramid  # pylint: disable=import-outside-toplevel
     pyramid = vtkImagePyramid()
     pyramid.SetInputData(image)
-    run_filter(pyramid, "Building the pyramid")
+    seconds, _ = run_filter(pyramid, "Building the pyramid")
     for number, level in enumerate(pyramid_levels(pyramid.GetOutput())):
         print(f"  level {number}: {' x '.join(map(str, level.GetDimensions()))} voxels,"
               f" unit {level_unit(level):.4g}")
-    return pyramid.GetOutput()
+    return pyramid, seconds
 
 
-def write_blocks(blocks, path):
-    """A .vtm file and, in a folder beside it, a file for each block."""
-    writer = vtkXMLMultiBlockDataWriter()
-    writer.SetFileName(path)
-    writer.SetInputData(blocks)
-    if not writer.Write():
-        raise OSError(f"{path} cannot be written")
-    return path
+def build_surface(pyramid, iso):
+    """The filter with the surfaces, the seconds it took, and its warnings."""
+    from volumic import vtkDeformableSurface  # pylint: disable=import-outside-toplevel
+    surface = vtkDeformableSurface()
+    surface.SetInputConnection(pyramid.GetOutputPort())
+    surface.SetIsoValue(iso)
+    seconds, warnings = run_filter(surface, "Evolving the surface")
+    return surface, seconds, warnings
+
+
+class Results:
+    """The output folder, and the names of what was written there."""
+
+    def __init__(self, folder):
+        os.makedirs(folder, exist_ok=True)
+        self.folder = folder
+        self.paths = []
+
+    def write(self, function, content, name):
+        """function(content, path) writes the file."""
+        path = os.path.join(self.folder, name)
+        function(content, path)
+        self.paths.append(path)
+
+
+def run(arguments, results):
+    """The whole job, from the volume to the pictures."""
+    image, iso = load(arguments)
+    name = os.path.basename(os.path.normpath(arguments.volume))
+    pyramid, pyramid_seconds = build_pyramid(image)
+    results.write(write_blocks, pyramid.GetOutput(), "pyramid.vtm")
+
+    surface, seconds, warnings = build_surface(pyramid, iso)
+    finest, levels, history = (surface.GetOutputDataObject(port) for port in range(3))
+    if finest.GetNumberOfPolys() == 0:
+        raise FilterError("the surface vanished: is the object brighter than its surroundings, and"
+                          f" is {iso:g} between the two?")
+    report = {
+        "input": input_facts(image, name),
+        "iso_value": iso,
+        **surface_facts(finest),
+        "component_features": component_facts(finest),
+        "levels": level_facts(visited_levels(levels), history),
+        "seconds": {"pyramid": pyramid_seconds, "surface": seconds},
+        "warnings": warnings,
+        "versions": versions(),
+    }
+    print("\n".join(summary_lines(report)))
+    results.write(write_blocks, levels, "levels.vtm")
+    results.write(write_surface, finest, "surface.vtp")
+    results.write(write_history, history, "history.csv")
+    results.write(write_report, report, "report.json")
+
+    title = f"{name}, iso-value {iso:g}"
+    for picture, draw in (
+            ("pyramid.png", lambda: pyramid_picture(pyramid.GetOutput(), iso, name)),
+            ("levels.png", lambda: levels_picture(levels, world_frame(image), title)),
+            ("history.png", lambda: history_chart(history)),
+            ("surface-views.png", lambda: views_picture(finest, image, iso, title))):
+        print(f"Drawing {picture}", flush=True)
+        results.write(write_png, draw(), picture)
 
 
 def main():
     arguments = parse_arguments()
-    os.makedirs(arguments.output, exist_ok=True)
-    written = []
-
-    def target(name):
-        written.append(os.path.join(arguments.output, name))
-        return written[-1]
-
     try:
-        image, iso = load(arguments)
-        title = os.path.basename(os.path.normpath(arguments.volume))
-        pyramid = build_pyramid(image)
-        write_blocks(pyramid, target("pyramid.vtm"))
-        print("Drawing")
-        write_png(pyramid_picture(pyramid, iso, title), target("pyramid.png"))
+        results = Results(arguments.output)
+        run(arguments, results)
     except (VolumeError, FilterError, ValueError, OSError) as error:
         sys.exit(f"quickstart.py: {error}")
     print("Written:")
-    for path in written:
+    for path in results.paths:
         print(f"  {path}")
 
 

@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The picture of an evolution: the four curves of the paper's figure 5, a colour for each level.
+
+Lachaud and Montanvert, "Volumic Segmentation using Hierarchical Representation and Triangulated
+Surface", ECCV 1996.
+"""
+
+import numpy as np
+import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401, the factory of 2D drawing
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartMatrix, vtkChartXY
+from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkTable, vtkVector2f, vtkVector2i
+from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkViewsContext2D import vtkContextView
+
+import render
+
+# Column of the history, title, factor, whether the axis is logarithmic.
+CURVES = (
+    ("Seconds", "Duration of an iteration (ms)", 1000, False),
+    ("KineticEnergy", "Mean kinetic energy along the normals", 1, True),
+    ("MeanEdgeLength", "Mean length of the edges (world units)", 1, False),
+    ("Vertices", "Number of vertices", 1, False),
+)
+# From the coarsest level to the finest.
+COLORS = ((102, 194, 245), (250, 176, 77), (122, 214, 134), (238, 120, 130), (190, 150, 240),
+          (232, 222, 100), (150, 210, 205), (240, 150, 210))
+
+
+def history_chart(history, size=(1480, 900), scale=render.OVERSAMPLING):
+    """Picture, an array of pixels as in render.py, of a vtkTable with a row per iteration."""
+    columns = {name: vtk_to_numpy(history.GetColumnByName(name)).astype(float)
+               for name in ("Level",) + tuple(curve[0] for curve in CURVES)}
+    levels = columns["Level"].astype(int)
+    order = list(dict.fromkeys(levels))  # as they were visited
+
+    matrix = vtkChartMatrix()
+    matrix.SetSize(vtkVector2i(2, 2))
+    matrix.SetGutter(vtkVector2f(90 * scale, 95 * scale))
+    matrix.SetBorders(85 * scale, 60 * scale, 30 * scale, 35 * scale)
+    for number, (name, title, factor, logarithmic) in enumerate(CURVES):
+        chart = vtkChartXY()
+        matrix.SetChart(vtkVector2i(number % 2, 1 - number // 2), chart)
+        fill_chart(chart, columns[name] * factor, levels, order, scale)
+        logarithmic = logarithmic and (columns[name] > 0).any()
+        style_chart(chart, title, scale)
+        fix_axis(chart.GetAxis(vtkAxis.BOTTOM), len(levels))
+        if logarithmic:
+            chart.GetAxis(vtkAxis.LEFT).LogScaleOn()
+        else:
+            fix_axis(chart.GetAxis(vtkAxis.LEFT), (columns[name] * factor).max())
+
+    view = vtkContextView()
+    view.GetRenderer().SetBackground(render.BACKGROUND)
+    view.GetScene().AddItem(matrix)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    view.SetRenderWindow(window)
+    window.SetSize(size[0] * scale, size[1] * scale)
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    pixels = render.pixels_of(grab.GetOutput())
+    pixels = pixels.reshape(size[1], scale, size[0], scale, 3).mean(axis=(1, 3)).astype(np.uint8)
+    return np.concatenate([legend(order, levels, size[0]), pixels])
+
+
+def fill_chart(chart, values, levels, order, scale):
+    """A line for each level; each starts where the one before ended."""
+    for number, level in enumerate(order):
+        rows = np.flatnonzero(levels == level)
+        if rows[0] > 0:
+            rows = np.concatenate([[rows[0] - 1], rows])
+        table = vtkTable()
+        for name, data in (("Iteration", rows + 1.0), (f"Level {level}", values[rows])):
+            column = numpy_to_vtk(data, deep=True)
+            column.SetName(name)
+            table.AddColumn(column)
+        line = chart.AddPlot(vtkChart.LINE)
+        line.SetInputData(table, 0, 1)
+        line.SetColor(*COLORS[number % len(COLORS)], 255)
+        line.SetWidth(2.0 * scale)
+
+
+def style_chart(chart, title, scale):
+    chart.SetTitle(title)
+    look = chart.GetTitleProperties()
+    look.SetColor(render.INK)
+    look.SetFontSize(17 * scale)
+    look.SetBold(True)
+    for place in (vtkAxis.BOTTOM, vtkAxis.LEFT):
+        axis = chart.GetAxis(place)
+        axis.SetTitle("Iteration" if place == vtkAxis.BOTTOM else "")
+        axis.GetPen().SetColorF(*render.SOFT_INK)
+        axis.GetGridPen().SetColorF(0.22, 0.235, 0.26)
+        for look in (axis.GetLabelProperties(), axis.GetTitleProperties()):
+            look.SetColor(render.SOFT_INK)
+            look.SetFontSize(14 * scale)
+            look.SetBold(False)
+
+
+def fix_axis(axis, largest):
+    """From 0 to a little over the largest value, with some five round numbers on the way."""
+    largest = largest if largest > 0 and np.isfinite(largest) else 1
+    power = 10 ** np.floor(np.log10(largest / 5))
+    step = next(f * power for f in (1, 2, 2.5, 5, 10) if largest / (f * power) <= 6)
+    ticks = np.arange(0, 1.0001 * largest, step)
+    labels = vtkStringArray()
+    for tick in ticks:
+        labels.InsertNextValue(f"{tick:,.10g}")
+    axis.SetBehavior(vtkAxis.FIXED)
+    axis.SetRange(0, 1.03 * largest)
+    axis.SetCustomTickPositions(numpy_to_vtk(ticks, deep=True), labels)
+
+
+def legend(order, levels, width, size=18):
+    """Strip that names the levels in their colours and tells their iterations."""
+    step = width // max(len(order), 1)
+    entries = [(step // 2 + number * step,
+                f"Level {level}: {int((levels == level).sum())} iterations", True,
+                tuple(c / 255 for c in COLORS[number % len(COLORS)]))
+               for number, level in enumerate(order)]
+    strip = render.line_strip(entries, width, size, centred=True)
+    return np.concatenate([render.blank(14, width), strip])

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files and the report of a run of vtkDeformableSurface, all from the filter's outputs."""
+
+import json
+
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkVersion
+from vtkmodules.vtkIOCore import vtkDelimitedTextWriter
+from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter
+
+# Names in the report and in the field data of a surface.
+FACTS = {
+    "components": "NumberOfComponents", "genus": "Genus",
+    "euler_characteristic": "EulerCharacteristic", "area": "Area", "volume": "Volume",
+    "delta": "Delta", "unit": "Unit",
+    "level": "Level", "iterations": "Iterations", "lost_parts": "LostParts",
+    "recovered_parts": "RecoveredParts",
+}
+COMPONENT_FACTS = {
+    "area": "ComponentArea", "volume": "ComponentVolume", "genus": "ComponentGenus",
+    "centroid": "ComponentCentroid", "inertia": "ComponentInertia",
+}
+
+
+def write_with(writer, data, path):
+    """Write the data; OSError where that fails."""
+    writer.SetFileName(path)
+    writer.SetInputData(data)
+    if not writer.Write():
+        raise OSError(f"{path} cannot be written")
+
+
+def write_blocks(blocks, path):
+    """A .vtm file and, in a folder beside it, a file for each block."""
+    write_with(vtkXMLMultiBlockDataWriter(), blocks, path)
+
+
+def write_surface(surface, path):
+    write_with(vtkXMLPolyDataWriter(), surface, path)
+
+
+def write_history(history, path):
+    """A .csv file with a line per iteration."""
+    writer = vtkDelimitedTextWriter()
+    writer.SetFieldDelimiter(",")
+    write_with(writer, history, path)
+
+
+def write_report(report, path):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(report, file, indent=2, allow_nan=False)
+        file.write("\n")
+
+
+def plain(value):
+    """A number, or a list of them, as JSON shows it best: whole ones without a point."""
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    return int(value) if float(value).is_integer() else float(value)
+
+
+def input_facts(image, name):
+    """What the surface was made from."""
+    return {
+        "name": name,
+        "dimensions": list(image.GetDimensions()),
+        "spacing": list(image.GetSpacing()),
+        "origin": list(image.GetOrigin()),
+        "scalar_type": image.GetPointData().GetScalars().GetDataTypeAsString(),
+        "range": plain(image.GetScalarRange()),
+    }
+
+
+def surface_facts(surface):
+    """Size and shape of a surface from its field data, in world units (mm, mm^2, mm^3 in medicine).
+    """
+    fields = surface.GetFieldData()
+    facts = {name: plain(fields.GetArray(array).GetTuple1(0)) for name, array in FACTS.items()}
+    return {
+        **facts,
+        "vertices": surface.GetNumberOfPoints(),
+        "triangles": surface.GetNumberOfPolys(),
+        "stop_reason": fields.GetAbstractArray("StopReason").GetValue(0),
+    }
+
+
+def component_facts(surface):
+    """One entry for each component, the one of the largest area first.
+
+    The inertia is xx, yy, zz, xy, yz, xz about the centroid; a cavity has a negative volume.
+    """
+    arrays = {name: vtk_to_numpy(surface.GetFieldData().GetArray(array))
+              for name, array in COMPONENT_FACTS.items()}
+    return [{name: plain(values[c].tolist()) for name, values in arrays.items()}
+            for c in range(len(arrays["area"]))]
+
+
+def level_facts(levels, history):
+    """One entry for each (number, surface), with the seconds that its iterations took."""
+    visited = vtk_to_numpy(history.GetColumnByName("Level"))
+    durations = vtk_to_numpy(history.GetColumnByName("Seconds"))
+    return [{**surface_facts(surface), "seconds": float(durations[visited == h].sum())}
+            for h, surface in levels]
+
+
+def versions():
+    from volumic import __version__  # pylint: disable=import-outside-toplevel
+    return {"volumic": __version__, "vtk": vtkVersion.GetVTKVersion()}
+
+
+def summary_lines(report):
+    """The report in a few lines for the terminal."""
+    lines = [f"  {'level':>5} {'vertices':>9} {'components':>10} {'genus':>5} {'iterations':>10}"
+             f" {'seconds':>8}  stopped"]
+    for level in report["levels"]:
+        lines.append(f"  {level['level']:>5} {level['vertices']:>9,} {level['components']:>10}"
+                     f" {level['genus']:>5} {level['iterations']:>10} {level['seconds']:>8.2f}"
+                     f"  {level['stop_reason']}")
+    lines.append(f"  area {report['area']:,.1f}, enclosed volume {report['volume']:,.1f}, delta"
+                 f" {report['delta']:.3g} (world units)")
+    return lines

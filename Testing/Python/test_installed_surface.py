@@ -1,0 +1,215 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""vtkDeformableSurface of the installed package `volumic`: what a user's script relies on."""
+
+import pydoc
+import re
+import unittest
+
+import numpy as np
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
+from vtkmodules.vtkFiltersSources import vtkPlaneSource
+from volumic import vtkDeformableSurface, vtkImagePyramid
+
+SIZE, RADIUS, ISO = 32, 9.0, 100.5
+HISTORY_COLUMNS = (
+    "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds", "TimeStep",
+    "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips", "EulerCharacteristic",
+    "Components")
+
+
+def ball(bright=200, dark=0, centre=(SIZE - 1) / 2):
+    """Image of a ball with a smooth border; its surface at ISO has the radius RADIUS."""
+    z, y, x = np.indices((SIZE,) * 3) - centre
+    inside = np.clip(RADIUS - np.sqrt(x * x + y * y + z * z) + 0.5, 0, 1)
+    scalars = numpy_to_vtk((dark + (bright - dark) * inside).astype("f4").ravel(), deep=True)
+    scalars.SetName("density")
+    image = vtkImageData()
+    image.SetDimensions(SIZE, SIZE, SIZE)
+    image.GetPointData().SetScalars(scalars)
+    return image
+
+
+def field(surface, name):
+    return surface.GetFieldData().GetArray(name).GetValue(0)
+
+
+def stop_reason(surface):
+    return surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0)
+
+
+class SurfaceTest(unittest.TestCase):
+    def setUp(self):
+        self.surface = vtkDeformableSurface()
+        self.errors = []
+
+        @calldata_type(VTK_STRING)
+        def keep(_caller, _event, text):
+            self.errors.append(text)
+
+        self.surface.AddObserver("ErrorEvent", keep)
+        # Its own report of the failure would only clutter the log.
+        self.surface.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+
+    def run_on(self, image, iso=ISO):
+        self.surface.SetInputData(image)
+        if iso is not None:
+            self.surface.SetIsoValue(iso)
+        self.surface.Update()
+        return self.surface.GetOutput()
+
+
+class OutputsTest(SurfaceTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.run_once = vtkDeformableSurface()
+        pyramid = vtkImagePyramid()
+        pyramid.SetInputData(ball())
+        cls.run_once.SetInputConnection(pyramid.GetOutputPort())
+        cls.run_once.SetIsoValue(ISO)
+        cls.progress = []
+        cls.run_once.AddObserver("ProgressEvent", lambda filter_, _: cls.progress.append(
+            (filter_.GetProgress(), filter_.GetProgressText())))
+        cls.run_once.Update()
+
+    def test_types_of_the_three_outputs(self):
+        self.assertIsInstance(self.run_once.GetOutput(), vtkPolyData)
+        self.assertIsInstance(self.run_once.GetLevels(), vtkMultiBlockDataSet)
+        self.assertIsInstance(self.run_once.GetHistory(), vtkTable)
+        self.assertIs(self.run_once.GetOutputDataObject(1), self.run_once.GetLevels())
+        self.assertIs(self.run_once.GetOutputDataObject(2), self.run_once.GetHistory())
+
+    def test_numpy_sees_a_ball(self):
+        points = vtk_to_numpy(self.run_once.GetOutput().GetPoints().GetData())
+        radii = np.linalg.norm(points - (SIZE - 1) / 2, axis=1)
+        np.testing.assert_allclose(radii, RADIUS, atol=0.2)
+        normals = vtk_to_numpy(self.run_once.GetOutput().GetPointData().GetNormals())
+        outward = (points - (SIZE - 1) / 2) / radii[:, None]
+        self.assertGreater((normals * outward).sum(axis=1).min(), 0.8)
+
+    def test_field_data(self):
+        output = self.run_once.GetOutput()
+        self.assertEqual(field(output, "NumberOfComponents"), 1)
+        self.assertEqual(field(output, "Genus"), 0)
+        self.assertEqual(field(output, "EulerCharacteristic"), 2)
+        self.assertEqual(field(output, "Level"), 0)
+        self.assertEqual(stop_reason(output), "converged")
+        self.assertAlmostEqual(field(output, "Area") / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
+        self.assertAlmostEqual(field(output, "Volume") / (4 / 3 * np.pi * RADIUS ** 3), 1,
+                               delta=0.05)
+        centroid = output.GetFieldData().GetArray("ComponentCentroid").GetTuple(0)
+        np.testing.assert_allclose(centroid, (SIZE - 1) / 2, atol=0.1)
+
+    def test_arrays(self):
+        output = self.run_once.GetOutput()
+        residual = vtk_to_numpy(output.GetPointData().GetArray("Residual"))
+        self.assertLess(np.abs(residual).mean(), 5)
+        self.assertEqual(vtk_to_numpy(output.GetPointData().GetArray("Motionless")).dtype, np.uint8)
+        self.assertTrue((vtk_to_numpy(output.GetCellData().GetArray("Component")) == 0).all())
+
+    def test_levels_are_named_and_get_finer(self):
+        levels = self.run_once.GetLevels()
+        self.assertEqual(levels.GetNumberOfBlocks(), 3)
+        counts = []
+        for h in range(3):
+            self.assertEqual(levels.GetMetaData(h).Get(vtkCompositeDataSet.NAME()), f"Level {h}")
+            self.assertEqual(field(levels.GetBlock(h), "Level"), h)
+            counts.append(levels.GetBlock(h).GetNumberOfPoints())
+        self.assertEqual(counts, sorted(counts, reverse=True))
+
+    def test_history_has_its_columns_and_a_row_per_iteration(self):
+        history = self.run_once.GetHistory()
+        names = [history.GetColumnName(c) for c in range(history.GetNumberOfColumns())]
+        self.assertEqual(tuple(names), HISTORY_COLUMNS)
+        levels = self.run_once.GetLevels()
+        rows = sum(field(levels.GetBlock(h), "Iterations") for h in range(3))
+        self.assertEqual(history.GetNumberOfRows(), rows)
+
+    def test_history_ends_with_edges_of_legal_length(self):
+        lengths = self.run_once.GetHistory().GetColumnByName("MeanEdgeLength")
+        mean = lengths.GetTuple1(lengths.GetNumberOfTuples() - 1)
+        delta = field(self.run_once.GetOutput(), "Delta")
+        self.assertGreater(mean, delta)
+        self.assertLess(mean, 2.5 * delta)
+
+    def test_progress_tells_level_and_iteration(self):
+        shares = [share for share, _ in self.progress]
+        self.assertEqual(shares, sorted(shares))
+        self.assertEqual(shares[-1], 1.0)
+        texts = " ".join(text or "" for _, text in self.progress).lower()
+        for words in ("level 2", "level 0", "iteration 5"):
+            self.assertTrue(words in texts, words)
+
+
+class UseTest(SurfaceTest):
+    def test_help_tells_outputs_and_units(self):
+        text = pydoc.render_doc(vtkDeformableSurface, renderer=pydoc.plaintext)
+        text = re.sub(r"[\s|]+", " ", text)
+        for words in ("world units", "ComponentVolume", "SetIsoValue", "StopReason"):
+            self.assertTrue(words in text, words)
+
+    def test_an_image_without_a_pyramid_gives_the_same(self):
+        direct = vtk_to_numpy(self.run_on(ball()).GetPoints().GetData())
+        pyramid = vtkImagePyramid()
+        pyramid.SetInputData(ball())
+        self.surface.SetInputConnection(pyramid.GetOutputPort())
+        self.surface.Update()
+        through = vtk_to_numpy(self.surface.GetOutput().GetPoints().GetData())
+        np.testing.assert_array_equal(direct, through)
+
+    def test_dark_objects(self):
+        self.surface.ObjectIsBrightOff()
+        output = self.run_on(ball(bright=0, dark=200))
+        self.assertEqual(field(output, "Genus"), 0)
+        self.assertAlmostEqual(field(output, "Area") / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
+
+    def test_seeds_at_points(self):
+        seeds = vtkPolyData()
+        points = vtkPoints()
+        points.InsertNextPoint((SIZE - 1) / 2, (SIZE - 1) / 2, (SIZE - 1) / 2)
+        seeds.SetPoints(points)
+        self.surface.SetInitializationToSeeds()
+        self.surface.SetInitialSurfaceData(seeds)
+        output = self.run_on(ball())
+        self.assertEqual(self.errors, [])
+        self.assertAlmostEqual(field(output, "Area") / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
+
+    def test_cancelling_hands_over_a_surface(self):
+        def stop(filter_, _event):
+            if "level 1" in (filter_.GetProgressText() or "").lower():
+                filter_.SetAbortExecute(1)
+
+        self.surface.AddObserver("ProgressEvent", stop)
+        output = self.run_on(ball())
+        self.assertEqual(stop_reason(output), "cancelled")
+        self.assertGreater(output.GetNumberOfPolys(), 0)
+        self.assertEqual(field(output, "Level"), 1)
+
+    def refused(self, reason):
+        self.assertEqual(len(self.errors), 1, self.errors)
+        self.assertRegex(self.errors[0], reason)
+        self.assertEqual(self.surface.GetOutput().GetNumberOfPoints(), 0)
+
+    def test_no_iso_value(self):
+        self.run_on(ball(), iso=None)
+        self.refused("IsoValue")
+
+    def test_iso_value_out_of_range(self):
+        self.run_on(ball(), iso=1000)
+        self.refused("200")
+
+    def test_open_initial_surface(self):
+        plane = vtkPlaneSource()
+        self.surface.SetInitializationToInputSurface()
+        self.surface.SetInitialSurfaceConnection(plane.GetOutputPort())
+        self.run_on(ball())
+        self.refused("closed|open|border")
+
+
+if __name__ == "__main__":
+    unittest.main()
