@@ -5,9 +5,9 @@
 # Examples/quickstart.sh [VOLUME [ISO]] [--output DIR]
 #
 # Installs what is missing, builds Volumic for VTK under build/, and makes the surface of a volume:
-# by default of the CT of a skull from Debian's package invesalius-examples; else on VOLUME (.vti, .mha, .mhd,
-# .nrrd, .nii, .nii.gz, .inv3 or a folder with the slices of a DICOM series), at the value ISO (by
-# default Otsu's threshold). The results go to build/quickstart/ or DIR. Quick when run again.
+# by default of the CT of a skull from Debian's package invesalius-examples; else of VOLUME (.vti,
+# .mha, .mhd, .nrrd, .nii, .nii.gz, .inv3 or a folder with the slices of a DICOM series), at the
+# value ISO (by default Otsu's threshold). The results go to build/quickstart/ or DIR.
 
 set -euo pipefail
 
