@@ -20,18 +20,23 @@ VectorD AreaNormal(const NamedTriangle& t)
   return Cross(t.Corner[1] - t.Corner[0], t.Corner[2] - t.Corner[0]);
 }
 
-/** Smallest height relative to delta that a new face may have. */
-constexpr double LeastHeight = 0.05;
+/** Smallest height of a new face, relative to its longest edge. */
+constexpr double LeastAspect = 0.06;
+
+/** Height over longest edge: 0 for a sliver, .87 for an even triangle. */
+double Aspect(const NamedTriangle& t)
+{
+  const double longest = std::max({ SquaredDistance(t.Corner[0], t.Corner[1]),
+    SquaredDistance(t.Corner[1], t.Corner[2]), SquaredDistance(t.Corner[2], t.Corner[0]) });
+  return longest > 0 ? Length(AreaNormal(t)) / longest : 0.;
+}
 
 /** Longest rung of a merge's band, in delta. */
 constexpr float LongestRung = 4.f;
 
-bool IsSound(const NamedTriangle& t, double delta)
+bool IsSound(const NamedTriangle& t)
 {
-  const double longest = std::max({ SquaredDistance(t.Corner[0], t.Corner[1]),
-    SquaredDistance(t.Corner[1], t.Corner[2]), SquaredDistance(t.Corner[2], t.Corner[0]) });
-  const double least = LeastHeight * delta;
-  return SquaredLength(AreaNormal(t)) > longest * least * least;
+  return Aspect(t) > LeastAspect;
 }
 
 Vector FaceNormal(const SurfaceMesh& mesh, int a, int b, int c)
@@ -100,11 +105,15 @@ bool SurfaceEditor::CollapseInto(int kept, int removed, const Vector& position, 
       }
       const NamedTriangle face = { { kept, b, c },
         { VectorD(position), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
+      // The normal of a sliver says nothing, and any better shape is welcome there.
+      NamedTriangle old = face;
+      old.Corner[0] = VectorD(mesh.Position[end]);
+      const double before = Aspect(old);
       const VectorD normal = AreaNormal(face);
-      const VectorD old(Cross(
-        mesh.Position[b] - mesh.Position[end], mesh.Position[c] - mesh.Position[end]));
-      if (!IsSound(face, s.Delta) ||
-        Dot(normal, old) < leastCosine * Length(normal) * Length(old))
+      const VectorD oldNormal = AreaNormal(old);
+      if (Aspect(face) < std::min(LeastAspect, 1.01 * before) ||
+        (before > LeastAspect &&
+          Dot(normal, oldNormal) < leastCosine * Length(normal) * Length(oldNormal)))
       {
         return false;
       }
@@ -163,7 +172,7 @@ bool SurfaceEditor::FlipForShape(int u, int v)
   const Vector oldB = FaceNormal(mesh, v, u, flip.B);
   const NamedTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
   const NamedTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
-  if (!IsSound(first, s.Delta) || !IsSound(second, s.Delta))
+  if (!IsSound(first) || !IsSound(second))
   {
     return false;
   }
@@ -203,7 +212,7 @@ bool SurfaceEditor::FlipForConstraint(int u, int v)
   }
   const NamedTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
   const NamedTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
-  if (!IsSound(first, s.Delta) || !IsSound(second, s.Delta))
+  if (!IsSound(first) || !IsSound(second))
   {
     return false;
   }
@@ -231,7 +240,7 @@ bool SurfaceEditor::Remove(int v)
   }
   const Ring ring = s.Mesh.Rings[v];
   this->Faces.assign({ TriangleOf(s.Mesh, ring.Item[0], ring.Item[1], ring.Item[2]) });
-  if (!IsSound(this->Faces[0], s.Delta) ||
+  if (!IsSound(this->Faces[0]) ||
     (this->NearAnything(v) && NewFacesMeet(s, this->Faces, { { v }, 1, false })))
   {
     return false;
@@ -256,7 +265,7 @@ bool SurfaceEditor::Move(int v, const Vector& position)
   {
     NamedTriangle face = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
     face.Corner[0] = VectorD(position);
-    if (!IsSound(face, s.Delta) ||
+    if (!IsSound(face) ||
       SquaredDistance(position, s.Mesh.Position[ring.Item[i]]) > longest * longest)
     {
       return false;
@@ -292,7 +301,7 @@ bool SurfaceEditor::Merge(int u, int v)
   for (const auto& t : merge.Band())
   {
     this->Faces.push_back(TriangleOf(s.Mesh, t[0], t[1], t[2]));
-    if (!IsSound(this->Faces.back(), s.Delta))
+    if (!IsSound(this->Faces.back()))
     {
       return false;
     }
@@ -393,7 +402,7 @@ bool SurfaceEditor::Cut(int u, int v, int w)
   bool sound = true;
   for (const NamedTriangle& face : this->Faces)
   {
-    sound = sound && IsSound(face, s.Delta);
+    sound = sound && IsSound(face);
   }
   const GoneFaces gone = { { all[0], all[1], all[2], all[3], all[4], all[5] }, 6, false };
   sound = sound && !NewFacesMeet(s, this->Faces, gone);

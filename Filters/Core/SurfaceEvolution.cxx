@@ -5,6 +5,8 @@
 #include "ComponentWatch.h"
 #include "Division.h"
 #include "Dynamics.h"
+#include "EdgeFlip.h"
+#include "EdgeSplit.h"
 #include "Field.h"
 #include "InitialSurface.h"
 #include "LostParts.h"
@@ -52,6 +54,14 @@ private:
   HistoryRow& Row;
   Clock::time_point Start;
   Clock::time_point Last;
+};
+
+/** What an iteration is driven by: forces; shape and residual; shape alone. */
+enum class Mode
+{
+  Evolve,
+  Regularise,
+  Adapt
 };
 
 /** Way, in delta, after which a vertex far from all others is examined again. */
@@ -104,8 +114,7 @@ struct SurfaceEvolution::Implementation
   std::vector<int> Working;
   std::vector<int> Suspects;
   std::vector<std::uint8_t> Marked;
-  std::vector<double> Swept;
-  double Volume = 0;
+  std::vector<double> Partial;
   int Unlabelled = 0; ///< Merges and cuts since components were labelled last.
   int Shrunk = 0; ///< Collapses since components were labelled last.
   int Unresolved = 0;
@@ -120,14 +129,18 @@ struct SurfaceEvolution::Implementation
   void Enter(const LevelImage& image, int level);
   void Reset();
   void Recover();
+  void LayGrid();
+  void DivideOnce();
+  void Adapt();
+  void WakeAll();
   void CollectAwake();
   void CollectWorking();
   void CollectSuspects();
   void MarkRing(int v);
   void RollBack();
   void UpdateTouched();
-  double SweptVolume();
-  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, bool relax);
+  double EnclosedVolume();
+  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
   void FillRow(HistoryRow& row) const;
   void FillCounts(HistoryRow& row) const;
   void Regularise(Dynamics& dynamics);
@@ -146,6 +159,20 @@ void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
   s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  this->LayGrid();
+  this->CollectAwake();
+  s.UpdateShape(this->Awake, this->Threads);
+  // Verification relies on it that no edge is longer than the constraints allow.
+  Remesher(s, nullptr, false).Split(this->Awake);
+  s.Touched.clear();
+  s.UpdateShape(this->Awake, this->Threads);
+  this->Near.Examine(s, this->Awake, this->Threads);
+  this->Watch.Label(s);
+}
+
+void SurfaceEvolution::Implementation::LayGrid()
+{
+  SurfaceState& s = this->State;
   const LevelImage& image = this->TheField->Image();
   Vector low(0, 0, 0);
   Vector high(static_cast<float>(image.Size[0] * image.Step[0]),
@@ -158,14 +185,82 @@ void SurfaceEvolution::Implementation::Reset()
   }
   const Vector margin(2 * s.Delta, 2 * s.Delta, 2 * s.Delta);
   s.Reset(low - margin, high + margin);
+}
+
+void SurfaceEvolution::Implementation::DivideOnce()
+{
+  SurfaceState& s = this->State;
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  const int firstNew = volumic::Divide(s.Mesh);
+  // The division flips edges of the old surface; in narrow places these may pass through each
+  // other. Such edges are flipped back, which at worst leaves the old surface, and cut to length.
+  constexpr int rounds = 8;
+  this->LayGrid();
   this->CollectAwake();
   s.UpdateShape(this->Awake, this->Threads);
-  // Verification relies on it that no edge is longer than the constraints allow.
-  Remesher(s, nullptr, false).Split(this->Awake);
-  s.Touched.clear();
-  s.UpdateShape(this->Awake, this->Threads);
   this->Near.Examine(s, this->Awake, this->Threads);
-  this->Watch.Label(s);
+  for (int round = 0; round < rounds && !this->Near.Meetings().empty(); ++round)
+  {
+    std::vector<int> halves;
+    for (const Proximity::Meeting& meeting : this->Near.Meetings())
+    {
+      for (const std::array<int, 3>& face : { meeting.First, meeting.Second })
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const int a = face[k];
+          const int b = face[(k + 1) % 3];
+          if (a < firstNew || b < firstNew || !s.Mesh.AreNeighbours(a, b))
+          {
+            continue;
+          }
+          const EdgeFlip flip = EdgeFlip::Of(s.Mesh, a, b);
+          if (flip.A < firstNew && flip.B < firstNew && flip.IsLegal(s.Mesh))
+          {
+            flip.Apply(s.Mesh);
+            const EdgeSplit split{ flip.A, flip.B };
+            const Vector middle =
+              (s.Mesh.Position[flip.A] + s.Mesh.Position[flip.B]) * 0.5f;
+            const int m = split.IsLegal(s.Mesh) ? split.Apply(s.Mesh, middle) : -1;
+            if (m >= 0)
+            {
+              s.Adopt(m, flip.A);
+            }
+          }
+        }
+      }
+    }
+    this->CollectAwake();
+    s.UpdateShape(this->Awake, this->Threads);
+    this->Near.Examine(s, this->Awake, this->Threads);
+  }
+}
+
+void SurfaceEvolution::Implementation::Adapt()
+{
+  // The verified displacements and edits of an iteration, until the lengths are legal.
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  Remesher remesher(this->State, this->TheField.get(), false);
+  constexpr int rounds = 40;
+  for (int round = 0; round < rounds; ++round)
+  {
+    HistoryRow row;
+    this->WakeAll();
+    this->Iterate(row, dynamics, remesher, Mode::Adapt);
+    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
+    {
+      break;
+    }
+  }
+  this->Reset();
+}
+
+void SurfaceEvolution::Implementation::WakeAll()
+{
+  for (int v = 0; v < this->State.Mesh.Size(); ++v)
+  {
+    this->State.Awake[v] = this->State.Mesh.IsAlive(v);
+  }
 }
 
 void SurfaceEvolution::Implementation::Recover()
@@ -343,33 +438,41 @@ void SurfaceEvolution::Implementation::RollBack()
   }
 }
 
-double SurfaceEvolution::Implementation::SweptVolume()
+double SurfaceEvolution::Implementation::EnclosedVolume()
 {
-  const SurfaceState& s = this->State;
+  // Fixed blocks summed in order; each face is seen from its three corners.
+  const SurfaceMesh& mesh = this->State.Mesh;
   constexpr std::size_t size = 2048;
-  this->Swept.assign((this->Working.size() + size - 1) / size, 0.);
-  ForBlocks(this->Threads, this->Working.size(), size,
+  this->Partial.assign((mesh.Rings.size() + size - 1) / size, 0.);
+  const VectorD origin(mesh.Position.front());
+  ForBlocks(this->Threads, mesh.Rings.size(), size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       double sum = 0;
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t v = begin; v < end; ++v)
       {
-        const int v = this->Working[i];
-        sum += static_cast<double>(Dot(s.Mesh.Position[v] - s.Before[v], s.Normal[v])) *
-          s.Pull[v].Unused;
+        const Ring& ring = mesh.Rings[v];
+        const VectorD p = VectorD(mesh.Position[v]) - origin;
+        VectorD fan;
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          fan += Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
+            VectorD(mesh.Position[ring.Next(i)]) - origin);
+        }
+        sum += ring.Count > 0 ? Dot(p, fan) : 0.;
       }
-      this->Swept[b] = sum;
+      this->Partial[b] = sum;
     });
   double sum = 0;
-  for (double x : this->Swept)
+  for (double x : this->Partial)
   {
     sum += x;
   }
-  return sum;
+  return sum / 18.;
 }
 
 void SurfaceEvolution::Implementation::Iterate(
-  HistoryRow& row, Dynamics& dynamics, Remesher& remesher, bool relax)
+  HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode)
 {
   SurfaceState& s = this->State;
   Stopwatch watch(row);
@@ -377,9 +480,11 @@ void SurfaceEvolution::Implementation::Iterate(
   this->CollectAwake();
   row.ActiveVertices = static_cast<int>(this->Awake.size());
   row.Vertices = s.Mesh.NumberOfVertices();
+  const bool relax = mode != Mode::Evolve;
   if (relax)
   {
-    dynamics.Relax(s, this->Awake, this->Near.Pairs(), this->Options.SnapToIsoValue);
+    dynamics.Relax(s, this->Awake, this->Near.Pairs(),
+      mode == Mode::Regularise && this->Options.SnapToIsoValue);
   }
   else
   {
@@ -416,7 +521,6 @@ void SurfaceEvolution::Implementation::Iterate(
   this->Near.Examine(s, this->Suspects, this->Threads);
   watch.Lap(Phase::Proximity);
   this->RollBack();
-  this->Volume += this->SweptVolume();
   if (!relax)
   {
     dynamics.Freeze(s, this->Awake);
@@ -498,11 +602,8 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   HistoryRow row;
   for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0; ++pass)
   {
-    for (int v = 0; v < s.Mesh.Size(); ++v)
-    {
-      s.Awake[v] = s.Mesh.IsAlive(v);
-    }
-    this->Iterate(row, dynamics, remesher, true);
+    this->WakeAll();
+    this->Iterate(row, dynamics, remesher, Mode::Regularise);
   }
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
@@ -537,17 +638,6 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   SurfaceState& s = this->State;
   this->LastIterations = 0;
   this->Rest.Reset();
-  {
-    std::vector<int> all;
-    for (int v = 0; v < s.Mesh.Size(); ++v)
-    {
-      if (s.Mesh.IsAlive(v))
-      {
-        all.push_back(v);
-      }
-    }
-    this->Volume = all.empty() ? 0. : SignedVolume(s.Mesh, all);
-  }
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   const bool evidence = this->Options.IsopotentialWeight > 0;
   Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
@@ -563,10 +653,9 @@ StopReason SurfaceEvolution::Implementation::Evolve()
       return StopReason::IterationLimit;
     }
     HistoryRow row;
-    this->Iterate(row, dynamics, remesher, false);
+    this->Iterate(row, dynamics, remesher, Mode::Evolve);
     this->Rows.push_back(row);
     ++this->LastIterations;
-    this->Rest.Add(this->Volume);
     Monitor::Status status;
     status.Level = this->Level;
     status.Iteration = this->LastIterations;
@@ -577,10 +666,15 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     {
       return StopReason::Cancelled;
     }
-    if (this->Rest.IsMet(
-          std::max(cube, this->Options.ConvergenceTolerance * std::abs(this->Volume))))
+    if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
     {
-      return s.Mesh.NumberOfVertices() == 0 ? StopReason::Vanished : StopReason::Converged;
+      const double volume = this->EnclosedVolume();
+      this->Rest.Add(volume);
+      if (this->Rest.IsMet(
+            std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume))))
+      {
+        return StopReason::Converged;
+      }
     }
   }
 }
@@ -636,10 +730,17 @@ void SurfaceEvolution::StartSurface(
   CheckInitialSurface(surface);
   CheckOverlapsImage(surface, image);
   Implementation& self = *this->Self;
+  const IndexedSurface prepared = LimitValence(surface);
+  if (CountSelfIntersections(prepared, 1) > 0)
+  {
+    throw std::invalid_argument("The initial surface has points with more neighbours than can be "
+                                "handled, and intersects itself when they are split. Remesh it.");
+  }
   self.Enter(image, level);
   self.State.Mesh.Clear();
-  self.State.Mesh.Append(surface);
+  self.State.Mesh.Append(prepared);
   self.Reset();
+  self.Adapt();
 }
 
 StopReason SurfaceEvolution::Run()
@@ -650,9 +751,16 @@ StopReason SurfaceEvolution::Run()
 void SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  self.State.Mesh.Reorder(SpaceFillingOrder(self.State.Mesh, self.State.Delta));
-  volumic::Divide(self.State.Mesh);
+  const double coarse = self.State.Delta;
   self.Enter(image, level);
+  // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
+  // the mesh's, sqrt 3.
+  const int divisions = static_cast<int>(
+    std::lround(std::log(coarse / self.State.Delta) / std::log(std::sqrt(3.))));
+  for (int i = 0; i < divisions; ++i)
+  {
+    self.DivideOnce();
+  }
   self.Reset();
   self.Recover();
 }
