@@ -65,9 +65,12 @@ vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
         "array: " + ArraysOf(image) + ".");
     }
   }
-  if (selection && selection->Has(vtkDataObject::FIELD_NAME()))
+  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
+    ? selection->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  // A ParaView script that never saw the data chooses the array without a name.
+  if (name && *name)
   {
-    const char* name = selection->Get(vtkDataObject::FIELD_NAME());
     vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name);
     if (!array)
     {
