@@ -113,5 +113,5 @@ class WindowTest(unittest.TestCase):
 
 if not os.environ["VOLUMIC_XVFB"]:
     print("Skipped: Xvfb was not found")
-    os._exit(77)
+    sys.exit(77)
 testing.main()
