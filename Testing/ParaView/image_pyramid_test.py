@@ -107,6 +107,11 @@ class ImagePyramidTest(unittest.TestCase):
             self.assertEqual(level.GetPointData().GetNumberOfArrays(), 1)
             self.assertEqual(level.GetPointData().GetScalars().GetName(), name)
 
+    def test_default_array_of_a_source_that_was_not_updated(self):
+        # ParaView does not know its arrays then, and hands an empty name to the filter.
+        pyramid = testing.fetch(simple.ImagePyramid(Input=simple.Wavelet(), NumberOfLevels=2))
+        self.assertIsNotNone(pyramid.GetBlock(1).GetPointData().GetArray("RTData"))
+
     def test_thread_counts_agree_to_the_bit(self):
         values = numpy.random.default_rng(1).random((40, 41, 42), numpy.float32)
         source = testing.produce(testing.make_image(values))
