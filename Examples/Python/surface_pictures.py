@@ -3,10 +3,12 @@
 """Pictures of the surfaces from vtkDeformableSurface: a row of levels, and views of the finest."""
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPlaneCollection
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkCommonTransforms import vtkMatrixToLinearTransform
-from vtkmodules.vtkFiltersCore import vtkCutter
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkCutter, vtkPolyDataConnectivityFilter
 from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface, vtkTransformPolyDataFilter
 
 import render
@@ -21,6 +23,7 @@ VIEWS_OF_A_BODY = (("From the front", "From the side", "From below"),
 VIEWS_OF_A_BOX = (("Along y", "Along x", "Along z"),
                   ("Cut open, along x", "Cut open, along z", "The triangles"),
                   ("Across z", "Across y", "Across x"))
+MAIN_SHARE = 0.5  # of the area
 EDGES_WIDTH = 36  # mean edges across the close view of the mesh
 
 
@@ -56,13 +59,39 @@ def levels_picture(levels, frame, title):
 
 
 def views_picture(surface, image, iso, title):
-    """The finest surface from three sides, cut open, close by, and on slices of the image."""
+    """The finest surface from three sides, cut open, close by, and on slices of the image.
+
+    Where one component makes up most of the surface, such as a skull beside the head rest, the
+    views in space show it alone.
+    """
     frame = render.world_frame(image)
-    rows = [outside_views(surface, frame), inside_views(surface, frame),
+    shown, heading = main_component(surface)
+    rows = [outside_views(shown, frame), inside_views(shown, frame),
             slices_with_contour(surface, image, iso)]
     names = VIEWS_OF_A_BOX if world_axes(image) is None else VIEWS_OF_A_BODY
     captions = [[(name,) for name in row] for row in names]
-    return render.compose(rows, captions, title)
+    return render.compose(rows, captions, title, [heading, None, None])
+
+
+def main_component(surface):
+    """The component of more than half the area, or else the surface; and what to call it."""
+    count = int(field_value(surface, "NumberOfComponents"))
+    areas = vtk_to_numpy(surface.GetFieldData().GetArray("ComponentArea"))
+    if count == 1 or areas[0] < MAIN_SHARE * areas.sum():
+        return surface, f"All of the {count} components" if count > 1 else None
+    points = vtkIdList()
+    first = int(np.flatnonzero(
+        vtk_to_numpy(surface.GetCellData().GetArray("Component")) == 0)[0])
+    surface.GetCellPoints(first, points)
+    connected = vtkPolyDataConnectivityFilter()
+    connected.SetInputData(surface)
+    connected.SetExtractionModeToPointSeededRegions()
+    connected.AddSeed(points.GetId(0))
+    clean = vtkCleanPolyData()
+    clean.SetInputConnection(connected.GetOutputPort())
+    clean.PointMergingOff()
+    clean.Update()
+    return clean.GetOutput(), f"The largest of {count} components"
 
 
 def common_height(frame, views, bounds, width=VIEW_WIDTH):
