@@ -5,7 +5,7 @@
  * vtkDeformableSurface on one volume: time, memory, and the judge's verdict on every level.
  *
  *     MeasureSurface --volume FILE.vti --iso VALUE [--dark] [--threads N] [--initialization N]
- *                    [--coarsest LEVEL] [--levels] [--output FILE.vtp]
+ *                    [--coarsest LEVEL] [--levels] [--peer] [--output FILE.vtp]
  *
  * --coarsest 0 runs without the pyramid; --levels judges all levels, not only the finest. Lengths
  * are in voxels of level 0, the space in which the surface is made; distances to the isopotential
@@ -14,6 +14,7 @@
 
 #include "PeakMemory.h"
 #include "SupportVtkConversions.h"
+#include "SurfacePeers.h"
 
 #include <vtkDeformableSurface.h>
 #include <vtkImagePyramid.h>
@@ -31,6 +32,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -49,6 +51,7 @@ struct Options
   bool HasIsoValue = false;
   bool ObjectIsBright = true;
   bool AllLevels = false;
+  bool WithPeer = false;
   int Threads = 1;
   int Initialization = 0;
   int CoarsestLevel = -1;
@@ -68,6 +71,11 @@ Options ParseOptions(int argc, char** argv)
     if (name == "--levels")
     {
       options.AllLevels = true;
+      continue;
+    }
+    if (name == "--peer")
+    {
+      options.WithPeer = true;
       continue;
     }
     if (++i == argc)
@@ -113,37 +121,46 @@ std::string StopReason(vtkPolyData* surface)
   return reason && reason->GetNumberOfValues() > 0 ? std::string(reason->GetValue(0)) : "unknown";
 }
 
-/** Judges a surface; the level with a voxel of air around it, as the surface sees it. */
-SurfaceVerdict JudgeLevel(
-  vtkPolyData* surface, vtkImageData* level0, vtkImageData* level, const Options& options)
+/** The image as float with a voxel of air around it, as the surface sees it. */
+vtkSmartPointer<vtkImageData> InAir(vtkImageData* image, const Options& options)
 {
   vtkNew<vtkImageCast> cast;
-  cast->SetInputData(level);
+  cast->SetInputData(image);
   cast->SetOutputScalarTypeToFloat();
   cast->Update();
   double range[2];
   cast->GetOutput()->GetScalarRange(range);
-  const int* extent = level->GetExtent();
+  const int* extent = image->GetExtent();
   vtkNew<vtkImageConstantPad> pad;
   pad->SetInputConnection(cast->GetOutputPort());
   pad->SetConstant(range[options.ObjectIsBright ? 0 : 1]);
   pad->SetOutputWholeExtent(
     extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1, extent[4] - 1, extent[5] + 1);
   pad->Update();
-  vtkImageData* padded = pad->GetOutput();
+  return pad->GetOutput();
+}
 
+JudgedVolume ToJudgedVolume(vtkImageData* inAir, const Options& options)
+{
   JudgedVolume volume;
-  volume.Values = static_cast<const float*>(padded->GetScalarPointer());
-  padded->GetDimensions(volume.Size.data());
+  volume.Values = static_cast<const float*>(inAir->GetScalarPointer());
+  inAir->GetDimensions(volume.Size.data());
   volume.IsoValue = options.IsoValue;
   volume.ObjectIsBright = options.ObjectIsBright;
+  return volume;
+}
 
+SurfaceVerdict JudgeLevel(
+  vtkPolyData* surface, vtkImageData* level0, vtkImageData* level, const Options& options)
+{
   double spacing[3];
   level0->GetSpacing(spacing);
   const double unit = std::min({ spacing[0], spacing[1], spacing[2] });
   SurfaceVerdict verdict =
     JudgeSurface(ToTriangleSurface(surface, level0), Field(surface, "Delta") / unit);
-  const TriangleSurface inLevel = ToTriangleSurface(surface, padded);
+  const vtkSmartPointer<vtkImageData> inAir = InAir(level, options);
+  const JudgedVolume volume = ToJudgedVolume(inAir, options);
+  const TriangleSurface inLevel = ToTriangleSurface(surface, inAir);
   verdict.HasVolume = true;
   verdict.IsoDistance = JudgeIsoDistance(inLevel, volume);
   verdict.Reach = JudgeReach(inLevel, volume);
@@ -173,6 +190,49 @@ Effort EffortAt(vtkTable* history, int level)
   return effort;
 }
 
+/** What something cost. */
+struct Cost
+{
+  double Seconds = 0.0;
+  double ProcessorSeconds = 0.0;
+  double Megabytes = 0.0; ///< by which the memory grew at its peak
+};
+
+template <typename Work>
+Cost CostOf(Work work)
+{
+  Cost cost;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t processorBegin = std::clock();
+  cost.Megabytes = 1e-6 * volumic::bench::PeakGrowth(work);
+  cost.ProcessorSeconds = static_cast<double>(std::clock() - processorBegin) / CLOCKS_PER_SEC;
+  cost.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return cost;
+}
+
+void CompareWithPeer(
+  vtkImageData* image, double edgeLength, double delta, const Cost& ours, const Options& options)
+{
+  const vtkSmartPointer<vtkImageData> inAir = InAir(image, options);
+  TriangleSurface surface;
+  const Cost cost = CostOf([&]()
+    { surface = volumic::bench::RemeshedMarchingSurface(inAir, options.IsoValue, edgeLength); });
+  std::printf("\nFlyingEdges, largest component, WindowedSinc, CGAL isotropic remeshing: "
+              "%.2f s (%.2f s), memory grown by %.0f MB at most\n",
+    cost.Seconds, cost.ProcessorSeconds, cost.Megabytes);
+  for (auto& point : surface.Points)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      point[a] -= inAir->GetExtent()[2 * a]; // judged in a volume whose first voxel is 0
+    }
+  }
+  const JudgedVolume volume = ToJudgedVolume(inAir, options);
+  std::fputs(Describe(JudgeSurface(surface, delta, &volume)).c_str(), stdout);
+  std::printf("\nOurs relative to it: processor time %.2f, memory %.2f\n",
+    ours.ProcessorSeconds / cost.ProcessorSeconds, ours.Megabytes / cost.Megabytes);
+}
+
 int Main(int argc, char** argv)
 {
   const Options options = ParseOptions(argc, argv);
@@ -192,21 +252,20 @@ int Main(int argc, char** argv)
   deformable->SetCoarsestLevel(options.CoarsestLevel);
   deformable->SetNumberOfThreads(options.Threads);
 
-  const auto begin = std::chrono::steady_clock::now();
-  const long long growth = volumic::bench::PeakGrowth([&]() { deformable->Update(); });
-  const double seconds =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const Cost cost = CostOf([&]() { deformable->Update(); });
   vtkPolyData* finest = deformable->GetOutput();
   if (finest->GetNumberOfPoints() == 0)
   {
     std::cerr << "no surface" << std::endl;
     return 1;
   }
-  std::printf("%s: %.2f s with %d threads, memory grown by %.0f MB at most, %s\n",
-    options.Volume.c_str(), seconds, options.Threads, growth / 1e6, StopReason(finest).c_str());
+  std::printf("%s: %.2f s (%.2f s) with %d threads, memory grown by %.0f MB at most, %s\n",
+    options.Volume.c_str(), cost.Seconds, cost.ProcessorSeconds, options.Threads, cost.Megabytes,
+    StopReason(finest).c_str());
 
   vtkMultiBlockDataSet* levels = deformable->GetLevels();
   double vertexIterations = 0.0;
+  LengthVerdict lengths;
   for (int h = static_cast<int>(levels->GetNumberOfBlocks()) - 1; h >= 0; --h)
   {
     auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(static_cast<unsigned int>(h)));
@@ -224,11 +283,21 @@ int Main(int argc, char** argv)
     {
       auto* level =
         vtkImageData::SafeDownCast(pyramid->GetOutput()->GetBlock(static_cast<unsigned int>(h)));
-      std::fputs(Describe(JudgeLevel(surface, image, level, options)).c_str(), stdout);
+      const SurfaceVerdict verdict = JudgeLevel(surface, image, level, options);
+      lengths = verdict.Lengths;
+      std::fputs(Describe(verdict).c_str(), stdout);
     }
   }
-  std::printf(
-    "\nAltogether %.2f microseconds per vertex and iteration\n", 1e6 * seconds / vertexIterations);
+  std::printf("\nAltogether %.2f microseconds per vertex and iteration\n",
+    1e6 * cost.Seconds / vertexIterations);
+
+  if (options.WithPeer)
+  {
+    double spacing[3];
+    image->GetSpacing(spacing);
+    const double delta = Field(finest, "Delta") / std::min({ spacing[0], spacing[1], spacing[2] });
+    CompareWithPeer(image, lengths.Mean, delta, cost, options);
+  }
 
   if (!options.Output.empty())
   {

@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Builds the benchmarks and runs them on the skull CT of Debian's invesalius-examples and on a
-# generated volume. The machine should have nothing else to do.
+# Builds the benchmarks and runs them: the pyramid on the skull CT of Debian's invesalius-examples and
+# on a generated volume, then the surface on the skull, with the judge's verdict. The machine should
+# have nothing else to do.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../../CMake/debian.sh"
@@ -16,13 +17,13 @@ Usage: bash Testing/Benchmarks/run.sh [OPTION]...
   --generate SIZE      voxels along the axes of the generated volume (default 512; 0: leave it out)
   --repetitions N      per program and volume (default 15 on the skull, 5 on the generated volume)
   --help               this text
-Tables are printed; every repetition is left in build/benchmarks/*.json.
+Tables are printed; every repetition is left in build/benchmarks/*.json, the surface in surface.vtp.
 USAGE
 }
 
 generated_size=512
 repetitions=
-packages=("${tool_packages[@]}" libbenchmark-dev invesalius-examples)
+packages=("${tool_packages[@]}" libbenchmark-dev libcgal-dev invesalius-examples)
 while [ $# -gt 0 ]; do
   case $1 in
     --with-itk) packages+=(libinsighttoolkit5-dev) ;;
@@ -61,3 +62,6 @@ if [ "$generated_size" -gt 0 ]; then
   "$build/vtk/bin/BenchmarkImagePyramid" --generate "$generated_size" \
     --repetitions "${repetitions:-5}" --benchmark_out="$results/pyramid-generated.json"
 fi
+say ""
+"$build/vtk/bin/MeasureSurface" --volume "$results/skull.vti" --iso 226.5 --peer \
+  --output "$results/surface.vtp"
