@@ -47,7 +47,7 @@ done
 failed=0
 run_tests()
 {
-  local flavour=$1 log=$logs/test-$1 status
+  local flavour=$1 log=$logs/test-$1.log status
   step_number=$((step_number + 1))
   say "[$step_number/$step_total] Testing ($flavour)"
   set +e
@@ -61,7 +61,7 @@ run_tests()
 # summarize FLAVOUR: one line from ctest's output.
 summarize()
 {
-  local log=$logs/test-$1 passed skipped broken seconds
+  local log=$logs/test-$1.log passed skipped broken seconds
   passed=$(grep -cE '^ *[0-9]+/[0-9]+ Test .* Passed ' "$log" || true)
   skipped=$(grep -cE '^ *[0-9]+/[0-9]+ Test .*\*\*\*(Skipped|Not Run \(Disabled\))' "$log" || true)
   broken=$(sed -n 's/.* \([0-9][0-9]*\) tests failed out of .*/\1/p' "$log")
@@ -83,11 +83,13 @@ install_packages "${packages[@]}"
 for flavour in "${flavours[@]}"; do
   "build_${flavour}_flavour" -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=ON
 done
+test_logs=()
 for flavour in "${flavours[@]}"; do
   run_tests "$flavour"
+  test_logs+=("$logs/test-$flavour.log")
 done
 
-if ! cat "${flavours[@]/#/$logs/test-}" | grep -qE '^ *1/[0-9]+ Test '; then
+if ! grep -qE '^ *1/[0-9]+ Test ' "${test_logs[@]}"; then
   fail "No test was selected."
 fi
 say ""
