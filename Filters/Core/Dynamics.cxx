@@ -141,6 +141,25 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
   this->Resist(state, pairs);
 }
 
+bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
+{
+  const Ring& ring = state.Mesh.Rings[v];
+  bool common = false;
+  for (int i = 0; i < ring.Count && !common; ++i)
+  {
+    common = state.Mesh.AreNeighbours(ring.Item[i], w);
+  }
+  if (!common)
+  {
+    return false;
+  }
+  const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
+  const bool front = Dot(state.Normal[v] - state.Normal[w], across) > 0;
+  const float value =
+    this->TheField.ValueAt((state.Mesh.Position[v] + state.Mesh.Position[w]) * 0.5f);
+  return front ? value > 0 : value < 0;
+}
+
 void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
 {
   this->Groups.clear();
@@ -173,7 +192,7 @@ void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePai
           for (std::size_t i = group.Begin; i < group.End; ++i)
           {
             const int w = pairs[i].W;
-            if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w))
+            if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w) || this->MayClose(state, v, w))
             {
               continue;
             }
@@ -227,7 +246,7 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
         {
           move *= longest / length;
         }
-        state.Drift[v] += length;
+        state.Moved[v] = std::min(length, longest);
         p += move;
         p.Unused = 0;
       }

@@ -65,6 +65,12 @@ public:
 
 private:
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
+  /**
+   * Whether two vertices with a common neighbour lie across a hole, or a waist, that the image
+   * wants closed: contact between them would keep it open for ever, short of the 3-cycle that a
+   * cut needs.
+   */
+  bool MayClose(const SurfaceState& state, int v, int w) const;
   void Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs);
 
   const Field& TheField;

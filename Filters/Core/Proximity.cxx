@@ -8,6 +8,13 @@ namespace volumic
 {
 namespace
 {
+/** Lengths in delta. Room between two stars that needs no test of their triangles. */
+constexpr float LeastRoom = 2e-3f;
+/** Largest slack, which is what a vertex far from all others gets. */
+constexpr float MostSlack = 0.1f;
+/** Pairs are kept while their vertices use up their slack: look a little further. */
+constexpr float PairReach = constraint::NearestOthers + MostSlack;
+
 Vector Minimum(const Vector& a, const Vector& b)
 {
   return Vector(std::min(a.X, b.X), std::min(a.Y, b.Y), std::min(a.Z, b.Z));
@@ -22,32 +29,24 @@ bool Apart(const Vector& lowA, const Vector& highA, const Vector& lowB, const Ve
     lowA.Z > highB.Z || lowB.Z > highA.Z;
 }
 
-/** Whether a plane with normal `direction` lies between the stars of v and w, v's side below. */
-bool PlaneBetween(const SurfaceMesh& mesh, int v, int w, const Vector& direction, float gap)
+/** Room between the stars of v and w along a unit direction, v's side below; negative: none. */
+float RoomAlong(const SurfaceMesh& mesh, int v, int w, const Vector& direction)
 {
   float highest = Dot(direction, mesh.Position[v]);
   for (int i = 0; i < mesh.Rings[v].Count; ++i)
   {
     highest = std::max(highest, Dot(direction, mesh.Position[mesh.Rings[v].Item[i]]));
   }
-  if (Dot(direction, mesh.Position[w]) < highest + gap)
+  float lowest = Dot(direction, mesh.Position[w]);
+  for (int i = 0; i < mesh.Rings[w].Count && lowest > highest; ++i)
   {
-    return false;
+    lowest = std::min(lowest, Dot(direction, mesh.Position[mesh.Rings[w].Item[i]]));
   }
-  for (int i = 0; i < mesh.Rings[w].Count; ++i)
-  {
-    if (Dot(direction, mesh.Position[mesh.Rings[w].Item[i]]) < highest + gap)
-    {
-      return false;
-    }
-  }
-  return true;
+  return lowest - highest;
 }
 
-bool AreSeparated(const SurfaceState& state, int v, int w)
+float RoomBetween(const SurfaceState& state, int v, int w)
 {
-  const SurfaceMesh& mesh = state.Mesh;
-  const float gap = 2e-3f * state.Delta;
   const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
   Vector direction = state.Normal[v] - state.Normal[w];
   direction.Unused = 0;
@@ -55,8 +54,10 @@ bool AreSeparated(const SurfaceState& state, int v, int w)
   {
     direction = -direction;
   }
-  return PlaneBetween(mesh, v, w, Normalized(direction), gap) ||
-    PlaneBetween(mesh, v, w, Normalized(across), gap);
+  const float room = RoomAlong(state.Mesh, v, w, Normalized(direction));
+  return room > 0.02f * state.Delta ? room
+                                    : std::max(room,
+                                        RoomAlong(state.Mesh, v, w, Normalized(across)));
 }
 
 struct Star
@@ -173,11 +174,13 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   const SurfaceMesh& mesh = state.Mesh;
   const Vector p = mesh.Position[v];
   const float reach = constraint::Reach * state.Delta;
-  const float near = constraint::NearestOthers * state.Delta;
+  const float near = PairReach * state.Delta;
   bool anything = false;
+  float slack = MostSlack * state.Delta;
   if (state.AreOpposed(v, v))
   {
     anything = true;
+    slack = 0;
     TestStars(state, this->Listed, v, v, block.Meetings);
   }
   state.Grid.Visit(p, reach,
@@ -193,12 +196,15 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
       {
         block.Pairs.push_back({ v, w, squared });
       }
-      if ((v < w || !this->Listed[w]) && !AreSeparated(state, v, w))
+      const float room = RoomBetween(state, v, w);
+      slack = std::max(std::min(slack, room), 0.f);
+      if ((v < w || !this->Listed[w]) && room < LeastRoom * state.Delta)
       {
         TestStars(state, this->Listed, v, w, block.Meetings);
       }
     });
   state.Near[v] = anything;
+  state.Slack[v] = slack;
 }
 
 void Proximity::Examine(
@@ -228,7 +234,16 @@ void Proximity::Examine(
         }
       }
     });
-  this->AllPairs.clear();
+  // Pairs of vertices that have not been examined anew stay.
+  std::size_t kept = 0;
+  for (const ClosePair& pair : this->AllPairs)
+  {
+    if (!this->Listed[pair.V] && state.Mesh.IsAlive(pair.V) && state.Mesh.IsAlive(pair.W))
+    {
+      this->AllPairs[kept++] = pair;
+    }
+  }
+  this->AllPairs.resize(kept);
   this->AllMeetings.clear();
   for (std::size_t b = 0; b < blocks; ++b)
   {

@@ -37,11 +37,20 @@ public:
     std::array<int, 3> Second;
   };
 
-  /** Fills Pairs, Meetings, and the flags Near of the vertices in the list. */
+  /**
+   * Fills Pairs, Meetings, and Near and Slack of the vertices in the list. Slack is the room that
+   * their stars have: while neither of two stars has moved by half of its slack they can't meet.
+   */
   void Examine(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
-  /** Opposed pairs nearer than lambda delta, grouped by V; a pair of two listed occurs twice. */
+  /**
+   * Opposed pairs nearer than about lambda delta, grouped by V; a pair of two listed occurs twice.
+   * Those of vertices that were not in the last list are kept from when they were.
+   */
   const std::vector<ClosePair>& Pairs() const { return this->AllPairs; }
+  /** Forgets the pairs, before the vertices are renumbered. */
+  void Clear() { this->AllPairs.clear(); }
+
   /** Pairs of faces that intersect. */
   const std::vector<Meeting>& Meetings() const { return this->AllMeetings; }
 

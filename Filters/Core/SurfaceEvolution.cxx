@@ -64,9 +64,6 @@ enum class Mode
   Adapt
 };
 
-/** Way, in delta, after which a vertex far from all others is examined again. */
-constexpr float NoticeableDrift = 0.05f;
-
 /** Passes of tangential smoothing and snapping at the end of a level. */
 constexpr int RegularisationPasses = 6;
 
@@ -184,6 +181,8 @@ void SurfaceEvolution::Implementation::LayGrid()
     high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
   }
   const Vector margin(2 * s.Delta, 2 * s.Delta, 2 * s.Delta);
+  this->Near.Clear();
+  this->Recheck.Clear();
   s.Reset(low - margin, high + margin);
 }
 
@@ -334,36 +333,36 @@ void SurfaceEvolution::Implementation::CollectWorking()
 
 void SurfaceEvolution::Implementation::CollectSuspects()
 {
-  // A vertex with nothing but smooth surface within reach stays so until it, or a neighbour whose
-  // triangles it shares, has gone a noticeable way; others that come near are examined themselves.
+  // A star that had some room when it was examined needs no new look before it has used half of
+  // it: whatever comes near has used half of its own and is examined itself.
   SurfaceState& s = this->State;
-  const float noticeable = NoticeableDrift * s.Delta;
-  this->Suspects.clear();
-  constexpr std::uint8_t chosen = 2;
-  const auto choose = [&](int v)
-  {
-    if (this->Marked[v] != chosen)
+  this->Threads.For(this->Working.size(), 1024,
+    [&](std::size_t begin, std::size_t end)
     {
-      this->Marked[v] = chosen;
-      this->Suspects.push_back(v);
-    }
-  };
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = this->Working[i];
+        const Ring& ring = s.Mesh.Rings[v];
+        float moved = s.Moved[v];
+        for (int k = 0; k < ring.Count; ++k)
+        {
+          moved = std::max(moved, s.Moved[ring.Item[k]]);
+        }
+        s.Drift[v] += moved;
+      }
+    });
+  this->Suspects.clear();
   for (int v : this->Working)
   {
-    if (s.Drift[v] > noticeable)
+    if (s.Drift[v] > 0.5f * s.Slack[v])
     {
       s.Drift[v] = 0;
-      choose(v);
-      const Ring& ring = s.Mesh.Rings[v];
-      for (int i = 0; i < ring.Count; ++i)
-      {
-        choose(ring.Item[i]);
-      }
+      this->Suspects.push_back(v);
     }
-    else if (s.Near[v])
-    {
-      choose(v);
-    }
+  }
+  for (int v : this->Awake)
+  {
+    s.Moved[v] = 0;
   }
 }
 
@@ -373,6 +372,10 @@ void SurfaceEvolution::Implementation::UpdateTouched()
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   this->State.UpdateShape(touched, this->Threads);
+  for (int v : touched)
+  {
+    this->State.Drift[v] = 1e6f; // Its star is another one: what was examined tells nothing.
+  }
   touched.clear();
 }
 

@@ -14,7 +14,9 @@ void SurfaceState::Reset(const Vector& low, const Vector& high)
   this->Before = this->Mesh.Position;
   this->Anchor = this->Mesh.Position;
   this->Value.assign(n, 0.f);
+  this->Moved.assign(n, 0.f);
   this->Drift.assign(n, 0.f);
+  this->Slack.assign(n, 0.f);
   this->Component.assign(n, 0);
   this->Awake.assign(n, 1);
   this->Quiet.assign(n, 0);
@@ -49,7 +51,9 @@ void SurfaceState::Adopt(int v, int parent)
     this->Before.resize(n);
     this->Anchor.resize(n);
     this->Value.resize(n);
+    this->Moved.resize(n);
     this->Drift.resize(n);
+    this->Slack.resize(n);
     this->Component.resize(n);
     this->Awake.resize(n);
     this->Quiet.resize(n);
@@ -64,7 +68,9 @@ void SurfaceState::Adopt(int v, int parent)
   this->Before[v] = this->Before[parent];
   this->Anchor[v] = this->Mesh.Position[v];
   this->Value[v] = this->Value[parent];
+  this->Moved[v] = 0;
   this->Drift[v] = 1e6f; // Not examined yet.
+  this->Slack[v] = 0;
   this->Component[v] = this->Component[parent];
   this->Awake[v] = 1;
   this->Quiet[v] = 0;
