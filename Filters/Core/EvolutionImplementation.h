@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicEvolutionImplementation_h
+#define volumicEvolutionImplementation_h
+
+#include "ComponentWatch.h"
+#include "Dynamics.h"
+#include "Field.h"
+#include "Proximity.h"
+#include "Remesher.h"
+#include "RestCriterion.h"
+#include "SurfaceEvolution.h"
+#include "SurfaceState.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace volumic
+{
+/** What an iteration is driven by: forces; shape and residual; shape alone. */
+enum class Mode
+{
+  Evolve,
+  Regularise,
+  Adapt
+};
+
+/**
+ * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
+ * recovery), EvolutionIteration.cxx does one iteration, EvolutionRun.cxx a whole level.
+ */
+struct SurfaceEvolution::Implementation
+{
+  SurfaceOptions Options;
+  Executor& Threads;
+  Monitor& Listener;
+  SurfaceState State;
+  std::unique_ptr<Field> TheField;
+  int Level = 0;
+  std::vector<HistoryRow> Rows;
+  int LastIterations = 0;
+  LostParts LastLost;
+  Proximity Near;
+  Proximity Recheck;
+  ComponentWatch Watch;
+  RestCriterion Rest;
+  std::vector<int> Awake;
+  std::vector<int> Working;
+  std::vector<int> Suspects;
+  std::vector<std::uint8_t> Marked;
+  std::vector<double> Partial;
+  int Unlabelled = 0; ///< Merges and cuts since components were labelled last.
+  int Shrunk = 0; ///< Collapses since components were labelled last.
+  int Unresolved = 0;
+
+  Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
+    : Options(options)
+    , Threads(executor)
+    , Listener(monitor)
+  {
+  }
+
+  void Enter(const LevelImage& image, int level);
+  void Reset();
+  void Recover();
+  void LayGrid();
+  void DivideOnce();
+  void Adapt();
+  void WakeAll();
+  void CollectAwake();
+  void CollectWorking();
+  void CollectSuspects();
+  void MarkRing(int v);
+  void RollBack();
+  void UpdateTouched();
+  double EnclosedVolume();
+  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
+  void FillRow(HistoryRow& row) const;
+  void FillCounts(HistoryRow& row) const;
+  void Regularise(Dynamics& dynamics);
+  StopReason Evolve();
+  StopReason Run();
+};
+}
+
+#endif
