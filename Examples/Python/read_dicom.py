@@ -187,7 +187,7 @@ def rescale(voxels, slices):
         return voxels
     if (slopes == slopes[0]).all() and np.all(np.mod([slopes, shifts], 1) == 0):
         values = voxels.astype(np.int64) * int(slopes[0]) + shifts.astype(int)[:, None, None]
-        smallest = np.promote_types(np.min_scalar_type(values.min()),
-                                    np.min_scalar_type(values.max()))
-        return values.astype(np.promote_types(smallest, np.int16))
+        fitting = [dtype for dtype in (np.int16, np.int32) if np.iinfo(dtype).min <= values.min()
+                   and values.max() <= np.iinfo(dtype).max]
+        return values.astype(fitting[0]) if fitting else values
     return (voxels * slopes[:, None, None] + shifts[:, None, None]).astype(np.float32)
