@@ -12,6 +12,9 @@ set(volumic_core_sources
   EdgeCollapse.cxx
   EdgeFlip.cxx
   EdgeSplit.cxx
+  EvolutionIteration.cxx
+  EvolutionRun.cxx
+  EvolutionStart.cxx
   Field.cxx
   InitialSurface.cxx
   LevelReduction.cxx
@@ -39,6 +42,7 @@ set(volumic_core_headers
   EdgeCollapse.h
   EdgeFlip.h
   EdgeSplit.h
+  EvolutionImplementation.h
   Executor.h
   Field.h
   InitialSurface.h

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// No state of the surface ever intersects itself: looked at during the evolution, not only after
+// it.
+#include "LevelReduction.h"
+#include "PyramidGeometry.h"
+#include "SurfaceEvolution.h"
+#include "SurfaceJudge.h"
+#include "SyntheticScenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+using namespace volumic::support;
+
+namespace
+{
+/// The levels of a scene, finest first.
+struct Levels
+{
+  std::vector<LevelGeometry> Geometry;
+  std::vector<std::vector<float>> Values;
+
+  explicit Levels(const Scene& scene)
+    : Geometry(PlanPyramid({ scene.Size[0], scene.Size[1], scene.Size[2] }, scene.Spacing, {}))
+  {
+    SequentialExecutor executor;
+    this->Values.push_back(scene.Values);
+    for (std::size_t h = 1; h < this->Geometry.size(); ++h)
+    {
+      std::vector<float> next(this->Geometry[h].NumberOfVoxels());
+      ReduceLevel(this->Values[h - 1].data(), this->Geometry[h - 1], next.data(), this->Geometry[h],
+        executor, [](double) { return true; });
+      this->Values.push_back(std::move(next));
+    }
+  }
+
+  LevelImage Image(int h) const
+  {
+    LevelImage image;
+    image.Values = this->Values[h].data();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      image.Size[axis] = static_cast<int>(this->Geometry[h].Size[axis]);
+      image.Step[axis] =
+        static_cast<double>(this->Geometry[0].Size[axis]) / this->Geometry[h].Size[axis];
+    }
+    image.Unit = this->Geometry[h].Unit / this->Geometry[0].Unit;
+    return image;
+  }
+};
+
+/// Judges the surface after every tenth iteration.
+class Witness final : public Monitor
+{
+public:
+  const SurfaceEvolution* Evolution = nullptr;
+  int Looks = 0;
+
+  bool Continue(const Status& status) override
+  {
+    if (status.Iteration % 10 == 0)
+    {
+      const SurfaceResult surface = this->Evolution->Result();
+      TriangleSurface judged;
+      judged.Points = surface.Points;
+      judged.Triangles = surface.Triangles;
+      const std::string where =
+        "level " + std::to_string(status.Level) + ", iteration " + std::to_string(status.Iteration);
+      const TopologyVerdict topology = JudgeTopology(judged);
+      EXPECT_TRUE(topology.Closed && topology.Manifold && topology.Oriented) << where;
+      EXPECT_EQ(JudgeIntersections(judged).Pairs, 0u) << where;
+      EXPECT_EQ(JudgeLengths(judged, surface.Delta).EdgesTooLong, 0u) << where;
+      ++this->Looks;
+    }
+    return !::testing::Test::HasFailure();
+  }
+};
+
+int EvolveUnderWatch(const Scene& scene, int coarsest, const SurfaceOptions& given)
+{
+  const Levels levels(scene);
+  SurfaceOptions options = given;
+  options.IsoValue = scene.IsoValue;
+  options.ObjectIsBright = scene.ObjectIsBright;
+  SequentialExecutor executor;
+  Witness witness;
+  SurfaceEvolution evolution(options, executor, witness);
+  witness.Evolution = &evolution;
+  for (int h = coarsest; h >= 0; --h)
+  {
+    h == coarsest ? evolution.StartEnclosing(levels.Image(h), h)
+                  : evolution.Divide(levels.Image(h), h);
+    evolution.Run();
+  }
+  return witness.Looks;
+}
+}
+
+class SurfaceEveryTenthIteration : public ::testing::TestWithParam<SceneKind>
+{
+};
+
+TEST_P(SurfaceEveryTenthIteration, IsValidWithPyramid)
+{
+  const Scene scene = MakeScene(GetParam());
+  EXPECT_GT(EvolveUnderWatch(scene, scene.CoarsestFaithfulLevel, {}), 2);
+}
+
+TEST_P(SurfaceEveryTenthIteration, IsValidWithoutPyramidInNoise)
+{
+  SceneOptions options;
+  options.NoiseShare = 0.2;
+  EXPECT_GT(EvolveUnderWatch(MakeScene(GetParam(), options), 0, {}), 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SurfaceEveryTenthIteration,
+  ::testing::Values(SceneKind::Torus, SceneKind::NestedBalls, SceneKind::ThinShellWithEightHoles),
+  [](const ::testing::TestParamInfo<SceneKind>& info) { return SceneName(info.param); });

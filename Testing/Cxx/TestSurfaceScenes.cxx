@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The acceptance of the deformable surface: scenes whose components and genus are known, segmented
+// through the VTK class, judged by the judge that shares no code with it.
+#include "SupportVtkConversions.h"
+#include "SurfaceJudge.h"
+#include "SyntheticScenes.h"
+#include "vtkDeformableSurface.h"
+
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace volumic::support;
+
+namespace
+{
+vtkSmartPointer<vtkDeformableSurface> Segment(vtkImageData* image, const Scene& scene)
+{
+  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  filter->SetInputData(image);
+  filter->SetIsoValue(scene.IsoValue);
+  filter->SetObjectIsBright(scene.ObjectIsBright);
+  return filter;
+}
+
+double FieldOf(vtkPolyData* surface, const char* name)
+{
+  return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
+}
+
+/// The invariants that hold for every surface that is handed out, of any level.
+void ExpectInvariants(vtkPolyData* surface, vtkImageData* image, const std::string& where)
+{
+  // In index coordinates, which is where the constraints speak of.
+  const TriangleSurface indexed = ToTriangleSurface(surface, image);
+  const double worldUnit = FieldOf(surface, "Unit") / std::pow(3.0, FieldOf(surface, "Level") / 2);
+  const double delta = FieldOf(surface, "Delta") / worldUnit;
+  const SurfaceVerdict verdict = JudgeSurface(indexed, delta);
+  EXPECT_TRUE(verdict.Topology.Closed) << where;
+  EXPECT_TRUE(verdict.Topology.Manifold) << where;
+  EXPECT_TRUE(verdict.Topology.Oriented) << where;
+  EXPECT_EQ(verdict.Topology.UnusedPoints, 0u) << where;
+  EXPECT_EQ(verdict.Intersections.Pairs, 0u) << where;
+  EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u) << where;
+  EXPECT_EQ(verdict.Lengths.EdgesTooLong, 0u) << where << "\n" << Describe(verdict);
+  EXPECT_EQ(verdict.Lengths.EdgesTooShort, 0u) << where << "\n" << Describe(verdict);
+  // The judge and the filter count the same.
+  EXPECT_EQ(verdict.Topology.EulerCharacteristic, FieldOf(surface, "EulerCharacteristic")) << where;
+  EXPECT_EQ(verdict.Topology.Genus, FieldOf(surface, "Genus")) << where;
+  EXPECT_EQ(verdict.Topology.Components.size(), FieldOf(surface, "NumberOfComponents")) << where;
+}
+
+void ExpectInvariantsAtEveryLevel(vtkDeformableSurface* filter, vtkImageData* image)
+{
+  vtkMultiBlockDataSet* levels = filter->GetLevels();
+  for (unsigned int h = 0; h < levels->GetNumberOfBlocks(); ++h)
+  {
+    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
+    if (surface && surface->GetNumberOfPoints() > 0)
+    {
+      ExpectInvariants(surface, image, "level " + std::to_string(h));
+    }
+  }
+}
+
+void ExpectTopology(vtkDeformableSurface* filter, const Scene& scene)
+{
+  vtkPolyData* surface = filter->GetOutput();
+  ASSERT_GT(surface->GetNumberOfPoints(), 0);
+  EXPECT_EQ(FieldOf(surface, "Level"), 0);
+  EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), scene.ComponentsFromOutside);
+  EXPECT_EQ(FieldOf(surface, "Genus"), scene.GenusFromOutside);
+  auto* reason =
+    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
+  ASSERT_TRUE(reason);
+  EXPECT_EQ(reason->GetValue(0), "converged");
+}
+
+std::string NameOfKind(const ::testing::TestParamInfo<SceneKind>& info)
+{
+  return SceneName(info.param);
+}
+
+class SurfaceOfScene : public ::testing::TestWithParam<SceneKind>
+{
+protected:
+  void Run(const SceneOptions& options, bool withPyramid)
+  {
+    const Scene scene = MakeScene(GetParam(), options);
+    const auto image = ToImage(scene);
+    const auto filter = Segment(image, scene);
+    // What a scene says of its coarse levels is known for cubic voxels; a thin wall vanishes above.
+    filter->SetCoarsestLevel(withPyramid ? scene.CoarsestFaithfulLevel : 0);
+    filter->Update();
+    ExpectTopology(filter, scene);
+    ExpectInvariantsAtEveryLevel(filter, image);
+  }
+};
+}
+
+TEST_P(SurfaceOfScene, CleanWithPyramid)
+{
+  this->Run({}, true);
+}
+
+TEST_P(SurfaceOfScene, CleanWithoutPyramid)
+{
+  this->Run({}, false);
+}
+
+TEST_P(SurfaceOfScene, NoisyWithPyramid)
+{
+  SceneOptions options;
+  options.NoiseShare = 0.2;
+  this->Run(options, true);
+}
+
+TEST_P(SurfaceOfScene, NoisyWithoutPyramid)
+{
+  SceneOptions options;
+  options.NoiseShare = 0.2;
+  this->Run(options, false);
+}
+
+TEST_P(SurfaceOfScene, Dark)
+{
+  SceneOptions options;
+  options.ObjectIsBright = false;
+  this->Run(options, true);
+}
+
+TEST_P(SurfaceOfScene, AnisotropicVoxels)
+{
+  SceneOptions options;
+  options.Spacing = { 1.0, 1.0, 2.5 };
+  this->Run(options, true);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Scenes, SurfaceOfScene, ::testing::ValuesIn(SceneKindsReachableFromOutside()), NameOfKind);
+
+TEST(SurfaceScenes, RotatedImagesGiveTheSameSurfaceRotated)
+{
+  const Scene scene = MakeScene(SceneKind::Torus);
+  const auto straight = ToImage(scene);
+  const auto rotated = ToImage(scene);
+  const double c = std::cos(0.7);
+  const double s = std::sin(0.7);
+  const double direction[9] = { c, 0, s, 0, 1, 0, -s, 0, c };
+  rotated->SetDirectionMatrix(direction);
+  rotated->SetOrigin(-100, 200, 50);
+  const auto a = Segment(straight, scene);
+  const auto b = Segment(rotated, scene);
+  a->Update();
+  b->Update();
+  ExpectTopology(b, scene);
+  ExpectInvariantsAtEveryLevel(b, rotated);
+  ASSERT_EQ(a->GetOutput()->GetNumberOfPoints(), b->GetOutput()->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < a->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    double q[3];
+    double expected[3];
+    a->GetOutput()->GetPoint(i, p);
+    b->GetOutput()->GetPoint(i, q);
+    rotated->TransformContinuousIndexToPhysicalPoint(p, expected);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_NEAR(q[axis], expected[axis], 1e-9) << "point " << i;
+    }
+  }
+}
+
+TEST(SurfaceScenes, SeedsMergeToOneSurface)
+{
+  for (const SceneKind kind : { SceneKind::FourBubbles, SceneKind::TorusOfTwoBubbles })
+  {
+    const Scene scene = MakeScene(kind);
+    const auto image = ToImage(scene);
+    vtkNew<vtkPoints> points;
+    for (const auto& seed : scene.Seeds)
+    {
+      points->InsertNextPoint(seed.data());
+    }
+    ASSERT_GE(points->GetNumberOfPoints(), 2);
+    vtkNew<vtkPolyData> seeds;
+    seeds->SetPoints(points);
+    const auto filter = Segment(image, scene);
+    filter->SetCoarsestLevel(0);
+    filter->SetInitializationToSeeds();
+    filter->SetSeedRadius(scene.SeedRadius);
+    filter->SetInitialSurfaceData(seeds);
+    filter->Update();
+    ExpectTopology(filter, scene);
+    ExpectInvariantsAtEveryLevel(filter, image);
+  }
+}
+
+TEST(SurfaceScenes, WithoutTopologyChangesTheTopologyStays)
+{
+  const Scene scene = MakeScene(SceneKind::Torus);
+  const auto image = ToImage(scene);
+  const auto filter = Segment(image, scene);
+  filter->TopologyChangesOff();
+  filter->Update();
+  ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), 0) << "a sphere stays one";
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+  ExpectInvariantsAtEveryLevel(filter, image);
+}
