@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Builds the benchmarks and runs them: the pyramid on the skull CT of Debian's invesalius-examples and
-# on a generated volume, then the surface on the skull, with the judge's verdict. The machine should
-# have nothing else to do.
+# Builds the benchmarks and runs them: the pyramid on the skull CT of Debian's invesalius-examples
+# and on a generated volume, then the surface on the skull, with the judge's verdict. The machine
+# should have nothing else to do.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../../CMake/debian.sh"
@@ -52,7 +52,8 @@ plan_steps 4
 mapfile -t needed < <(vtk_packages)
 install_packages "${packages[@]}" "${needed[@]}"
 build_vtk_flavour -DVOLUMIC_BUILD_BENCHMARKS=ON
-run_step "Reading the skull CT" benchmark-skull "$(vtk_python)" "$root/Examples/Python/read_volume.py" \
+run_step "Reading the skull CT" benchmark-skull \
+  "$(vtk_python)" "$root/Examples/Python/read_volume.py" \
   /usr/share/doc/invesalius-examples/examples/Cranium.inv3 "$results/skull.vti"
 
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
