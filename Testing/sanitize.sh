@@ -77,7 +77,7 @@ build_sanitized()
 failed=0
 run_sanitized()
 {
-  local kind=$1 labels='core|filters|support' launcher=() status
+  local kind=$1 labels='core|filters|support|scenes' launcher=() status
   if [ "$kind" = thread ]; then
     # Those that use threads. ThreadSanitizer of GCC 12 wants addresses that are not randomised. Of
     # VTK's backends it can follow the one of std::thread; TBB, which Debian does not compile with it,
