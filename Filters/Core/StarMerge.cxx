@@ -111,7 +111,30 @@ bool StarMerge::Plan(const SurfaceMesh& mesh)
       this->Rungs.swap(this->Candidate);
     }
   }
-  if (this->Rungs.empty() || !this->Fits(mesh))
+  if (this->Rungs.empty())
+  {
+    // Far or skew stars: nothing is better than turning about both rims evenly.
+    float least = std::numeric_limits<float>::max();
+    for (int offset = 0; offset < m; ++offset)
+    {
+      this->Candidate.clear();
+      float cost = 0;
+      int i = 0;
+      int k = 0;
+      while (i < n || k < m)
+      {
+        (k == m || (i < n && i * m <= k * n) ? i : k) += 1;
+        this->Candidate.push_back({ i % n, (offset + k) % m });
+        cost += this->Squared[i % n][(offset + k) % m];
+      }
+      if (cost < least)
+      {
+        least = cost;
+        this->Rungs.swap(this->Candidate);
+      }
+    }
+  }
+  if (!this->Fits(mesh))
   {
     return false;
   }

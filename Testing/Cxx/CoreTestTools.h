@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicCoreTestTools_h
+#define volumicCoreTestTools_h
+
+#include "InitialSurface.h"
+#include "LevelImage.h"
+#include "SurfaceCheck.h"
+#include "SurfaceMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace volumic
+{
+/** Voxels with their image; keep it alive as long as the image is used. */
+struct TestVolume
+{
+  std::vector<float> Values;
+  LevelImage Image;
+};
+
+/** A cube of n voxels along each axis, filled with f(x, y, z) at the voxels. */
+inline TestVolume MakeVolume(int n, const std::function<double(double, double, double)>& f)
+{
+  TestVolume volume;
+  volume.Values.reserve(static_cast<std::size_t>(n) * n * n);
+  for (int k = 0; k < n; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        volume.Values.push_back(static_cast<float>(f(i, j, k)));
+      }
+    }
+  }
+  volume.Image.Values = volume.Values.data();
+  volume.Image.Size = { n, n, n };
+  return volume;
+}
+
+/** 1 inside, 0 outside, with a ramp of two voxels: the iso-value .5 is at distance 0. */
+inline double Soft(double signedDistance)
+{
+  return std::min(1., std::max(0., 0.5 - 0.5 * signedDistance));
+}
+
+inline double Distance(double x, double y, double z, double a, double b, double c)
+{
+  return std::sqrt((x - a) * (x - a) + (y - b) * (y - b) + (z - c) * (z - c));
+}
+
+inline SurfaceMesh MakeSphere(const Point& centre, double radius, double meanEdge)
+{
+  SurfaceMesh mesh;
+  mesh.Append(DividedIcosahedron(centre, radius, meanEdge));
+  return mesh;
+}
+
+/** A torus about the z axis with n x m vertices. */
+inline IndexedSurface MakeTorus(const Point& centre, double major, double minor, int n, int m)
+{
+  IndexedSurface surface;
+  const double turn = 2. * 3.14159265358979;
+  for (int i = 0; i < n; ++i)
+  {
+    for (int j = 0; j < m; ++j)
+    {
+      const double a = turn * i / n;
+      const double b = turn * j / m;
+      const double r = major + minor * std::cos(b);
+      surface.Points.push_back({ centre[0] + r * std::cos(a), centre[1] + r * std::sin(a),
+        centre[2] + minor * std::sin(b) });
+    }
+  }
+  const auto at = [n, m](int i, int j) { return (i % n) * m + j % m; };
+  for (int i = 0; i < n; ++i)
+  {
+    for (int j = 0; j < m; ++j)
+    {
+      surface.Triangles.push_back({ at(i, j), at(i + 1, j), at(i + 1, j + 1) });
+      surface.Triangles.push_back({ at(i, j), at(i + 1, j + 1), at(i, j + 1) });
+    }
+  }
+  return surface;
+}
+}
+
+#endif

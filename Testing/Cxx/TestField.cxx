@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "Field.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+
+SurfaceOptions WithIso(double iso)
+{
+  SurfaceOptions options;
+  options.IsoValue = iso;
+  return options;
+}
+}
+
+TEST(Field, IsTheImageLessTheIsoValueAtVoxels)
+{
+  const TestVolume volume = MakeVolume(8, [](double x, double y, double z)
+    { return x * 3 + y * y - z; });
+  const Field field(volume.Image, WithIso(5.), Threads);
+  EXPECT_FLOAT_EQ(field.ValueAt(Vector(3, 4, 5)), 9 + 16 - 5 - 5);
+  EXPECT_FLOAT_EQ(field.At(Vector(3, 4, 5)).Value, 9 + 16 - 5 - 5);
+}
+
+TEST(Field, IsTrilinearBetweenVoxels)
+{
+  const TestVolume volume = MakeVolume(8, [](double x, double y, double z)
+    { return 1 + x + 2 * y + 3 * z + x * y * z; });
+  const Field field(volume.Image, WithIso(0.), Threads);
+  const Vector p(2.25f, 3.5f, 4.75f);
+  const double expected = 1 + 2.25 + 7 + 14.25 + 2.25 * 3.5 * 4.75;
+  EXPECT_NEAR(field.ValueAt(p), expected, 1e-4);
+  EXPECT_NEAR(field.At(p).Value, expected, 1e-4);
+}
+
+TEST(Field, GradientInterpolatesCentralDifferences)
+{
+  // Of x^2 the central difference is 2 x at every voxel, so its interpolation is 2 x everywhere;
+  // the derivative of the interpolant would be constant within a cell.
+  const TestVolume volume = MakeVolume(10, [](double x, double y, double z)
+    { return x * x + 2 * y * y - z * z; });
+  const Field field(volume.Image, WithIso(0.), Threads);
+  const Vector g = field.At(Vector(4.3f, 5.6f, 3.2f)).Gradient;
+  EXPECT_NEAR(g.X, 8.6, 1e-4);
+  EXPECT_NEAR(g.Y, 22.4, 1e-4);
+  EXPECT_NEAR(g.Z, -6.4, 1e-4);
+}
+
+TEST(Field, GradientIsPerLengthOfTheWorkspace)
+{
+  TestVolume volume = MakeVolume(8, [](double x, double, double z) { return x + z; });
+  volume.Image.Step = { 2., 1., 4. };
+  const Field field(volume.Image, WithIso(0.), Threads);
+  const Field::Sample sample = field.At(Vector(6, 3, 12));
+  EXPECT_NEAR(sample.Value, 3 + 3, 1e-5);
+  EXPECT_NEAR(sample.Gradient.X, 0.5, 1e-5);
+  EXPECT_NEAR(sample.Gradient.Z, 0.25, 1e-5);
+}
+
+TEST(Field, TurnsTheSignForDarkObjects)
+{
+  const TestVolume volume = MakeVolume(8, [](double x, double, double) { return x; });
+  SurfaceOptions options = WithIso(3.);
+  options.ObjectIsBright = false;
+  const Field field(volume.Image, options, Threads);
+  EXPECT_FLOAT_EQ(field.ValueAt(Vector(1, 4, 4)), 2);
+  EXPECT_FLOAT_EQ(field.At(Vector(4, 4, 4)).Gradient.X, -1);
+}
+
+TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
+{
+  for (const bool bright : { true, false })
+  {
+    const TestVolume volume = MakeVolume(8, [bright](double, double, double)
+      { return bright ? 10. : 0.; });
+    SurfaceOptions options = WithIso(4.);
+    options.ObjectIsBright = bright;
+    const Field field(volume.Image, options, Threads);
+    EXPECT_GT(field.ValueAt(Vector(7, 4, 4)), 0);
+    EXPECT_LT(field.ValueAt(Vector(8, 4, 4)), 0);
+    EXPECT_LT(field.ValueAt(Vector(4, -1, 4)), 0);
+    EXPECT_LT(field.ValueAt(Vector(4, 4, 1000)), 0);
+    EXPECT_GT(field.ValueAt(Vector(7, 4, 4)), field.ValueAt(Vector(7.5f, 4, 4)));
+    EXPECT_GT(field.ValueAt(Vector(7.5f, 4, 4)), field.ValueAt(Vector(8, 4, 4)));
+  }
+}
+
+TEST(Field, ReplicatesTheBorderOnRequest)
+{
+  const TestVolume volume = MakeVolume(8, [](double x, double, double) { return x; });
+  SurfaceOptions options = WithIso(4.);
+  options.BorderValue = Border::Replicate;
+  const Field field(volume.Image, options, Threads);
+  EXPECT_FLOAT_EQ(field.ValueAt(Vector(100, 4, 4)), 3);
+  EXPECT_FLOAT_EQ(field.ValueAt(Vector(-100, 4, 4)), -4);
+}
+
+TEST(Field, KnowsHowSteepTheSurfaceIs)
+{
+  const TestVolume volume = MakeVolume(16, [](double x, double, double) { return 3 * x; });
+  const Field field(volume.Image, WithIso(20.), Threads);
+  EXPECT_NEAR(field.TypicalSlope(), 3, 1e-4);
+  EXPECT_FLOAT_EQ(field.Highest(), 25);
+}
+
+TEST(FieldInvalid, RefusesAnImageWithoutVoxels)
+{
+  EXPECT_THROW(Field(LevelImage(), WithIso(0.), Threads), std::invalid_argument);
+}

@@ -1,0 +1,401 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "SurfaceEvolution.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+Monitor Silent;
+
+/** Hands out ranges of odd sizes, last first: what threads may do, made repeatable. */
+class ShuffledExecutor final : public Executor
+{
+public:
+  void For(std::size_t n, std::size_t,
+    const std::function<void(std::size_t, std::size_t)>& body) override
+  {
+    for (std::size_t end = n; end > 0;)
+    {
+      const std::size_t begin = end > 7 ? end - 7 : 0;
+      body(begin, end);
+      end = begin;
+    }
+  }
+};
+
+class CancelAfter final : public Monitor
+{
+public:
+  explicit CancelAfter(int iterations)
+    : Left(iterations)
+  {
+  }
+  bool Continue(const Status&) override { return --this->Left > 0; }
+
+private:
+  int Left;
+};
+
+/** Counts states that are not what they must be between two iterations. */
+class Inspector final : public Monitor
+{
+public:
+  const SurfaceEvolution* Evolution = nullptr;
+  int Broken = 0;
+  int Calls = 0;
+
+  bool Continue(const Status&) override
+  {
+    ++this->Calls;
+    const SurfaceResult surface = this->Evolution->Result();
+    SurfaceMesh mesh;
+    mesh.Append(surface);
+    this->Broken += !DescribeBrokenInvariant(mesh).empty();
+    this->Broken += CountSelfIntersections(surface, 1);
+    this->Broken += mesh.CountEulerCharacteristic() != this->Evolution->History().back().EulerCharacteristic;
+    return true;
+  }
+};
+
+SurfaceOptions Half()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  return options;
+}
+
+TestVolume Ball(int n, double radius)
+{
+  return MakeVolume(n, [n, radius](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - radius); });
+}
+
+TestVolume NoisyTorus(int n)
+{
+  std::mt19937 engine(3);
+  std::normal_distribution<double> noise(0., 0.2);
+  return MakeVolume(n,
+    [&, n](double x, double y, double z)
+    {
+      const double q = std::sqrt((x - n / 2.) * (x - n / 2.) + (y - n / 2.) * (y - n / 2.)) -
+        0.28 * n;
+      return Soft(std::sqrt(q * q + (z - n / 2.) * (z - n / 2.)) - 0.12 * n) + noise(engine);
+    });
+}
+
+void ExpectSound(const SurfaceEvolution& evolution)
+{
+  const SurfaceResult surface = evolution.Result();
+  EXPECT_EQ(CountSelfIntersections(surface), 0);
+  SurfaceMesh mesh;
+  mesh.Append(surface);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  double shortest = 1e9;
+  double longest = 0;
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& a = surface.Points[t[k]];
+      const Point& b = surface.Points[t[(k + 1) % 3]];
+      const double edge = Distance(a[0], a[1], a[2], b[0], b[1], b[2]);
+      shortest = std::min(shortest, edge);
+      longest = std::max(longest, edge);
+    }
+  }
+  EXPECT_GE(shortest, surface.Delta * (1 - 1e-5));
+  EXPECT_LE(longest, surface.Delta * 2.5 * (1 + 1e-5));
+}
+}
+
+TEST(SurfaceEvolution, ShrinksAnEnclosingSurfaceOntoABall)
+{
+  const TestVolume volume = Ball(32, 10);
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  ExpectSound(evolution);
+  const SurfaceResult surface = evolution.Result();
+  const SurfaceFeatures features = ComputeFeatures(surface);
+  ASSERT_EQ(features.Components.size(), 1u);
+  EXPECT_EQ(features.Genus, 0);
+  const double volumeOfBall = 4. / 3. * 3.14159265 * 1000.;
+  EXPECT_NEAR(features.Volume, volumeOfBall, 0.02 * volumeOfBall);
+  double residual = 0;
+  for (std::size_t i = 0; i < surface.Points.size(); ++i)
+  {
+    residual += std::abs(surface.Residual[i]);
+    const Point& p = surface.Points[i];
+    EXPECT_NEAR(Distance(p[0], p[1], p[2], 16, 16, 16), 10, 0.2);
+  }
+  EXPECT_LT(residual / static_cast<double>(surface.Points.size()), 0.02);
+}
+
+TEST(SurfaceEvolution, GrowsSeedsUntilTheyMergeIntoATorus)
+{
+  const int n = 40;
+  const TestVolume volume = MakeVolume(n,
+    [](double x, double y, double z)
+    {
+      const double q = std::sqrt((x - 20) * (x - 20) + (y - 20) * (y - 20)) - 11;
+      return Soft(std::sqrt(q * q + (z - 20) * (z - 20)) - 5);
+    });
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, { { 9, 20, 20 }, { 31, 20, 20 } }), 2);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  ExpectSound(evolution);
+  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
+  EXPECT_EQ(features.Components.size(), 1u);
+  EXPECT_EQ(features.Genus, 1);
+  int merges = 0;
+  for (const HistoryRow& row : evolution.History())
+  {
+    merges += row.Merges;
+  }
+  EXPECT_GE(merges, 2);
+}
+
+TEST(SurfaceEvolution, IsSoundAfterEveryIteration)
+{
+  const TestVolume volume = NoisyTorus(36);
+  Inspector inspector;
+  SurfaceEvolution evolution(Half(), Threads, inspector);
+  inspector.Evolution = &evolution;
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_GT(inspector.Calls, 20);
+  EXPECT_EQ(inspector.Broken, 0);
+  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
+  EXPECT_EQ(features.Components[0].Genus, 1);
+}
+
+TEST(SurfaceEvolution, GivesTheSameBitsForAnyExecutor)
+{
+  const TestVolume volume = NoisyTorus(36);
+  ShuffledExecutor shuffled;
+  SurfaceEvolution first(Half(), Threads, Silent);
+  SurfaceEvolution second(Half(), shuffled, Silent);
+  for (SurfaceEvolution* evolution : { &first, &second })
+  {
+    evolution->StartEnclosing(volume.Image, 0);
+    evolution->Run();
+  }
+  EXPECT_EQ(first.Result().Points, second.Result().Points);
+  EXPECT_EQ(first.Result().Triangles, second.Result().Triangles);
+  EXPECT_EQ(first.History().size(), second.History().size());
+}
+
+TEST(SurfaceEvolution, DividesToAFinerLevel)
+{
+  const TestVolume fine = Ball(32, 10);
+  TestVolume coarse;
+  const int n = 18;
+  coarse = MakeVolume(n, [n](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - 10. * n / 32.); });
+  coarse.Image.Step = { 32. / n, 32. / n, 32. / n };
+  coarse.Image.Unit = std::sqrt(3.);
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartEnclosing(coarse.Image, 1);
+  evolution.Run();
+  const std::size_t before = evolution.Result().Points.size();
+  evolution.Divide(fine.Image, 0);
+  EXPECT_GT(evolution.Result().Points.size(), 2 * before);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  ExpectSound(evolution);
+  EXPECT_EQ(evolution.History().front().Level, 1);
+  EXPECT_EQ(evolution.History().back().Level, 0);
+}
+
+TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
+{
+  // Two balls, of which the coarse image holds only one.
+  const auto large = [](double x, double y, double z)
+  { return Distance(x, y, z, 12, 16, 16) - 8.; };
+  const TestVolume fine = MakeVolume(32, [&](double x, double y, double z)
+    { return Soft(std::min(large(x, y, z), Distance(x, y, z, 26, 16, 16) - 3.)); });
+  TestVolume coarse = MakeVolume(18, [&](double x, double y, double z)
+    { return Soft(large(x * 32 / 18, y * 32 / 18, z * 32 / 18)); });
+  coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
+  coarse.Image.Unit = std::sqrt(3.);
+  for (const bool recover : { true, false })
+  {
+    SurfaceOptions options = Half();
+    options.RecoverLostParts = recover;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    evolution.StartEnclosing(coarse.Image, 1);
+    evolution.Run();
+    EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
+    evolution.Divide(fine.Image, 0);
+    EXPECT_EQ(evolution.Lost().Found, recover ? 1 : 0);
+    EXPECT_EQ(evolution.Lost().Seeded, recover ? 1 : 0);
+    evolution.Run();
+    ExpectSound(evolution);
+    EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), recover ? 2u : 1u);
+  }
+}
+
+TEST(SurfaceEvolution, RemeshesAGivenSurface)
+{
+  const TestVolume volume = Ball(32, 10);
+  IndexedSurface sphere = DividedIcosahedron({ 16, 16, 16 }, 11, 0.3); // Much too fine.
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartSurface(volume.Image, 0, sphere);
+  const std::size_t adapted = evolution.Result().Points.size();
+  EXPECT_LT(adapted, sphere.Points.size() / 4);
+  EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  ExpectSound(evolution);
+}
+
+TEST(SurfaceEvolution, TakesSurfacesWithCrowdedPoles)
+{
+  // A double cone of 40 sides: 40 neighbours at each tip.
+  IndexedSurface cone;
+  const int sides = 40;
+  cone.Points = { { 16, 16, 28 }, { 16, 16, 4 } };
+  for (int i = 0; i < sides; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / sides;
+    cone.Points.push_back({ 16 + 12 * std::cos(a), 16 + 12 * std::sin(a), 16 });
+  }
+  for (int i = 0; i < sides; ++i)
+  {
+    cone.Triangles.push_back({ 0, 2 + i, 2 + (i + 1) % sides });
+    cone.Triangles.push_back({ 1, 2 + (i + 1) % sides, 2 + i });
+  }
+  const TestVolume volume = Ball(32, 9);
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartSurface(volume.Image, 0, cone);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  ExpectSound(evolution);
+  EXPECT_EQ(ComputeFeatures(evolution.Result()).EulerCharacteristic, 2);
+}
+
+TEST(SurfaceEvolution, HandsOverASoundSurfaceWhenCancelled)
+{
+  const TestVolume volume = Ball(32, 10);
+  CancelAfter monitor(7);
+  SurfaceEvolution evolution(Half(), Threads, monitor);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
+  EXPECT_EQ(evolution.Iterations(), 7);
+  EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
+}
+
+TEST(SurfaceEvolution, SaysWhenNothingIsLeft)
+{
+  const TestVolume volume = MakeVolume(24, [](double, double, double) { return 0.; });
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Vanished);
+  EXPECT_TRUE(evolution.Result().Points.empty());
+}
+
+TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
+{
+  // Two balls: without cuts the enclosing surface stays one component.
+  const TestVolume volume = MakeVolume(36, [](double x, double y, double z)
+    { return Soft(std::min(Distance(x, y, z, 9, 18, 18) - 6., Distance(x, y, z, 27, 18, 18) - 6.)); });
+  SurfaceOptions options = Half();
+  options.TopologyChanges = false;
+  options.MaximumNumberOfIterations = 150;
+  SurfaceEvolution evolution(options, Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  evolution.Run();
+  EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
+  EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
+}
+
+TEST(SurfaceEvolution, StopsAtTheIterationLimit)
+{
+  const TestVolume volume = Ball(32, 10);
+  SurfaceOptions options = Half();
+  options.MaximumNumberOfIterations = 3;
+  SurfaceEvolution evolution(options, Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
+  EXPECT_EQ(evolution.History().size(), 3u);
+}
+
+TEST(SurfaceEvolutionInvalid, RefusesOptionsOutsideTheirRange)
+{
+  const auto with = [](auto&& change)
+  {
+    SurfaceOptions options = Half();
+    change(options);
+    SurfaceEvolution evolution(options, Threads, Silent);
+  };
+  EXPECT_THROW(with([](SurfaceOptions& o) { o.SamplingRatio = 0.5; }), std::invalid_argument);
+  EXPECT_THROW(with([](SurfaceOptions& o) { o.SamplingRatio = 1.2; }), std::invalid_argument);
+  EXPECT_THROW(with([](SurfaceOptions& o) { o.TensionWeight = -1; }), std::invalid_argument);
+  EXPECT_THROW(with([](SurfaceOptions& o) { o.Friction = 0; }), std::invalid_argument);
+  EXPECT_THROW(with([](SurfaceOptions& o) { o.ElasticityWeight = std::nan(""); }),
+    std::invalid_argument);
+}
+
+TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
+{
+  const TestVolume volume = Ball(32, 10);
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  EXPECT_THROW(
+    evolution.StartSeeds(volume.Image, 0, { { 16, 16, 50 } }), std::invalid_argument);
+  EXPECT_THROW(evolution.StartSeeds(volume.Image, 0, { { 1, 1, 1 } }), std::invalid_argument);
+}
+
+TEST(SurfaceEvolutionInvalid, RefusesSurfacesItCannotUse)
+{
+  const TestVolume volume = Ball(32, 10);
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  const IndexedSurface good = Icosahedron({ 16, 16, 16 }, 8);
+  const auto refuses = [&](IndexedSurface surface, const char* word)
+  {
+    try
+    {
+      evolution.StartSurface(volume.Image, 0, surface);
+      ADD_FAILURE() << "accepted: " << word;
+    }
+    catch (const std::invalid_argument& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  refuses(IndexedSurface(), "empty");
+  IndexedSurface open = good;
+  open.Triangles.pop_back();
+  refuses(open, "open");
+  IndexedSurface inverted = good;
+  for (Triangle& t : inverted.Triangles)
+  {
+    std::swap(t[0], t[1]);
+  }
+  refuses(inverted, "inside out");
+  IndexedSurface twisted = good;
+  std::swap(twisted.Triangles[0][0], twisted.Triangles[0][1]);
+  refuses(twisted, "not oriented");
+  IndexedSurface crowded = good;
+  crowded.Triangles.push_back(good.Triangles[0]);
+  refuses(crowded, "not manifold");
+  IndexedSurface crossing = good;
+  const IndexedSurface other = Icosahedron({ 20, 16, 16 }, 8);
+  for (const Triangle& t : other.Triangles)
+  {
+    crossing.Triangles.push_back({ t[0] + 12, t[1] + 12, t[2] + 12 });
+  }
+  crossing.Points.insert(crossing.Points.end(), other.Points.begin(), other.Points.end());
+  refuses(crossing, "intersects itself");
+  refuses(Icosahedron({ 100, 16, 16 }, 8), "outside");
+  IndexedSurface endless = good;
+  endless.Points[0][0] = std::nan("");
+  refuses(endless, "not finite");
+}
