@@ -77,6 +77,7 @@ struct SurfaceEvolution::Implementation
   double EnclosedVolume();
   void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
   void FillRow(HistoryRow& row) const;
+  double MeanEdgeLength() const;
   void FillCounts(HistoryRow& row) const;
   void Regularise(Dynamics& dynamics);
   StopReason Evolve();

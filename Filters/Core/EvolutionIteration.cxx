@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace volumic
 {
@@ -314,5 +317,49 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row) const
     }
   }
   row.KineticEnergy = energy / std::max(row.Vertices, 1);
+  row.MeanEdgeLength = this->MeanEdgeLength();
+}
+
+double SurfaceEvolution::Implementation::MeanEdgeLength() const
+{
+  // Sums of fixed blocks, added in order, are the same bits for any number of threads.
+  constexpr std::size_t blockSize = 4096;
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const auto size = static_cast<std::size_t>(mesh.Size());
+  struct Sum
+  {
+    double Length = 0;
+    std::size_t Edges = 0;
+  };
+  std::vector<Sum> sums((size + blockSize - 1) / blockSize);
+  this->Threads.For(sums.size(), 4,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin * blockSize; v < std::min(size, end * blockSize); ++v)
+      {
+        if (!mesh.IsAlive(static_cast<int>(v)))
+        {
+          continue;
+        }
+        Sum& sum = sums[v / blockSize];
+        const Ring& ring = mesh.Rings[v];
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          if (ring.Item[i] > static_cast<int>(v))
+          {
+            sum.Length +=
+              std::sqrt(SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
+            ++sum.Edges;
+          }
+        }
+      }
+    });
+  Sum total;
+  for (const Sum& sum : sums)
+  {
+    total.Length += sum.Length;
+    total.Edges += sum.Edges;
+  }
+  return total.Edges > 0 ? total.Length / static_cast<double>(total.Edges) : 0.;
 }
 }
