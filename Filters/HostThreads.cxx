@@ -72,7 +72,7 @@ private:
 }
 
 HostThreads::HostThreads(int numberOfThreads)
-  : NumberOfThreads(numberOfThreads), Backend(ChooseBackend(numberOfThreads))
+  : NumberOfThreads(LimitToProcessors(numberOfThreads)), Backend(ChooseBackend(numberOfThreads))
 {
 }
 
