@@ -8,7 +8,8 @@ from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPlaneCollection
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkCommonTransforms import vtkMatrixToLinearTransform
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkCutter, vtkPolyDataConnectivityFilter
+from vtkmodules.vtkFiltersCore import (
+    vtkCleanPolyData, vtkCutter, vtkPolyDataConnectivityFilter, vtkPolyDataNormals)
 from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface, vtkTransformPolyDataFilter
 
 import render
@@ -135,8 +136,13 @@ def cut_open(surface, point, keep_towards):
     clip.SetScalarModeToColors()
     clip.SetBaseColor(render.BONE)
     clip.SetClipColor(render.CUT_FACE)
-    clip.Update()
-    actor = render.surface_actor(clip.GetOutput())
+    # The clip drops the normals; smooth ones, but not across the rims of the cut.
+    normals = vtkPolyDataNormals()
+    normals.SetInputConnection(clip.GetOutputPort())
+    normals.SetFeatureAngle(40)
+    normals.ConsistencyOff()
+    normals.Update()
+    actor = render.surface_actor(normals.GetOutput())
     actor.GetMapper().ScalarVisibilityOn()
     actor.GetMapper().SetScalarModeToUseCellData()
     return actor
