@@ -18,6 +18,8 @@ from paraview.vtk.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
 
+from plugin_testing import end_with_parent
+
 WINDOW = "pqClientMainWindow"
 PANEL = f"{WINDOW}/propertiesDock/propertiesPanel"
 
@@ -57,7 +59,8 @@ class Session:
         server = subprocess.Popen(
             [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24",
              "-fbdir", self._folder.name, "-nolisten", "tcp"],
-            pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+            pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
+            preexec_fn=end_with_parent)
         os.close(write_end)
         ready, _, _ = select.select([read_end], [], [], 30)
         with os.fdopen(read_end) as answer:
@@ -77,7 +80,7 @@ class Session:
             [self._paraview, "--dr", f"--plugin-search-paths={os.path.dirname(self._plugin)}",
              "--plugins=Volumic", f"--test-script={script}"],
             env=self._environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT)
+            stderr=subprocess.STDOUT, preexec_fn=end_with_parent)
         deadline = time.monotonic() + timeout
         said = b""
         # It says no more than the latter when an event failed.

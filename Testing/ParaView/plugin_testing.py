@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the plugin share: loading it, images to filter, and reading what came out."""
 
+import ctypes
 import os
+import signal
 import sys
 import unittest
 
@@ -23,6 +25,12 @@ def plugin_path():
 def program(name):
     """Path of one of ParaView's programs."""
     return os.path.join(os.environ["VOLUMIC_PARAVIEW_BIN"], name)
+
+
+def end_with_parent():
+    """For Popen's preexec_fn: a program that a test starts ends with it, also when ctest kills it."""
+    PR_SET_PDEATHSIG = 1
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def output_path(name):

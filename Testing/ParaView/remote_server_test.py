@@ -25,7 +25,8 @@ def start_server(port):
     """A pvserver that waits for a client on that port."""
     server = subprocess.Popen(
         [testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True)
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
+        preexec_fn=testing.end_with_parent)
     said = []
     for line in server.stdout:
         said.append(line)
