@@ -115,6 +115,23 @@ bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Pl
 }
 }
 
+namespace
+{
+bool BoxesApart(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
+{
+  const auto apart = [tolerance](double a, double b, double c, double x, double y, double z)
+  {
+    return std::min({ a, b, c }) > std::max({ x, y, z }) + tolerance ||
+      std::min({ x, y, z }) > std::max({ a, b, c }) + tolerance;
+  };
+  const VectorD* p = f.Corner;
+  const VectorD* q = g.Corner;
+  return apart(p[0].X, p[1].X, p[2].X, q[0].X, q[1].X, q[2].X) ||
+    apart(p[0].Y, p[1].Y, p[2].Y, q[0].Y, q[1].Y, q[2].Y) ||
+    apart(p[0].Z, p[1].Z, p[2].Z, q[0].Z, q[1].Z, q[2].Z);
+}
+}
+
 bool TrianglesMeet(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
 {
   int inF[3];
@@ -134,6 +151,10 @@ bool TrianglesMeet(const NamedTriangle& f, const NamedTriangle& g, double tolera
   if (shared == 3)
   {
     return true;
+  }
+  if (shared == 0 && BoxesApart(f, g, tolerance))
+  {
+    return false;
   }
   const Plane planeF = PlaneOf(f.Corner);
   const Plane planeG = PlaneOf(g.Corner);
