@@ -293,13 +293,17 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
 {
-  // A level depends on all voxels within a few units: the whole image is asked for.
+  // A level depends on all voxels within a few units: the whole image is asked for, not the piece
+  // that a process of a parallel run would get.
   vtkInformation* info = input[0]->GetInformationObject(0);
   if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
   {
     int extent[6];
     info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
     info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent, 6);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
   return 1;
 }
@@ -310,6 +314,13 @@ int vtkImagePyramid::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  // In a parallel run the first process holds the pyramid; the others would only repeat it.
+  if (output &&
+    outputVector->GetInformationObject(0)->Get(
+      vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1;
+  }
   if (!input || !output)
   {
     vtkErrorMacro("Input port 0: there is no image.");
