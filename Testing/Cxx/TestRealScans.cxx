@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The surface on real scans, at every level. What must always hold is asserted as it is; qualities
+// that are a matter of degree are asserted well below what is reached (see the README), so that a
+// failure means that something broke.
+#include "SupportVtkConversions.h"
+#include "SurfaceJudge.h"
+#include "vtkDeformableSurface.h"
+
+#include <vtkFieldData.h>
+#include <vtkImageCast.h>
+#include <vtkImageConstantPad.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLImageDataReader.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+using namespace volumic::support;
+
+namespace
+{
+struct Scan
+{
+  const char* Name;
+  std::string File;
+  double IsoValue;
+  double LeastReach;      ///< share of the boundary that air reaches and the surface must reach too
+  double LargestDistance; ///< to the isopotential, mean over the vertices, voxels
+};
+
+const std::string Shared = VOLUMIC_SHARED_DATA;
+
+double FieldOf(vtkPolyData* surface, const char* name)
+{
+  return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
+}
+
+std::string StopReason(vtkPolyData* surface)
+{
+  return vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"))
+    ->GetValue(0);
+}
+
+class RealScans : public ::testing::TestWithParam<Scan>
+{
+};
+}
+
+TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
+{
+  const Scan& scan = GetParam();
+  if (!std::ifstream(scan.File))
+  {
+    GTEST_SKIP() << scan.File << " is missing";
+  }
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName(scan.File.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(image);
+  filter->SetIsoValue(scan.IsoValue);
+  filter->Update();
+
+  vtkMultiBlockDataSet* levels = filter->GetLevels();
+  ASSERT_GT(levels->GetNumberOfBlocks(), 1u);
+  for (unsigned int h = 0; h < levels->GetNumberOfBlocks(); ++h)
+  {
+    SCOPED_TRACE("level " + std::to_string(h));
+    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
+    ASSERT_TRUE(surface);
+    if (surface->GetNumberOfPoints() == 0)
+    {
+      // Too thin for the coarsest level; a finer one must have found it.
+      EXPECT_GT(h, 0u);
+      EXPECT_EQ(StopReason(surface), "vanished");
+      continue;
+    }
+    const TriangleSurface indexed = ToTriangleSurface(surface, image);
+    const TopologyVerdict topology = JudgeTopology(indexed);
+    EXPECT_TRUE(topology.Closed && topology.Manifold && topology.Oriented);
+    EXPECT_EQ(JudgeIntersections(indexed).Pairs, 0u);
+    const double worldUnit = FieldOf(surface, "Unit") / std::pow(3.0, h / 2.0);
+    const LengthVerdict lengths = JudgeLengths(indexed, FieldOf(surface, "Delta") / worldUnit);
+    EXPECT_EQ(lengths.EdgesTooLong, 0u);
+    EXPECT_LT(static_cast<double>(lengths.EdgesTooShort), 1 + 0.002 * lengths.Edges);
+    EXPECT_GT(JudgeShapes(indexed).Mean, 0.94);
+  }
+
+  vtkPolyData* finest = filter->GetOutput();
+  EXPECT_EQ(FieldOf(finest, "Level"), 0);
+  EXPECT_EQ(StopReason(finest), "converged");
+  // Where the object is cut by the border the surface closes it a fraction of a voxel outside.
+  vtkNew<vtkImageConstantPad> pad;
+  pad->SetInputData(image);
+  const int* extent = image->GetExtent();
+  pad->SetOutputWholeExtent(
+    extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1, extent[4] - 1, extent[5] + 1);
+  pad->SetConstant(image->GetScalarRange()[0]);
+  vtkNew<vtkImageCast> cast;
+  cast->SetInputConnection(pad->GetOutputPort());
+  cast->SetOutputScalarTypeToFloat();
+  cast->Update();
+  vtkImageData* padded = cast->GetOutput();
+  JudgedVolume volume;
+  volume.Values = static_cast<const float*>(padded->GetScalarPointer());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    volume.Size[axis] = padded->GetDimensions()[axis];
+  }
+  volume.IsoValue = scan.IsoValue;
+  const TriangleSurface indexed = ToTriangleSurface(finest, padded);
+  EXPECT_GT(JudgeReach(indexed, volume).Share, scan.LeastReach);
+  EXPECT_LT(JudgeIsoDistance(indexed, volume).MeanAtVertices, scan.LargestDistance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, RealScans,
+  ::testing::Values(Scan{ "SkullCT", VOLUMIC_SKULL, 226.5, 0.97, 0.04 },
+    Scan{ "HeadCT", Shared + "/headsq_quarter_u16.vti", 1150.5, 0.95, 0.04 },
+    Scan{ "Tooth", Shared + "/tooth_ct_u16.vti", 600.5, 0.97, 0.04 },
+    Scan{ "Engine", Shared + "/engine_ct_u8.vti", 75.5, 0.97, 0.04 },
+    Scan{ "VisibleMaleHead", Shared + "/vismale_head_ct_u8.vti", 95.5, 0.97, 0.04 },
+    Scan{ "SmallHeadMR", Shared + "/head_mr_small_u8.vti", 30.5, 0.80, 0.1 }),
+  [](const ::testing::TestParamInfo<Scan>& info) { return info.param.Name; });
