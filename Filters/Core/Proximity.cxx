@@ -10,6 +10,8 @@ namespace
 {
 /** Lengths in delta. Room between two stars that needs no test of their triangles. */
 constexpr float LeastRoom = 2e-3f;
+/** Room that the test of triangles looks for first, to spare some tests to come. */
+constexpr float SomeRoom = 0.01f;
 /** Largest slack, which is what a vertex far from all others gets. */
 constexpr float MostSlack = 0.1f;
 /** Pairs are kept while their vertices use up their slack: look a little further. */
@@ -136,30 +138,50 @@ private:
   int W;
 };
 
-void TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed, int v, int w,
-  std::vector<Proximity::Meeting>& meetings)
+/** Adds the faces that meet. @return the room that the rest has for certain. */
+float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed, int v, int w,
+  std::vector<Proximity::Meeting>& meetings, std::vector<int>& tight)
 {
   const Star first(state.Mesh, v);
   const Star second(state.Mesh, w);
   const FirstPair pair(state, listed, v, w);
+  float room = SomeRoom * state.Delta;
   for (int i = 0; i < first.Neighbours.Count; ++i)
   {
+    const Vector margin(room, room, room);
+    const Vector low = first.Low[i] - margin;
+    const Vector high = first.High[i] + margin;
     for (int j = v == w ? i + 1 : 0; j < second.Neighbours.Count; ++j)
     {
-      if (Apart(first.Low[i], first.High[i], second.Low[j], second.High[j]))
+      if (Apart(low, high, second.Low[j], second.High[j]))
       {
         continue;
       }
       const std::array<int, 3> f = first.Face(i);
       const std::array<int, 3> g = second.Face(j);
-      if (!SameFace(f, g) && pair.IsFirstOf(f, g) &&
-        TrianglesMeet(TriangleOf(state.Mesh, f[0], f[1], f[2]),
-          TriangleOf(state.Mesh, g[0], g[1], g[2]), constraint::Contact * state.Delta))
+      if (SameFace(f, g))
       {
-        meetings.push_back({ f, g });
+        continue;
+      }
+      if (!pair.IsFirstOf(f, g))
+      {
+        continue; // Tested from there; see Tight for what it finds.
+      }
+      const NamedTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
+      const NamedTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
+      if (TrianglesMeet(one, other, SomeRoom * state.Delta))
+      {
+        room = 0;
+        tight.insert(tight.end(), f.begin(), f.end());
+        tight.insert(tight.end(), g.begin(), g.end());
+        if (TrianglesMeet(one, other, constraint::Contact * state.Delta))
+        {
+          meetings.push_back({ f, g });
+        }
       }
     }
   }
+  return room;
 }
 }
 
@@ -180,8 +202,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   if (state.AreOpposed(v, v))
   {
     anything = true;
-    slack = 0;
-    TestStars(state, this->Listed, v, v, block.Meetings);
+    slack = std::min(slack, TestStars(state, this->Listed, v, v, block.Meetings, block.Tight));
   }
   state.Grid.Visit(p, reach,
     [&](int w)
@@ -197,10 +218,17 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
         block.Pairs.push_back({ v, w, squared });
       }
       const float room = RoomBetween(state, v, w);
-      slack = std::max(std::min(slack, room), 0.f);
-      if ((v < w || !this->Listed[w]) && room < LeastRoom * state.Delta)
+      if (room >= LeastRoom * state.Delta)
       {
-        TestStars(state, this->Listed, v, w, block.Meetings);
+        slack = std::min(slack, room);
+      }
+      else if (v < w || !this->Listed[w])
+      {
+        slack = std::min(slack, TestStars(state, this->Listed, v, w, block.Meetings, block.Tight));
+      }
+      else
+      {
+        slack = std::min(slack, SomeRoom * state.Delta);
       }
     });
   state.Near[v] = anything;
@@ -226,6 +254,7 @@ void Proximity::Examine(
     {
       this->Blocks[b].Pairs.clear();
       this->Blocks[b].Meetings.clear();
+      this->Blocks[b].Tight.clear();
       for (std::size_t i = begin; i < end; ++i)
       {
         if (state.Mesh.IsAlive(vertices[i]))
@@ -251,6 +280,11 @@ void Proximity::Examine(
     this->AllPairs.insert(this->AllPairs.end(), block.Pairs.begin(), block.Pairs.end());
     this->AllMeetings.insert(
       this->AllMeetings.end(), block.Meetings.begin(), block.Meetings.end());
+    // A pair of faces is tested once, but all its corners must know that it has no room.
+    for (int v : block.Tight)
+    {
+      state.Slack[v] = 0;
+    }
   }
   for (int v : vertices)
   {

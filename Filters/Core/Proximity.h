@@ -59,6 +59,7 @@ private:
   {
     std::vector<ClosePair> Pairs;
     std::vector<Meeting> Meetings;
+    std::vector<int> Tight; ///< Corners of faces without room.
   };
   void ExamineVertex(SurfaceState& state, int v, Block& block) const;
 

@@ -39,7 +39,7 @@ struct SurfaceOptions
    * A level rests when the enclosed volume changes by less than max(delta^3, this share of it)
    * over the last 10 and over the last 20 iterations.
    */
-  double ConvergenceTolerance = 2e-4;
+  double ConvergenceTolerance = 5e-4;
   bool FreezeMotionlessVertices = true; ///< Skip vertices at rest until something near changes.
   bool SnapToIsoValue = true;           ///< Vertices onto the isopotential at the end of a level.
 

@@ -64,7 +64,7 @@ void SurfaceState::Adopt(int v, int parent)
   this->Velocity[v] = this->Velocity[parent];
   this->Normal[v] = this->Normal[parent];
   this->Pull[v] = Vector();
-  this->Spring[v] = Vector();
+  this->Spring[v] = this->Spring[parent];
   this->Before[v] = this->Before[parent];
   this->Anchor[v] = this->Mesh.Position[v];
   this->Value[v] = this->Value[parent];
@@ -145,6 +145,7 @@ void SurfaceState::UpdateShape(int v)
   }
   pull.Unused = area * (1.f / 6.f);
   this->Pull[v] = pull;
+  spring.Unused = std::sqrt(std::max(0.f, 1 - cone * cone));
   this->Spring[v] = spring;
   this->Wants[v] = wants;
 }
