@@ -12,7 +12,8 @@ namespace volumic
 /**
  * Global division with factor sqrt 3: a new vertex at the centre of every face, joined to its
  * corners; then every edge between two old vertices is flipped. Vertices become three times as
- * many, edges sqrt 3 times shorter. Old vertices keep index and valence, new ones have 6. chi stays.
+ * many, edges sqrt 3 times shorter. Old vertices keep index and valence, new ones have 6; chi
+ * stays.
  *
  * The flips cut convex edges off and fill concave ones. Where the caller finds that this makes
  * the surface intersect itself it flips edges between new vertices back with EdgeFlip: with all

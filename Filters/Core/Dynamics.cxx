@@ -192,7 +192,8 @@ void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePai
           for (std::size_t i = group.Begin; i < group.End; ++i)
           {
             const int w = pairs[i].W;
-            if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w) || this->MayClose(state, v, w))
+            if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w) ||
+              this->MayClose(state, v, w))
             {
               continue;
             }

@@ -166,7 +166,6 @@ void SurfaceEvolution::Implementation::RollBack()
     }
     std::sort(back.begin(), back.end());
     back.erase(std::unique(back.begin(), back.end()), back.end());
-    bool moved = false;
     list = back;
     for (int v : back)
     {
@@ -175,9 +174,7 @@ void SurfaceEvolution::Implementation::RollBack()
       {
         continue;
       }
-      const Vector& before = s.Before[v];
-      moved = moved || SquaredDistance(before, s.Mesh.Position[v]) > 0;
-      s.MoveTo(v, before);
+      s.MoveTo(v, s.Before[v]);
       s.Velocity[v] = Vector();
       s.Stuck[v] = static_cast<std::uint8_t>(std::min(s.Stuck[v] + 2, 200));
       s.Awake[v] = 1;
@@ -190,7 +187,6 @@ void SurfaceEvolution::Implementation::RollBack()
     s.UpdateShape(list, this->Threads);
     this->Recheck.Examine(s, list, this->Threads);
     meetings = &this->Recheck.Meetings();
-    (void)moved;
   }
   if (!meetings->empty())
   {

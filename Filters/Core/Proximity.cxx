@@ -3,6 +3,7 @@
 #include "Proximity.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace volumic
 {
@@ -139,10 +140,10 @@ private:
 };
 
 /** Adds the faces that meet. @return the room that the rest has for certain. */
-float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed, int v, int w,
-  std::vector<Proximity::Meeting>& meetings, std::vector<int>& tight)
+float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed,
+  const Star& first, int w, std::vector<Proximity::Meeting>& meetings, std::vector<int>& tight)
 {
-  const Star first(state.Mesh, v);
+  const int v = first.Centre;
   const Star second(state.Mesh, w);
   const FirstPair pair(state, listed, v, w);
   float room = SomeRoom * state.Delta;
@@ -197,12 +198,21 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   const Vector p = mesh.Position[v];
   const float reach = constraint::Reach * state.Delta;
   const float near = PairReach * state.Delta;
+  std::optional<Star> own; // Few vertices need it, those that do need it often.
+  const auto star = [&]() -> const Star&
+  {
+    if (!own)
+    {
+      own.emplace(mesh, v);
+    }
+    return *own;
+  };
   bool anything = false;
   float slack = MostSlack * state.Delta;
   if (state.AreOpposed(v, v))
   {
     anything = true;
-    slack = std::min(slack, TestStars(state, this->Listed, v, v, block.Meetings, block.Tight));
+    slack = std::min(slack, TestStars(state, this->Listed, star(), v, block.Meetings, block.Tight));
   }
   state.Grid.Visit(p, reach,
     [&](int w)
@@ -224,7 +234,8 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
       }
       else if (v < w || !this->Listed[w])
       {
-        slack = std::min(slack, TestStars(state, this->Listed, v, w, block.Meetings, block.Tight));
+        slack = std::min(
+          slack, TestStars(state, this->Listed, star(), w, block.Meetings, block.Tight));
       }
       else
       {

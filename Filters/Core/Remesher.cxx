@@ -48,7 +48,7 @@ bool Remesher::WantsMerge(int u, int v) const
   const SurfaceState& s = this->State;
   const Vector across = s.Mesh.Position[v] - s.Mesh.Position[u];
   const float distance = Length(across);
-  if (distance <= 0 || Dot(s.Normal[u], s.Normal[v]) > -0.3f * 1.f)
+  if (distance <= 0 || Dot(s.Normal[u], s.Normal[v]) > -0.3f)
   {
     return false;
   }
@@ -88,11 +88,9 @@ bool Remesher::FlipBetween(int u, int v)
     if (this->TheField)
     {
       // Joining u and v fills the fold where they are in front of each other, else cuts it off.
-      const Vector across = s.Mesh.Position[v] - s.Mesh.Position[u];
       const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
       const Vector edge = (s.Mesh.Position[a] + s.Mesh.Position[b]) * 0.5f;
       const bool fills = Dot(middle - edge, s.Normal[a] + s.Normal[b]) > 0;
-      (void)across;
       const float value = this->TheField->ValueAt((middle + edge) * 0.5f);
       if ((fills && value < 0) || (!fills && value > 0))
       {

@@ -128,7 +128,7 @@ private:
   std::vector<int> Free;
 };
 
-/** Alive vertices along a Z-order curve with cells of side `cell`: near in space, near in memory. */
+/** Alive vertices along a Z-order curve with cells of side `cell`: near in space and memory. */
 std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell);
 }
 

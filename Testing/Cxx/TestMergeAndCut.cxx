@@ -74,7 +74,8 @@ TEST(StarMerge, MakesAManifoldOfAnyTwoStars)
   for (int i = 0; i < 60; ++i)
   {
     SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
-    const int second = mesh.Append(DividedIcosahedron({ 5. + i % 7, 1. * (i % 5), 1. * (i % 3) }, 1.5, 0.9));
+    const Point centre = { 5. + i % 7, 1. * (i % 5), 1. * (i % 3) };
+    const int second = mesh.Append(DividedIcosahedron(centre, 1.5, 0.9));
     StarMerge merge;
     merge.U = i % second;
     merge.V = second + (i * 7) % (mesh.Size() - second);

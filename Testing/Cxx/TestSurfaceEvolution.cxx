@@ -63,7 +63,8 @@ public:
     mesh.Append(surface);
     this->Broken += !DescribeBrokenInvariant(mesh).empty();
     this->Broken += CountSelfIntersections(surface, 1);
-    this->Broken += mesh.CountEulerCharacteristic() != this->Evolution->History().back().EulerCharacteristic;
+    this->Broken += mesh.CountEulerCharacteristic() !=
+      this->Evolution->History().back().EulerCharacteristic;
     return true;
   }
 };
@@ -306,7 +307,10 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
 {
   // Two balls: without cuts the enclosing surface stays one component.
   const TestVolume volume = MakeVolume(36, [](double x, double y, double z)
-    { return Soft(std::min(Distance(x, y, z, 9, 18, 18) - 6., Distance(x, y, z, 27, 18, 18) - 6.)); });
+    {
+      return Soft(
+        std::min(Distance(x, y, z, 9, 18, 18) - 6., Distance(x, y, z, 27, 18, 18) - 6.));
+    });
   SurfaceOptions options = Half();
   options.TopologyChanges = false;
   options.MaximumNumberOfIterations = 150;
