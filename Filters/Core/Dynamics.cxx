@@ -121,7 +121,7 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
         n.Unused = 0;
         Vector pull = state.Pull[v];
         pull.Unused = 0;
-        Vector move = (pull - n * Dot(pull, n)) * 0.4f;
+        Vector move = (pull - n * Dot(pull, n)) * 0.7f;
         if (snap)
         {
           const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);

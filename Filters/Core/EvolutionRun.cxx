@@ -10,7 +10,7 @@ namespace volumic
 namespace
 {
 /** Passes of tangential smoothing and snapping at the end of a level. */
-constexpr int RegularisationPasses = 6;
+constexpr int RegularisationPasses = 12;
 }
 
 double SurfaceEvolution::Implementation::EnclosedVolume()
