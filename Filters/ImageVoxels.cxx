@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageVoxels.h"
 
+#include "Core/Refuse.h"
+
 #include <vtkAbstractArray.h>
 #include <vtkAlgorithm.h>
 #include <vtkCellData.h>
@@ -22,11 +24,6 @@ namespace
 std::string Quote(const char* name)
 {
   return name ? "'" + std::string(name) + "'" : std::string("without a name");
-}
-
-[[noreturn]] void Refuse(const std::string& message)
-{
-  throw std::invalid_argument(message);
 }
 
 /// `it has 'a' and 'b'`, so that a user sees what could have been chosen.

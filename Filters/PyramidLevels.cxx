@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PyramidLevels.h"
 
+#include "Core/Refuse.h"
 #include "ImageVoxels.h"
 #include "NotFiniteVoxels.h"
 
@@ -13,21 +14,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 namespace volumic
 {
 namespace
 {
-template <typename... Parts>
-[[noreturn]] void Refuse(const Parts&... parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
-
 constexpr const char* WayOut = " Give the output of Image Pyramid, or the image itself.";
 
 void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)

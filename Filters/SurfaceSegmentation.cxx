@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceSegmentation.h"
 
+#include "Core/Refuse.h"
 #include "HostThreads.h"
 #include "InitialSurfaces.h"
 #include "SurfaceOutput.h"
@@ -17,27 +18,12 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 
 namespace volumic
 {
 namespace
 {
-template <typename... Parts>
-std::string Join(const Parts&... parts)
-{
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
-}
-
-template <typename... Parts>
-[[noreturn]] void Refuse(const Parts&... parts)
-{
-  throw std::invalid_argument(Join(parts...));
-}
-
 void CheckEnumeration(const char* name, int value, int last)
 {
   if (value < 0 || value > last)

@@ -54,6 +54,7 @@ set(volumic_core_headers
   PyramidGeometry.h
   Remesher.h
   RestCriterion.h
+  Refuse.h
   RowKernels.h
   StarMerge.h
   SurfaceCheck.h

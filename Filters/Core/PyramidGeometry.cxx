@@ -2,23 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PyramidGeometry.h"
 
+#include "Refuse.h"
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace volumic
 {
 namespace
 {
-template <typename... Parts>
-[[noreturn]] void Refuse(const Parts&... parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
-
 void CheckReductionFactor(double factor)
 {
   // Written so that NaN is refused too.

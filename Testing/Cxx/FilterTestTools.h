@@ -3,12 +3,16 @@
 #ifndef FilterTestTools_h
 #define FilterTestTools_h
 
+#include "vtkImagePyramid.h"
+
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
@@ -70,6 +74,34 @@ private:
   vtkNew<vtkCallbackCommand> Silent;
   std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
 };
+
+/// Level h of a pyramid.
+inline vtkImageData* Level(vtkMultiBlockDataSet* pyramid, unsigned int h)
+{
+  return vtkImageData::SafeDownCast(pyramid->GetBlock(h));
+}
+
+/// The active scalars.
+inline vtkDataArray* Voxels(vtkImageData* image)
+{
+  return image->GetPointData()->GetScalars();
+}
+
+/// U_h of a level.
+inline double UnitOf(vtkImageData* level)
+{
+  return level->GetFieldData()->GetArray("Unit")->GetComponent(0, 0);
+}
+
+/// The updated filter.
+inline vtkSmartPointer<vtkImagePyramid> PyramidOf(vtkImageData* image, int levels = 0)
+{
+  auto pyramid = vtkSmartPointer<vtkImagePyramid>::New();
+  pyramid->SetInputData(image);
+  pyramid->SetNumberOfLevels(levels);
+  pyramid->Update();
+  return pyramid;
+}
 
 /// Listens to the progress and asks to stop once it has heard a share.
 struct ProgressListener
