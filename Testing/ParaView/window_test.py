@@ -1,68 +1,20 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin in ParaView's window, by its menu and its panel as a user does.
-
-Pictures of the window at each stage go to VOLUMIC_TEST_OUTPUT, to be looked at.
-"""
+"""Image Pyramid in ParaView's window, by its menu and its panel as a user does."""
 
 import os
 import sys
-import unittest
-import xml.etree.ElementTree as ElementTree
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
-from paraview import simple
+import window_testing as window
+from window_testing import APPLY, FILTERS, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
 
-FILTERS = f"{gui.WINDOW}/menubar/menuFilters"
-PROPERTIES = f"{gui.PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/" \
-             "PropertiesFrame/ProxyPanel"
-APPLY = gui.event(f"{gui.PANEL}/Accept", "activate")
-SHOW_ADVANCED = gui.event(f"{gui.PANEL}/SearchBox/AdvancedButton", "set_boolean", "true")
 KEY_UP, KEY_RIGHT = ("6,16777235,0,,0,1", "6,16777236,0,,0,1")
 
 
-def source(name):
-    """Events that make a source of the Sources menu and apply it."""
-    return [gui.event(f"{gui.WINDOW}/menubar/menuSources/Alphabetical", "activate", name), APPLY]
-
-
-def filter_of_the_menu(name):
-    return gui.event(f"{FILTERS}/Volumic", "activate", name)
-
-
-class WindowTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.session = gui.Session(testing.program("paraview"), testing.plugin_path(),
-                                  os.environ["VOLUMIC_XVFB"])
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.session.close()
-
-    def tearDown(self):
-        self.session.close_window()
-
-    def play(self, events, picture):
-        """Play the events in a new window, and take its picture, also if an event failed."""
-        succeeded = self.session.play(events)
-        pixels = self.session.screenshot(testing.output_path(f"{picture}.png"))
-        self.assertTrue(succeeded, self.session.output)
-        for word in ("ERR|", "critical:"):
-            self.assertNotIn(word, self.session.output)
-        return pixels
-
-    def saved_state(self, name):
-        """Path of a state, and the events that save it from the window."""
-        path = testing.output_path(name)
-        if os.path.exists(path):
-            os.remove(path)
-        return path, [
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileSaveServerState"),
-            gui.event(f"{gui.WINDOW}/FileSaveServerStateDialog", "filesSelected", path)]
-
+class WindowTest(window.WindowTestCase):
     def test_the_open_menu(self):
         # Volumic is the last of the categories: one up from the first entry.
         pixels = self.play(source("RTAnalyticSource") + [
@@ -78,18 +30,14 @@ class WindowTest(unittest.TestCase):
             filter_of_the_menu("ImagePyramid"),
             gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
             gui.check(levels, "text", "0"),
-            gui.check(f"{PROPERTIES}/MinimumLevelSize", "visible", "false"),
-            gui.check(f"{PROPERTIES}/ReductionFactor", "visible", "false"),
-            gui.check(f"{PROPERTIES}/NumberOfThreads", "visible", "false"),
+            window.shown("MinimumLevelSize", False),
+            window.shown("ReductionFactor", False),
+            window.shown("NumberOfThreads", False),
             gui.event(levels, "set_string", "3"), APPLY, *save, gui.pause(1500)], "applied")
 
-        state = ElementTree.parse(path).getroot()
-        proxies = [proxy.get("type") for proxy in state.iter("Proxy")]
-        self.assertIn("ImagePyramid", proxies)
+        self.assertIn("ImagePyramid", window.proxies_of(path))
         # A saved state opens in a script, and gives what the window showed.
-        testing.load_plugin()
-        simple.LoadState(path)
-        pyramid = testing.fetch(simple.FindSource("ImagePyramid1"))
+        pyramid = testing.fetch(window.open_state(path, "ImagePyramid1"))
         self.assertEqual(pyramid.GetNumberOfBlocks(), 3)
         self.assertEqual(pyramid.GetBlock(2).GetDimensions(), (6, 6, 6))
 
@@ -97,21 +45,17 @@ class WindowTest(unittest.TestCase):
         self.play(source("RTAnalyticSource") + [
             filter_of_the_menu("ImagePyramid"), SHOW_ADVANCED, gui.pause(1000),
             gui.check(f"{PROPERTIES}/MinimumLevelSize/LineEdit0", "text", "10"),
-            gui.check(f"{PROPERTIES}/MinimumLevelSize", "visible", "true"),
+            window.shown("MinimumLevelSize", True),
             gui.check(f"{PROPERTIES}/MinimumLevelSize", "enabled", "true"),
-            gui.check(f"{PROPERTIES}/ReductionFactor", "visible", "true"),
-            gui.check(f"{PROPERTIES}/NumberOfThreads", "visible", "true")], "advanced")
+            window.shown("ReductionFactor", True),
+            window.shown("NumberOfThreads", True)], "advanced")
 
     def test_not_offered_for_what_is_no_volume(self):
         path, save = self.saved_state("sphere.pvsm")
         # The menu's entry is there, but greyed out, and does nothing.
         self.session.play(source("SphereSource") + [filter_of_the_menu("ImagePyramid"), *save])
-        proxies = [proxy.get("type") for proxy in ElementTree.parse(path).iter("Proxy")]
-        self.assertIn("SphereSource", proxies)
-        self.assertNotIn("ImagePyramid", proxies)
+        self.assertIn("SphereSource", window.proxies_of(path))
+        self.assertNotIn("ImagePyramid", window.proxies_of(path))
 
 
-if not os.environ["VOLUMIC_XVFB"]:
-    print("Skipped: Xvfb was not found")
-    sys.exit(77)
-testing.main()
+window.main()

@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Deformable Surface filter of the installed plugin, in scripts of pvbatch and pvpython."""
+
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import servermanager
+from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import plugin_testing as testing
+
+POINT_ARRAYS = {"Normals": "vtkFloatArray", "Residual": "vtkFloatArray",
+                "Motionless": "vtkUnsignedCharArray"}
+FIELDS = {"Level", "Delta", "Unit", "Iterations", "StopReason", "NumberOfComponents",
+          "EulerCharacteristic", "Genus", "Area", "Volume", "LostParts", "RecoveredParts",
+          "ComponentArea", "ComponentVolume", "ComponentGenus", "ComponentCentroid",
+          "ComponentInertia"}
+COLUMNS = ["Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds",
+           "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
+           "EulerCharacteristic", "Components"]
+SURFACE, LEVELS, HISTORY = range(3)
+
+# The ball of the tests: its image falls by 1 from voxel to voxel, away from the centre.
+CENTRE, RADIUS = (6.0, -2.0, 10.0), 11.0
+
+
+def ball_image():
+    """An image of 37^3 voxels, 0 on the sphere about CENTRE and more inside."""
+    start = -18
+    x = start + numpy.arange(37.0)
+    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
+    return testing.make_image((RADIUS - distance).astype(numpy.float32), origin=CENTRE,
+                              start=(start,) * 3)
+
+
+def surface_of(source, **properties):
+    """The filter on a source, not applied yet."""
+    source.UpdatePipeline()
+    # Not Input=source: ParaView would look for the array in the active source first.
+    return simple.DeformableSurface(source, **properties)
+
+
+def output(filter_, port=SURFACE):
+    filter_.UpdatePipeline()
+    return servermanager.Fetch(filter_, idx=port)
+
+
+def field(surface, name):
+    return surface.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def names(attributes):
+    return {attributes.GetAbstractArray(i).GetName() for i in range(attributes.GetNumberOfArrays())}
+
+
+def triangles(surface):
+    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def points(surface):
+    return vtk_to_numpy(surface.GetPoints().GetData())
+
+
+class DeformableSurfaceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+        cls.ball = testing.produce(ball_image())
+
+    def check_valid(self, surface):
+        """Closed, oriented, triangles only: each edge is passed once in each direction."""
+        self.assertEqual(surface.GetClassName(), "vtkPolyData")
+        self.assertGreater(surface.GetNumberOfPolys(), 0)
+        corners = triangles(surface)
+        self.assertEqual(len(corners), surface.GetNumberOfCells())
+        ways = {(int(a), int(b)) for t in corners for a, b in zip(t, numpy.roll(t, -1))}
+        self.assertEqual(len(ways), 3 * len(corners))
+        self.assertEqual(ways, {(b, a) for a, b in ways})
+        characteristic = surface.GetNumberOfPoints() - len(ways) // 2 + len(corners)
+        self.assertEqual(field(surface, "EulerCharacteristic"), characteristic)
+
+    def check_ball(self, surface, tolerance):
+        self.check_valid(surface)
+        self.assertEqual(field(surface, "StopReason"), "converged")
+        self.assertEqual(field(surface, "NumberOfComponents"), 1)
+        self.assertEqual(field(surface, "Genus"), 0)
+        distance = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
+        self.assertLess(numpy.abs(distance - RADIUS).max(), tolerance)
+
+    def test_ball(self):
+        surface = output(surface_of(self.ball, IsoValue=0.0))
+        self.check_ball(surface, 0.2)
+        volume = 4.0 / 3.0 * numpy.pi * RADIUS**3
+        self.assertAlmostEqual(field(surface, "Volume") / volume, 1.0, delta=0.02)
+        area = 4.0 * numpy.pi * RADIUS**2
+        self.assertAlmostEqual(field(surface, "Area") / area, 1.0, delta=0.02)
+        centroid = surface.GetFieldData().GetArray("ComponentCentroid").GetTuple(0)
+        numpy.testing.assert_allclose(centroid, CENTRE, atol=0.05)
+        normals = vtk_to_numpy(surface.GetPointData().GetNormals())
+        away = (points(surface) - CENTRE) / RADIUS
+        self.assertGreater((normals * away).sum(axis=1).min(), 0.9)
+
+    def test_arrays(self):
+        surface = output(surface_of(self.ball, IsoValue=0.0))
+        for name, kind in POINT_ARRAYS.items():
+            self.assertEqual(surface.GetPointData().GetArray(name).GetClassName(), kind)
+        self.assertEqual(surface.GetPointData().GetNumberOfArrays(), len(POINT_ARRAYS))
+        self.assertEqual(names(surface.GetCellData()), {"Component"})
+        self.assertEqual(names(surface.GetFieldData()), FIELDS)
+        inertia = surface.GetFieldData().GetArray("ComponentInertia")
+        self.assertEqual(inertia.GetNumberOfComponents(), 6)
+        self.assertEqual(field(surface, "Level"), 0)
+
+    def test_default_iso_value_is_the_middle_of_the_range(self):
+        filter_ = surface_of(simple.Wavelet())
+        low, high = filter_.Input.PointData["RTData"].GetRange()
+        self.assertAlmostEqual(filter_.IsoValue, (low + high) / 2, places=9)
+        self.assertEqual(filter_.Voxels[1], "RTData")
+        self.check_valid(output(filter_))
+
+    def test_levels_and_history(self):
+        filter_ = surface_of(simple.Wavelet())
+        surface, blocks, table = (output(filter_, port) for port in (SURFACE, LEVELS, HISTORY))
+        self.assertEqual(blocks.GetClassName(), "vtkMultiBlockDataSet")
+        self.assertEqual([blocks.GetMetaData(h).Get(blocks.NAME()) for h in range(2)],
+                         ["Level 0", "Level 1"])
+        self.assertEqual(blocks.GetNumberOfBlocks(), 2)
+        for h, level in enumerate(testing.levels(blocks)):
+            self.check_valid(level)
+            self.assertEqual(field(level, "Level"), h)
+        numpy.testing.assert_array_equal(points(blocks.GetBlock(0)), points(surface))
+
+        self.assertEqual(table.GetClassName(), "vtkTable")
+        columns = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())]
+        self.assertEqual(columns, COLUMNS)
+        column = {name: vtk_to_numpy(table.GetColumnByName(name)) for name in COLUMNS}
+        rows = sum(field(level, "Iterations") for level in testing.levels(blocks))
+        numpy.testing.assert_array_equal(column["Iteration"], 1 + numpy.arange(rows))
+        self.assertTrue((numpy.diff(column["Level"]) <= 0).all(), "from coarse to fine")
+        self.assertEqual(column["Vertices"][-1], surface.GetNumberOfPoints())
+
+    def test_history_is_a_chart(self):
+        filter_ = surface_of(simple.Wavelet())
+        filter_.UpdatePipeline()
+        view = simple.CreateView("XYChartView")
+        display = simple.Show(simple.OutputPort(filter_, HISTORY), view)
+        display.UseIndexForXAxis = 0
+        display.XArrayName = "Iteration"
+        # Name and label of each curve that can be drawn.
+        self.assertLessEqual(set(COLUMNS), set(display.SeriesLabel[::2]))
+        simple.Delete(view)
+
+    def test_scripted_levels(self):
+        filter_ = surface_of(self.ball, IsoValue=0.0, FinestLevel=1)
+        self.assertEqual(field(output(filter_), "Level"), 1)
+        blocks = output(filter_, LEVELS)
+        self.assertEqual(blocks.GetBlock(0).GetNumberOfPoints() if blocks.GetBlock(0) else 0, 0)
+        self.check_ball(blocks.GetBlock(1), 0.6)
+
+    def test_after_image_pyramid(self):
+        pyramid = simple.ImagePyramid(self.ball)
+        filter_ = surface_of(pyramid, IsoValue=0.0)
+        self.assertEqual(filter_.Voxels[1], "v")
+        self.check_ball(output(filter_), 0.2)
+        # The filter builds the same pyramid for an image.
+        numpy.testing.assert_array_equal(
+            points(output(filter_)), points(output(surface_of(self.ball, IsoValue=0.0))))
+
+    def test_initial_surface(self):
+        sphere = simple.Sphere(Center=CENTRE, Radius=15.0, ThetaResolution=16, PhiResolution=16)
+        surface = output(surface_of(self.ball, IsoValue=0.0, InitialSurface=sphere,
+                                    Initialization="Input Surface"))
+        self.check_ball(surface, 0.2)
+
+    def test_initial_surface_that_is_open(self):
+        plane = simple.Plane(XResolution=4, YResolution=4)
+        self.check_error(["port 1"], self.ball, IsoValue=0.0, InitialSurface=plane,
+                         Initialization="Input Surface")
+
+    def check_error(self, expected, source, **properties):
+        """The message that a bad input gives, and that there is no output afterwards."""
+        filter_ = surface_of(source, **properties)
+        with testing.CapturedMessages() as messages:
+            surface = output(filter_)
+        self.assertIn("vtkDeformableSurface", messages.text)
+        for word in expected:
+            self.assertIn(word, messages.text)
+        self.assertEqual(surface.GetNumberOfPoints(), 0)
+        return filter_
+
+    def test_error_for_an_iso_value_out_of_range_and_the_way_out(self):
+        filter_ = self.check_error(["IsoValue", "1000", "range"], self.ball, IsoValue=1000.0)
+        filter_.IsoValue = 0.0
+        self.check_ball(output(filter_), 0.2)
+
+    def test_thread_counts_agree_to_the_bit(self):
+        one, two = [output(surface_of(simple.Wavelet(), NumberOfThreads=n)) for n in (1, 2)]
+        self.assertEqual(points(one).tobytes(), points(two).tobytes())
+        self.assertEqual(triangles(one).tobytes(), triangles(two).tobytes())
+
+    def test_abort_leaves_what_there_is(self):
+        filter_ = surface_of(self.ball, IsoValue=0.0)
+        algorithm = filter_.GetClientSideObject()
+        executions = []
+        algorithm.AddObserver("StartEvent", lambda *_: executions.append(1))
+        reports = []
+
+        def stop_after_the_tenth(*_):
+            reports.append(algorithm.GetProgressText())
+            if len(reports) == 10:
+                algorithm.SetAbortExecute(1)
+        tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
+        surface = output(filter_)
+        self.check_valid(surface)
+        self.assertEqual(field(surface, "StopReason"), "cancelled")
+        self.assertGreater(output(filter_, HISTORY).GetNumberOfRows(), 0)
+        self.assertLess(output(filter_, HISTORY).GetNumberOfRows(), 11)
+        # ParaView keeps it, also for the filters after it, and does not start again by itself.
+        self.assertEqual(testing.fetch(simple.Elevation(filter_)).GetNumberOfPoints(),
+                         surface.GetNumberOfPoints())
+        self.assertEqual(len(executions), 1)
+        # From VTK 9.2 on, who set the flag takes it back; that alone is a reason to execute.
+        algorithm.RemoveObserver(tag)
+        algorithm.SetAbortExecute(0)
+        self.check_ball(output(filter_), 0.2)
+        self.assertEqual(len(executions), 2)
+
+
+testing.main()

@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Deformable Surface in ParaView's window, by its menu and its panel as a user does."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import plugin_testing as testing
+import window_testing as window
+from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+from paraview import simple
+
+VOLUME = source("RTAnalyticSource")
+SURFACE = filter_of_the_menu("DeformableSurface")
+ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright")
+ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "Recovery", "MinimumPartSize",
+            "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
+            "GradientWeight", "Friction", "BorderValue", "TopologyChanges", "SnapToIsoValue",
+            "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
+            "NumberOfThreads")
+
+
+def middle_of_the_wavelet():
+    """What the panel of Iso Value says for the volume of the tests."""
+    wavelet = simple.Wavelet()
+    wavelet.UpdatePipeline()
+    low, high = wavelet.PointData["RTData"].GetRange()
+    return repr((low + high) / 2)
+
+
+class SurfaceWindowTest(window.WindowTestCase):
+    def test_menu_panel_and_apply(self):
+        path, save = self.saved_state("surface.pvsm")
+        self.play(VOLUME + [
+            SURFACE, gui.pause(500),
+            gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
+            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()),
+            gui.check(f"{PROPERTIES}/ObjectIsBright/CheckBox", "checked", "true"),
+            *[window.shown(name, True) for name in BASIC],
+            *[window.shown(name, False) for name in ADVANCED],
+            gui.event(ISO_VALUE, "set_string", "150"), APPLY, *save, gui.pause(1500)],
+            "surface-applied")
+        state = window.proxies_of(path)
+        self.assertIn("DeformableSurface", state)
+        # Nothing but the surface was shown: the history did not take half of the window.
+        self.assertNotIn("XYChartView", state)
+        self.assertNotIn("SpreadSheetView", state)
+
+        filter_ = window.open_state(path, "DeformableSurface1")
+        self.assertEqual(filter_.IsoValue, 150.0)
+        surface = testing.fetch(filter_)
+        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
+                         "converged")
+        displays = [d for d in simple.GetRepresentations().values() if d.Input == filter_]
+        self.assertTrue(any(d.Visibility for d in displays), "the surface is shown")
+
+    def test_advanced_panel(self):
+        self.play(VOLUME + [
+            SURFACE, SHOW_ADVANCED, gui.pause(1000),
+            *[window.shown(name, True) for name in BASIC + ADVANCED],
+            gui.check(f"{PROPERTIES}/Initialization/ComboBox", "currentText",
+                      "Enclosing Icosahedron"),
+            # Only of use for seeds.
+            window.shown("SeedRadius", False),
+            gui.event(f"{PROPERTIES}/Initialization/ComboBox", "set_string", "Seeds"),
+            window.shown("SeedRadius", True)], "surface-advanced")
+
+    def test_after_image_pyramid(self):
+        path, save = self.saved_state("pyramid-and-surface.pvsm")
+        self.play(VOLUME + [
+            filter_of_the_menu("ImagePyramid"), APPLY, SURFACE,
+            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()), APPLY, *save],
+            "surface-of-pyramid")
+        filter_ = window.open_state(path, "DeformableSurface1")
+        self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")
+        self.assertGreater(testing.fetch(filter_).GetNumberOfCells(), 0)
+
+    def test_history_is_plotted(self):
+        path, save = self.saved_state("history.pvsm")
+        self.play(VOLUME + [
+            SURFACE, APPLY, window.in_the_pipeline(0, 0, 2),
+            filter_of_the_menu("PlotAttributes", "Alphabetical"), APPLY, *save, gui.pause(1500)],
+            "surface-history")
+        state = window.proxies_of(path)
+        self.assertIn("XYChartView", state)
+        table = testing.fetch(window.open_state(path, "PlotData1"))
+        self.assertGreater(table.GetNumberOfRows(), 10)
+        self.assertIsNotNone(table.GetColumnByName("KineticEnergy"))
+
+    def test_not_offered_for_what_is_no_volume(self):
+        path, save = self.saved_state("surface-of-sphere.pvsm")
+        # The menu's entry is there, but greyed out, and does nothing.
+        self.session.play(source("SphereSource") + [SURFACE, *save])
+        self.assertIn("SphereSource", window.proxies_of(path))
+        self.assertNotIn("DeformableSurface", window.proxies_of(path))
+
+
+window.main()

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests in ParaView's window share: menus, the panel, and a case that plays and checks.
+
+Pictures of the window at each stage go to VOLUMIC_TEST_OUTPUT, to be looked at.
+"""
+
+import os
+import sys
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import gui_session as gui
+import plugin_testing as testing
+from paraview import simple
+
+FILTERS = f"{gui.WINDOW}/menubar/menuFilters"
+PROPERTIES = f"{gui.PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/" \
+             "PropertiesFrame/ProxyPanel"
+APPLY = gui.event(f"{gui.PANEL}/Accept", "activate")
+SHOW_ADVANCED = gui.event(f"{gui.PANEL}/SearchBox/AdvancedButton", "set_boolean", "true")
+
+
+def source(name):
+    """Events that make a source of the Sources menu and apply it."""
+    return [gui.event(f"{gui.WINDOW}/menubar/menuSources/Alphabetical", "activate", name), APPLY]
+
+
+def filter_of_the_menu(name, category="Volumic"):
+    return gui.event(f"{FILTERS}/{category}", "activate", name)
+
+
+def in_the_pipeline(*places):
+    """Select an entry of the pipeline browser: the place in the list of sources, of filters..."""
+    path = "".join(f"/{place}" for place in (0, *places))
+    return gui.event(f"{gui.WINDOW}/pipelineBrowserDock/pipelineBrowser", "currentChanged",
+                     f"{path}|0")
+
+
+def shown(property_, yes):
+    """Fails the session unless the panel shows the property, or doesn't."""
+    return gui.check(f"{PROPERTIES}/{property_}", "visible", "true" if yes else "false")
+
+
+def open_state(path, name):
+    """The filter of that name in a saved state, which a script opens."""
+    testing.load_plugin()
+    # What an earlier state has left has the same names.
+    for other in simple.GetSources().values():
+        simple.Delete(other)
+    simple.LoadState(path)
+    return simple.FindSource(name)
+
+
+def proxies_of(state):
+    """Names of the proxies in a saved state."""
+    return [proxy.get("type") for proxy in ElementTree.parse(state).iter("Proxy")]
+
+
+class WindowTestCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.session = gui.Session(testing.program("paraview"), testing.plugin_path(),
+                                  os.environ["VOLUMIC_XVFB"])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.session.close()
+
+    def tearDown(self):
+        self.session.close_window()
+
+    def play(self, events, picture):
+        """Play the events in a new window, and take its picture, also if an event failed."""
+        succeeded = self.session.play(events)
+        pixels = self.session.screenshot(testing.output_path(f"{picture}.png"))
+        self.assertTrue(succeeded, self.session.output)
+        # A warning opens a box over the window, and is none that the plugin's hints may cause.
+        for word in ("ERR|", "critical:", "warning:"):
+            self.assertNotIn(word, self.session.output)
+        return pixels
+
+    def saved_state(self, name):
+        """Path of a state, and the events that save it from the window."""
+        path = testing.output_path(name)
+        if os.path.exists(path):
+            os.remove(path)
+        return path, [
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileSaveServerState"),
+            gui.event(f"{gui.WINDOW}/FileSaveServerStateDialog", "filesSelected", path)]
+
+
+def main():
+    """Run the script's tests, or skip them where there is no screen."""
+    if not os.environ["VOLUMIC_XVFB"]:
+        print("Skipped: Xvfb was not found")
+        sys.exit(77)
+    testing.main()
