@@ -71,6 +71,38 @@ bool MeetInPlane(
     SegmentsCross(flat[0], flat[1], flat[4], flat[2]);
 }
 
+/**
+ * Whether two sets of points are apart along an axis. The tests below measure distances to lines
+ * and planes: they stretch a triangle that is nearly a line far beyond its tips, where the
+ * three lines, each set off by the tolerance, meet. Its box bounds that.
+ */
+bool BoxesApart(
+  const VectorD* p, int countP, const VectorD* q, int countQ, double VectorD::*axis, double room)
+{
+  double lowP = p[0].*axis;
+  double highP = lowP;
+  for (int i = 1; i < countP; ++i)
+  {
+    lowP = std::min(lowP, p[i].*axis);
+    highP = std::max(highP, p[i].*axis);
+  }
+  double lowQ = q[0].*axis;
+  double highQ = lowQ;
+  for (int i = 1; i < countQ; ++i)
+  {
+    lowQ = std::min(lowQ, q[i].*axis);
+    highQ = std::max(highQ, q[i].*axis);
+  }
+  return lowP > highQ + room || lowQ > highP + room;
+}
+
+bool BoxesApart(const VectorD* p, int countP, const VectorD* q, int countQ, double room)
+{
+  return BoxesApart(p, countP, q, countQ, &VectorD::X, room) ||
+    BoxesApart(p, countP, q, countQ, &VectorD::Y, room) ||
+    BoxesApart(p, countP, q, countQ, &VectorD::Z, room);
+}
+
 bool SegmentMeets(
   const VectorD& p, const VectorD& q, const VectorD* t, const Plane& plane, double tolerance)
 {
@@ -83,11 +115,16 @@ bool SegmentMeets(
   }
   if (std::abs(dp) <= thick && std::abs(dq) <= thick)
   {
-    return MeetInPlane(plane.Normal, p, q, t);
+    const VectorD ends[2] = { p, q };
+    return !BoxesApart(ends, 2, t, 3, tolerance) && MeetInPlane(plane.Normal, p, q, t);
   }
   // Where the segment passes the plane, or comes nearest to it: is that inside?
   const double share = std::min(std::max(dp / (dp - dq), 0.), 1.);
   const VectorD x = p + (q - p) * share;
+  if (BoxesApart(&x, 1, t, 3, 2 * tolerance))
+  {
+    return false;
+  }
   for (int k = 0; k < 3; ++k)
   {
     const VectorD edge = t[(k + 1) % 3] - t[k];
@@ -115,23 +152,6 @@ bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Pl
 }
 }
 
-namespace
-{
-bool BoxesApart(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
-{
-  const auto apart = [tolerance](double a, double b, double c, double x, double y, double z)
-  {
-    return std::min({ a, b, c }) > std::max({ x, y, z }) + tolerance ||
-      std::min({ x, y, z }) > std::max({ a, b, c }) + tolerance;
-  };
-  const VectorD* p = f.Corner;
-  const VectorD* q = g.Corner;
-  return apart(p[0].X, p[1].X, p[2].X, q[0].X, q[1].X, q[2].X) ||
-    apart(p[0].Y, p[1].Y, p[2].Y, q[0].Y, q[1].Y, q[2].Y) ||
-    apart(p[0].Z, p[1].Z, p[2].Z, q[0].Z, q[1].Z, q[2].Z);
-}
-}
-
 bool TrianglesMeet(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
 {
   int inF[3];
@@ -152,7 +172,7 @@ bool TrianglesMeet(const NamedTriangle& f, const NamedTriangle& g, double tolera
   {
     return true;
   }
-  if (shared == 0 && BoxesApart(f, g, tolerance))
+  if (shared == 0 && BoxesApart(f.Corner, 3, g.Corner, 3, tolerance))
   {
     return false;
   }

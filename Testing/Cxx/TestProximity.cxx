@@ -75,6 +75,24 @@ TEST(TriangleTests, TellsCoplanarTrianglesApart)
   EXPECT_FALSE(TrianglesMeet(f, Named(3, { 5, 5, 0 }, { 9, 5, 0 }, { 5, 9, 0 }), 1e-9));
 }
 
+TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
+{
+  // The other triangle shares a tip and lies on its far side: set off by the tolerance, the lines
+  // of the needle's long edges meet a hundred lengths further.
+  const float thin = 1e-6f;
+  const NamedTriangle needle = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, thin, 0 } } };
+  const NamedTriangle behind = { { 0, 3, 4 },
+    { { 0, 0, 0 }, { -0.25, -0.5, -0.25 }, { -0.25, 0.5, 0.25 } } };
+  EXPECT_FALSE(TrianglesMeet(needle, behind, 1e-4));
+  EXPECT_FALSE(TrianglesMeet(behind, needle, 1e-4));
+  const NamedTriangle across = { { 0, 3, 4 },
+    { { 0, 0, 0 }, { 0.25, -0.5, -0.25 }, { 0.25, 0.5, 0.25 } } };
+  EXPECT_TRUE(TrianglesMeet(needle, across, 1e-4));
+  // All corners on one line.
+  const NamedTriangle line = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } };
+  EXPECT_FALSE(TrianglesMeet(line, behind, 1e-4));
+}
+
 TEST(TriangleTests, AllowsSharedCornersAndEdgesOnly)
 {
   const NamedTriangle f = { { 0, 1, 2 }, { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 } } };
