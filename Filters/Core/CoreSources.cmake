@@ -29,6 +29,7 @@ set(volumic_core_sources
   SurfaceEvolution.cxx
   SurfaceFeatures.cxx
   SurfaceMesh.cxx
+  SurfacePolish.cxx
   SurfaceState.cxx
   TriangleTests.cxx
   VertexGrid.cxx
@@ -63,6 +64,7 @@ set(volumic_core_headers
   SurfaceFeatures.h
   SurfaceMesh.h
   SurfaceOptions.h
+  SurfacePolish.h
   SurfaceState.h
   TriangleTests.h
   Vector.h

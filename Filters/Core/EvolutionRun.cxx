@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EvolutionImplementation.h"
+#include "SurfacePolish.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace volumic
@@ -105,6 +107,10 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     this->WakeAll();
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
   }
+  const auto start = std::chrono::steady_clock::now();
+  SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr).Run();
+  this->UpdateTouched();
+  row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
     s.Awake[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(awake.size()) || awake[v]);

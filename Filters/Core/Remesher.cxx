@@ -265,7 +265,7 @@ void Remesher::Unstick(const std::vector<int>& vertices)
     }
     for (float share : { 0.5f, 0.25f, 0.1f })
     {
-      if (this->Editor.Move(v, p + (centre - p) * share))
+      if (this->Editor.Move(v, p + (centre - p) * share, SurfaceEditor::Care::Rough))
       {
         s.Velocity[v] = Vector();
         break;

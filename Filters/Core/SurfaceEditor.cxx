@@ -153,6 +153,12 @@ bool SurfaceEditor::Collapse(int u, int v, Care care)
     this->CollapseInto(u, v, pu, care) || this->CollapseInto(u, v, pv, care);
 }
 
+bool SurfaceEditor::CollapseTo(int u, int v, const Vector& position, Care care)
+{
+  return EdgeCollapse{ u, v }.IsLegal(this->State.Mesh) &&
+    this->CollapseInto(u, v, position, care);
+}
+
 bool SurfaceEditor::FlipForShape(int u, int v)
 {
   SurfaceState& s = this->State;
@@ -255,7 +261,7 @@ bool SurfaceEditor::Remove(int v)
   return true;
 }
 
-bool SurfaceEditor::Move(int v, const Vector& position)
+bool SurfaceEditor::Move(int v, const Vector& position, Care care)
 {
   SurfaceState& s = this->State;
   const Ring& ring = s.Mesh.Rings[v];
@@ -263,16 +269,30 @@ bool SurfaceEditor::Move(int v, const Vector& position)
   this->Faces.clear();
   for (int i = 0; i < ring.Count; ++i)
   {
-    NamedTriangle face = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
+    const NamedTriangle old = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
+    NamedTriangle face = old;
     face.Corner[0] = VectorD(position);
-    if (!IsSound(face) ||
-      SquaredDistance(position, s.Mesh.Position[ring.Item[i]]) > longest * longest)
+    // What is bad already may stay so if it gets better.
+    const Vector& end = s.Mesh.Position[ring.Item[i]];
+    const float squared = SquaredDistance(position, end);
+    if (Aspect(face) < std::min(LeastAspect, 1.01 * Aspect(old)) ||
+      (squared > longest * longest && squared > SquaredDistance(s.Mesh.Position[v], end)))
     {
       return false;
     }
+    if (care == Care::Smooth && Aspect(old) > LeastAspect)
+    {
+      const VectorD normal = AreaNormal(face);
+      const VectorD oldNormal = AreaNormal(old);
+      if (Dot(normal, oldNormal) < 0.7 * Length(normal) * Length(oldNormal))
+      {
+        return false;
+      }
+    }
     this->Faces.push_back(face);
   }
-  if (NewFacesMeet(s, this->Faces, { { v }, 1, false }))
+  if ((care == Care::Rough || this->NearAnything(v)) &&
+    NewFacesMeet(s, this->Faces, { { v }, 1, false }))
   {
     return false;
   }

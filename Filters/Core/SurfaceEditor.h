@@ -35,14 +35,16 @@ public:
   int Split(int u, int v);
   /** Into the midpoint, else either end. */
   bool Collapse(int u, int v, Care care);
+  /** Into a given position. */
+  bool CollapseTo(int u, int v, const Vector& position, Care care);
   /** Flip for a better shape: nearly flat, new edge legal. */
   bool FlipForShape(int u, int v);
   /** Flip that joins two vertices nearer than the constraint allows to strangers. */
   bool FlipForConstraint(int u, int v);
   /** A vertex of valence 3. */
   bool Remove(int v);
-  /** Moves a vertex; the faces about it are verified. */
-  bool Move(int v, const Vector& position);
+  /** Moves a vertex; Smooth: the faces about it turn little. */
+  bool Move(int v, const Vector& position, Care care);
   /** Merge of two stars. */
   bool Merge(int u, int v);
   /** Cut along u, v, w; both sides are drawn apart. */

@@ -178,7 +178,7 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
           did = editor.Remove(v);
           break;
         case 5:
-          did = editor.Move(v, state.Mesh.Position[v] + shake);
+          did = editor.Move(v, state.Mesh.Position[v] + shake, SurfaceEditor::Care::Rough);
           break;
         case 6:
           did = editor.Merge(v, dice.Vertex());

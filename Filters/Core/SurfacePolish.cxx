@@ -1,0 +1,425 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfacePolish.h"
+
+#include "EdgeCollapse.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** Stars whose worst triangle has this radius ratio are left as they are. */
+constexpr float Good = 0.82f;
+/** Triangles worse than this are worth an edge that is short, though legal. */
+constexpr float Bad = 0.55f;
+/** What an edit must gain, so that none is undone by the next. */
+constexpr float Gain = 0.01f;
+/** Lengths keep this share from their bounds, for the rounding of the map to the world. */
+constexpr float Margin = 1e-4f;
+constexpr int Rounds = 8;
+constexpr int SeparatingRounds = 4;
+/** Way off the isopotential, in delta, that a slide may add. */
+constexpr float Stray = 0.02f;
+}
+
+float SurfacePolish::FaceScore(const Vector& a, const Vector& b, const Vector& c) const
+{
+  // Twice the radius of the inscribed circle over that of the circumscribed.
+  const float x = std::sqrt(SquaredDistance(a, b));
+  const float y = std::sqrt(SquaredDistance(b, c));
+  const float z = std::sqrt(SquaredDistance(c, a));
+  const float product = x * y * z;
+  return product > 0 ? (y + z - x) * (z + x - y) * (x + y - z) / product : -1.f;
+}
+
+float SurfacePolish::EdgeScore(float squared) const
+{
+  // Worse than any triangle where the length is not legal.
+  const float length = std::sqrt(squared) / this->State.Delta;
+  if (length < 1 + Margin)
+  {
+    return length - 1 - Margin;
+  }
+  const float over = length / (constraint::LongestEdge * (1 - Margin)) - 1;
+  return over > 0 ? -over : 1.f;
+}
+
+float SurfacePolish::StarScore(int v, const Vector& position) const
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const Ring& ring = mesh.Rings[v];
+  float worst = 1;
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const Vector& a = mesh.Position[ring.Item[i]];
+    worst = std::min(worst, this->EdgeScore(SquaredDistance(position, a)));
+    worst = std::min(worst, this->FaceScore(position, a, mesh.Position[ring.Next(i)]));
+  }
+  return worst;
+}
+
+float SurfacePolish::CollapseScore(int u, int v, const Vector& position) const
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  float worst = 1;
+  for (int end : { u, v })
+  {
+    const int other = end == u ? v : u;
+    const Ring& ring = mesh.Rings[end];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      const int b = ring.Item[i];
+      const int c = ring.Next(i);
+      if (b == other)
+      {
+        continue;
+      }
+      worst = std::min(worst, this->EdgeScore(SquaredDistance(position, mesh.Position[b])));
+      if (c != other)
+      {
+        worst =
+          std::min(worst, this->FaceScore(position, mesh.Position[b], mesh.Position[c]));
+      }
+    }
+  }
+  return worst;
+}
+
+Vector SurfacePolish::Snapped(int v, const Vector& position) const
+{
+  if (!this->SnapTo)
+  {
+    return position;
+  }
+  const Vector& n = this->State.Normal[v];
+  const Field::Sample sample = this->SnapTo->At(position);
+  const float slope = -Dot(sample.Gradient, n);
+  if (slope <= 0.15f * this->SnapTo->TypicalSlope() || slope < 0.5f * Length(sample.Gradient))
+  {
+    return position;
+  }
+  const float longest = 0.15f * this->State.Delta;
+  const float step = std::min(std::max(sample.Value / slope, -longest), longest);
+  return Vector(
+    position.X + step * n.X, position.Y + step * n.Y, position.Z + step * n.Z);
+}
+
+bool SurfacePolish::Strays(int v, const Vector& position) const
+{
+  if (!this->SnapTo)
+  {
+    return false;
+  }
+  const float old = std::abs(this->SnapTo->ValueAt(this->State.Mesh.Position[v]));
+  const Field::Sample sample = this->SnapTo->At(position);
+  const float slope = std::max(Length(sample.Gradient), 0.15f * this->SnapTo->TypicalSlope());
+  return std::abs(sample.Value) > old + Stray * this->State.Delta * slope;
+}
+
+bool SurfacePolish::CollapseEdge(int u, int v, float before)
+{
+  SurfaceState& s = this->State;
+  const SurfaceMesh& mesh = s.Mesh;
+  if (!EdgeCollapse{ u, v }.IsLegal(mesh))
+  {
+    return false;
+  }
+  // Along the edge, and between it and the middle of the new star.
+  const Vector p = mesh.Position[u];
+  const Vector q = mesh.Position[v];
+  Vector sum;
+  int count = 0;
+  for (int end : { u, v })
+  {
+    const Ring& ring = mesh.Rings[end];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      if (ring.Item[i] != u && ring.Item[i] != v)
+      {
+        sum += mesh.Position[ring.Item[i]];
+        ++count;
+      }
+    }
+  }
+  const Vector middle = sum * (1.f / static_cast<float>(count));
+  this->Candidates.clear();
+  for (float along : { 0.5f, 0.f, 1.f, 0.25f, 0.75f })
+  {
+    for (float inward : { 0.f, 0.5f, 1.f })
+    {
+      const Vector x = p + (q - p) * along;
+      const Vector place = this->Snapped(u, x + (middle - x) * inward);
+      const float score = this->CollapseScore(u, v, place);
+      if (score > before + Gain)
+      {
+        this->Candidates.push_back({ score, place });
+      }
+    }
+  }
+  std::stable_sort(this->Candidates.begin(), this->Candidates.end(),
+    [](const Candidate& a, const Candidate& b) { return a.Score > b.Score; });
+  for (const Candidate& candidate : this->Candidates)
+  {
+    if (this->Editor.CollapseTo(u, v, candidate.Position, SurfaceEditor::Care::Rough))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SurfacePolish::CollapseEdges(int v)
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const float delta = this->State.Delta;
+  const Ring ring = mesh.Rings[v];
+  const float star = this->StarScore(v, mesh.Position[v]);
+  const float longest = star < Bad ? 1.5f * delta : (1 + Margin) * delta;
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const int w = ring.Item[i];
+    if (SquaredDistance(mesh.Position[v], mesh.Position[w]) >= longest * longest)
+    {
+      continue;
+    }
+    for (int opposite : { ring.Next(i), ring.Previous(i) })
+    {
+      if (mesh.Rings[opposite].Count == 3 && this->Editor.Remove(opposite))
+      {
+        return true;
+      }
+    }
+    if (this->CollapseEdge(
+          v, w, std::min(star, this->StarScore(w, mesh.Position[w]))))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SurfacePolish::FlipEdges(int v)
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const Ring ring = mesh.Rings[v];
+  const Vector& p = mesh.Position[v];
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const int w = ring.Item[i];
+    const Vector& q = mesh.Position[w];
+    const Vector& a = mesh.Position[ring.Next(i)];
+    const Vector& b = mesh.Position[ring.Previous(i)];
+    const float before = std::min({ this->EdgeScore(SquaredDistance(p, q)),
+      this->FaceScore(p, q, a), this->FaceScore(q, p, b) });
+    const float after = std::min({ this->EdgeScore(SquaredDistance(a, b)),
+      this->FaceScore(a, p, b), this->FaceScore(b, q, a) });
+    if (before < Good && after > before + Gain && this->Editor.FlipForShape(v, w))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SurfacePolish::Slide(int v)
+{
+  SurfaceState& s = this->State;
+  s.UpdateShape(v);
+  const Vector p = s.Mesh.Position[v];
+  const float before = this->StarScore(v, p);
+  Vector n = s.Normal[v];
+  n.Unused = 0;
+  const Vector across = std::abs(n.X) < 0.6f ? Vector(1, 0, 0) : Vector(0, 1, 0);
+  const Vector first = Normalized(Cross(n, across));
+  const Vector second = Cross(n, first);
+  this->Candidates.clear();
+  for (float step : { 0.4f, 0.2f, 0.1f, 0.05f })
+  {
+    Candidate best{ before + Gain, p };
+    for (int k = 0; k < 8; ++k)
+    {
+      static const float cosine[8] = { 1, 0.70710678f, 0, -0.70710678f, -1, -0.70710678f, 0,
+        0.70710678f };
+      const Vector x =
+        p + (first * cosine[k] + second * cosine[(k + 6) % 8]) * (step * s.Delta);
+      const float score = this->StarScore(v, x);
+      if (score > best.Score)
+      {
+        best = { score, x };
+      }
+    }
+    if (best.Score > before + Gain)
+    {
+      this->Candidates.push_back(best);
+    }
+  }
+  std::stable_sort(this->Candidates.begin(), this->Candidates.end(),
+    [](const Candidate& a, const Candidate& b) { return a.Score > b.Score; });
+  for (const Candidate& candidate : this->Candidates)
+  {
+    const Vector place = this->Snapped(v, candidate.Position);
+    if (this->StarScore(v, place) > before + Gain &&
+      (before < 0 || !(this->Strays(v, place) || this->Approaches(v, place))) &&
+      this->Editor.Move(v, place, SurfaceEditor::Care::Smooth))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SurfacePolish::Improve(int v)
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  if (mesh.Rings[v].Count == 3 && this->Editor.Remove(v))
+  {
+    return true;
+  }
+  return this->CollapseEdges(v) || this->FlipEdges(v) || this->Slide(v);
+}
+
+bool SurfacePolish::AreStrangers(int v, int w) const
+{
+  // From four edges apart on.
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const Ring& first = mesh.Rings[v];
+  const Ring& second = mesh.Rings[w];
+  if (first.Contains(w))
+  {
+    return false;
+  }
+  for (int i = 0; i < first.Count; ++i)
+  {
+    const Ring& between = mesh.Rings[first.Item[i]];
+    for (int j = 0; j < second.Count; ++j)
+    {
+      if (first.Item[i] == second.Item[j] || between.Contains(second.Item[j]))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool SurfacePolish::Approaches(int v, const Vector& position) const
+{
+  const SurfaceState& s = this->State;
+  if (!s.Near[v])
+  {
+    return false;
+  }
+  const float near = constraint::NearestOthers * s.Delta;
+  bool approaches = false;
+  s.Grid.Visit(position, near,
+    [&](int w)
+    {
+      const float squared = SquaredDistance(position, s.Mesh.Position[w]);
+      approaches = approaches ||
+        (w != v && squared < near * near &&
+          squared < SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) &&
+          this->AreStrangers(v, w));
+    });
+  return approaches;
+}
+
+bool SurfacePolish::Separate(int v)
+{
+  SurfaceState& s = this->State;
+  const float near = (1 + Margin) * constraint::NearestOthers * s.Delta;
+  const Vector p = s.Mesh.Position[v];
+  Vector push;
+  s.Grid.Visit(p, near,
+    [&](int w)
+    {
+      const float squared = SquaredDistance(p, s.Mesh.Position[w]);
+      if (w != v && squared < near * near && squared > 0 && this->AreStrangers(v, w))
+      {
+        const float distance = std::sqrt(squared);
+        push += (p - s.Mesh.Position[w]) * (0.5f * (near - distance) / distance);
+      }
+    });
+  push.Unused = 0;
+  const float length = Length(push);
+  if (length <= 1e-3f * Margin * s.Delta)
+  {
+    return false;
+  }
+  push *= std::min(1.f, 0.25f * s.Delta / length);
+  const float least = std::min(this->StarScore(v, p), Bad);
+  for (float share : { 1.f, 0.4f })
+  {
+    const Vector place = p + push * share;
+    if (this->StarScore(v, place) >= least &&
+      this->Editor.Move(v, place, SurfaceEditor::Care::Smooth))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void SurfacePolish::SeparateAll()
+{
+  SurfaceState& s = this->State;
+  std::vector<int> crowded;
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v) && s.Near[v])
+    {
+      crowded.push_back(v);
+    }
+  }
+  for (int round = 0; round < SeparatingRounds; ++round)
+  {
+    for (int v : crowded)
+    {
+      this->Separate(v);
+    }
+  }
+}
+
+void SurfacePolish::ImproveAll(float good)
+{
+  SurfaceState& s = this->State;
+  std::vector<int> list;
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      list.push_back(v);
+    }
+  }
+  std::vector<int> left;
+  for (int round = 0; round < Rounds && !list.empty(); ++round)
+  {
+    const std::size_t edited = s.Touched.size();
+    left.clear();
+    for (int v : list)
+    {
+      const float score = s.Mesh.IsAlive(v) ? this->StarScore(v, s.Mesh.Position[v]) : 1.f;
+      if (score < good && !this->Improve(v) && score < Bad)
+      {
+        left.push_back(v); // What is edited next to it may help.
+      }
+    }
+    left.insert(
+      left.end(), s.Touched.begin() + static_cast<std::ptrdiff_t>(edited), s.Touched.end());
+    std::sort(left.begin(), left.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    list.swap(left);
+  }
+}
+
+void SurfacePolish::Run()
+{
+  // A collapse may bring strangers together, and what is pushed apart may become uneven.
+  this->SeparateAll();
+  this->ImproveAll(Good);
+  this->SeparateAll();
+  this->ImproveAll(Bad); // What could not be mended before may be now.
+}
+}
