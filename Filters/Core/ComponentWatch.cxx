@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ComponentWatch.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace volumic
 {
 namespace
@@ -12,6 +15,59 @@ constexpr int SmallSize = 400;
 constexpr int TinySize = 24;
 /** Up to this many they are nothing any more. */
 constexpr int NothingSize = 5;
+
+/** From a vertex of a component along x: how many faces of the other components it crosses. */
+struct Ray
+{
+  int Vertex;
+  VectorD Origin;
+  bool IsCavity; ///< The component's volume is negative.
+  int Crossings = 0;
+};
+
+/** Whether the face crosses the ray, seen along x. */
+bool Crosses(const Ray& ray, const VectorD& a, const VectorD& b, const VectorD& c)
+{
+  const auto side = [&ray](const VectorD& p, const VectorD& q)
+  {
+    return (q.Y - p.Y) * (ray.Origin.Z - p.Z) - (q.Z - p.Z) * (ray.Origin.Y - p.Y);
+  };
+  const double u = side(b, c);
+  const double v = side(c, a);
+  const double w = side(a, b);
+  const bool inside = (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+  return inside && (u * a.X + v * b.X + w * c.X) / (u + v + w) > ray.Origin.X;
+}
+
+/** Counts the faces that have v as their smallest vertex. `rays` is sorted by Y. */
+void CountCrossings(
+  const SurfaceMesh& mesh, const std::vector<int>& labels, int v, std::vector<Ray>& rays)
+{
+  const Ring& ring = mesh.Rings[v];
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const int second = ring.Item[i];
+    const int third = ring.Next(i);
+    if (second < v || third < v)
+    {
+      continue;
+    }
+    const VectorD a(mesh.Position[v]);
+    const VectorD b(mesh.Position[second]);
+    const VectorD c(mesh.Position[third]);
+    const double low = std::min({ a.Y, b.Y, c.Y });
+    const double high = std::max({ a.Y, b.Y, c.Y });
+    auto ray = std::lower_bound(rays.begin(), rays.end(), low,
+      [](const Ray& r, double y) { return r.Origin.Y < y; });
+    for (; ray != rays.end() && ray->Origin.Y <= high; ++ray)
+    {
+      if (labels[ray->Vertex] != labels[v] && Crosses(*ray, a, b, c))
+      {
+        ++ray->Crossings;
+      }
+    }
+  }
+}
 }
 
 double SignedVolume(const SurfaceMesh& mesh, const std::vector<int>& vertices)
@@ -101,11 +157,17 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
         }
       }
     }
-    small.Vertices = this->Stack;
-    for (int v : small.Vertices)
+    for (int v : this->Stack)
     {
       state.Component[v] = 0;
     }
+    if (this->Stack.size() > 2 * SmallSize)
+    {
+      // Its place in the arrays belongs to another component now.
+      small.Vertices.clear();
+      continue;
+    }
+    small.Vertices = this->Stack;
     const bool positive = SignedVolume(state.Mesh, small.Vertices) > 0;
     bool doomed = positive != small.Positive ||
       static_cast<int>(small.Vertices.size()) <= NothingSize;
@@ -120,6 +182,72 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
     if (doomed)
     {
       state.RemoveComponent(seed);
+      deleted = true;
+    }
+  }
+  if (deleted)
+  {
+    this->Label(state);
+  }
+  return deleted;
+}
+
+bool ComponentWatch::DeleteInsideOut(SurfaceState& state)
+{
+  this->Label(state);
+  if (this->Components < 2)
+  {
+    return false;
+  }
+  const SurfaceMesh& mesh = state.Mesh;
+  std::vector<double> volumes(this->Components, 0.);
+  std::vector<int> first(this->Components, -1);
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (!mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const int label = state.Component[v];
+    if (first[label] < 0)
+    {
+      first[label] = v;
+    }
+    const VectorD origin(mesh.Position[first[label]]);
+    const Ring& ring = mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      if (v < ring.Item[i] && v < ring.Next(i))
+      {
+        volumes[label] += Dot(VectorD(mesh.Position[v]) - origin,
+          Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
+            VectorD(mesh.Position[ring.Next(i)]) - origin));
+      }
+    }
+  }
+  std::vector<Ray> rays;
+  for (int label = 0; label < this->Components; ++label)
+  {
+    // A little beside the vertex, so that no ray meets an edge of its own grid.
+    const VectorD beside(0., 1.3e-4 * state.Delta, 2.7e-4 * state.Delta);
+    rays.push_back({ first[label], VectorD(mesh.Position[first[label]]) + beside,
+      volumes[label] < 0. });
+  }
+  std::sort(rays.begin(), rays.end(),
+    [](const Ray& a, const Ray& b) { return a.Origin.Y < b.Origin.Y; });
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      CountCrossings(mesh, state.Component, v, rays);
+    }
+  }
+  bool deleted = false;
+  for (const Ray& ray : rays)
+  {
+    if ((ray.Crossings % 2 == 1) != ray.IsCavity)
+    {
+      state.RemoveComponent(ray.Vertex);
       deleted = true;
     }
   }

@@ -23,6 +23,14 @@ public:
   /** Deletes what must go. @return whether anything was deleted (labels are fresh then). */
   bool DeleteDoomed(SurfaceState& state);
 
+  /**
+   * Deletes components that are inside out: a cavity must lie inside the others, any other component
+   * outside. Such a one may be born by a cut, of no size and without any intersection, and would
+   * grow without limit. Rays along x are counted: O(n + pairs of ray and triangle that overlap).
+   * @return whether anything was deleted (labels are fresh then).
+   */
+  bool DeleteInsideOut(SurfaceState& state);
+
   int NumberOfComponents() const { return this->Components; }
 
 private:

@@ -50,7 +50,6 @@ struct SurfaceEvolution::Implementation
   std::vector<int> Suspects;
   std::vector<std::uint8_t> Marked;
   std::vector<double> Partial;
-  int Unlabelled = 0; ///< Merges and cuts since components were labelled last.
   int Shrunk = 0; ///< Collapses since components were labelled last.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)

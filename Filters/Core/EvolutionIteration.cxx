@@ -271,15 +271,19 @@ void SurfaceEvolution::Implementation::Iterate(
   // A component may become a small one without any change of topology.
   this->Shrunk += s.Counts.Collapses;
   constexpr int suspicious = 40;
-  this->Unlabelled += s.Counts.Merges + s.Counts.Cuts;
-  const bool due = row.Vertices < 20000 || this->LastIterations % 4 == 0;
-  if ((this->Unlabelled > 0 && due) || this->Shrunk > suspicious)
+  // After a merge a small cavity may be a part of the main component, and must not be judged as the
+  // cavity it was: labels are made afresh before anything is deleted.
+  if (s.Counts.Merges + s.Counts.Cuts > 0 || this->Shrunk > suspicious)
   {
-    this->Unlabelled = 0;
     this->Watch.Label(s);
     this->Shrunk = 0;
   }
   this->Watch.DeleteDoomed(s);
+  constexpr int insideOutPeriod = 10;
+  if (this->LastIterations % insideOutPeriod == 0)
+  {
+    this->Watch.DeleteInsideOut(s);
+  }
   watch.Lap(Phase::Topology);
   this->FillRow(row);
   watch.Stop();

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ComponentWatch.h"
+#include "CoreTestTools.h"
+#include "SurfaceFeatures.h"
+#include "SurfaceState.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+IndexedSurface Ball(const Point& centre, double radius, bool isCavity = false)
+{
+  IndexedSurface ball = DividedIcosahedron(centre, radius, 1.5);
+  if (isCavity)
+  {
+    for (Triangle& triangle : ball.Triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  return ball;
+}
+
+/// A state with these components; delta is 1.
+void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
+{
+  for (const IndexedSurface& component : components)
+  {
+    state.Mesh.Append(component);
+  }
+  state.Delta = 1;
+  state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
+}
+}
+
+TEST(ComponentWatch, CountsComponents)
+{
+  SurfaceState state;
+  Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 0, 0, 0 }, 5, true), Ball({ 30, 0, 0 }, 5) });
+  ComponentWatch watch;
+  watch.Label(state);
+  EXPECT_EQ(watch.NumberOfComponents(), 3);
+}
+
+TEST(ComponentWatch, KeepsCavitiesInsideAndIslandsInThem)
+{
+  SurfaceState state;
+  Fill(state,
+    { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10, true), Ball({ 1, 0, 0 }, 4),
+      Ball({ 30, 0, 0 }, 5) });
+  ComponentWatch watch;
+  EXPECT_FALSE(watch.DeleteInsideOut(state));
+  EXPECT_EQ(watch.NumberOfComponents(), 4);
+}
+
+TEST(ComponentWatch, DeletesACavityInTheOpen)
+{
+  SurfaceState state;
+  const IndexedSurface ball = Ball({ 0, 0, 0 }, 10);
+  Fill(state, { ball, Ball({ 20, 0, 0 }, 3, true), Ball({ -20, 3, 1 }, 3, true) });
+  ComponentWatch watch;
+  EXPECT_TRUE(watch.DeleteInsideOut(state));
+  EXPECT_EQ(watch.NumberOfComponents(), 1);
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(ball.Points.size()));
+  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
+}
+
+TEST(ComponentWatch, DeletesAnIslandWithinTheObject)
+{
+  SurfaceState state;
+  Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 2, 1, 3 }, 4) });
+  ComponentWatch watch;
+  EXPECT_TRUE(watch.DeleteInsideOut(state));
+  EXPECT_EQ(watch.NumberOfComponents(), 1);
+}
