@@ -200,11 +200,15 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
 
 void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
 {
-  if (lost.Found > 0)
+  // What was found again is told by the field data; only what stays lost is worth a warning.
+  const int missing = lost.Found - lost.Seeded;
+  if (missing > 0)
   {
-    this->Settings.Warn(Join("Level ", level, " shows ", lost.Found,
-      lost.Found == 1 ? " part" : " parts", " of the object that level ", level + 1, " had lost; ",
-      lost.Seeded, lost.Seeded == 1 ? " was" : " were", " seeded again."));
+    this->Settings.Warn(Join("Level ", level, " shows ", lost.Found, " part",
+      lost.Found == 1 ? "" : "s", " of the object that the surface lost at level ", level + 1, "; ",
+      missing, missing == 1 ? " is" : " are", " not found again. ",
+      this->Settings.Options.RecoverLostParts ? "Set CoarsestLevel to a finer level to keep more."
+                                              : "Turn Recovery on to find them."));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -22,6 +23,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -48,6 +50,15 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   }
   vtkSmartPointer<vtkMultiBlockDataSet> levels = pyramid->GetOutput();
   return levels;
+}
+
+/// Whether this is the first process of a parallel run, or the only one. It makes the whole surface;
+/// the others have no output, as they would only repeat it.
+bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
+{
+  const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+  return output->GetInformationObject(port)->Get(
+           vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) <= 0;
 }
 }
 
@@ -131,9 +142,13 @@ vtkTable* vtkDeformableSurface::GetHistory()
 
 //------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  // The surface encloses the image: the whole of it is asked for, whatever piece is wanted.
+  if (!IsFirstProcess(request, output))
+  {
+    return 1;
+  }
+  // The surface encloses the image: the whole of it is asked for, not a piece.
   vtkInformation* info = input[0]->GetInformationObject(0);
   if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
   {
@@ -156,8 +171,12 @@ int vtkDeformableSurface::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  if (!IsFirstProcess(request, outputVector))
+  {
+    return 1;
+  }
   try
   {
     vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);

@@ -132,7 +132,7 @@ void SurfaceEvolution::Implementation::Recover()
 {
   this->LastLost = LostParts();
   // Without an isopotential there is no object's side to look for.
-  if (!this->Options.RecoverLostParts || !(this->Options.IsopotentialWeight > 0.))
+  if (!(this->Options.IsopotentialWeight > 0.))
   {
     return;
   }
@@ -140,8 +140,8 @@ void SurfaceEvolution::Implementation::Recover()
   const double radius = SmallestSeed * s.Delta;
   const LostPartSeeds lost =
     FindLostParts(s, *this->TheField, this->Options.MinimumPartSize, radius);
-  this->LastLost = { lost.Found, lost.Seeded };
-  if (lost.Centres.empty())
+  this->LastLost = { lost.Found, this->Options.RecoverLostParts ? lost.Seeded : 0 };
+  if (lost.Centres.empty() || !this->Options.RecoverLostParts)
   {
     return;
   }

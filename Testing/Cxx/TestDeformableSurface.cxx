@@ -418,6 +418,59 @@ TEST(DeformableSurface, StopsAtTheIterationLimit)
   EXPECT_EQ(OpenOrNonManifoldEdges(filter->GetOutput()), 0);
 }
 
+namespace
+{
+/// The ball, and a rod beside it that is too thin for the coarse levels.
+vtkSmartPointer<vtkImageData> BallAndRod()
+{
+  const auto image = BallImage(64, 64, 64, 0.25);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (int k = 8; k < 56; ++k)
+  {
+    for (int j = 6; j < 9; ++j)
+    {
+      for (int i = 6; i < 9; ++i)
+      {
+        voxels->SetComponent((k * 64 + j) * 64 + i, 0, 100.0);
+      }
+    }
+  }
+  return image;
+}
+}
+
+TEST(DeformableSurface, FindsAgainWhatCoarseLevelsLose)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallAndRod());
+  filter->SetIsoValue(50.0);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2);
+  double recovered = 0;
+  for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
+  {
+    recovered +=
+      FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredParts");
+  }
+  EXPECT_EQ(recovered, 1);
+  EXPECT_EQ(warnings.Get(), "");
+}
+
+TEST(DeformableSurface, WarnsOfWhatStaysLostAndNamesTheLevel)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallAndRod());
+  filter->SetIsoValue(50.0);
+  filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+  EXPECT_TRUE(warnings.Has("1 part of the object that the surface lost at level"))
+    << warnings.Get();
+  EXPECT_TRUE(warnings.Has("Turn Recovery on")) << warnings.Get();
+}
+
 TEST(DeformableSurface, PrintsItsProperties)
 {
   vtkNew<vtkDeformableSurface> filter;

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by mpirun with two processes: pieces of the image are not taken for the image."""
+"""Run by mpirun with two processes: pieces are not taken for the whole, nor made twice."""
 
 import os
 import sys
 import unittest
 
+from paraview import servermanager
 from paraview import simple
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -14,14 +15,50 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 
 class ParallelTest(unittest.TestCase):
-    def test_one_whole_pyramid(self):
-        self.assertEqual(vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses(), 2)
+    @classmethod
+    def setUpClass(cls):
         testing.load_plugin()
+
+    def test_there_are_two_processes(self):
+        self.assertEqual(vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses(), 2)
+
+    def test_one_whole_pyramid(self):
         pyramid = simple.ImagePyramid(Input=simple.Wavelet(), NumberOfLevels=2)
         pyramid.UpdatePipeline()
         information = pyramid.GetDataInformation()
         self.assertEqual(information.GetNumberOfPoints(), 21**3 + 12**3)
         self.assertEqual(information.GetBounds(), (-10, 10) * 3)
+
+    def check_one_whole_surface(self, source, **properties):
+        source.UpdatePipeline()
+        filter_ = simple.DeformableSurface(source, **properties)
+        filter_.UpdatePipeline()
+        # Fields and history of one surface: twice as many if both processes had made it.
+        surface = servermanager.Fetch(filter_)
+        self.assertEqual(surface.GetFieldData().GetArray("Area").GetNumberOfTuples(), 1)
+        characteristic = surface.GetFieldData().GetArray("EulerCharacteristic").GetTuple1(0)
+        information = filter_.GetDataInformation()
+        # Closed triangles: V - E + F with 2 E = 3 F.
+        self.assertEqual(2 * information.GetNumberOfPoints() - information.GetNumberOfCells(),
+                         2 * characteristic)
+        self.assertEqual(surface.GetNumberOfPoints(), information.GetNumberOfPoints())
+        history = servermanager.Fetch(filter_, idx=2)
+        iterations = [history.GetColumnByName("Iteration").GetTuple1(row)
+                      for row in range(history.GetNumberOfRows())]
+        self.assertEqual(iterations, list(range(1, len(iterations) + 1)))
+
+    def test_one_whole_surface_of_an_image(self):
+        self.check_one_whole_surface(simple.Wavelet())
+
+    def test_one_whole_surface_of_a_pyramid(self):
+        wavelet = simple.Wavelet()
+        wavelet.UpdatePipeline()
+        self.check_one_whole_surface(simple.ImagePyramid(wavelet))
+
+    def test_one_whole_surface_from_one_that_each_process_holds_a_part_of(self):
+        sphere = simple.Sphere(Radius=14.0, ThetaResolution=12, PhiResolution=12)
+        self.check_one_whole_surface(simple.Wavelet(), InitialSurface=sphere,
+                                     Initialization="Input Surface")
 
 
 testing.main()
