@@ -124,7 +124,7 @@ public:
   /** Iterations of the last Run(). */
   int Iterations() const;
 
-  /** Lost parts that the last Divide() found and seeded again, and those too small to be. */
+  /** Lost parts that the last Divide() found, and how many of them it seeded again (if asked to). */
   struct LostParts
   {
     int Found = 0;
