@@ -108,8 +108,16 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
   }
   const auto start = std::chrono::steady_clock::now();
-  SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr).Run();
+  const int cuts = s.Counts.Cuts;
+  SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
+    this->Options.TopologyChanges)
+    .Run();
   this->UpdateTouched();
+  if (s.Counts.Cuts > cuts)
+  {
+    this->Watch.Label(s);
+    this->Watch.DeleteDoomed(s);
+  }
   row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {

@@ -123,9 +123,11 @@ bool SurfacePolish::CollapseEdge(int u, int v, float before)
 {
   SurfaceState& s = this->State;
   const SurfaceMesh& mesh = s.Mesh;
-  if (!EdgeCollapse{ u, v }.IsLegal(mesh))
+  const EdgeCollapse collapse{ u, v };
+  if (!collapse.IsLegal(mesh))
   {
-    return false;
+    const int c = this->MayCut && before < 0 ? collapse.ThirdCommonNeighbour(mesh) : -1;
+    return c >= 0 && this->Editor.Cut(u, v, c);
   }
   // Along the edge, and between it and the middle of the new star.
   const Vector p = mesh.Position[u];
@@ -420,6 +422,15 @@ void SurfacePolish::Run()
   this->SeparateAll();
   this->ImproveAll(Good);
   this->SeparateAll();
-  this->ImproveAll(Bad); // What could not be mended before may be now.
+  // What could not be mended before may be now; if not, a cycle of three stands in the way.
+  this->ImproveAll(Bad);
+  const int cuts = this->State.Counts.Cuts;
+  this->MayCut = this->TopologyChanges;
+  this->ImproveAll(0.f);
+  if (this->State.Counts.Cuts > cuts)
+  {
+    this->SeparateAll(); // The two sides of a cut are near each other.
+    this->ImproveAll(Bad);
+  }
 }
 }

@@ -15,7 +15,8 @@ namespace volumic
  * [delta, 2.5 delta] or an uneven triangle, which smoothing as a whole leaves behind, and tries
  * what would make the worst of each star better: removing a vertex of valence 3, a collapse, a
  * flip, or a slide along the surface. Before and after, vertices that are nearer than lambda delta
- * though far along the surface are pushed apart. The topology stays as it is.
+ * though far along the surface are pushed apart. The topology stays as it is, but for cuts
+ * along 3-cycles where nothing else mends an edge under delta.
  *
  * Every edit is one of SurfaceEditor's, verified, so the mesh stays manifold and free of
  * intersections; one is made only where the worst of the faces concerned gets better, so it ends.
@@ -25,10 +26,11 @@ class SurfacePolish
 {
 public:
   /** `snapTo` (may be null): vertices that slide are led back onto its isopotential. */
-  SurfacePolish(SurfaceState& state, const Field* snapTo)
+  SurfacePolish(SurfaceState& state, const Field* snapTo, bool topologyChanges)
     : State(state)
     , Editor(state)
     , SnapTo(snapTo)
+    , TopologyChanges(topologyChanges)
   {
   }
 
@@ -62,6 +64,8 @@ private:
   SurfaceState& State;
   SurfaceEditor Editor;
   const Field* SnapTo;
+  bool TopologyChanges;
+  bool MayCut = false;
   std::vector<Candidate> Candidates;
 };
 }
