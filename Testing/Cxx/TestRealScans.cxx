@@ -93,8 +93,11 @@ TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
     const double worldUnit = FieldOf(surface, "Unit") / std::pow(3.0, h / 2.0);
     const LengthVerdict lengths = JudgeLengths(indexed, FieldOf(surface, "Delta") / worldUnit);
     EXPECT_EQ(lengths.EdgesTooLong, 0u);
-    EXPECT_LT(static_cast<double>(lengths.EdgesTooShort), 1 + 0.002 * lengths.Edges);
-    EXPECT_GT(JudgeShapes(indexed).Mean, 0.94);
+    EXPECT_LE(lengths.EdgesTooShort, 2u);
+    const ShapeVerdict shapes = JudgeShapes(indexed);
+    EXPECT_GT(shapes.Mean, 0.94);
+    EXPECT_GT(shapes.Quantile01, 0.75);
+    EXPECT_GT(shapes.Least, 0.4);
   }
 
   vtkPolyData* finest = filter->GetOutput();
