@@ -32,6 +32,19 @@ void CheckEnumeration(const char* name, int value, int last)
   }
 }
 
+/// The levels, with errors that name the port.
+PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm)
+{
+  try
+  {
+    return PyramidLevels(blocks, algorithm);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    Refuse("Input port 0: ", error.what());
+  }
+}
+
 /// Tells the host of every iteration. A level has about three times the vertices of the one above.
 class ProgressMonitor final : public Monitor
 {
@@ -67,18 +80,7 @@ private:
 
 SurfaceSegmentation::SurfaceSegmentation(
   vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm, const SegmentationSettings& settings)
-  : Settings(settings), Pyramid(
-                          [&]
-                          {
-                            try
-                            {
-                              return PyramidLevels(blocks, algorithm);
-                            }
-                            catch (const std::invalid_argument& error)
-                            {
-                              Refuse("Input port 0: ", error.what());
-                            }
-                          }()),
+  : Settings(settings), Pyramid(ReadLevels(blocks, algorithm)),
     Finest(vtkSmartPointer<vtkPolyData>::New()),
     Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New())
 {
