@@ -178,6 +178,15 @@ LevelImage PyramidLevels::Load(int level, Executor& executor)
   {
     Refuse(name, ": ", notFinite);
   }
+  // Sums and differences of voxels must not overflow either.
+  constexpr double largest = 1e37;
+  const std::array<double, 2> range = this->Range(level);
+  const double size = std::max(std::abs(range[0]), std::abs(range[1]));
+  if (size > largest)
+  {
+    Refuse(name, ": ", NameOf(this->Voxels[level]), " has values of ", size, " in size; at most ",
+      largest, " can be used, since the surface computes in single precision. Scale the image.");
+  }
 
   LevelImage loaded;
   if (voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level])

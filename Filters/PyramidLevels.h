@@ -52,7 +52,8 @@ public:
   /**
    * The voxels of a level as float; they stay valid until the next call. Float voxels are shared,
    * others converted.
-   * @throws if the level is under MinimumSize along an axis, or has voxels that are not finite.
+   * @throws if the level is under MinimumSize along an axis, or has voxels that are not finite
+   *         or too large for single precision.
    */
   LevelImage Load(int level, Executor& executor);
 

@@ -5,6 +5,7 @@
 #include "AlgorithmErrors.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
+#include "WholeInput.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkAlgorithmOutput.h>
@@ -52,8 +53,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   return levels;
 }
 
-/// Whether this is the first process of a parallel run, or the only one. It makes the whole surface;
-/// the others have no output, as they would only repeat it.
+/// Whether this is the first process of a parallel run, or the only one. It makes the whole
+/// surface; the others have no output, as they would only repeat it.
 bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
 {
   const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
@@ -148,22 +149,11 @@ int vtkDeformableSurface::RequestUpdateExtent(
   {
     return 1;
   }
-  // The surface encloses the image: the whole of it is asked for, not a piece.
-  vtkInformation* info = input[0]->GetInformationObject(0);
-  if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    int extent[6];
-    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent, 6);
-  }
   for (int port = 0; port < 2; ++port)
   {
     for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
     {
-      vtkInformation* in = input[port]->GetInformationObject(i);
-      in->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-      in->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-      in->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      volumic::AskForWholeInput(input[port]->GetInformationObject(i));
     }
   }
   return 1;

@@ -8,14 +8,15 @@
  * surface of equal value IsoValue of the interpolated image. A closed triangulated surface is
  * moved and bent by forces, merges with itself and comes apart as the object demands, first at the
  * coarsest level of an image pyramid, then, each time divided, at the finer ones. At any moment it
- * is closed, oriented, manifold and free of self-intersections, and its triangles are even: every
- * edge is between delta and 2.5 delta long, where delta is about one voxel of the level.
+ * is closed, oriented, manifold and free of self-intersections. At the end of a level its triangles
+ * are even: edges are between delta and 2.5 delta long, where delta is about one voxel of the level
+ * (in between, as when it is cancelled, the band of a fresh merge may have longer ones).
  *
  * @par Input:
  * Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid is
  * built here with default settings. Of each level the array chosen by SetInputArrayToProcess() is
- * used, by default the active point scalars: one component, any numeric type, finite values. At
- * least 8 voxels along each axis.
+ * used, by default the active point scalars: one component, any numeric type, finite values of at
+ * most 1e37 in size (the surface computes in single precision). At least 8 voxels along each axis.
  * Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  * surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
  * polygons are triangulated). With Initialization Seeds, its vertices are the centres of the seeds
@@ -41,7 +42,8 @@
  * enclosed solid of density 1 about its centroid).
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
- * (mean over the vertices, along the normals), `MeanEdgeLength` (world units, for voxels that are
+ * (mean over the vertices, along the normals, per unit of mass, in voxels of level 0 and units of
+ * the simulated time, squared), `MeanEdgeLength` (world units, for voxels that are
  * cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those
  * awake), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this
  * iteration), `EulerCharacteristic`, `Components`.

@@ -8,6 +8,7 @@
 #include "ImageVoxels.h"
 #include "NotFiniteVoxels.h"
 #include "VersionCompatibility.h"
+#include "WholeInput.h"
 
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCompositeDataSet.h>
@@ -293,18 +294,7 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
 {
-  // A level depends on all voxels within a few units: the whole image is asked for, not the piece
-  // that a process of a parallel run would get.
-  vtkInformation* info = input[0]->GetInformationObject(0);
-  if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    int extent[6];
-    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent, 6);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  }
+  volumic::AskForWholeInput(input[0]->GetInformationObject(0));
   return 1;
 }
 

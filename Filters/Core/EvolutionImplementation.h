@@ -74,8 +74,8 @@ struct SurfaceEvolution::Implementation
   void UpdateTouched();
   double EnclosedVolume();
   void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
-  void FillRow(HistoryRow& row) const;
-  double MeanEdgeLength() const;
+  void FillRow(HistoryRow& row);
+  double MeanEdgeLength();
   void FillCounts(HistoryRow& row) const;
   void Regularise(Dynamics& dynamics);
   StopReason Evolve();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace volumic
@@ -18,12 +19,7 @@ using Clock = std::chrono::steady_clock;
 class Stopwatch
 {
 public:
-  explicit Stopwatch(HistoryRow& row)
-    : Row(row)
-    , Start(Clock::now())
-    , Last(Start)
-  {
-  }
+  explicit Stopwatch(HistoryRow& row) : Row(row), Start(Clock::now()), Last(Start) {}
   void Lap(Phase phase)
   {
     const Clock::time_point now = Clock::now();
@@ -206,8 +202,8 @@ void SurfaceEvolution::Implementation::Iterate(
   const bool relax = mode != Mode::Evolve;
   if (relax)
   {
-    dynamics.Relax(s, this->Awake, this->Near.Pairs(),
-      mode == Mode::Regularise && this->Options.SnapToIsoValue);
+    dynamics.Relax(
+      s, this->Awake, this->Near.Pairs(), mode == Mode::Regularise && this->Options.SnapToIsoValue);
   }
   else
   {
@@ -296,7 +292,7 @@ void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
   row.Components = this->Watch.NumberOfComponents();
 }
 
-void SurfaceEvolution::Implementation::FillRow(HistoryRow& row) const
+void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
 {
   const SurfaceState& s = this->State;
   row.Iteration = static_cast<int>(this->Rows.size()) + 1;
@@ -320,46 +316,29 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row) const
   row.MeanEdgeLength = this->MeanEdgeLength();
 }
 
-double SurfaceEvolution::Implementation::MeanEdgeLength() const
+double SurfaceEvolution::Implementation::MeanEdgeLength()
 {
-  // Sums of fixed blocks, added in order, are the same bits for any number of threads.
-  constexpr std::size_t blockSize = 4096;
   const SurfaceMesh& mesh = this->State.Mesh;
-  const auto size = static_cast<std::size_t>(mesh.Size());
-  struct Sum
-  {
-    double Length = 0;
-    std::size_t Edges = 0;
-  };
-  std::vector<Sum> sums((size + blockSize - 1) / blockSize);
-  this->Threads.For(sums.size(), 4,
-    [&](std::size_t begin, std::size_t end)
+  constexpr std::size_t size = 4096;
+  this->Partial.assign((mesh.Rings.size() + size - 1) / size, 0.);
+  ForBlocks(this->Threads, mesh.Rings.size(), size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      for (std::size_t v = begin * blockSize; v < std::min(size, end * blockSize); ++v)
+      double sum = 0;
+      for (std::size_t v = begin; v < end; ++v)
       {
-        if (!mesh.IsAlive(static_cast<int>(v)))
-        {
-          continue;
-        }
-        Sum& sum = sums[v / blockSize];
         const Ring& ring = mesh.Rings[v];
         for (int i = 0; i < ring.Count; ++i)
         {
-          if (ring.Item[i] > static_cast<int>(v))
-          {
-            sum.Length +=
-              std::sqrt(SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
-            ++sum.Edges;
-          }
+          sum += ring.Item[i] > static_cast<int>(v)
+            ? std::sqrt(SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]))
+            : 0.;
         }
       }
+      this->Partial[b] = sum;
     });
-  Sum total;
-  for (const Sum& sum : sums)
-  {
-    total.Length += sum.Length;
-    total.Edges += sum.Edges;
-  }
-  return total.Edges > 0 ? total.Length / static_cast<double>(total.Edges) : 0.;
+  // A closed surface of triangles has E = 3 (V - chi).
+  const int edges = 3 * (mesh.NumberOfVertices() - this->State.EulerCharacteristic);
+  return edges > 0 ? std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / edges : 0.;
 }
 }

@@ -28,7 +28,7 @@ struct SurfaceOptions
   double TensionWeight = 0.2;      ///< F_c, towards the barycentre of the neighbours.
   double ElasticityWeight = 0.1;   ///< F_e, springs along edges, rest length 1.6 delta.
   double IsopotentialWeight = 1.;  ///< F_i, along the normal, bounded by 1.
-  double GradientWeight = 0.;      ///< F_di, descent along the discrete gradient; see Forces.h.
+  double GradientWeight = 0.;      ///< F_di, descent along the discrete gradient; see Dynamics.h.
   double Friction = 3.;            ///< Per unit of time.
 
   Border BorderValue = Border::Background;

@@ -9,6 +9,7 @@
 #include <vtkCleanPolyData.h>
 #include <vtkCubeSource.h>
 #include <vtkExecutive.h>
+#include <vtkImageCast.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -165,6 +166,23 @@ TEST_F(DeformableSurfaceErrors, NotFiniteVoxelsInABlock)
   level1->GetPointData()->GetScalars()->SetComponent(2, 0, std::nan(""));
   this->Filter->SetInputDataObject(blocks);
   this->ExpectError({ "Input port 0: level 1", "NaN", "(2, 0, 0)" });
+}
+
+TEST_F(DeformableSurfaceErrors, VoxelsTooLargeForSinglePrecision)
+{
+  vtkNew<vtkImageCast> cast;
+  cast->SetInputData(BallImage(32, 32, 32));
+  cast->SetOutputScalarTypeToDouble();
+  cast->Update();
+  vtkDataArray* voxels = cast->GetOutput()->GetPointData()->GetScalars();
+  for (const double size : { 1e300, -1e300, 2e38 })
+  {
+    voxels->SetComponent((16 * 32 + 16) * 32 + 16, 0, size);
+    voxels->Modified();
+    cast->GetOutput()->Modified();
+    this->Filter->SetInputDataObject(cast->GetOutput());
+    this->ExpectError({ "Input port 0: level", "array", "in size", "Scale the image" });
+  }
 }
 
 TEST_F(DeformableSurfaceErrors, NamedArrayMissing)
