@@ -146,6 +146,16 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features)
     polyData, "ComponentInertia", features, [](const Component& c, int i) { return c.Inertia[i]; });
 }
 
+constexpr std::pair<Phase, const char*> PhaseColumns[] = {
+  { Phase::Forces, "ForcesSeconds" },
+  { Phase::Contact, "ContactSeconds" },
+  { Phase::Proximity, "ProximitySeconds" },
+  { Phase::Verification, "VerificationSeconds" },
+  { Phase::Remeshing, "RemeshingSeconds" },
+  { Phase::Topology, "TopologySeconds" },
+  { Phase::Division, "DivisionSeconds" },
+};
+
 template <typename Array, typename Get>
 void AddColumn(
   vtkTable* table, const char* name, const std::vector<HistoryRow>& rows, const Get& get)
@@ -179,7 +189,8 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   return polyData;
 }
 
-vtkSmartPointer<vtkTable> MakeHistory(const std::vector<HistoryRow>& rows, const Workspace& space)
+vtkSmartPointer<vtkTable> MakeHistory(
+  const std::vector<HistoryRow>& rows, const Workspace& space, bool withPhases)
 {
   using Row = HistoryRow;
   const double unit = space.WorldUnit();
@@ -203,6 +214,15 @@ vtkSmartPointer<vtkTable> MakeHistory(const std::vector<HistoryRow>& rows, const
   AddColumn<vtkIntArray>(
     table, "EulerCharacteristic", rows, [](const Row& r) { return r.EulerCharacteristic; });
   AddColumn<vtkIntArray>(table, "Components", rows, [](const Row& r) { return r.Components; });
+  if (withPhases)
+  {
+    for (const auto& [phase, name] : PhaseColumns)
+    {
+      const auto index = static_cast<std::size_t>(phase);
+      AddColumn<vtkDoubleArray>(
+        table, name, rows, [index](const Row& r) { return r.PhaseSeconds[index]; });
+    }
+  }
   return table;
 }
 }

@@ -31,8 +31,10 @@ struct SurfaceDescription
 vtkSmartPointer<vtkPolyData> MakePolyData(
   const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space);
 
-/// A row per iteration, the columns that vtkDeformableSurface documents.
-vtkSmartPointer<vtkTable> MakeHistory(const std::vector<HistoryRow>& rows, const Workspace& space);
+/// A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
+/// if asked for.
+vtkSmartPointer<vtkTable> MakeHistory(
+  const std::vector<HistoryRow>& rows, const Workspace& space, bool withPhases);
 }
 
 #endif

@@ -230,7 +230,8 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
   }
   this->Finest = MakePolyData(evolution.Result(), description, this->Pyramid.GetWorkspace());
   this->Blocks->SetBlock(level, this->Finest);
-  this->Table = MakeHistory(evolution.History(), this->Pyramid.GetWorkspace());
+  this->Table =
+    MakeHistory(evolution.History(), this->Pyramid.GetWorkspace(), this->Settings.Profile);
   if (reason == StopReason::Vanished)
   {
     this->Settings.Warn(Join("Nothing is left of the surface at level ", level,

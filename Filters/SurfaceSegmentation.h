@@ -31,6 +31,7 @@ struct SegmentationSettings
   int CoarsestLevel = -1;
   int FinestLevel = 0;
   int NumberOfThreads = 0;
+  bool Profile = false; ///< columns of the seconds of each phase in the history
   vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
 
   /// Share of the work that is done and what is being done; false asks to stop.

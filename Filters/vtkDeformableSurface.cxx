@@ -88,6 +88,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->FreezeMotionlessVertices = defaults.FreezeMotionlessVertices;
   this->SnapToIsoValue = defaults.SnapToIsoValue;
   this->NumberOfThreads = 0;
+  this->Profile = false;
 
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
@@ -199,6 +200,7 @@ int vtkDeformableSurface::RequestData(
     settings.CoarsestLevel = this->CoarsestLevel;
     settings.FinestLevel = this->FinestLevel;
     settings.NumberOfThreads = this->NumberOfThreads;
+    settings.Profile = this->Profile;
     settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
 
     const double before = image ? PyramidShare : 0.0;
@@ -261,4 +263,5 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FreezeMotionlessVertices: " << this->FreezeMotionlessVertices << endl;
   os << indent << "SnapToIsoValue: " << this->SnapToIsoValue << endl;
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
+  os << indent << "Profile: " << this->Profile << endl;
 }

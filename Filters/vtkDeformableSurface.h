@@ -46,7 +46,10 @@
  * the simulated time, squared), `MeanEdgeLength` (world units, for voxels that are
  * cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those
  * awake), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this
- * iteration), `EulerCharacteristic`, `Components`.
+ * iteration), `EulerCharacteristic`, `Components`. With Profile, also what `Seconds` is made of:
+ * `ForcesSeconds`, `ContactSeconds`, `ProximitySeconds`, `VerificationSeconds`,
+ * `RemeshingSeconds`, `TopologySeconds`; and `DivisionSeconds`, not in `Seconds`: what happens
+ * between two iterations (regularisation at the end of a level, in the level's last row).
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: every
@@ -275,6 +278,16 @@ public:
 
   ///@{
   /**
+   * Whether the history also tells where the time goes, by the columns ForcesSeconds and so on.
+   * Default: off.
+   */
+  vtkSetMacro(Profile, bool);
+  vtkGetMacro(Profile, bool);
+  vtkBooleanMacro(Profile, bool);
+  ///@}
+
+  ///@{
+  /**
    * The initial surface or the centres of the seeds: port 1.
    */
   void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
@@ -321,6 +334,7 @@ protected:
   bool FreezeMotionlessVertices;
   bool SnapToIsoValue;
   int NumberOfThreads;
+  bool Profile;
 
 private:
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterTestTools.h"
-#include "vtkDeformableSurface.h"
+#include "SurfaceTestTools.h"
 
 #include <vtkFeatureEdges.h>
-#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
 
 #include <gtest/gtest.h>
 
@@ -17,16 +14,6 @@
 #include <string>
 
 using namespace volumic;
-
-namespace
-{
-std::string StopReason(vtkPolyData* surface)
-{
-  auto* reason =
-    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
-  return reason ? reason->GetValue(0) : "";
-}
-}
 
 TEST(DeformableSurfaceProgress, GrowsAndNamesLevelAndIteration)
 {

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+
+#include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataObject.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMath.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace volumic;
+
+TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
+{
+  const auto filter = SurfaceOf(BallImage(40, 40, 40));
+  vtkPolyData* surface = filter->GetOutput();
+  vtkPointData* points = surface->GetPointData();
+  ASSERT_TRUE(points->GetNormals());
+  EXPECT_STREQ(points->GetNormals()->GetName(), "Normals");
+  EXPECT_EQ(points->GetNormals()->GetDataType(), VTK_FLOAT);
+  ASSERT_TRUE(points->GetArray("Residual"));
+  double range[2];
+  points->GetArray("Residual")->GetRange(range);
+  EXPECT_LT(std::max(-range[0], range[1]), 5.0) << "vertices lie on the isopotential";
+  ASSERT_TRUE(points->GetArray("Motionless"));
+  EXPECT_EQ(points->GetArray("Motionless")->GetDataType(), VTK_UNSIGNED_CHAR);
+  ASSERT_TRUE(surface->GetCellData()->GetArray("Component"));
+  EXPECT_EQ(surface->GetCellData()->GetArray("Component")->GetDataType(), VTK_INT);
+  EXPECT_EQ(surface->GetCellData()->GetArray("Component")->GetNumberOfTuples(),
+    surface->GetNumberOfCells());
+  for (const char* name : { "Level", "Delta", "Unit", "NumberOfComponents", "EulerCharacteristic",
+         "Genus", "Area", "Volume", "Iterations", "ComponentArea", "ComponentVolume",
+         "ComponentGenus", "ComponentCentroid", "ComponentInertia" })
+  {
+    EXPECT_TRUE(surface->GetFieldData()->GetArray(name)) << name;
+  }
+  EXPECT_NEAR(FieldOf(surface, "Unit"), 1.0, 1e-12);
+  EXPECT_NEAR(FieldOf(surface, "Delta"), filter->GetSamplingRatio(), 1e-6);
+  EXPECT_NEAR(FieldOf(surface, "Volume"), EnclosedVolume(surface), 1e-6 * EnclosedVolume(surface));
+}
+
+TEST(DeformableSurfaceOutputs, FeaturesAreThoseOfABall)
+{
+  const auto filter = SurfaceOf(BallImage(40, 40, 40));
+  vtkPolyData* surface = filter->GetOutput();
+  const double volume = FieldOf(surface, "ComponentVolume");
+  const double r2 = BallRadius * BallRadius;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_NEAR(FieldOf(surface, "ComponentCentroid", axis), 19.5, 0.05);
+    EXPECT_NEAR(FieldOf(surface, "ComponentInertia", axis) / volume, 0.4 * r2, 0.02 * r2);
+    EXPECT_NEAR(FieldOf(surface, "ComponentInertia", 3 + axis) / volume, 0.0, 0.01 * r2);
+  }
+  EXPECT_NEAR(FieldOf(surface, "ComponentArea"), 4 * vtkMath::Pi() * r2, 0.1 * r2);
+}
+
+TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOfEveryLevel)
+{
+  const auto filter = SurfaceOf(BallImage(40, 40, 40));
+  vtkMultiBlockDataSet* levels = filter->GetLevels();
+  ASSERT_EQ(levels->GetNumberOfBlocks(), 3u);
+  for (int h = 0; h < 3; ++h)
+  {
+    EXPECT_STREQ(levels->GetMetaData(h)->Get(vtkCompositeDataSet::NAME()),
+      ("Level " + std::to_string(h)).c_str());
+    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(FieldOf(surface, "Level"), h);
+    EXPECT_NEAR(FieldOf(surface, "Unit"), std::pow(3.0, h / 2.0), 1e-9);
+    ASSERT_GT(surface->GetNumberOfPoints(), 0);
+  }
+  EXPECT_GT(levels->GetBlock(0)->GetNumberOfElements(vtkDataObject::POINT),
+    2 * levels->GetBlock(1)->GetNumberOfElements(vtkDataObject::POINT));
+}
+
+TEST(DeformableSurfaceOutputs, VisitsTheChosenLevelsOnly)
+{
+  const auto image = BallImage(40, 40, 40);
+  const auto filter = SurfaceOf(image);
+  filter->SetCoarsestLevel(1);
+  filter->SetFinestLevel(1);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
+  EXPECT_FALSE(filter->GetLevels()->GetBlock(0));
+  EXPECT_TRUE(filter->GetLevels()->GetBlock(1));
+  EXPECT_FALSE(filter->GetLevels()->GetBlock(2));
+}
+
+TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
+{
+  const auto filter = SurfaceOf(BallImage(40, 40, 40));
+  vtkTable* history = filter->GetHistory();
+  const char* columns[] = { "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength",
+    "Seconds", "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
+    "EulerCharacteristic", "Components" };
+  ASSERT_EQ(history->GetNumberOfColumns(), 15);
+  for (int c = 0; c < 15; ++c)
+  {
+    EXPECT_STREQ(history->GetColumnName(c), columns[c]);
+  }
+  int iterations = 0;
+  for (unsigned int h = 0; h < 3; ++h)
+  {
+    iterations += static_cast<int>(
+      FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "Iterations"));
+  }
+  ASSERT_EQ(history->GetNumberOfRows(), iterations);
+  for (vtkIdType r = 0; r < iterations; ++r)
+  {
+    EXPECT_EQ(history->GetValueByName(r, "Iteration").ToInt(), r + 1);
+    EXPECT_GT(history->GetValueByName(r, "Vertices").ToInt(), 0);
+    EXPECT_GT(history->GetValueByName(r, "TimeStep").ToDouble(), 0.0);
+    const int level = history->GetValueByName(r, "Level").ToInt();
+    auto* surface = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+    const double delta = FieldOf(surface, "Delta");
+    EXPECT_GT(history->GetValueByName(r, "MeanEdgeLength").ToDouble(), delta);
+    EXPECT_LT(history->GetValueByName(r, "MeanEdgeLength").ToDouble(), 2.5 * delta);
+    EXPECT_GE(history->GetValueByName(r, "KineticEnergy").ToDouble(), 0.0);
+    EXPECT_GE(history->GetValueByName(r, "Seconds").ToDouble(), 0.0);
+    EXPECT_EQ(history->GetValueByName(r, "EulerCharacteristic").ToInt(), 2);
+    EXPECT_EQ(history->GetValueByName(r, "Components").ToInt(), 1);
+  }
+  EXPECT_GT(history->GetValueByName(0, "KineticEnergy").ToDouble(), 0.0);
+  EXPECT_EQ(history->GetValueByName(0, "Level").ToInt(), 2);
+  EXPECT_EQ(history->GetValueByName(iterations - 1, "Level").ToInt(), 0);
+}
+
+TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  filter->Update();
+  EXPECT_FALSE(filter->GetHistory()->GetColumnByName("ForcesSeconds"));
+  filter->ProfileOn();
+  filter->Update();
+  vtkTable* history = filter->GetHistory();
+  const char* phases[] = { "ForcesSeconds", "ContactSeconds", "ProximitySeconds",
+    "VerificationSeconds", "RemeshingSeconds", "TopologySeconds", "DivisionSeconds" };
+  ASSERT_EQ(history->GetNumberOfColumns(), 22);
+  for (int i = 0; i < 7; ++i)
+  {
+    EXPECT_STREQ(history->GetColumnName(15 + i), phases[i]);
+  }
+  ASSERT_GT(history->GetNumberOfRows(), 10);
+  double all = 0.0;
+  double explained = 0.0;
+  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
+  {
+    double sum = 0.0;
+    for (int i = 0; i < 6; ++i)
+    {
+      const double seconds = history->GetValueByName(r, phases[i]).ToDouble();
+      EXPECT_GE(seconds, 0.0) << phases[i];
+      sum += seconds;
+    }
+    const double seconds = history->GetValueByName(r, "Seconds").ToDouble();
+    EXPECT_GT(sum, 0.0);
+    EXPECT_LE(sum, seconds * 1.001 + 1e-6);
+    explained += sum;
+    all += seconds;
+  }
+  EXPECT_GT(explained, 0.8 * all);
+  const vtkIdType last = history->GetNumberOfRows() - 1;
+  EXPECT_GT(history->GetValueByName(last, "DivisionSeconds").ToDouble(), 0.0)
+    << "what follows the last iteration of a level";
+}

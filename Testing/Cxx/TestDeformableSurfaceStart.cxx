@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphereSource.h>
+
+#include <gtest/gtest.h>
+
+using namespace volumic;
+
+TEST(DeformableSurfaceStart, StartsFromTheIsoSurface)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  filter->SetInitializationToIsoSurface();
+  filter->Update();
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
+  const auto enclosing = SurfaceOf(BallImage(40, 40, 40));
+  EXPECT_LT(FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(2)), "Iterations"),
+    FieldOf(vtkPolyData::SafeDownCast(enclosing->GetLevels()->GetBlock(2)), "Iterations"));
+}
+
+TEST(DeformableSurfaceStart, StartsFromSeeds)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  filter->SetInitializationToSeeds();
+  filter->Update();
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
+
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(21, 18, 20);
+  vtkNew<vtkPolyData> seeds;
+  seeds->SetPoints(points);
+  filter->SetInitialSurfaceData(seeds);
+  filter->Update();
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
+}
+
+TEST(DeformableSurfaceStart, StartsFromAGivenSurface)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetCenter(22, 19, 19);
+  sphere->SetRadius(14);
+  sphere->SetThetaResolution(24);
+  sphere->SetPhiResolution(20);
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  filter->SetInitializationToInputSurface();
+  filter->SetInitialSurfaceConnection(sphere->GetOutputPort());
+  filter->Update();
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
+}
+
+namespace
+{
+/// The ball, and a rod beside it that is too thin for the coarse levels.
+vtkSmartPointer<vtkImageData> BallAndRod()
+{
+  const auto image = BallImage(64, 64, 64, 0.25);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (int k = 8; k < 56; ++k)
+  {
+    for (int j = 6; j < 9; ++j)
+    {
+      for (int i = 6; i < 9; ++i)
+      {
+        voxels->SetComponent((k * 64 + j) * 64 + i, 0, 100.0);
+      }
+    }
+  }
+  return image;
+}
+}
+
+TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallAndRod());
+  filter->SetIsoValue(50.0);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2);
+  double recovered = 0;
+  for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
+  {
+    recovered +=
+      FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredParts");
+  }
+  EXPECT_EQ(recovered, 1);
+  EXPECT_EQ(warnings.Get(), "");
+}
+
+TEST(DeformableSurfaceStart, WarnsOfWhatStaysLostAndNamesTheLevel)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallAndRod());
+  filter->SetIsoValue(50.0);
+  filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+  EXPECT_TRUE(warnings.Has("1 part of the object that the surface lost at level"))
+    << warnings.Get();
+  EXPECT_TRUE(warnings.Has("Turn Recovery on")) << warnings.Get();
+}
