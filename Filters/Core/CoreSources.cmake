@@ -5,6 +5,7 @@
 
 set(volumic_core_sources
   AxisOperator.cxx
+  CellSurface.cxx
   ComponentWatch.cxx
   CycleCut.cxx
   Division.cxx
@@ -36,6 +37,7 @@ set(volumic_core_sources
   VertexRemoval.cxx)
 set(volumic_core_headers
   AxisOperator.h
+  CellSurface.h
   ComponentWatch.h
   CycleCut.h
   Division.h

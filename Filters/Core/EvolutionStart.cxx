@@ -137,18 +137,13 @@ void SurfaceEvolution::Implementation::Recover()
     return;
   }
   SurfaceState& s = this->State;
-  const double radius = SmallestSeed * s.Delta;
-  const LostPartSeeds lost =
-    FindLostParts(s, *this->TheField, this->Options.MinimumPartSize, radius);
-  this->LastLost = { lost.Found, this->Options.RecoverLostParts ? lost.Seeded : 0 };
-  if (lost.Centres.empty() || !this->Options.RecoverLostParts)
+  const LostPartCover lost = FindLostParts(s, *this->TheField, this->Options.MinimumPartSize);
+  this->LastLost = { lost.Found, this->Options.RecoverLostParts ? lost.Covered : 0 };
+  if (lost.Covered == 0 || !this->Options.RecoverLostParts)
   {
     return;
   }
-  for (const Point& centre : lost.Centres)
-  {
-    s.Mesh.Append(Icosahedron(centre, radius));
-  }
+  s.Mesh.Append(lost.Surface);
   this->Reset();
 }
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LostParts.h"
 
+#include "CellSurface.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -35,7 +37,7 @@ public:
 
   void CoverInside();
   void CoverNear();
-  /** Connected sets of uncovered voxels of the object, each sorted, best voxels first. */
+  /** Connected sets of uncovered voxels of the object. */
   std::vector<std::vector<int>> Parts();
 
   Point Place(int voxel) const
@@ -48,11 +50,6 @@ public:
   }
 
 private:
-  float Value(int voxel) const
-  {
-    return this->TheField.Voxel(voxel % this->Size[0], voxel / this->Size[0] % this->Size[1],
-      voxel / this->Size[0] / this->Size[1]);
-  }
   void Cross(int a, int b, int c);
 
   const SurfaceState& State;
@@ -222,39 +219,57 @@ std::vector<std::vector<int>> Search::Parts()
     }
     parts.push_back(std::move(part));
   }
-  for (auto& part : parts)
-  {
-    std::sort(part.begin(), part.end(),
-      [this](int a, int b)
-      {
-        const float x = this->Value(a);
-        const float y = this->Value(b);
-        return x != y ? x > y : a < b;
-      });
-  }
   return parts;
+}
+
+/**
+ * Edge length of the cells, in delta. Edges are then 1.6 and 2.26 delta long, within eq. (1), and
+ * corners that no edge joins keep 1.6 delta, over lambda.
+ */
+constexpr double CellEdge = 1.6;
+
+/** Whether no triangle of the surface can reach the cell. */
+bool KeepsClear(
+  const SurfaceState& state, const CellLattice& lattice, const CellLattice::Cell& cell)
+{
+  const auto hasWithin = [&state](const Point& p, float radius)
+  {
+    const Vector place(
+      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    bool found = false;
+    state.Grid.Visit(place, radius,
+      [&](int v)
+      {
+        found = found || SquaredDistance(place, state.Mesh.Position[v]) < radius * radius;
+      });
+    return found;
+  };
+  const float reach = constraint::Reach * state.Delta;
+  const float radius = static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Delta;
+  if (!hasWithin(lattice.Centre(cell), radius + reach))
+  {
+    return true;
+  }
+  for (int i = 0; i < CellLattice::NumberOfCorners; ++i)
+  {
+    if (hasWithin(lattice.Corner(cell, i), reach))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 }
 
-LostPartSeeds FindLostParts(
-  const SurfaceState& state, const Field& field, int minimumSize, double radius)
+LostPartCover FindLostParts(const SurfaceState& state, const Field& field, int minimumSize)
 {
   Search search(state, field);
   search.CoverInside();
   search.CoverNear();
-  LostPartSeeds result;
-  const float delta = state.Delta;
-  const float spacing = std::max(4.f * delta, static_cast<float>(2. * radius) + 1.6f * delta);
-  // A triangle of legal edges with all corners this far cannot reach the icosahedron.
-  const float clear = static_cast<float>(radius) + 1.5f * delta;
-  const LevelImage& image = field.Image();
-  VertexGrid seeds;
-  seeds.Reset(Vector(0, 0, 0),
-    Vector(static_cast<float>(image.Size[0] * image.Step[0]),
-      static_cast<float>(image.Size[1] * image.Step[1]),
-      static_cast<float>(image.Size[2] * image.Step[2])),
-    spacing);
-  std::vector<Vector> places;
+  LostPartCover result;
+  const CellLattice lattice(CellEdge * state.Delta);
+  std::vector<CellLattice::Cell> cells;
+  std::vector<CellLattice::Cell> own;
   for (const std::vector<int>& part : search.Parts())
   {
     if (static_cast<int>(part.size()) < minimumSize)
@@ -262,31 +277,26 @@ LostPartSeeds FindLostParts(
       continue;
     }
     ++result.Found;
-    const std::size_t before = places.size();
+    own.clear();
     for (int voxel : part)
     {
-      const Point p = search.Place(voxel);
-      const Vector place(
-        static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-      bool free = true;
-      seeds.Visit(place, spacing,
-        [&](int s) { free = free && SquaredDistance(place, places[s]) >= spacing * spacing; });
-      if (!free)
+      own.push_back(lattice.CellAt(search.Place(voxel)));
+    }
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    const std::size_t before = cells.size();
+    for (const CellLattice::Cell& cell : own)
+    {
+      if (KeepsClear(state, lattice, cell))
       {
-        continue;
-      }
-      state.Grid.Visit(place, clear,
-        [&](int v)
-        { free = free && SquaredDistance(place, state.Mesh.Position[v]) > clear * clear; });
-      if (free)
-      {
-        seeds.Insert(static_cast<int>(places.size()), place);
-        places.push_back(place);
-        result.Centres.push_back(p);
+        cells.push_back(cell);
       }
     }
-    result.Seeded += places.size() > before;
+    result.Covered += cells.size() > before;
   }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  result.Surface = lattice.Boundary(cells);
   return result;
 }
 }

@@ -11,24 +11,28 @@
 namespace volumic
 {
 /** Result of FindLostParts. */
-struct LostPartSeeds
+struct LostPartCover
 {
-  int Found = 0;              ///< Parts of the object that the surface has lost.
-  int Seeded = 0;             ///< Of them, those that got a seed.
-  std::vector<Point> Centres; ///< Workspace.
+  int Found = 0;          ///< Parts of the object that the surface has lost.
+  int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
+  IndexedSurface Surface; ///< Closed, outward oriented, manifold; workspace.
 };
 
 /**
  * Looks for what coarser levels have lost (method.md section 10, last paragraph): connected sets
  * of at least `minimumSize` voxels on the object's side that are neither inside the surface nor
- * within two voxels of a vertex. Each gets seeds, best voxels first, at least 4 delta from each
- * other, where an icosahedron of `radius` can touch nothing.
+ * within two voxels of a vertex, and encloses them with a new surface, which then shrinks onto
+ * them as the first one did onto the object.
+ *
+ * It is the boundary of the truncated octahedra (CellLattice) that hold voxels of such parts and
+ * keep clear of the surface as it is, with edges and distances that respect eq. (1). Seeds inside
+ * the parts, as the paper starts from, would have to grow through places that are too thin for
+ * them, and meet with holes left between them.
  *
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.
  */
-LostPartSeeds FindLostParts(
-  const SurfaceState& state, const Field& field, int minimumSize, double radius);
+LostPartCover FindLostParts(const SurfaceState& state, const Field& field, int minimumSize);
 }
 
 #endif

@@ -112,7 +112,7 @@ public:
   /** Evolve on the current level until rest, limit, cancel or nothing is left; then snap. */
   StopReason Run();
 
-  /** Global division down to delta of a finer level; lost parts are seeded again. */
+  /** Global division down to delta of a finer level; lost parts are enclosed again. */
   void Divide(const LevelImage& image, int level);
 
   /** The surface as it is. */
@@ -124,7 +124,7 @@ public:
   /** Iterations of the last Run(). */
   int Iterations() const;
 
-  /** Lost parts that the last Divide() found, and how many of them it seeded again (if asked to). */
+  /** Lost parts that the last Divide() found, and how many of them it enclosed (if asked to). */
   struct LostParts
   {
     int Found = 0;

@@ -44,8 +44,8 @@ struct SurfaceOptions
   bool SnapToIsoValue = true;           ///< Vertices onto the isopotential at the end of a level.
 
   /**
-   * After a division, seeds are set into parts of the object that the coarser level did not
-   * resolve and that the surface therefore has lost (method.md section 10, last paragraph).
+   * After a division, parts of the object that the coarser level did not resolve, and that the
+   * surface therefore has lost (method.md section 10, last paragraph), are enclosed again.
    */
   bool RecoverLostParts = true;
   int MinimumPartSize = 40; ///< Voxels of the level that a lost part must have to be recovered.
