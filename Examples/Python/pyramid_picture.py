@@ -7,6 +7,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
 import render
+from pipeline import level_unit, pyramid_levels
 from volume_image import world_axes
 
 PANEL_WIDTH = 400
@@ -15,16 +16,6 @@ PANEL_WIDTH = 400
 SLICES = (("Axial slices", "Slices across z", "I", "A"),
           ("Sagittal slices", "Slices across x", "L", "S"))
 THREE_QUARTERS = ("AAAALLS", "S")
-
-
-def pyramid_levels(pyramid):
-    """The images of a vtkMultiBlockDataSet from vtkImagePyramid, level 0 first."""
-    return [pyramid.GetBlock(h) for h in range(pyramid.GetNumberOfBlocks())]
-
-
-def level_unit(image):
-    """U_h, the smallest distance of two voxels, in world units."""
-    return image.GetFieldData().GetArray("Unit").GetTuple1(0)
 
 
 def iso_surface(image, iso):

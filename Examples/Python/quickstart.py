@@ -20,18 +20,15 @@ import os
 import sys
 
 from history_chart import history_chart
-from otsu import otsu_iso_value
-from pyramid_picture import level_unit, pyramid_levels, pyramid_picture
-from read_volume import VolumeError, read_volume
+from pipeline import SKULL, build_pyramid, load_volume, prepare_surface, run_surface
+from pyramid_picture import pyramid_picture
+from read_volume import VolumeError
 from render import world_frame, write_png
 from surface_pictures import levels_picture, views_picture, visited_levels
 from surface_results import (
     component_facts, input_facts, level_facts, summary_lines, surface_facts, versions,
     write_blocks, write_history, write_report, write_surface)
-from terminal import FilterError, run_filter
-
-SKULL = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
-SKULL_ISO = 226.5  # bone; between two integers, so that no voxel equals it
+from terminal import FilterError, Interrupted
 
 
 def parse_arguments():
@@ -42,47 +39,6 @@ def parse_arguments():
                         help="iso-value; default: Otsu's threshold (for the skull 226.5)")
     parser.add_argument("--output", default="quickstart", help="folder for the results")
     return parser.parse_args()
-
-
-def load(arguments):
-    """The volume and the iso-value."""
-    print(f"Reading {arguments.volume}")
-    image = read_volume(arguments.volume)
-    scalars = image.GetPointData().GetScalars()
-    print(f"  {' x '.join(map(str, image.GetDimensions()))} voxels of"
-          f" {' x '.join(f'{s:.4g}' for s in image.GetSpacing())}, {scalars.GetDataTypeAsString()},"
-          f" values {scalars.GetRange()[0]:g} to {scalars.GetRange()[1]:g}")
-    if arguments.iso is not None:
-        print(f"  iso-value {arguments.iso:g}")
-        return image, arguments.iso
-    if os.path.basename(arguments.volume) == os.path.basename(SKULL):
-        print(f"  iso-value {SKULL_ISO:g} (bone)")
-        return image, SKULL_ISO
-    iso = otsu_iso_value(image)
-    print(f"  iso-value {iso:g} by Otsu's threshold; give another one after the volume's name")
-    return image, iso
-
-
-def build_pyramid(image):
-    """The filter with the levels, and the seconds it took."""
-    from volumic import vtkImagePyramid  # pylint: disable=import-outside-toplevel
-    pyramid = vtkImagePyramid()
-    pyramid.SetInputData(image)
-    seconds, _ = run_filter(pyramid, "Building the pyramid")
-    for number, level in enumerate(pyramid_levels(pyramid.GetOutput())):
-        print(f"  level {number}: {' x '.join(map(str, level.GetDimensions()))} voxels,"
-              f" unit {level_unit(level):.4g}")
-    return pyramid, seconds
-
-
-def build_surface(pyramid, iso):
-    """The filter with the surfaces, the seconds it took, and its warnings."""
-    from volumic import vtkDeformableSurface  # pylint: disable=import-outside-toplevel
-    surface = vtkDeformableSurface()
-    surface.SetInputConnection(pyramid.GetOutputPort())
-    surface.SetIsoValue(iso)
-    seconds, warnings = run_filter(surface, "Evolving the surface")
-    return surface, seconds, warnings
 
 
 class Results:
@@ -102,16 +58,14 @@ class Results:
 
 def run(arguments, results):
     """The whole job, from the volume to the pictures."""
-    image, iso = load(arguments)
+    image, iso = load_volume(arguments.volume, arguments.iso)
     name = os.path.basename(os.path.normpath(arguments.volume))
     pyramid, pyramid_seconds = build_pyramid(image)
     results.write(write_blocks, pyramid.GetOutput(), "pyramid.vtm")
 
-    surface, seconds, warnings = build_surface(pyramid, iso)
+    surface = prepare_surface(pyramid, iso)
+    seconds, warnings = run_surface(surface)
     finest, levels, history = (surface.GetOutputDataObject(port) for port in range(3))
-    if finest.GetNumberOfPolys() == 0:
-        raise FilterError("the surface vanished: is the object brighter than its surroundings, and"
-                          f" is {iso:g} between the two?")
     report = {
         "input": input_facts(image, name),
         "iso_value": iso,
@@ -143,7 +97,7 @@ def main():
     try:
         results = Results(arguments.output)
         run(arguments, results)
-    except (VolumeError, FilterError, ValueError, OSError) as error:
+    except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:
         sys.exit(f"quickstart.py: {error}")
     print("Written:")
     for path in results.paths:

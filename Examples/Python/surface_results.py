@@ -3,10 +3,13 @@
 """The files and the report of a run of vtkDeformableSurface, all from the filter's outputs."""
 
 import json
+import os
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkVersion
 from vtkmodules.vtkIOCore import vtkDelimitedTextWriter
+from vtkmodules.vtkIOGeometry import vtkOBJWriter, vtkSTLWriter
+from vtkmodules.vtkIOPLY import vtkPLYWriter
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter
 
 # Names in the report and in the field data of a surface.
@@ -25,9 +28,11 @@ COMPONENT_FACTS = {
 
 def write_with(writer, data, path):
     """Write the data; OSError where that fails."""
+    failures = []
+    writer.AddObserver("ErrorEvent", lambda *_: failures.append(writer.GetErrorCode()))
     writer.SetFileName(path)
     writer.SetInputData(data)
-    if not writer.Write():
+    if not writer.Write() or failures:
         raise OSError(f"{path} cannot be written")
 
 
@@ -36,8 +41,21 @@ def write_blocks(blocks, path):
     write_with(vtkXMLMultiBlockDataWriter(), blocks, path)
 
 
+def stl_writer():
+    writer = vtkSTLWriter()
+    writer.SetFileTypeToBinary()
+    writer.SetHeader("Volumic: closed surface in world coordinates".ljust(80))
+    return writer
+
+
+# Suffix of a file of triangles, and what writes it.
+SURFACE_WRITERS = {".stl": stl_writer, ".ply": vtkPLYWriter, ".obj": vtkOBJWriter,
+                   ".vtp": vtkXMLPolyDataWriter}
+
+
 def write_surface(surface, path):
-    write_with(vtkXMLPolyDataWriter(), surface, path)
+    """In the format that the suffix tells, one of SURFACE_WRITERS."""
+    write_with(SURFACE_WRITERS[os.path.splitext(path)[1].lower()](), surface, path)
 
 
 def write_history(history, path):
@@ -83,6 +101,14 @@ def surface_facts(surface):
         "triangles": surface.GetNumberOfPolys(),
         "stop_reason": fields.GetAbstractArray("StopReason").GetValue(0),
     }
+
+
+def surface_line(surface):
+    """Size and shape in a line for the terminal."""
+    facts = surface_facts(surface)
+    return (f"level {facts['level']}, {facts['stop_reason']}: {facts['vertices']:,} vertices,"
+            f" components {facts['components']}, genus {facts['genus']}, area {facts['area']:,.1f},"
+            f" volume {facts['volume']:,.1f}")
 
 
 def component_facts(surface):

@@ -1,29 +1,67 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Running a VTK filter from a script: progress on the terminal, errors as exceptions."""
+"""Running a VTK filter from a script: a progress bar on the terminal, errors as exceptions, and
+Ctrl-C, which lets the filter hand over what it has."""
 
 import re
+import shutil
+import signal
 import sys
+import threading
 import time
 
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
 
 REDRAW_SECONDS = 0.1
+BAR_WIDTH = 24  # characters
 
 
 class FilterError(Exception):
     """What a filter reported through its ErrorEvent."""
 
 
+class Interrupted(Exception):
+    """Ctrl-C stopped the filter; its outputs hold what there was, valid as always."""
+
+
+class ProgressLine:
+    """A line of the terminal that shows a filter's progress: title, bar, percent, its text."""
+
+    def __init__(self, title):
+        self.title = title
+        self.drawn_at = 0.0
+        self.length = 0
+
+    def show(self, algorithm, _event):
+        """Observer of ProgressEvent."""
+        now = time.monotonic()
+        if now - self.drawn_at < REDRAW_SECONDS:
+            return
+        self.drawn_at = now
+        share = min(1.0, max(0.0, algorithm.GetProgress()))
+        filled = int(share * BAR_WIDTH)
+        bar = "#" * filled + "." * (BAR_WIDTH - filled)
+        line = f"{self.title} [{bar}] {100 * share:3.0f} % {algorithm.GetProgressText() or ''}"
+        line = line[:shutil.get_terminal_size().columns - 1]  # a longer one would leave its rests
+        print("\r" + line.ljust(self.length), end="", flush=True)
+        self.length = len(line)
+
+    def finish(self, text):
+        """Put the text in the place of the bar."""
+        start = "\r" if self.length else ""
+        print(f"{start}{text}".ljust(self.length + len(start)), flush=True)
+
+
 def run_filter(algorithm, title):
     """Update the filter; returns the seconds it took, and its warnings.
 
-    On a terminal the line shows the progress and the filter's progress text as it goes; in a log
-    there is one line at the end. Warnings are printed below it.
+    On a terminal a bar shows how far it is; in a log there is one line at the end. Warnings are
+    printed below it. Raises FilterError where the filter reports errors, and Interrupted after
+    Ctrl-C.
     """
     errors, warnings, echoes = [], [], []
-    drawn = [0.0, 0]  # when, and how many characters
+    line = ProgressLine(title)
 
     @calldata_type(VTK_STRING)
     def keep_error(_caller, _event, text):
@@ -33,38 +71,57 @@ def run_filter(algorithm, title):
     def keep_warning(_caller, _event, text):
         warnings.append(plain_message(text))
 
-    def show(caller, _event):
-        now = time.monotonic()
-        if now - drawn[0] > REDRAW_SECONDS:
-            line = f"{title}: {100 * caller.GetProgress():3.0f} % {caller.GetProgressText() or ''}"
-            print("\r" + line.ljust(drawn[1]), end="", flush=True)
-            drawn[:] = now, len(line)
-
     @calldata_type(VTK_STRING)
     def keep_echo(_caller, _event, text):
         echoes.append(plain_message(text))
 
+    # Python's signal handlers run when Python code does, so some observer has to be called.
+    observe = line.show if sys.stdout.isatty() else lambda *_: None
     tags = [algorithm.AddObserver("ErrorEvent", keep_error),
-            algorithm.AddObserver("WarningEvent", keep_warning)]
+            algorithm.AddObserver("WarningEvent", keep_warning),
+            algorithm.AddObserver("ProgressEvent", observe)]
     # The executive reports a second time that its algorithm failed, or alone what it found wrong.
     executive_tag = algorithm.GetExecutive().AddObserver("ErrorEvent", keep_echo)
-    if sys.stdout.isatty():
-        tags.append(algorithm.AddObserver("ProgressEvent", show))
+    interrupts = AbortAtInterrupt(algorithm)
     started = time.monotonic()
     try:
-        algorithm.Update()
+        with interrupts:
+            algorithm.Update()
     finally:
         for tag in tags:
             algorithm.RemoveObserver(tag)
         algorithm.GetExecutive().RemoveObserver(executive_tag)
     seconds = time.monotonic() - started
-    start_of_line = "\r" if drawn[1] else ""
-    print(f"{start_of_line}{title}: {seconds:.2f} s".ljust(drawn[1] + 1), flush=True)
+    line.finish(f"{title}: {seconds:.2f} s{', interrupted' if interrupts.happened else ''}")
     for text in warnings:
         print(f"  Warning: {text}")
     if errors or echoes:
         raise FilterError("; ".join(errors or echoes))
+    if interrupts.happened:
+        raise Interrupted(f"{title}: interrupted after {seconds:.2f} s")
     return seconds, warnings
+
+
+class AbortAtInterrupt:
+    """Within this context Ctrl-C sets the filter's AbortExecute instead of ending the script."""
+
+    def __init__(self, algorithm):
+        self.algorithm = algorithm
+        self.happened = False
+        self.former = None
+
+    def __enter__(self):
+        if threading.current_thread() is threading.main_thread():
+            self.former = signal.signal(signal.SIGINT, self.abort)
+        return self
+
+    def __exit__(self, *_):
+        if self.former is not None:
+            signal.signal(signal.SIGINT, self.former)
+
+    def abort(self, *_):
+        self.happened = True
+        self.algorithm.SetAbortExecute(1)
 
 
 def plain_message(text):

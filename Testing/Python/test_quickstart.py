@@ -5,37 +5,17 @@
 import csv
 import json
 import os
-import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
-from vtkmodules.vtkIOImage import vtkMetaImageWriter, vtkPNGReader
+from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader
 
-from examples_path import EXAMPLES
-
-sys.path.insert(0, EXAMPLES)
-from volume_image import make_image  # pylint: disable=wrong-import-position
-
-
-RING_SIZE, SPACING = 40, (1, 1, 1.5)
-
-
-def ring_volume():
-    """A bright ring (a torus) in noise; index order z, y, x."""
-    z, y, x = np.indices((RING_SIZE,) * 3) - (RING_SIZE - 1) / 2
-    inside = (np.hypot(x, y) - 0.27 * RING_SIZE) ** 2 + z ** 2 < (0.12 * RING_SIZE) ** 2
-    noise = np.random.default_rng(3).normal(0, 5, inside.shape)
-    return (np.where(inside, 200, 50) + noise).astype("u1")
-
-
-def run_quickstart(*arguments):
-    return subprocess.run([sys.executable, os.path.join(EXAMPLES, "quickstart.py"), *arguments],
-                          capture_output=True, text=True, check=False, timeout=240)
+from sample_volumes import (
+    MAJOR, MINOR, RING_SIZE, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
 
 
 class QuickstartTest(unittest.TestCase):
@@ -43,13 +23,10 @@ class QuickstartTest(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
-        cls.volume = os.path.join(cls.temporary.name, "ring.mha")
         cls.output = os.path.join(cls.temporary.name, "a", "results")
-        writer = vtkMetaImageWriter()
-        writer.SetFileName(cls.volume)
-        writer.SetInputData(make_image(ring_volume(), SPACING))
-        writer.Write()
-        cls.run_of_it = run_quickstart("--output", cls.output, "--", cls.volume)
+        cls.volume = write_volume(os.path.join(cls.temporary.name, "ring.mha"), ring_voxels(),
+                                  RING_SPACING)
+        cls.run_of_it = run_script("quickstart.py", "--output", cls.output, "--", cls.volume)
 
     def path(self, name):
         return os.path.join(self.output, name)
@@ -89,20 +66,19 @@ class QuickstartTest(unittest.TestCase):
         edges.ManifoldEdgesOff()
         edges.Update()
         self.assertEqual(edges.GetOutput().GetNumberOfCells(), 0)
-        middle = (RING_SIZE - 1) / 2 * np.array(SPACING)
+        middle = (RING_SIZE - 1) / 2 * np.array(RING_SPACING)
         low, high = np.reshape(self.read_surface().GetBounds(), (3, 2)).T
         np.testing.assert_allclose((low + high) / 2, middle, atol=0.5)
-        outer = (0.27 + 0.12) * RING_SIZE
-        np.testing.assert_allclose(high - low, 2 * outer * np.array([1, 1, 0]) + np.array(
-            [0, 0, 2 * 0.12 * RING_SIZE * SPACING[2]]), atol=1.5)
+        outer = MAJOR + MINOR
+        size = 2 * np.array([outer, outer, MINOR * RING_SPACING[2]])
+        np.testing.assert_allclose(high - low, size, atol=1.5)
 
     def test_the_report_tells_the_shape(self):
         with open(self.path("report.json"), encoding="utf-8") as file:
             report = json.load(file)
         self.assertEqual((report["components"], report["genus"]), (1, 1))
         self.assertEqual(report["vertices"], self.read_surface().GetNumberOfPoints())
-        volume = 2 * np.pi ** 2 * 0.27 * 0.12 ** 2 * RING_SIZE ** 3 * SPACING[2]
-        self.assertAlmostEqual(report["volume"] / volume, 1, delta=0.1)
+        self.assertAlmostEqual(report["volume"] / RING_VOLUME, 1, delta=0.1)
         self.assertEqual([level["level"] for level in report["levels"]], [2, 1, 0])
         for level in report["levels"]:
             self.assertGreater(level["seconds"], 0)
@@ -144,7 +120,7 @@ class QuickstartTest(unittest.TestCase):
 class RefusedTest(unittest.TestCase):
     def refused(self, reason, *arguments):
         with tempfile.TemporaryDirectory() as folder:
-            run = run_quickstart("--output", folder, *arguments)
+            run = run_script("quickstart.py", "--output", folder, *arguments)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn(reason, run.stderr)
         self.assertNotIn("Traceback", run.stderr)
@@ -154,11 +130,7 @@ class RefusedTest(unittest.TestCase):
 
     def test_volume_without_a_surface(self):
         with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "flat.mha")
-            writer = vtkMetaImageWriter()
-            writer.SetFileName(path)
-            writer.SetInputData(make_image(np.full((20, 20, 20), 3, "u1"), (1, 1, 1)))
-            writer.Write()
+            path = write_volume(os.path.join(folder, "flat.mha"), np.full((20, 20, 20), 3, "u1"))
             self.refused("all voxels are 3", path)
 
 

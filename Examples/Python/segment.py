@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""One volume to one closed surface, as a file of triangles in world coordinates.
+
+    segment.py scan.nii.gz bone.stl --iso 226.5
+    segment.py scan.nii.gz airways.ply --iso -500 --dark --set FinestLevel=1
+
+VOLUME is what read_volume.py can read. The suffix of OUTPUT tells its format: .stl (binary), .ply
+(binary, with normals), .obj or .vtp (VTK's, with all arrays and field data). A bar shows how far it
+is. Ctrl-C ends the evolution early: the surface as it is then is written, closed and free of
+self-intersections.
+
+Ends with 0, or 1 after an error, 2 if the command line is wrong, 130 after Ctrl-C.
+"""
+
+import argparse
+import os
+import sys
+
+from pipeline import (
+    build_pyramid, check_properties, load_volume, prepare_surface, run_surface)
+from read_volume import VolumeError
+from surface_results import SURFACE_WRITERS, surface_line, write_surface
+from terminal import FilterError, Interrupted
+
+INTERRUPTED = 130  # as shells have it
+
+
+def add_filter_options(parser):
+    """The options of segment.py and batch.py that are about the surface."""
+    parser.add_argument("--iso", type=float, metavar="VALUE",
+                        help="value of the image on the surface; default: Otsu's threshold, a guess"
+                        " that in a CT finds the skin rather than the bone")
+    parser.add_argument("--dark", action="store_true",
+                        help="the object is darker than its surroundings")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE",
+                        dest="properties", help="any property of vtkDeformableSurface, such as"
+                        " FinestLevel=1 or Recovery=0; may be given several times")
+
+
+def filter_properties(arguments):
+    """Names and values of the properties that add_filter_options asked for."""
+    properties = {"ObjectIsBright": "off"} if arguments.dark else {}
+    for setting in arguments.properties:
+        name, equals, value = setting.partition("=")
+        if not equals:
+            raise ValueError(f"--set {setting}: NAME=VALUE is wanted")
+        properties[name] = value
+    check_properties(properties)
+    return properties
+
+
+def check_output(path):
+    """An error where the surface could not be written, before it is made."""
+    if not path.lower().endswith(tuple(SURFACE_WRITERS)):
+        raise ValueError(f"{path}: the suffix must be one of {', '.join(SURFACE_WRITERS)}")
+    if not os.path.isdir(os.path.dirname(path) or "."):
+        raise OSError(f"{os.path.dirname(path)}: no such folder")
+
+
+def segment(volume, output, iso, properties):
+    """Read, segment, write; returns the exit code. Prints what it does."""
+    check_output(output)
+    image, iso = load_volume(volume, iso)
+    pyramid, _ = build_pyramid(image)
+    surface = prepare_surface(pyramid, iso, properties)
+    status = 0
+    try:
+        run_surface(surface)
+    except Interrupted:
+        if surface.GetOutput().GetNumberOfPolys() == 0:
+            raise
+        status = INTERRUPTED
+    write_surface(surface.GetOutput(), output)
+    print(f"  {surface_line(surface.GetOutput())}")
+    print(f"Written: {output}{' (not finished)' if status else ''}")
+    return status
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
+                                     epilog=f"Formats: {', '.join(SURFACE_WRITERS)}.")
+    parser.add_argument("volume", help="volume that read_volume.py can read")
+    parser.add_argument("output", help="file to write")
+    add_filter_options(parser)
+    arguments = parser.parse_args()
+    try:
+        return segment(arguments.volume, arguments.output, arguments.iso,
+                       filter_properties(arguments))
+    except Interrupted as error:
+        print(f"segment.py: {error}", file=sys.stderr)
+        return INTERRUPTED
+    except (VolumeError, FilterError, ValueError, OSError) as error:
+        print(f"segment.py: {error}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Small volumes whose surfaces are known, for the tests of the example scripts."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+from vtkmodules.vtkIOImage import vtkMetaImageWriter
+
+from examples_path import EXAMPLES
+
+sys.path.insert(0, EXAMPLES)
+from volume_image import make_image  # pylint: disable=wrong-import-position
+
+RING_SIZE, RING_SPACING, RING_ISO = 40, (1, 1, 1.5), 125.5
+MAJOR, MINOR = 0.27 * RING_SIZE, 0.12 * RING_SIZE  # radii in voxels
+RING_VOLUME = 2 * np.pi ** 2 * MAJOR * MINOR ** 2 * np.prod(RING_SPACING)  # world units
+
+
+def ring_voxels(bright=200, dark=50):
+    """A ring (a torus of genus 1) in noise, uint8; index order z, y, x."""
+    z, y, x = np.indices((RING_SIZE,) * 3) - (RING_SIZE - 1) / 2
+    inside = (np.hypot(x, y) - MAJOR) ** 2 + z ** 2 < MINOR ** 2
+    noise = np.random.default_rng(3).normal(0, 5, inside.shape)
+    return (np.where(inside, bright, dark) + noise).astype("u1")
+
+
+def write_volume(path, voxels, spacing=(1, 1, 1)):
+    """A MetaImage; returns the path."""
+    writer = vtkMetaImageWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(make_image(voxels, spacing))
+    writer.Write()
+    return path
+
+
+def run_script(name, *arguments, **options):
+    """Run a script of Examples/Python to its end."""
+    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments],
+                          capture_output=True, text=True, check=False, timeout=240, **options)

@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Examples/Python/batch.py: a table and surfaces for a folder, whatever is wrong in it."""
+
+import csv
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+import medical_files
+from sample_volumes import (
+    RING_ISO, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
+
+
+class BatchTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = os.path.join(temporary.name, "scans")
+        self.output = os.path.join(temporary.name, "a", "results")
+        os.mkdir(self.folder)
+
+    def add_ring(self, name="ring.mha"):
+        return write_volume(os.path.join(self.folder, name), ring_voxels(), RING_SPACING)
+
+    def add_bytes(self, name, content):
+        with open(os.path.join(self.folder, name), "wb") as file:
+            file.write(content)
+
+    def batch(self, *options):
+        return run_script("batch.py", self.folder, "--output", self.output, *options)
+
+    def table(self):
+        with open(os.path.join(self.output, "results.csv"), encoding="utf-8", newline="") as file:
+            return {line["volume_file"]: line for line in csv.DictReader(file)}
+
+    def written(self):
+        return sorted(os.listdir(self.output))
+
+
+class ResultsTest(BatchTest):
+    def test_the_table_tells_size_and_shape(self):
+        self.add_ring()
+        run = self.batch("--iso", str(RING_ISO))
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        line = self.table()["ring.mha"]
+        self.assertEqual((line["status"], line["stop_reason"], line["error"]),
+                         ("ok", "converged", ""))
+        self.assertEqual((int(line["components"]), int(line["genus"])), (1, 1))
+        self.assertEqual(float(line["iso_value"]), RING_ISO)
+        self.assertAlmostEqual(float(line["volume"]) / RING_VOLUME, 1, delta=0.1)
+        self.assertEqual(int(line["triangles"]), 2 * int(line["vertices"]))
+        self.assertGreater(float(line["seconds"]), 0)
+        self.assertEqual(self.written(), ["results.csv", line["surface_file"]])
+        self.assertEqual(line["surface_file"], "ring.vtp")
+
+    def test_every_format_and_folder_of_slices(self):
+        self.add_ring()
+        voxels = np.pad(np.full((12, 12, 12), 90, "i2"), 8)
+        self.add_bytes("cube.nii", medical_files.nifti(voxels, (1, 1, 1)))
+        os.mkdir(os.path.join(self.folder, "series"))
+        for k, pixels in enumerate(voxels):
+            self.add_bytes(f"series/{k}", medical_files.dicom_slice(
+                pixels, k, (1, 1, 1), (0, 0, 0), np.eye(3)))
+        self.add_bytes("notes.txt", b"not a volume")
+        run = self.batch("--format", "stl")
+        self.assertEqual(run.returncode, 0, run.stdout)
+        self.assertEqual(self.written(), ["cube.stl", "results.csv", "ring.stl", "series.stl"])
+        table = self.table()
+        self.assertEqual(table["cube.nii"]["volume"], table["series"]["volume"])
+
+    def test_same_names_do_not_overwrite_each_other(self):
+        self.add_ring("ring.mha")
+        self.add_ring("ring.mhd")  # with ring.zraw or ring.raw beside it
+        self.assertEqual(self.batch().returncode, 0)
+        self.assertEqual(self.written(), ["results.csv", "ring.mha.vtp", "ring.mhd.vtp"])
+
+    def test_properties_hold_for_all(self):
+        self.add_ring()
+        self.batch("--set", "FinestLevel=1")
+        coarse = int(self.table()["ring.mha"]["vertices"])
+        self.batch()
+        self.assertLess(coarse, int(self.table()["ring.mha"]["vertices"]) / 2)
+
+
+class ErrorsTest(BatchTest):
+    def test_it_goes_on_after_an_error_and_the_exit_code_tells(self):
+        self.add_bytes("a.nrrd", b"junk")
+        write_volume(os.path.join(self.folder, "b.mha"), np.full((20, 20, 20), 3, "u1"))
+        self.add_ring("c.mha")
+        os.mkdir(os.path.join(self.folder, "empty"))
+        run = self.batch()
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("1 of 4 volumes done, 3 failed", run.stdout)
+        self.assertNotIn("Traceback", run.stderr)
+        table = self.table()
+        self.assertEqual([table[name]["status"] for name in ("a.nrrd", "b.mha", "c.mha", "empty")],
+                         ["failed", "failed", "ok", "failed"])
+        for name, reason in (("a.nrrd", "not|NRRD"), ("b.mha", "all voxels are 3"),
+                             ("empty", "no DICOM image")):
+            self.assertRegex(table[name]["error"], reason)
+            self.assertEqual(table[name]["vertices"], "")
+        self.assertEqual(self.written(), ["c.vtp", "results.csv"])
+
+    def test_what_the_filter_refuses_is_in_the_table(self):
+        self.add_ring()
+        self.assertEqual(self.batch("--iso", "1e6").returncode, 1)
+        self.assertRegex(self.table()["ring.mha"]["error"], "1e\\+?06|1000000")
+
+    def refused(self, reason, run):
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn(reason, run.stderr)
+        self.assertFalse(os.path.exists(self.output))
+
+    def test_folder_that_is_not_there(self):
+        os.rmdir(self.folder)
+        self.refused("no such folder", self.batch())
+
+    def test_folder_without_volumes(self):
+        self.add_bytes("notes.txt", b"not a volume")
+        self.refused("no volume", self.batch())
+
+    def test_unknown_format(self):
+        self.add_ring()
+        self.refused("invalid choice", self.batch("--format", "dwg"))
+
+    def test_unknown_property_is_told_once(self):
+        self.add_ring()
+        run = self.batch("--set", "Nothing=1")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("no property Nothing", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,224 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Examples/Python/segment.py: what it writes, its bar, its errors and exit codes."""
+
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkMassProperties
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+from examples_path import EXAMPLES
+from sample_volumes import (
+    RING_ISO, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
+
+READERS = {"stl": vtkSTLReader, "ply": vtkPLYReader, "obj": vtkOBJReader,
+           "vtp": vtkXMLPolyDataReader}
+
+
+def read_surface(path):
+    reader = READERS[path[-3:]]()
+    reader.SetFileName(path)
+    clean = vtkCleanPolyData()  # an STL file has each corner once per triangle
+    clean.SetInputConnection(reader.GetOutputPort())
+    clean.SetTolerance(0)
+    clean.Update()
+    return clean.GetOutput()
+
+
+def open_edges(surface):
+    edges = vtkFeatureEdges()
+    edges.SetInputData(surface)
+    edges.FeatureEdgesOff()
+    edges.ManifoldEdgesOff()
+    edges.Update()
+    return edges.GetOutput().GetNumberOfCells()
+
+
+def volume_of(surface):
+    mass = vtkMassProperties()
+    mass.SetInputData(surface)
+    return mass.GetVolume()
+
+
+class SegmentTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.ring = write_volume(cls.path("ring.mha"), ring_voxels(), RING_SPACING)
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.temporary.name, name)
+
+    def segment(self, output, *options, volume=None):
+        return run_script("segment.py", volume or self.ring, self.path(output), *options)
+
+
+class FormatsTest(SegmentTest):
+    def check_format(self, suffix):
+        name = "surface." + suffix
+        run = self.segment(name, "--iso", str(RING_ISO))
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn(self.path(name), run.stdout)
+        surface = read_surface(self.path(name))
+        self.assertEqual(open_edges(surface), 0)
+        self.assertAlmostEqual(volume_of(surface) / RING_VOLUME, 1, delta=0.1)
+        # Euler's characteristic of a ring: V - E + F, with 3 edges for 2 triangles.
+        self.assertEqual(2 * surface.GetNumberOfPoints(), surface.GetNumberOfPolys())
+        return run, surface
+
+    def test_stl(self):
+        self.check_format("stl")
+
+    def test_ply(self):
+        self.check_format("ply")
+
+    def test_obj(self):
+        self.check_format("obj")
+
+    def test_vtp_holds_all_that_the_filter_tells(self):
+        run, surface = self.check_format("vtp")
+        self.assertIn("genus 1", run.stdout)
+        self.assertIsNotNone(surface.GetPointData().GetArray("Residual"))
+        self.assertEqual(surface.GetFieldData().GetArray("Genus").GetValue(0), 1)
+
+
+class OptionsTest(SegmentTest):
+    def test_otsu_where_no_iso_value_is_given(self):
+        run = self.segment("a.stl")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        iso = float(re.search(r"iso-value ([\d.]+) by Otsu", run.stdout).group(1))
+        self.assertTrue(70 < iso < 180)
+
+    def test_dark_objects(self):
+        volume = write_volume(self.path("dark.mha"), ring_voxels(50, 200), RING_SPACING)
+        run = self.segment("a.vtp", "--dark", "--iso", str(RING_ISO), volume=volume)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertAlmostEqual(volume_of(read_surface(self.path("a.vtp"))) / RING_VOLUME, 1,
+                               delta=0.1)
+
+    def test_any_property(self):
+        run = self.segment("a.vtp", "--iso", str(RING_ISO), "--set", "FinestLevel=1", "--set",
+                           "TensionWeight=0.3", "--set", "SnapToIsoValue=off")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        fields = read_surface(self.path("a.vtp")).GetFieldData()
+        self.assertEqual(fields.GetArray("Level").GetValue(0), 1)
+
+    def test_a_log_has_no_bar(self):
+        run = self.segment("a.stl", "--iso", str(RING_ISO))
+        self.assertNotIn("\r", run.stdout)
+        self.assertNotIn("[#", run.stdout)
+
+
+class RefusedTest(SegmentTest):
+    def refused(self, reason, *arguments, code=1):
+        run = run_script("segment.py", *arguments)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertRegex(run.stderr, reason)
+        self.assertNotIn("Traceback", run.stderr)
+
+    def test_missing_volume(self):
+        self.refused("no such file", self.path("none.mha"), self.path("a.stl"))
+
+    def test_unknown_format_is_told_before_reading(self):
+        self.refused(r"\.stl, \.ply", self.path("none.mha"), self.path("a.dwg"))
+
+    def test_missing_folder_is_told_before_reading(self):
+        self.refused("no such folder", self.path("none.mha"), self.path("none/a.stl"))
+
+    def test_file_that_cannot_be_written(self):
+        os.mkdir(self.path("folder.stl"))
+        self.refused("cannot be written", self.ring, self.path("folder.stl"))
+
+    def test_unknown_property(self):
+        self.refused("no property Isovalue; it has .*IsoValue", self.ring, self.path("a.stl"),
+                     "--set", "Isovalue=3")
+
+    def test_property_of_another_kind(self):
+        self.refused("a whole number, not '0.5'", self.ring, self.path("a.stl"), "--set",
+                     "FinestLevel=0.5")
+        self.refused("on or off, not 'maybe'", self.ring, self.path("a.stl"), "--set",
+                     "SnapToIsoValue=maybe")
+        self.refused("NAME=VALUE", self.ring, self.path("a.stl"), "--set", "FinestLevel")
+
+    def test_what_the_filter_refuses(self):
+        self.refused("1e\\+?06|1000000", self.ring, self.path("a.stl"), "--iso", "1e6")
+        self.assertFalse(os.path.exists(self.path("a.stl")))
+
+    def test_wrong_command_line(self):
+        self.refused("usage", self.ring, code=2)
+
+    def test_package_that_is_not_there(self):
+        environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+        code = ("import sys; sys.modules['volumic'] = None; sys.argv = ['segment.py', 'a.mha',"
+                f" 'a.stl']; sys.path.insert(0, {EXAMPLES!r}); import segment;"
+                " sys.exit(segment.main())")
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                             check=False, env=environment)
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, "volumic.*PYTHONPATH")
+        self.assertNotIn("Traceback", run.stderr)
+
+
+class TerminalTest(SegmentTest):
+    def run_on_terminal(self, volume, output, interrupt_at=None):
+        """All that a terminal shows, and the exit code; Ctrl-C when the text has come."""
+        leader, follower = pty.openpty()
+        arguments = [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume,
+                     self.path(output), "--iso", str(RING_ISO)]
+        with subprocess.Popen(arguments, stdout=follower, stderr=follower) as process:
+            os.close(follower)
+            shown = ""
+            while True:
+                try:
+                    piece = os.read(leader, 4096)
+                except OSError:  # Linux's way to say that the other end is closed
+                    piece = b""
+                if not piece:
+                    break
+                shown += piece.decode()
+                if interrupt_at and re.search(interrupt_at, shown):
+                    process.send_signal(signal.SIGINT)
+                    interrupt_at = None
+            os.close(leader)
+        return shown, process.returncode
+
+    def slow_volume(self):
+        """Large enough to take a second, so that there is time to stop it."""
+        large = np.kron(ring_voxels(), np.ones((4, 4, 4), "u1"))
+        return write_volume(self.path("slow.mha"), large)
+
+    def test_a_bar_grows_and_is_replaced_by_the_time(self):
+        shown, code = self.run_on_terminal(self.ring, "a.stl")
+        self.assertEqual(code, 0, shown)
+        self.assertRegex(shown, r"\rEvolving the surface \[#*\.*\] +\d+ % .*")
+        self.assertRegex(shown, r"\rEvolving the surface: \d+\.\d\d s")
+
+    def test_control_c_hands_over_a_closed_surface(self):
+        shown, code = self.run_on_terminal(self.slow_volume(), "b.vtp", r"Level \d, iteration")
+        self.assertEqual(code, 130, shown)
+        self.assertIn("interrupted", shown)
+        self.assertIn("(not finished)", shown)
+        surface = read_surface(self.path("b.vtp"))
+        reason = surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0)
+        self.assertEqual(reason, "cancelled")
+        self.assertGreater(surface.GetNumberOfPolys(), 0)
+        self.assertEqual(open_edges(surface), 0)
+        points = vtk_to_numpy(surface.GetPoints().GetData())
+        self.assertTrue(np.isfinite(points).all())
+
+
+if __name__ == "__main__":
+    unittest.main()
