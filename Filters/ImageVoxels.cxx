@@ -101,13 +101,13 @@ std::string SizeOf(vtkImageData* image)
   return text.str();
 }
 
-vtkDataArray* ChooseVoxels(vtkAlgorithm* algorithm, vtkImageData* image)
+vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image)
 {
   if (image->GetNumberOfPoints() == 0)
   {
     Refuse("the image is empty: it has " + SizeOf(image) + " voxels.");
   }
-  vtkAbstractArray* found = FindArray(algorithm->GetInputArrayInformation(0), image);
+  vtkAbstractArray* found = FindArray(selection, image);
   auto* array = vtkDataArray::SafeDownCast(found);
   if (!array)
   {

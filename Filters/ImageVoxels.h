@@ -7,20 +7,20 @@
 
 #include <string>
 
-class vtkAlgorithm;
 class vtkDataArray;
 class vtkImageData;
+class vtkInformation;
 
 /// What the filters ask of an image before they believe it. Errors are std::invalid_argument with
 /// a message that names the array and the way out.
 namespace volumic
 {
 /**
- * The array of voxels that was chosen by SetInputArrayToProcess(0, …).
+ * The array of voxels that was chosen: `selection` is GetInputArrayInformation(0) of the filter.
  * @throws if the image has no voxels, or there is no such array, or it is not numeric point data
  *         of one component with a value for every voxel.
  */
-vtkDataArray* ChooseVoxels(vtkAlgorithm* algorithm, vtkImageData* image);
+vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
 
 /// The same values in one plain block of memory: the array itself where it is one already.
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);

@@ -116,7 +116,7 @@ void Convert(const T* values, std::vector<float>& converted, Executor& executor)
 }
 }
 
-PyramidLevels::PyramidLevels(vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm)
+PyramidLevels::PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection)
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
@@ -133,7 +133,7 @@ PyramidLevels::PyramidLevels(vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorit
     }
     try
     {
-      this->Voxels.emplace_back(ChooseVoxels(algorithm, image));
+      this->Voxels.emplace_back(ChooseVoxels(selection, image));
     }
     catch (const std::invalid_argument& error)
     {

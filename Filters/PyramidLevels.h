@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-class vtkAlgorithm;
 class vtkDataArray;
 class vtkImageData;
+class vtkInformation;
 class vtkMultiBlockDataSet;
 
 namespace volumic
@@ -34,11 +34,11 @@ public:
 
   /**
    * @param blocks    block h is the vtkImageData of level h
-   * @param algorithm says which array holds the voxels (SetInputArrayToProcess)
+   * @param selection says which array holds the voxels (GetInputArrayInformation)
    * @throws if a block is not an image, has no such array, or its size or place are not those of a
    *         level of a pyramid; if the image is 2D or under MinimumSize along an axis.
    */
-  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm);
+  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection);
 
   int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }

@@ -184,7 +184,14 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
-  AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
+  if (description.TotalIterations >= 0)
+  {
+    AddField<vtkIntArray>(polyData, "Iteration", description.TotalIterations);
+  }
+  if (!description.StopReason.empty())
+  {
+    AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
+  }
   SetFeatures(polyData, ComputeFeatures(world));
   return polyData;
 }

@@ -20,9 +20,10 @@ namespace volumic
 struct SurfaceDescription
 {
   int Level = 0;
-  double Unit = 0.0; ///< U_h, world units
-  int Iterations = 0;
-  std::string StopReason;
+  double Unit = 0.0;        ///< U_h, world units
+  int Iterations = 0;       ///< at this level
+  int TotalIterations = -1; ///< over all levels; field `Iteration`, -1: none
+  std::string StopReason;   ///< empty: none, the surface is still on its way
   int LostParts = 0;
   int RecoveredParts = 0;
 };

@@ -33,11 +33,11 @@ void CheckEnumeration(const char* name, int value, int last)
 }
 
 /// The levels, with errors that name the port.
-PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm)
+PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection)
 {
   try
   {
-    return PyramidLevels(blocks, algorithm);
+    return PyramidLevels(blocks, selection);
   }
   catch (const std::invalid_argument& error)
   {
@@ -54,8 +54,11 @@ public:
   {
   }
 
+  std::function<void(const Status&)> AfterIteration;
+
   bool Continue(const Status& status) override
   {
+    this->AfterIteration(status);
     double before = 0.0;
     double total = 0.0;
     for (int level = this->Coarsest; level >= this->Finest; --level)
@@ -79,10 +82,11 @@ private:
 }
 
 SurfaceSegmentation::SurfaceSegmentation(
-  vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm, const SegmentationSettings& settings)
-  : Settings(settings), Pyramid(ReadLevels(blocks, algorithm)),
+  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
+  : Settings(settings), Pyramid(ReadLevels(blocks, selection)),
     Finest(vtkSmartPointer<vtkPolyData>::New()),
-    Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New())
+    Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New()),
+    Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
 {
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
   CheckEnumeration("BorderValue", settings.BorderValue, vtkDeformableSurface::Replicate);
@@ -91,6 +95,10 @@ SurfaceSegmentation::SurfaceSegmentation(
   {
     Refuse("MaximumNumberOfIterations is ", settings.Options.MaximumNumberOfIterations,
       "; it must be at least 1.");
+  }
+  if (settings.SnapshotInterval < 0)
+  {
+    Refuse("SnapshotInterval is ", settings.SnapshotInterval, "; it must be 0 (off) or more.");
   }
   if (settings.Options.SeedRadius < 0.0 || !std::isfinite(settings.Options.SeedRadius))
   {
@@ -258,6 +266,11 @@ void SurfaceSegmentation::Run()
     [&]
     {
       SurfaceEvolution evolution(this->Settings.Options, threads, monitor);
+      monitor.AfterIteration = [&](const Monitor::Status& status)
+      {
+        this->Film.Offer(
+          evolution, status.Level, this->Pyramid.UnitInWorld(status.Level), status.Iteration);
+      };
       for (int level = this->Coarsest; level >= this->LastLevel; --level)
       {
         LevelImage image;
@@ -279,6 +292,7 @@ void SurfaceSegmentation::Run()
           evolution.Divide(image, level);
           this->WarnOfLostParts(level, evolution.Lost());
         }
+        this->Film.Offer(evolution, level, this->Pyramid.UnitInWorld(level), 0);
         if (!this->RunLevel(evolution, level))
         {
           break;

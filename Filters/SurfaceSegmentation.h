@@ -6,13 +6,14 @@
 #include "Core/SurfaceEvolution.h"
 #include "Core/SurfaceOptions.h"
 #include "PyramidLevels.h"
+#include "SurfaceSnapshots.h"
 
 #include <vtkSmartPointer.h>
 
 #include <functional>
 #include <string>
 
-class vtkAlgorithm;
+class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkPolyData;
 class vtkTable;
@@ -31,7 +32,8 @@ struct SegmentationSettings
   int CoarsestLevel = -1;
   int FinestLevel = 0;
   int NumberOfThreads = 0;
-  bool Profile = false; ///< columns of the seconds of each phase in the history
+  bool Profile = false;                  ///< columns of the seconds of each phase in the history
+  int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
   vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
 
   /// Share of the work that is done and what is being done; false asks to stop.
@@ -46,9 +48,10 @@ struct SegmentationSettings
 class SurfaceSegmentation
 {
 public:
+  /// @param selection says which array holds the voxels (GetInputArrayInformation)
   /// @throws std::invalid_argument if the blocks are not a pyramid or a setting is out of range.
   SurfaceSegmentation(
-    vtkMultiBlockDataSet* blocks, vtkAlgorithm* algorithm, const SegmentationSettings& settings);
+    vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings);
   ~SurfaceSegmentation();
 
   /// @throws std::invalid_argument if settings and image do not fit.
@@ -57,6 +60,7 @@ public:
   vtkPolyData* Surface() const { return this->Finest; }
   vtkMultiBlockDataSet* Levels() const { return this->Blocks; }
   vtkTable* History() const { return this->Table; }
+  vtkMultiBlockDataSet* Snapshots() const { return this->Film.Blocks(); }
 
 private:
   void ChooseLevels();
@@ -73,6 +77,7 @@ private:
   vtkSmartPointer<vtkPolyData> Finest;
   vtkSmartPointer<vtkMultiBlockDataSet> Blocks;
   vtkSmartPointer<vtkTable> Table;
+  SurfaceSnapshots Film;
 };
 }
 

@@ -19,6 +19,15 @@ inline bool IsAbortRequested(vtkAlgorithm* algorithm)
   return algorithm->GetAbortExecute() != 0;
 #endif
 }
+
+/// Takes back a request to stop that came before this run: from VTK 9.2 on nobody else does.
+inline void ForgetAbort(vtkAlgorithm* algorithm)
+{
+  if (algorithm->GetAbortExecute())
+  {
+    algorithm->SetAbortExecute(0);
+  }
+}
 }
 
 #endif

@@ -3,8 +3,12 @@
 #ifndef WholeInput_h
 #define WholeInput_h
 
+#include <vtkExecutive.h>
 #include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <algorithm>
 
 namespace volumic
 {
@@ -22,6 +26,33 @@ inline void AskForWholeInput(vtkInformation* info)
   info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
   info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
   info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+/// Whether this is the first process of a parallel run, or the only one. It makes the whole
+/// output; the others have none, as they would only repeat it.
+inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
+{
+  const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+  return output->GetInformationObject(port)->Get(
+           vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) <= 0;
+}
+
+/// RequestUpdateExtent of a filter whose first process makes the whole output from all of its
+/// inputs.
+inline void AskForWholeInputs(
+  vtkInformation* request, vtkInformationVector** input, int ports, vtkInformationVector* output)
+{
+  if (!IsFirstProcess(request, output))
+  {
+    return;
+  }
+  for (int port = 0; port < ports; ++port)
+  {
+    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      AskForWholeInput(input[port]->GetInformationObject(i));
+    }
+  }
 }
 }
 

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
-#include "AlgorithmErrors.h"
+#include "BuildPyramid.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
 #include "vtkImagePyramid.h"
 
-#include <vtkAlgorithmOutput.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -21,10 +19,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -35,32 +31,6 @@ namespace
 {
 /// Share of the progress that the pyramid takes where it is built here.
 constexpr double PyramidShare = 0.02;
-
-/// The pyramid of an image, built with default settings. Its errors are thrown.
-vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImageData* image, vtkInformation* arrayToProcess, int numberOfThreads)
-{
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputData(image);
-  pyramid->SetInputArrayToProcess(0, arrayToProcess);
-  pyramid->SetNumberOfThreads(numberOfThreads);
-  const std::string errors = volumic::UpdateAndCollectErrors(pyramid);
-  if (!errors.empty())
-  {
-    throw std::invalid_argument(errors);
-  }
-  vtkSmartPointer<vtkMultiBlockDataSet> levels = pyramid->GetOutput();
-  return levels;
-}
-
-/// Whether this is the first process of a parallel run, or the only one. It makes the whole
-/// surface; the others have no output, as they would only repeat it.
-bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
-{
-  const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
-  return output->GetInformationObject(port)->Get(
-           vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) <= 0;
-}
 }
 
 //------------------------------------------------------------------------------
@@ -89,9 +59,10 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->SnapToIsoValue = defaults.SnapToIsoValue;
   this->NumberOfThreads = 0;
   this->Profile = false;
+  this->SnapshotInterval = 0;
 
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
@@ -116,7 +87,8 @@ int vtkDeformableSurface::FillInputPortInformation(int port, vtkInformation* inf
 
 int vtkDeformableSurface::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  const char* types[3] = { "vtkPolyData", "vtkMultiBlockDataSet", "vtkTable" };
+  const char* types[4] = { "vtkPolyData", "vtkMultiBlockDataSet", "vtkTable",
+    "vtkMultiBlockDataSet" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
@@ -142,44 +114,62 @@ vtkTable* vtkDeformableSurface::GetHistory()
   return vtkTable::SafeDownCast(this->GetOutputDataObject(2));
 }
 
+vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
+{
+  return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(3));
+}
+
 //------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  if (!IsFirstProcess(request, output))
-  {
-    return 1;
-  }
-  for (int port = 0; port < 2; ++port)
-  {
-    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      volumic::AskForWholeInput(input[port]->GetInformationObject(i));
-    }
-  }
+  volumic::AskForWholeInputs(request, input, 2, output);
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* input)
+{
+  Volume volume;
+  volume.IsoValue = this->IsoValue;
+  volume.Selection = this->GetInputArrayInformation(0);
+  volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
+  if (auto* image = vtkImageData::SafeDownCast(input))
+  {
+    vtkNew<vtkImagePyramid> pyramid;
+    pyramid->SetNumberOfThreads(this->NumberOfThreads);
+    volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection);
+  }
+  if (!volume.Levels)
+  {
+    throw std::invalid_argument("Input port 0: there is neither an image nor a pyramid.");
+  }
+  return volume;
 }
 
 //------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
   try
   {
+    // ParaView leaves the flag of an earlier run as it is.
+    volumic::ForgetAbort(this);
     vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    auto* image = vtkImageData::SafeDownCast(input);
-    vtkSmartPointer<vtkMultiBlockDataSet> levels = vtkMultiBlockDataSet::SafeDownCast(input);
-    if (!image && !levels)
+    const double before = vtkImageData::SafeDownCast(input) ? PyramidShare : 0.0;
+    if (before > 0.0)
     {
-      throw std::invalid_argument("Input port 0: there is neither an image nor a pyramid.");
+      this->SetProgressText("Building the pyramid");
+      this->UpdateProgress(0.0);
     }
+    const Volume volume = this->PrepareVolume(input);
 
     volumic::SegmentationSettings settings;
-    settings.Options.IsoValue = this->IsoValue;
+    settings.Options.IsoValue = volume.IsoValue;
     settings.Options.ObjectIsBright = this->ObjectIsBright;
     settings.Options.SeedRadius = this->SeedRadius; // still in world units
     settings.Options.SamplingRatio = this->SamplingRatio;
@@ -201,9 +191,9 @@ int vtkDeformableSurface::RequestData(
     settings.FinestLevel = this->FinestLevel;
     settings.NumberOfThreads = this->NumberOfThreads;
     settings.Profile = this->Profile;
+    settings.SnapshotInterval = this->SnapshotInterval;
     settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
 
-    const double before = image ? PyramidShare : 0.0;
     settings.Progress = [this, before](double share, const std::string& text)
     {
       this->SetProgressText(text.c_str());
@@ -211,18 +201,13 @@ int vtkDeformableSurface::RequestData(
       return !volumic::IsAbortRequested(this);
     };
     settings.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
-    if (image)
-    {
-      this->SetProgressText("Building the pyramid");
-      this->UpdateProgress(0.0);
-      levels = BuildPyramid(image, this->GetInputArrayInformation(0), this->NumberOfThreads);
-    }
 
-    volumic::SurfaceSegmentation segmentation(levels, this, settings);
+    volumic::SurfaceSegmentation segmentation(volume.Levels, volume.Selection, settings);
     segmentation.Run();
     vtkPolyData::GetData(outputVector, 0)->ShallowCopy(segmentation.Surface());
     vtkMultiBlockDataSet::GetData(outputVector, 1)->ShallowCopy(segmentation.Levels());
     vtkTable::GetData(outputVector, 2)->ShallowCopy(segmentation.History());
+    vtkMultiBlockDataSet::GetData(outputVector, 3)->ShallowCopy(segmentation.Snapshots());
   }
   catch (const std::bad_alloc&)
   {
@@ -264,4 +249,5 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SnapToIsoValue: " << this->SnapToIsoValue << endl;
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
   os << indent << "Profile: " << this->Profile << endl;
+  os << indent << "SnapshotInterval: " << this->SnapshotInterval << endl;
 }

@@ -30,6 +30,9 @@
  * Port 1, `Levels`: vtkMultiBlockDataSet, block h the surface that rested at level h, named
  * `Level h`; blocks of levels that were not visited are empty.
  * Port 2, `History`: vtkTable, a row per iteration.
+ * Port 3, `Snapshots`: vtkMultiBlockDataSet, with SnapshotInterval the surface on its way, a block
+ * per snapshot in the order in which they were taken, named `Level 3, iteration 20` (of that
+ * level).
  *
  * Point arrays of each surface: `Normals` (float, active), `Residual` (float, field minus IsoValue
  * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest). Cell array: `Component`
@@ -39,7 +42,8 @@
  * limit`, `cancelled`, `vanished`), `LostParts` and `RecoveredParts` (int, see Recovery) and, with
  * an entry per component, `ComponentArea`, `ComponentVolume` (negative for a cavity),
  * `ComponentGenus`, `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the
- * enclosed solid of density 1 about its centroid).
+ * enclosed solid of density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration`
+ * (int): the number of the last row that the history had then.
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
  * (mean over the vertices, along the normals, per unit of mass, in voxels of level 0 and units of
@@ -76,8 +80,10 @@
 
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // For the levels
 
 class vtkAlgorithmOutput;
+class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkTable;
 
@@ -288,6 +294,15 @@ public:
 
   ///@{
   /**
+   * Keep the surface at the start of each level and after every so many iterations, in output 3, to
+   * see it evolve; 0, the default: off. Each costs the memory of a whole surface.
+   */
+  vtkSetMacro(SnapshotInterval, int);
+  vtkGetMacro(SnapshotInterval, int);
+  ///@}
+
+  ///@{
+  /**
    * The initial surface or the centres of the seeds: port 1.
    */
   void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
@@ -296,10 +311,11 @@ public:
 
   ///@{
   /**
-   * Outputs 1 and 2.
+   * Outputs 1, 2 and 3.
    */
   vtkMultiBlockDataSet* GetLevels();
   vtkTable* GetHistory();
+  vtkMultiBlockDataSet* GetSnapshots();
   ///@}
 
 protected:
@@ -312,6 +328,16 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+  /// What the surface is searched in, and which value.
+  struct Volume
+  {
+    vtkSmartPointer<vtkMultiBlockDataSet> Levels;
+    vtkSmartPointer<vtkInformation> Selection; ///< of the array, as GetInputArrayInformation()
+    double IsoValue;
+  };
+  /// Makes the volume of the data of input port 0. Errors are thrown as std::invalid_argument.
+  virtual Volume PrepareVolume(vtkDataObject* input);
 
   double IsoValue;
   bool ObjectIsBright;
@@ -335,6 +361,7 @@ protected:
   bool SnapToIsoValue;
   int NumberOfThreads;
   bool Profile;
+  int SnapshotInterval;
 
 private:
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;

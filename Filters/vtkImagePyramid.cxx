@@ -318,7 +318,7 @@ int vtkImagePyramid::RequestData(
   }
   try
   {
-    vtkDataArray* voxels = volumic::ChooseVoxels(this, input);
+    vtkDataArray* voxels = volumic::ChooseVoxels(this->GetInputArrayInformation(0), input);
     volumic::PyramidOptions options;
     options.ReductionFactor = this->ReductionFactor;
     options.NumberOfLevels = this->NumberOfLevels;

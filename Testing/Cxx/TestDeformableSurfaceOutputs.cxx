@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 using namespace volumic;
 
@@ -177,4 +178,60 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
   const vtkIdType last = history->GetNumberOfRows() - 1;
   EXPECT_GT(history->GetValueByName(last, "DivisionSeconds").ToDouble(), 0.0)
     << "what follows the last iteration of a level";
+}
+
+TEST(DeformableSurfaceOutputs, HasNoSnapshotsUnlessAsked)
+{
+  const auto filter = SurfaceOf(BallImage(40, 40, 40));
+  EXPECT_EQ(filter->GetSnapshots()->GetNumberOfBlocks(), 0u);
+}
+
+TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)
+{
+  const auto plain = SurfaceOf(BallImage(40, 40, 40));
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  filter->SetSnapshotInterval(20);
+  filter->Update();
+  EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), plain->GetOutput()))
+    << "looking on does not disturb";
+
+  vtkMultiBlockDataSet* snapshots = filter->GetSnapshots();
+  std::vector<std::string> expected;
+  for (int level = 2; level >= 0; --level)
+  {
+    auto* rested = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+    for (int iteration = 0; iteration <= FieldOf(rested, "Iterations"); iteration += 20)
+    {
+      expected.push_back(
+        "Level " + std::to_string(level) + ", iteration " + std::to_string(iteration));
+    }
+  }
+  ASSERT_EQ(snapshots->GetNumberOfBlocks(), expected.size());
+  int last = -1;
+  for (unsigned int b = 0; b < expected.size(); ++b)
+  {
+    EXPECT_EQ(snapshots->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()), expected[b]);
+    auto* surface = vtkPolyData::SafeDownCast(snapshots->GetBlock(b));
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+    EXPECT_TRUE(surface->GetPointData()->GetNormals());
+    EXPECT_EQ(StopReason(surface), "");
+    const int iteration = static_cast<int>(FieldOf(surface, "Iteration"));
+    EXPECT_GE(iteration, last);
+    last = iteration;
+    if (FieldOf(surface, "Iterations") > 0)
+    {
+      EXPECT_EQ(filter->GetHistory()->GetValueByName(iteration - 1, "Vertices").ToInt(),
+        surface->GetNumberOfPoints());
+      EXPECT_EQ(filter->GetHistory()->GetValueByName(iteration - 1, "Level").ToInt(),
+        FieldOf(surface, "Level"));
+    }
+  }
+  // From the body about the image to the ball in it.
+  auto* first = vtkPolyData::SafeDownCast(snapshots->GetBlock(0));
+  auto* final = vtkPolyData::SafeDownCast(snapshots->GetBlock(expected.size() - 1));
+  EXPECT_GT(FieldOf(first, "Volume"), 2.0 * FieldOf(final, "Volume"));
+  EXPECT_NEAR(FieldOf(final, "Volume") / FieldOf(filter->GetOutput(), "Volume"), 1.0, 0.02);
 }

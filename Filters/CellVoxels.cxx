@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CellVoxels.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataObject.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+
+namespace volumic
+{
+namespace
+{
+/// The array of cells that is meant, if cells are.
+vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
+{
+  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
+    ? selection->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  if (name && *name)
+  {
+    const bool areCells = selection->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+      selection->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    return areCells ? image->GetCellData()->GetArray(name) : nullptr;
+  }
+  return image->GetPointData()->GetScalars() ? nullptr : image->GetCellData()->GetScalars();
+}
+}
+
+PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
+{
+  PointVoxels voxels;
+  vtkDataArray* cells = ChosenCells(image, selection);
+  if (!cells)
+  {
+    voxels.Image = image;
+    voxels.Selection = selection;
+    return voxels;
+  }
+  voxels.Image = vtkSmartPointer<vtkImageData>::New();
+  int extent[6];
+  double first[3];
+  double centre[3];
+  image->GetExtent(extent);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // An axis with one point has one cell.
+    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
+    first[axis] = image->GetDimensions()[axis] > 1 ? 0.5 : 0.0;
+  }
+  image->TransformContinuousIndexToPhysicalPoint(first, centre);
+  voxels.Image->SetExtent(extent);
+  voxels.Image->SetOrigin(centre);
+  voxels.Image->SetSpacing(image->GetSpacing());
+  voxels.Image->SetDirectionMatrix(image->GetDirectionMatrix());
+  voxels.Image->GetPointData()->SetScalars(cells);
+  voxels.Selection = vtkSmartPointer<vtkInformation>::New();
+  voxels.Selection->Set(
+    vtkDataObject::FIELD_ASSOCIATION(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
+  voxels.Selection->Set(vtkDataObject::FIELD_ATTRIBUTE_TYPE(), vtkDataSetAttributes::SCALARS);
+  return voxels;
+}
+}

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SurfaceSnapshots_h
+#define SurfaceSnapshots_h
+
+#include "Core/SurfaceEvolution.h"
+#include "Workspace.h"
+
+#include <vtkSmartPointer.h>
+
+class vtkMultiBlockDataSet;
+
+namespace volumic
+{
+/// Keeps the surface on its way: at the start of each level and after every so many iterations.
+class SurfaceSnapshots
+{
+public:
+  /// @param interval iterations from one to the next; 0: none is kept
+  /// @param space    must outlive the object
+  SurfaceSnapshots(int interval, const Workspace& space);
+  ~SurfaceSnapshots();
+
+  /**
+   * Adds a block if its turn has come and there is a surface.
+   * @param unit      U_h, world units
+   * @param iteration of this level, 0 at its start
+   */
+  void Offer(const SurfaceEvolution& evolution, int level, double unit, int iteration);
+
+  /// In the order in which they were taken, named `Level 3, iteration 20`.
+  vtkMultiBlockDataSet* Blocks() const { return this->Taken; }
+
+private:
+  int Interval;
+  const Workspace& Space;
+  vtkSmartPointer<vtkMultiBlockDataSet> Taken;
+};
+}
+
+#endif

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOtsuThreshold.h"
+
+#include "AlgorithmErrors.h"
+#include "CellVoxels.h"
+#include "Core/Refuse.h"
+#include "HostThreads.h"
+#include "ImageVoxels.h"
+#include "NotFiniteVoxels.h"
+#include "WholeInput.h"
+
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkImageHistogram.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
+#include <vtkTable.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkOtsuThreshold);
+
+namespace
+{
+constexpr int Bins = 1024;
+
+/// How many voxels each bin between the smallest and the largest voxel has.
+vtkSmartPointer<vtkIdTypeArray> Histogram(
+  vtkImageData* image, vtkDataArray* voxels, double smallest, double spacing)
+{
+  vtkNew<vtkImageData> scalars;
+  scalars->CopyStructure(image);
+  scalars->GetPointData()->SetScalars(voxels);
+  vtkNew<vtkImageHistogram> histogram;
+  histogram->SetInputData(scalars);
+  histogram->AutomaticBinningOff();
+  histogram->GenerateHistogramImageOff();
+  histogram->SetNumberOfBins(Bins);
+  // The centre of the first bin.
+  histogram->SetBinOrigin(smallest + 0.5 * spacing);
+  histogram->SetBinSpacing(spacing);
+  const std::string errors = volumic::UpdateAndCollectErrors(histogram);
+  if (!errors.empty())
+  {
+    volumic::Refuse(errors);
+  }
+  return histogram->GetHistogram();
+}
+
+/// The bins below the split with the largest variance between the classes.
+int BestSplit(vtkIdTypeArray* histogram)
+{
+  // Bins stand for the values, which follow from them by a scale that changes no maximum.
+  double all = 0.0;
+  double sum = 0.0;
+  for (int bin = 0; bin < Bins; ++bin)
+  {
+    all += histogram->GetValue(bin);
+    sum += static_cast<double>(histogram->GetValue(bin)) * bin;
+  }
+  std::vector<double> variance(Bins - 1, 0.0);
+  double low = 0.0;
+  double lowSum = 0.0;
+  for (int bin = 0; bin < Bins - 1; ++bin)
+  {
+    low += histogram->GetValue(bin) / all;
+    lowSum += histogram->GetValue(bin) * static_cast<double>(bin) / all;
+    const double difference = sum / all * low - lowSum;
+    variance[bin] = low > 0.0 && low < 1.0 ? difference * difference / (low * (1.0 - low)) : 0.0;
+  }
+  const double best = *std::max_element(variance.begin(), variance.end()) * (1.0 - 1e-12);
+  std::vector<int> splits;
+  for (int bin = 0; bin < Bins - 1; ++bin)
+  {
+    if (variance[bin] >= best)
+    {
+      splits.push_back(bin + 1);
+    }
+  }
+  return splits[splits.size() / 2];
+}
+
+/// The largest voxel up to a value, and the smallest one above that.
+template <typename T>
+void FindNeighbours(const T* voxels, vtkIdType count, double value, double neighbours[2])
+{
+  T below = std::numeric_limits<T>::lowest();
+  T above = std::numeric_limits<T>::max();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const T voxel = voxels[i];
+    if (static_cast<double>(voxel) <= value)
+    {
+      below = std::max(below, voxel);
+    }
+    else
+    {
+      above = std::min(above, voxel);
+    }
+  }
+  neighbours[0] = static_cast<double>(below);
+  neighbours[1] = static_cast<double>(above);
+}
+
+double OtsuThreshold(vtkImageData* image, vtkInformation* selection)
+{
+  vtkDataArray* chosen = volumic::ChooseVoxels(selection, image);
+  const vtkSmartPointer<vtkDataArray> voxels = volumic::ContiguousVoxels(chosen);
+  volumic::HostThreads threads(0);
+  const std::string notFinite = volumic::DescribeNotFiniteVoxels(chosen, voxels, image, threads);
+  if (!notFinite.empty())
+  {
+    volumic::Refuse(notFinite);
+  }
+  double range[2];
+  voxels->GetRange(range);
+  const double spacing = (range[1] - range[0]) / Bins;
+  if (!(spacing > 0.0) || !std::isfinite(spacing))
+  {
+    volumic::Refuse(volumic::NameOf(chosen), " ranges from ", range[0], " to ", range[1],
+      ": no value separates its voxels.");
+  }
+  const int split = BestSplit(Histogram(image, voxels, range[0], spacing));
+  const double value = range[0] + split * spacing;
+  double neighbours[2] = { range[0], range[1] };
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(FindNeighbours(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)),
+      voxels->GetNumberOfTuples(), value, neighbours));
+  }
+  const double middle = 0.5 * (neighbours[0] + neighbours[1]);
+  const bool areReal = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataType() == VTK_DOUBLE;
+  return areReal ? middle : std::floor(middle) + 0.5;
+}
+}
+
+//------------------------------------------------------------------------------
+vtkOtsuThreshold::vtkOtsuThreshold() : Threshold(vtkMath::Nan())
+{
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkOtsuThreshold::~vtkOtsuThreshold() = default;
+
+//------------------------------------------------------------------------------
+int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkOtsuThreshold::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  volumic::AskForWholeInputs(request, input, 1, output);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkOtsuThreshold::RequestData(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  this->Threshold = vtkMath::Nan();
+  if (!volumic::IsFirstProcess(request, output))
+  {
+    return 1;
+  }
+  try
+  {
+    const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
+      vtkImageData::GetData(input[0]), this->GetInputArrayInformation(0));
+    this->Threshold = OtsuThreshold(voxels.Image, voxels.Selection);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Input port 0: " << error.what());
+    return 0;
+  }
+  vtkNew<vtkDoubleArray> column;
+  column->SetName("Threshold");
+  column->InsertNextValue(this->Threshold);
+  vtkTable::GetData(output)->AddColumn(column);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkOtsuThreshold::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Threshold: " << this->Threshold << endl;
+}

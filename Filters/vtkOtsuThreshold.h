@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkOtsuThreshold
+ * @brief   an iso-value for an image about which nothing is known
+ *
+ * vtkOtsuThreshold finds the value that separates the voxels into two classes of the largest
+ * variance between them. It is a guess: in a CT it finds the skin rather than the bone.
+ *
+ * @par Input:
+ * A vtkImageData; the array chosen by SetInputArrayToProcess(), by default the active point
+ * scalars, or the active cell scalars where points have none: one component, numbers, finite.
+ *
+ * @par Output:
+ * A vtkTable with one row and the column `Threshold` (double), in the units of the voxels. No voxel
+ * has this value, so that a surface of that value passes between voxels: it lies in the middle of
+ * the largest voxel below and the smallest one above, or k + 1/2 for integers.
+ *
+ * @par Algorithm:
+ * The histogram of 1024 bins between the smallest and the largest voxel comes from
+ * vtkImageHistogram. Where several splits are as good, as in a gap between the classes, the middle
+ * one is taken.
+ *
+ * @par Errors:
+ * Voxels that are all equal, NaN or infinite, and images without such an array.
+ *
+ * @par Thanks:
+ * N. Otsu, "A threshold selection method from gray-level histograms", IEEE Trans. SMC 9, 1979.
+ *
+ * @sa
+ * vtkVolumeToSurface vtkImageHistogram
+ */
+#ifndef vtkOtsuThreshold_h
+#define vtkOtsuThreshold_h
+
+#include "vtkFiltersVolumicModule.h" // For export macro
+#include "vtkTableAlgorithm.h"
+
+class VTKFILTERSVOLUMIC_EXPORT vtkOtsuThreshold : public vtkTableAlgorithm
+{
+public:
+  static vtkOtsuThreshold* New();
+  vtkTypeMacro(vtkOtsuThreshold, vtkTableAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The threshold of the last update; NaN if there is none.
+   */
+  vtkGetMacro(Threshold, double);
+
+protected:
+  vtkOtsuThreshold();
+  ~vtkOtsuThreshold() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+  double Threshold;
+
+private:
+  vtkOtsuThreshold(const vtkOtsuThreshold&) = delete;
+  void operator=(const vtkOtsuThreshold&) = delete;
+};
+
+#endif

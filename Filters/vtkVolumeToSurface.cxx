@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkVolumeToSurface.h"
+
+#include "AlgorithmErrors.h"
+#include "BuildPyramid.h"
+#include "CellVoxels.h"
+#include "Core/Refuse.h"
+#include "vtkImagePyramid.h"
+#include "vtkOtsuThreshold.h"
+
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+
+#include <cmath>
+#include <string>
+
+vtkStandardNewMacro(vtkVolumeToSurface);
+
+//------------------------------------------------------------------------------
+vtkVolumeToSurface::vtkVolumeToSurface()
+{
+  vtkNew<vtkImagePyramid> defaults;
+  this->NumberOfLevels = defaults->GetNumberOfLevels();
+  this->MinimumLevelSize = defaults->GetMinimumLevelSize();
+  this->ReductionFactor = defaults->GetReductionFactor();
+}
+
+vtkVolumeToSurface::~vtkVolumeToSurface() = default;
+
+//------------------------------------------------------------------------------
+int vtkVolumeToSurface::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+    return 1;
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+//------------------------------------------------------------------------------
+vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* input)
+{
+  const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
+    vtkImageData::SafeDownCast(input), this->GetInputArrayInformation(0));
+  Volume volume;
+  volume.Selection = voxels.Selection;
+  volume.IsoValue = this->IsoValue;
+  if (std::isnan(volume.IsoValue))
+  {
+    vtkNew<vtkOtsuThreshold> otsu;
+    otsu->SetInputData(voxels.Image);
+    otsu->SetInputArrayToProcess(0, voxels.Selection);
+    const std::string errors = volumic::UpdateAndCollectErrors(otsu);
+    if (!errors.empty())
+    {
+      volumic::Refuse("IsoValue is not set, and can't be found: ", errors);
+    }
+    volume.IsoValue = otsu->GetThreshold();
+  }
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetNumberOfLevels(this->NumberOfLevels);
+  pyramid->SetMinimumLevelSize(this->MinimumLevelSize);
+  pyramid->SetReductionFactor(this->ReductionFactor);
+  pyramid->SetNumberOfThreads(this->NumberOfThreads);
+  volume.Levels = volumic::BuildPyramid(pyramid, voxels.Image, voxels.Selection);
+  return volume;
+}
+
+//------------------------------------------------------------------------------
+void vtkVolumeToSurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfLevels: " << this->NumberOfLevels << endl;
+  os << indent << "MinimumLevelSize: " << this->MinimumLevelSize << endl;
+  os << indent << "ReductionFactor: " << this->ReductionFactor << endl;
+}

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkVolumeToSurface
+ * @brief   the surface of an object in an image, in one step
+ *
+ * vtkVolumeToSurface is vtkDeformableSurface for an image at hand: it makes the pyramid itself, and
+ * without an IsoValue it takes vtkOtsuThreshold's.
+ *
+ * @par Input:
+ * Port 0: a vtkImageData, as vtkDeformableSurface says; an array of cells serves too (their centres
+ * are the voxels), and is taken where points have no active scalars. Port 1: as there.
+ *
+ * @par Output:
+ * As vtkDeformableSurface.
+ *
+ * @sa
+ * vtkDeformableSurface vtkImagePyramid vtkOtsuThreshold
+ */
+#ifndef vtkVolumeToSurface_h
+#define vtkVolumeToSurface_h
+
+#include "vtkDeformableSurface.h"
+#include "vtkFiltersVolumicModule.h" // For export macro
+
+class VTKFILTERSVOLUMIC_EXPORT vtkVolumeToSurface : public vtkDeformableSurface
+{
+public:
+  static vtkVolumeToSurface* New();
+  vtkTypeMacro(vtkVolumeToSurface, vtkDeformableSurface);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The pyramid: see vtkImagePyramid. 0 levels, the default: as many as MinimumLevelSize allows.
+   */
+  vtkSetMacro(NumberOfLevels, int);
+  vtkGetMacro(NumberOfLevels, int);
+  vtkSetMacro(MinimumLevelSize, int);
+  vtkGetMacro(MinimumLevelSize, int);
+  vtkSetMacro(ReductionFactor, double);
+  vtkGetMacro(ReductionFactor, double);
+  ///@}
+
+protected:
+  vtkVolumeToSurface();
+  ~vtkVolumeToSurface() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  Volume PrepareVolume(vtkDataObject* input) override;
+
+  int NumberOfLevels;
+  int MinimumLevelSize;
+  double ReductionFactor;
+
+private:
+  vtkVolumeToSurface(const vtkVolumeToSurface&) = delete;
+  void operator=(const vtkVolumeToSurface&) = delete;
+};
+
+#endif

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+#include "vtkImagePyramid.h"
+#include "vtkOtsuThreshold.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/// A row of voxels with these values.
+template <typename Array, typename Value>
+vtkSmartPointer<vtkImageData> RowOf(const std::vector<Value>& values)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(static_cast<int>(values.size()), 1, 1);
+  vtkNew<Array> voxels;
+  voxels->SetName("Voxels");
+  for (const Value value : values)
+  {
+    voxels->InsertNextValue(value);
+  }
+  image->GetPointData()->SetScalars(voxels);
+  return image;
+}
+
+double ThresholdOf(vtkImageData* image)
+{
+  vtkNew<vtkOtsuThreshold> otsu;
+  otsu->SetInputData(image);
+  otsu->Update();
+  if (otsu->GetOutput()->GetNumberOfRows() == 1)
+  {
+    EXPECT_EQ(otsu->GetOutput()->GetValueByName(0, "Threshold").ToDouble(), otsu->GetThreshold());
+  }
+  return otsu->GetThreshold();
+}
+
+/// The image with its voxels as cells: the same values at the same places.
+vtkSmartPointer<vtkImageData> AsCells(vtkImageData* image)
+{
+  auto cells = vtkSmartPointer<vtkImageData>::New();
+  int extent[6];
+  image->GetExtent(extent);
+  const double corner[3] = { -0.5, -0.5, -0.5 };
+  double origin[3];
+  image->TransformContinuousIndexToPhysicalPoint(corner, origin);
+  cells->SetExtent(extent[0], extent[1] + 1, extent[2], extent[3] + 1, extent[4], extent[5] + 1);
+  cells->SetOrigin(origin);
+  cells->SetSpacing(image->GetSpacing());
+  cells->SetDirectionMatrix(image->GetDirectionMatrix());
+  cells->GetCellData()->SetScalars(image->GetPointData()->GetScalars());
+  return cells;
+}
+}
+
+TEST(OtsuThreshold, LiesBetweenTheClassesAndOnNoVoxel)
+{
+  EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ 1, 2, 3, 11, 12, 13 })), 7.0);
+  EXPECT_EQ(ThresholdOf(RowOf<vtkIntArray>(std::vector<int>{ 0, 0, 1, 90, 91, 100 })), 45.5);
+  EXPECT_EQ(ThresholdOf(RowOf<vtkIntArray>(std::vector<int>{ -5, -4 })), -4.5);
+  // Of three groups the nearest two are one class.
+  EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ 0, 0, 10, 10, 60, 60 })), 35.0);
+}
+
+TEST(OtsuThreshold, IsTheSplitOfTheLargestVariance)
+{
+  const auto image = RandomImage(8, 9, 10);
+  const double threshold = ThresholdOf(image);
+  vtkDataArray* voxels = Voxels(image);
+  const auto variance = [&](double value)
+  {
+    double count[2] = { 0, 0 };
+    double sum[2] = { 0, 0 };
+    for (vtkIdType i = 0; i < voxels->GetNumberOfTuples(); ++i)
+    {
+      const double voxel = voxels->GetComponent(i, 0);
+      count[voxel > value] += 1;
+      sum[voxel > value] += voxel;
+    }
+    const double difference = sum[0] / count[0] - sum[1] / count[1];
+    return count[0] * count[1] * difference * difference;
+  };
+  double best = 0;
+  for (int percent = 1; percent < 100; ++percent)
+  {
+    best = std::max(best, variance(percent));
+  }
+  EXPECT_GT(variance(threshold), 0.999 * best);
+}
+
+TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<double>& values : { std::vector<double>{ 3, 3, 3 }, { 1, nan, 2 } })
+  {
+    vtkNew<vtkOtsuThreshold> otsu;
+    otsu->SetInputData(RowOf<vtkDoubleArray>(values));
+    const MessagesOf errors(otsu);
+    otsu->Update();
+    EXPECT_TRUE(errors.Has("array 'Voxels'")) << errors.Get();
+    EXPECT_TRUE(std::isnan(otsu->GetThreshold()));
+  }
+}
+
+TEST(VolumeToSurface, FindsAnObjectWithoutAnyChoice)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->Update();
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
+  EXPECT_EQ(StopReason(filter->GetOutput()), "converged");
+}
+
+TEST(VolumeToSurface, GivesWhatTheTwoFiltersGive)
+{
+  const auto image = BallImage(40, 40, 40);
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(image);
+  filter->SetIsoValue(50.0);
+  filter->SetNumberOfLevels(2);
+  filter->SetReductionFactor(1.5);
+  filter->Update();
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(image);
+  pyramid->SetNumberOfLevels(2);
+  pyramid->SetReductionFactor(1.5);
+  pyramid->Update();
+  EXPECT_EQ(filter->GetLevels()->GetNumberOfBlocks(), 2u);
+  EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), SurfaceOf(pyramid->GetOutput())->GetOutput()));
+}
+
+TEST(VolumeToSurface, TakesTheCentresOfCellsAsVoxels)
+{
+  const auto image = BallImage(40, 40, 40);
+  image->SetOrigin(3, -2, 100);
+  image->SetSpacing(0.5, 0.5, 0.5);
+  image->SetExtent(-7, 32, 4, 43, 0, 39);
+  vtkNew<vtkVolumeToSurface> ofPoints;
+  ofPoints->SetInputData(image);
+  ofPoints->Update();
+  const auto cells = AsCells(image);
+  vtkNew<vtkVolumeToSurface> ofCells;
+  ofCells->SetInputData(cells);
+  ofCells->Update();
+  ASSERT_GT(ofCells->GetOutput()->GetNumberOfPoints(), 100);
+  EXPECT_TRUE(AreSameSurfaces(ofCells->GetOutput(), ofPoints->GetOutput()));
+
+  // Also beside points, if chosen.
+  vtkNew<vtkDoubleArray> other;
+  other->SetName("Other");
+  other->SetNumberOfTuples(cells->GetNumberOfPoints());
+  other->Fill(1.0);
+  cells->GetPointData()->SetScalars(other);
+  ofCells->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Voxels");
+  ofCells->Update();
+  EXPECT_TRUE(AreSameSurfaces(ofCells->GetOutput(), ofPoints->GetOutput()));
+}
+
+TEST(VolumeToSurface, SaysWhyThereIsNoIsoValue)
+{
+  const auto image = BallImage(20, 20, 20);
+  Voxels(image)->Fill(4.0);
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(image);
+  const MessagesOf errors(filter);
+  filter->Update();
+  EXPECT_TRUE(errors.Has("IsoValue is not set, and can't be found")) << errors.Get();
+  EXPECT_TRUE(errors.Has("ranges from 4 to 4")) << errors.Get();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(VolumeToSurface, PrintsItsProperties)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  std::ostringstream text;
+  filter->Print(text);
+  for (const char* property :
+    { "IsoValue: nan", "NumberOfLevels: 0", "MinimumLevelSize: 10", "ReductionFactor: 1.73205" })
+  {
+    EXPECT_NE(text.str().find(property), std::string::npos) << property;
+  }
+}
