@@ -10,6 +10,12 @@ option(VOLUMIC_BUILD_TESTING "Build the tests" OFF)
 option(VOLUMIC_BUILD_EXAMPLES "Build the C++ examples" OFF)
 option(VOLUMIC_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 
+set(volumic_builds_with_vtk ON)
+if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+  set(volumic_builds_with_vtk OFF)
+endif ()
+option(VOLUMIC_BUILD_TOOL "Build and install the program `volumic`" "${volumic_builds_with_vtk}")
+
 # Debian's VTK works with Debian's interpreter only, which need not be the first on PATH:
 # -DPython3_EXECUTABLE=/usr/bin/python3 chooses it.
 find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
@@ -36,7 +42,7 @@ set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}"
 # What is wanted of VTK: the module's own dependencies, and the wrapper's. Tests, examples and
 # benchmarks ask for more themselves.
 set(volumic_vtk_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMath FiltersCore ImagingStatistics)
+  CommonCore CommonDataModel CommonExecutionModel CommonMath FiltersCore)
 if (VOLUMIC_WRAP_PYTHON)
   list(APPEND volumic_vtk_components Python WrappingPythonCore)
 endif ()

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOtsuThreshold.h"
 
-#include "AlgorithmErrors.h"
 #include "CellVoxels.h"
 #include "Core/Refuse.h"
 #include "HostThreads.h"
@@ -13,20 +12,20 @@
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
-#include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
-#include <vtkImageHistogram.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
+#include <functional>
 #include <limits>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -36,47 +35,47 @@ namespace
 {
 constexpr int Bins = 1024;
 
+using Counts = std::vector<vtkIdType>;
+
 /// How many voxels each bin between the smallest and the largest voxel has.
-vtkSmartPointer<vtkIdTypeArray> Histogram(
-  vtkImageData* image, vtkDataArray* voxels, double smallest, double spacing)
+template <typename T>
+void CountVoxels(
+  const T* voxels, vtkIdType count, const double range[2], volumic::Executor& threads, Counts& all)
 {
-  vtkNew<vtkImageData> scalars;
-  scalars->CopyStructure(image);
-  scalars->GetPointData()->SetScalars(voxels);
-  vtkNew<vtkImageHistogram> histogram;
-  histogram->SetInputData(scalars);
-  histogram->AutomaticBinningOff();
-  histogram->GenerateHistogramImageOff();
-  histogram->SetNumberOfBins(Bins);
-  // The centre of the first bin.
-  histogram->SetBinOrigin(smallest + 0.5 * spacing);
-  histogram->SetBinSpacing(spacing);
-  const std::string errors = volumic::UpdateAndCollectErrors(histogram);
-  if (!errors.empty())
-  {
-    volumic::Refuse(errors);
-  }
-  return histogram->GetHistogram();
+  const double scale = Bins / (range[1] - range[0]);
+  std::mutex mutex;
+  threads.For(static_cast<std::size_t>(count), 1 << 18,
+    [&](std::size_t begin, std::size_t end)
+    {
+      Counts counts(Bins, 0);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
+        ++counts[std::min(Bins - 1, static_cast<int>(place))];
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      std::transform(all.begin(), all.end(), counts.begin(), all.begin(), std::plus<>());
+    });
 }
 
 /// The bins below the split with the largest variance between the classes.
-int BestSplit(vtkIdTypeArray* histogram)
+int BestSplit(const Counts& counts)
 {
   // Bins stand for the values, which follow from them by a scale that changes no maximum.
   double all = 0.0;
   double sum = 0.0;
   for (int bin = 0; bin < Bins; ++bin)
   {
-    all += histogram->GetValue(bin);
-    sum += static_cast<double>(histogram->GetValue(bin)) * bin;
+    all += static_cast<double>(counts[bin]);
+    sum += static_cast<double>(counts[bin]) * bin;
   }
   std::vector<double> variance(Bins - 1, 0.0);
   double low = 0.0;
   double lowSum = 0.0;
   for (int bin = 0; bin < Bins - 1; ++bin)
   {
-    low += histogram->GetValue(bin) / all;
-    lowSum += histogram->GetValue(bin) * static_cast<double>(bin) / all;
+    low += static_cast<double>(counts[bin]) / all;
+    lowSum += static_cast<double>(counts[bin]) * bin / all;
     const double difference = sum / all * low - lowSum;
     variance[bin] = low > 0.0 && low < 1.0 ? difference * difference / (low * (1.0 - low)) : 0.0;
   }
@@ -126,14 +125,23 @@ double OtsuThreshold(vtkImageData* image, vtkInformation* selection)
   }
   double range[2];
   voxels->GetRange(range);
-  const double spacing = (range[1] - range[0]) / Bins;
-  if (!(spacing > 0.0) || !std::isfinite(spacing))
+  const double size = range[1] - range[0];
+  if (!(size > 0.0) || !std::isfinite(size))
   {
     volumic::Refuse(volumic::NameOf(chosen), " ranges from ", range[0], " to ", range[1],
       ": no value separates its voxels.");
   }
-  const int split = BestSplit(Histogram(image, voxels, range[0], spacing));
-  const double value = range[0] + split * spacing;
+  Counts counts(Bins, 0);
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(threads.Run(
+      [&]
+      {
+        CountVoxels(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)),
+          voxels->GetNumberOfTuples(), range, threads, counts);
+      }));
+  }
+  const double value = range[0] + BestSplit(counts) * size / Bins;
   double neighbours[2] = { range[0], range[1] };
   switch (voxels->GetDataType())
   {

@@ -17,9 +17,9 @@
  * the largest voxel below and the smallest one above, or k + 1/2 for integers.
  *
  * @par Algorithm:
- * The histogram of 1024 bins between the smallest and the largest voxel comes from
- * vtkImageHistogram. Where several splits are as good, as in a gap between the classes, the middle
- * one is taken.
+ * A histogram of 1024 bins between the smallest and the largest voxel is split. Where several
+ * splits are as good, as in a gap between the classes, the middle one is taken. (VTK has no such
+ * filter, and ParaView none of VTK's histograms.)
  *
  * @par Errors:
  * Voxels that are all equal, NaN or infinite, and images without such an array.
@@ -28,7 +28,7 @@
  * N. Otsu, "A threshold selection method from gray-level histograms", IEEE Trans. SMC 9, 1979.
  *
  * @sa
- * vtkVolumeToSurface vtkImageHistogram
+ * vtkVolumeToSurface
  */
 #ifndef vtkOtsuThreshold_h
 #define vtkOtsuThreshold_h
