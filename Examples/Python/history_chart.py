@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of an evolution: the four curves of the paper's figure 5, a colour for each level.
+"""The picture of an evolution: the four curves of the paper's figure 5, a colour for each level, and
+those of a second evolution, such as one without the pyramid, dashed beside them.
 
 Lachaud and Montanvert, "Volumic Segmentation using Hierarchical Representation and Triangulated
 Surface", ECCV 1996.
@@ -12,6 +13,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartMatrix, vtkChartXY
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkTable, vtkVector2f, vtkVector2i
+from vtkmodules.vtkRenderingContext2D import vtkPen
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
@@ -27,14 +29,18 @@ CURVES = (
 # From the coarsest level to the finest.
 COLORS = ((102, 194, 245), (250, 176, 77), (122, 214, 134), (238, 120, 130), (190, 150, 240),
           (232, 222, 100), (150, 210, 205), (240, 150, 210))
+OTHER_COLOR = (150, 156, 165)
 
 
-def history_chart(history, size=(1480, 900), scale=render.OVERSAMPLING):
-    """Picture, an array of pixels as in render.py, of a vtkTable with a row per iteration."""
-    columns = {name: vtk_to_numpy(history.GetColumnByName(name)).astype(float)
-               for name in ("Level",) + tuple(curve[0] for curve in CURVES)}
+def history_chart(history, other=None, size=(1480, 900), scale=render.OVERSAMPLING):
+    """Picture, an array of pixels as in render.py, of a vtkTable with a row per iteration.
+
+    other: the name and the table of the second evolution.
+    """
+    columns = columns_of(history)
     levels = columns["Level"].astype(int)
     order = list(dict.fromkeys(levels))  # as they were visited
+    beside = columns_of(other[1]) if other else {name: np.zeros(0) for name in columns}
 
     matrix = vtkChartMatrix()
     matrix.SetSize(vtkVector2i(2, 2))
@@ -43,14 +49,17 @@ def history_chart(history, size=(1480, 900), scale=render.OVERSAMPLING):
     for number, (name, title, factor, logarithmic) in enumerate(CURVES):
         chart = vtkChartXY()
         matrix.SetChart(vtkVector2i(number % 2, 1 - number // 2), chart)
+        if len(beside[name]):
+            add_other(chart, beside[name] * factor, scale)
         fill_chart(chart, columns[name] * factor, levels, order, scale)
         logarithmic = logarithmic and (columns[name] > 0).any()
         style_chart(chart, title, scale)
-        fix_axis(chart.GetAxis(vtkAxis.BOTTOM), len(levels))
+        fix_axis(chart.GetAxis(vtkAxis.BOTTOM), max(len(levels), len(beside[name])))
         if logarithmic:
             chart.GetAxis(vtkAxis.LEFT).LogScaleOn()
         else:
-            fix_axis(chart.GetAxis(vtkAxis.LEFT), (columns[name] * factor).max())
+            largest = np.concatenate([columns[name], beside[name]]).max()
+            fix_axis(chart.GetAxis(vtkAxis.LEFT), largest * factor)
 
     view = vtkContextView()
     view.GetRenderer().SetBackground(render.BACKGROUND)
@@ -67,7 +76,13 @@ def history_chart(history, size=(1480, 900), scale=render.OVERSAMPLING):
     grab.Update()
     pixels = render.pixels_of(grab.GetOutput())
     pixels = pixels.reshape(size[1], scale, size[0], scale, 3).mean(axis=(1, 3)).astype(np.uint8)
-    return np.concatenate([legend(order, levels, size[0]), pixels])
+    return np.concatenate([legend(order, levels, other, size[0]), pixels])
+
+
+def columns_of(history):
+    """The columns that are drawn, as arrays of floats."""
+    return {name: vtk_to_numpy(history.GetColumnByName(name)).astype(float)
+            for name in ("Level",) + tuple(curve[0] for curve in CURVES)}
 
 
 def fill_chart(chart, values, levels, order, scale):
@@ -76,15 +91,28 @@ def fill_chart(chart, values, levels, order, scale):
         rows = np.flatnonzero(levels == level)
         if rows[0] > 0:
             rows = np.concatenate([[rows[0] - 1], rows])
-        table = vtkTable()
-        for name, data in (("Iteration", rows + 1.0), (f"Level {level}", values[rows])):
-            column = numpy_to_vtk(data, deep=True)
-            column.SetName(name)
-            table.AddColumn(column)
-        line = chart.AddPlot(vtkChart.LINE)
-        line.SetInputData(table, 0, 1)
+        line = add_line(chart, rows + 1.0, values[rows], f"Level {level}")
         line.SetColor(*COLORS[number % len(COLORS)], 255)
         line.SetWidth(2.0 * scale)
+
+
+def add_other(chart, values, scale):
+    """The dashed line of the other evolution, behind the rest."""
+    line = add_line(chart, np.arange(1.0, len(values) + 1), values, "Other")
+    line.SetColor(*OTHER_COLOR, 255)
+    line.SetWidth(1.5 * scale)
+    line.GetPen().SetLineType(vtkPen.DASH_LINE)
+
+
+def add_line(chart, iterations, values, title):
+    table = vtkTable()
+    for name, data in (("Iteration", iterations), (title, values)):
+        column = numpy_to_vtk(data, deep=True)
+        column.SetName(name)
+        table.AddColumn(column)
+    line = chart.AddPlot(vtkChart.LINE)
+    line.SetInputData(table, 0, 1)
+    return line
 
 
 def style_chart(chart, title, scale):
@@ -118,12 +146,14 @@ def fix_axis(axis, largest):
     axis.SetCustomTickPositions(numpy_to_vtk(ticks, deep=True), labels)
 
 
-def legend(order, levels, width, size=18):
-    """Strip that names the levels in their colours and tells their iterations."""
-    step = width // max(len(order), 1)
-    entries = [(step // 2 + number * step,
-                f"Level {level}: {int((levels == level).sum())} iterations", True,
-                tuple(c / 255 for c in COLORS[number % len(COLORS)]))
-               for number, level in enumerate(order)]
+def legend(order, levels, other, width, size=18):
+    """Strip that names the lines in their colours and tells their iterations."""
+    names = [(f"Level {level}: {int((levels == level).sum())} iterations",
+              COLORS[number % len(COLORS)]) for number, level in enumerate(order)]
+    if other:
+        names.append((f"{other[0]}: {other[1].GetNumberOfRows()}", OTHER_COLOR))
+    step = width // max(len(names), 1)
+    entries = [(step // 2 + number * step, name, True, tuple(c / 255 for c in color))
+               for number, (name, color) in enumerate(names)]
     strip = render.line_strip(entries, width, size, centred=True)
     return np.concatenate([render.blank(14, width), strip])

@@ -57,7 +57,7 @@ def middle_slice(image, frame, look_from, up, window, size, bounds):
     return render.draw([actor], size, frame, look_from, up, bounds, shaded=False)
 
 
-def pyramid_picture(pyramid, iso, title):
+def pyramid_picture(pyramid, iso, title, width=PANEL_WIDTH):
     """Array of pixels; see render.py. A row for each kind of slice and one of iso-surfaces."""
     levels = pyramid_levels(pyramid)[::-1]
     finest = levels[-1]
@@ -65,14 +65,14 @@ def pyramid_picture(pyramid, iso, title):
     bounds = index_bounds(finest)
     rows = []
     for _, _, look_from, up in SLICES:
-        size = PANEL_WIDTH, render.fitting_height(PANEL_WIDTH, frame, look_from, up, bounds)
+        size = width, render.fitting_height(width, frame, look_from, up, bounds)
         rows.append([middle_slice(image, frame, look_from, up, window, size, bounds)
                      for image in levels])
 
     surfaces = [iso_surface(image, iso) for image in levels]
     frame = render.world_frame(finest)
     box = surfaces[-1].GetBounds() if surfaces[-1].GetNumberOfPoints() else world_bounds(finest)
-    size = PANEL_WIDTH, render.fitting_height(PANEL_WIDTH, frame, *THREE_QUARTERS, box)
+    size = width, render.fitting_height(width, frame, *THREE_QUARTERS, box)
     rows.append([render.draw([render.surface_actor(surface)], size, frame, *THREE_QUARTERS, box,
                              zoom=1.05) for surface in surfaces])
 

@@ -47,16 +47,22 @@ def visited_levels(levels):
 def levels_picture(levels, frame, title):
     """A row with the surface of every visited level from one camera; see render.py for frames."""
     surfaces = visited_levels(levels)
-    bounds = surfaces[-1][1].GetBounds()
-    height = render.fitting_height(LEVEL_WIDTH, frame, *THREE_QUARTERS, bounds)
+    row, captions = surface_row([(f"Level {number}", surface) for number, surface in surfaces],
+                                frame, surfaces[-1][1].GetBounds())
+    return render.compose([row], [captions], title)
+
+
+def surface_row(surfaces, frame, bounds, width=LEVEL_WIDTH):
+    """Panels and captions, for render.compose, of (name, surface) from one camera."""
+    height = render.fitting_height(width, frame, *THREE_QUARTERS, bounds)
     row, captions = [], []
-    for number, surface in surfaces:
-        row.append(render.draw([render.surface_actor(surface)], (LEVEL_WIDTH, height), frame,
+    for name, surface in surfaces:
+        row.append(render.draw([render.surface_actor(surface)], (width, height), frame,
                                *THREE_QUARTERS, bounds, zoom=1.1))
-        captions.append((f"Level {number}", f"{surface.GetNumberOfPoints():,} vertices",
+        captions.append((name, f"{surface.GetNumberOfPoints():,} vertices",
                          f"{plural(field_value(surface, 'NumberOfComponents'), 'component')},"
                          f" genus {field_value(surface, 'Genus'):.0f}"))
-    return render.compose([row], [captions], title)
+    return row, captions
 
 
 def views_picture(surface, image, iso, title):

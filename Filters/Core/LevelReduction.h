@@ -24,9 +24,10 @@ using LevelProgress = std::function<bool(double share)>;
  * x fastest. An output voxel is always made by the same operations in the same order, so that the
  * result does not depend on the executor.
  *
- * @param input     voxels of level h, input.Size of them
- * @param unit      U_h, offset of the kernel in the unit of length of the spacings
- * @param output    room for the voxels of level h+1
+ * @param input          voxels of level h
+ * @param inputGeometry  of level h; its Unit, U_h, is the offset of the kernel
+ * @param output         room for the voxels of level h+1
+ * @param outputGeometry of level h+1
  * @return false if `progress` asked to stop before the end; the output is unfinished then.
  */
 template <typename T>

@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes the pictures of data in README.md and Documentation/, all with one command:
+
+    xvfb-run -a /usr/bin/python3 Examples/Python/figures.py --vessels aneurism.vti 100.5
+
+    pyramid    slices and iso-surfaces of the images of all levels           Cranium.inv3
+    levels     the surface at the end of each level                          Cranium.inv3
+    views      the finest surface from outside, and cut open                 Cranium.inv3
+    triangles  its triangles, and its contour on slices                      Cranium.inv3
+    history    the curves of the paper's figure 5, with and without pyramid  Cranium.inv3
+    evolution  the paper's figures 3 and 4                                   Cranium.inv3
+    vessels    the paper's figure 6, with recovery and without               --vessels
+
+Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any scan
+of vessels, brighter than their surroundings, and its iso-value; without it that picture is left as
+it is. Each picture is less than 300 kB.
+"""
+
+import argparse
+import functools
+import os
+import sys
+
+import numpy as np
+
+import render
+from history_chart import history_chart
+from pipeline import (
+    SKULL, SKULL_ISO, build_pyramid, load_volume, prepare_surface, run_surface)
+from pyramid_picture import grey_window, index_bounds, pyramid_picture
+from read_volume import VolumeError
+from surface_pictures import (
+    close_view, common_height, cut_open, main_component, slice_with_contour, surface_row,
+    to_index_space, visited_levels)
+from terminal import FilterError, Interrupted
+
+ROW_WIDTH = 1240  # pixels of a whole picture, about as wide as a page of a repository is shown
+GAP = 10  # between panels, that of render.compose
+LARGEST = 300000  # bytes of a picture
+GREY_STEP = 5  # colours are rounded to multiples: half the size, and hardly visible
+SNAPSHOTS = (0, 50, 100, 200)  # iterations that are shown, and the surface at rest
+
+
+class Scan:
+    """A volume, its pyramid and the runs on it, each made when it is first asked for."""
+
+    def __init__(self, path, iso):
+        self.path, self.iso = path, iso
+
+    @functools.cached_property
+    def image(self):
+        return load_volume(self.path, self.iso)[0]
+
+    @functools.cached_property
+    def pyramid(self):
+        return build_pyramid(self.image)[0]
+
+    @functools.cached_property
+    def frame(self):
+        return render.world_frame(self.image)
+
+    @functools.cache
+    def run(self, **properties):
+        """The filter after its run, with the properties that differ from their defaults."""
+        print(f"  {', '.join(f'{n} {v}' for n, v in properties.items()) or 'default properties'}")
+        surface = prepare_surface(self.pyramid, self.iso, properties)
+        run_surface(surface)
+        return surface
+
+    def coarsest(self):
+        """The coarsest level where a voxel is above the iso-value."""
+        levels = self.pyramid.GetOutput()
+        return max(h for h in range(levels.GetNumberOfBlocks())
+                   if levels.GetBlock(h).GetScalarRange()[1] > self.iso)
+
+
+def panel_width(columns):
+    return (ROW_WIDTH - GAP) // columns - GAP
+
+
+def pyramid(skull):
+    levels = skull.pyramid.GetOutput()
+    return pyramid_picture(levels, skull.iso, "Pyramid of a skull CT",
+                           panel_width(levels.GetNumberOfBlocks()))
+
+
+def level_row(surface, frame, columns, bounds):
+    """Panels and captions of the surfaces of the visited levels."""
+    surfaces = [(f"Level {number}", block) for number, block in visited_levels(surface.GetLevels())]
+    return surface_row(surfaces, frame, bounds, panel_width(columns))
+
+
+def levels(skull):
+    surface = skull.run()
+    row, captions = level_row(surface, skull.frame, len(visited_levels(surface.GetLevels())),
+                              surface.GetOutput().GetBounds())
+    return render.compose([row], [captions])
+
+
+def views(skull):
+    shown, _ = main_component(skull.run().GetOutput())
+    bounds, frame = shown.GetBounds(), skull.frame
+    centre = np.reshape(bounds, (3, 2)).mean(axis=1)
+    width = panel_width(4)
+    size = width, common_height(frame, (("L", "S"), ("I", "A")), bounds, width)
+    row = [render.draw([render.surface_actor(shown)], size, frame, *view, bounds)
+           for view in (("L", "S"), ("I", "A"))]
+    row += [render.draw([cut_open(shown, centre, -frame.vector(view[0]))], size, frame, *view, bounds)
+            for view in (("L", "S"), ("S", "A"))]
+    names = ("From the side", "From below", "Cut open, from the side", "Cut open, from above")
+    return render.compose([row], [[(name,) for name in names]])
+
+
+def triangles(skull):
+    surface, image = skull.run().GetOutput(), skull.image
+    frame, bounds = render.index_frame(image), index_bounds(image)
+    width = panel_width(3)
+    size = width, render.fitting_height(width, frame, "L", "S", bounds)
+    flat, window = to_index_space(surface, image), grey_window(image, skull.iso)
+    row = [close_view(main_component(surface)[0], skull.frame, size)]
+    row += [slice_with_contour(flat, image, frame, view, window, size, bounds)
+            for view in (("A", "S"), ("L", "S"))]
+    names = ("The triangles of level 0", "Its surface on a coronal slice", "and on a sagittal slice")
+    return render.compose([row], [[(name,) for name in names]])
+
+
+def without_pyramid(skull):
+    """The run on the image alone, with snapshots on its way."""
+    return skull.run(CoarsestLevel=0, SnapshotInterval=50)
+
+
+def history(skull):
+    return history_chart(skull.run().GetHistory(),
+                         ("Without the pyramid", without_pyramid(skull).GetHistory()))
+
+
+def evolution(skull):
+    direct = without_pyramid(skull)
+    films = direct.GetSnapshots()
+    taken = {field(films.GetBlock(b), "Iterations"): films.GetBlock(b)
+             for b in range(films.GetNumberOfBlocks())}
+    stages = [(f"Iteration {n}", taken[n]) for n in SNAPSHOTS if n in taken]
+    stages.append((f"At rest, after {field(direct.GetOutput(), 'Iterations')}", direct.GetOutput()))
+    surface = skull.run()
+    columns = max(len(stages), len(visited_levels(surface.GetLevels())))
+    rows, captions = zip(
+        surface_row(stages, skull.frame, stages[0][1].GetBounds(), panel_width(columns)),
+        level_row(surface, skull.frame, columns, surface.GetOutput().GetBounds()))
+    return render.compose(rows, captions, None, ["Without the pyramid", "With the pyramid"])
+
+
+def vessels(scan):
+    coarsest = scan.coarsest()
+    runs = [scan.run(CoarsestLevel=coarsest, Recovery=recovery) for recovery in (0, 1)]
+    columns = max(len(visited_levels(surface.GetLevels())) for surface in runs)
+    rows, captions = zip(*(level_row(surface, scan.frame, columns, runs[1].GetOutput().GetBounds())
+                           for surface in runs))
+    return render.compose(rows, captions, None,
+                          ["Recovery off, as in the paper", "Recovery on, the default"])
+
+
+def field(surface, name):
+    return int(surface.GetFieldData().GetArray(name).GetTuple1(0))
+
+
+def compact(picture):
+    """Fewer colours, for a smaller file; the background stays as it is."""
+    background = render.blank(1, 1)[0, 0]
+    is_background = (np.abs(picture.astype(int) - background).max(axis=2) < 3)
+    rounded = np.minimum(np.round(picture / GREY_STEP) * GREY_STEP, 255).astype(np.uint8)
+    rounded[is_background] = background
+    return rounded
+
+
+SKULL_PICTURES = (pyramid, levels, views, triangles, history, evolution)
+
+
+def write_picture(draw, scan, folder):
+    """Write the picture; its size must fit a repository."""
+    path = os.path.join(folder, draw.__name__ + ".png")
+    print(f"Drawing {path}", flush=True)
+    render.write_png(compact(draw(scan)), path)
+    size = os.path.getsize(path)
+    print(f"  {size:,} bytes")
+    if size > LARGEST:
+        raise OSError(f"{path} has {size:,} bytes, more than {LARGEST:,}")
+
+
+def main():
+    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Documentation")
+    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels"]
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
+    parser.add_argument("--only", nargs="+", choices=known, default=known, metavar="PICTURE",
+                        help=", ".join(known))
+    parser.add_argument("--vessels", nargs=2, metavar=("VOLUME", "ISO"))
+    parser.add_argument("--skull", nargs=2, metavar=("VOLUME", "ISO"), default=(SKULL, SKULL_ISO),
+                        help="another volume in the place of the skull")
+    arguments = parser.parse_args()
+    try:
+        os.makedirs(arguments.output, exist_ok=True)
+        skull = Scan(arguments.skull[0], float(arguments.skull[1]))
+        for draw in SKULL_PICTURES:
+            if draw.__name__ in arguments.only:
+                write_picture(draw, skull, arguments.output)
+        if arguments.vessels and "vessels" in arguments.only:
+            scan = Scan(arguments.vessels[0], float(arguments.vessels[1]))
+            write_picture(vessels, scan, arguments.output)
+        elif "vessels" in arguments.only:
+            print("No --vessels: vessels.png stays as it is")
+    except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:
+        sys.exit(f"figures.py: {error}")
+
+
+if __name__ == "__main__":
+    main()

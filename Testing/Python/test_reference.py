@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Documentation/reference.md says of every property and array what the filters have, no more."""
+
+import math
+import os
+import re
+import sys
+import unittest
+
+import volumic
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+
+from examples_path import EXAMPLES
+from sample_volumes import RING_ISO, RING_SPACING, ring_voxels
+
+sys.path.insert(0, EXAMPLES)
+# pylint: disable=wrong-import-position
+from pipeline import property_names
+from volume_image import ARRAY_NAME, make_image
+
+REFERENCE = os.path.join(EXAMPLES, "..", "..", "Documentation", "reference.md")
+DEFAULTS = {"on": True, "off": False, "none": math.nan, "sqrt(3)": math.sqrt(3)}
+
+
+def tables():
+    """For each heading the rows of the first table below it: {name: second column}."""
+    with open(REFERENCE, encoding="utf-8") as file:
+        sections = re.split(r"^#+ (.*)$", file.read(), flags=re.MULTILINE)
+    found = {}
+    for heading, text in zip(sections[1::2], sections[2::2]):
+        rows = re.findall(r"^\| *`?([^|`]+?)`? *\| *([^|]*?) *\|", text, flags=re.MULTILINE)
+        found[heading] = dict(rows[2:])  # without the head and the line below it
+    return found
+
+
+def arrays_of(attributes):
+    """{name: type as the reference writes it}."""
+    arrays = [attributes.GetAbstractArray(i) for i in range(attributes.GetNumberOfArrays())]
+    return {a.GetName(): a.GetDataTypeAsString() + (f", {a.GetNumberOfComponents()}"
+                                                    if a.GetNumberOfComponents() > 1 else "")
+            for a in arrays}
+
+
+def blocks_of(data):
+    blocks = [data.GetBlock(b) for b in range(data.GetNumberOfBlocks())]
+    return [block for block in blocks if block is not None]
+
+
+class ReferenceTest(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.tables = tables()
+        cls.image = make_image(ring_voxels(), RING_SPACING)
+        cls.pyramid = volumic.vtkImagePyramid()
+        cls.pyramid.SetInputData(cls.image)
+        cls.pyramid.Update()
+        cls.surface = volumic.vtkDeformableSurface()
+        cls.surface.SetInputConnection(cls.pyramid.GetOutputPort())
+        cls.surface.SetIsoValue(RING_ISO)
+        cls.surface.ProfileOn()
+        cls.surface.SetSnapshotInterval(20)
+        cls.surface.Update()
+
+    def compare(self, heading, arrays):
+        self.assertEqual(self.tables[heading], arrays)
+
+
+class PropertiesTest(ReferenceTest):
+    def check(self, kind):
+        algorithm = kind()
+        rows = self.tables[f"Properties of {kind.__name__}"]
+        self.assertEqual(sorted(rows), property_names(algorithm))
+        for name, text in rows.items():
+            default = DEFAULTS[text] if text in DEFAULTS else float(text)
+            actual = getattr(algorithm, "Get" + name)()
+            if math.isnan(default):
+                self.assertTrue(math.isnan(actual), name)
+            else:
+                self.assertEqual(default, actual, name)
+
+    def test_pyramid(self):
+        self.check(volumic.vtkImagePyramid)
+
+    def test_surface(self):
+        self.check(volumic.vtkDeformableSurface)
+
+    def test_volume_to_surface(self):
+        self.check(volumic.vtkVolumeToSurface)
+
+    def test_no_class_is_left_out(self):
+        classes = [name for name in dir(volumic) if re.fullmatch(r"vtk[A-Z]\w+", name)
+                   and hasattr(getattr(volumic, name), "GetOutputPort")]
+        self.assertGreater(len(classes), 3)
+        for name in classes:
+            self.assertIn(name, self.tables)
+            if property_names(getattr(volumic, name)()):
+                self.assertIn(f"Properties of {name}", self.tables)
+
+
+class PyramidTest(ReferenceTest):
+    def test_arrays(self):
+        finest, *coarser = blocks_of(self.pyramid.GetOutput())
+        self.assertEqual(list(arrays_of(finest.GetPointData())), [ARRAY_NAME])
+        for block in coarser:
+            self.assertEqual(arrays_of(block.GetPointData()),
+                             {ARRAY_NAME: self.tables["Point arrays of a level"]["the input's"]})
+
+    def test_field_data(self):
+        self.compare("Field data of the pyramid", arrays_of(self.pyramid.GetOutput().GetFieldData()))
+        for block in blocks_of(self.pyramid.GetOutput()):
+            self.compare("Field data of a level", arrays_of(block.GetFieldData()))
+
+
+class SurfaceTest(ReferenceTest):
+    def surfaces(self):
+        return [self.surface.GetOutput(), *blocks_of(self.surface.GetLevels())]
+
+    def test_ports(self):
+        with open(REFERENCE, encoding="utf-8") as file:
+            rows = re.findall(r"^\| (\d) \| `\w+` \| `(\w+)` \|", file.read(), flags=re.MULTILINE)
+        kinds = [(str(port), self.surface.GetOutputDataObject(port).GetClassName())
+                 for port in range(self.surface.GetNumberOfOutputPorts())]
+        self.assertEqual(rows, kinds)
+
+    def test_point_and_cell_arrays(self):
+        for surface in self.surfaces() + blocks_of(self.surface.GetSnapshots()):
+            self.compare("Point arrays of a surface", arrays_of(surface.GetPointData()))
+            self.compare("Cell arrays of a surface", arrays_of(surface.GetCellData()))
+
+    def test_field_data(self):
+        for surface in self.surfaces():
+            self.compare("Field data of a surface", arrays_of(surface.GetFieldData()))
+
+    def test_field_data_of_snapshots(self):
+        snapshots = blocks_of(self.surface.GetSnapshots())
+        self.assertGreater(len(snapshots), 3)
+        expected = dict(self.tables["Field data of a surface"])
+        del expected["StopReason"]
+        expected.update(self.tables["Field data of a snapshot instead"])
+        for snapshot in snapshots:
+            self.assertEqual(arrays_of(snapshot.GetFieldData()), expected)
+
+    def test_names_of_blocks(self):
+        levels, snapshots = self.surface.GetLevels(), self.surface.GetSnapshots()
+        names = [data.GetMetaData(0).Get(vtkCompositeDataSet.NAME())
+                 for data in (levels, snapshots)]
+        self.assertEqual(names[0], "Level 0")
+        self.assertRegex(names[1], r"^Level \d, iteration \d+$")
+
+    def test_history(self):
+        with_profile = {**self.tables["Columns of the history"],
+                        **self.tables["Columns of the history with Profile"]}
+        self.assertEqual(arrays_of(self.surface.GetHistory().GetRowData()), with_profile)
+
+    def test_history_without_profile(self):
+        surface = volumic.vtkDeformableSurface()
+        surface.SetInputConnection(self.pyramid.GetOutputPort())
+        surface.SetIsoValue(RING_ISO)
+        surface.SetMaximumNumberOfIterations(5)
+        surface.Update()
+        self.compare("Columns of the history", arrays_of(surface.GetHistory().GetRowData()))
+
+    def test_names_are_in_the_help_too(self):
+        # Lines are wrapped there.
+        text = re.sub(r"[\s|]+", " ", volumic.vtkDeformableSurface.__doc__)
+        for heading, rows in self.tables.items():
+            if heading.endswith(("of a surface", "snapshot instead", "history", "Profile")):
+                for name in rows:
+                    self.assertIn(name, text)
+
+
+class ThresholdTest(ReferenceTest):
+    def test_column(self):
+        threshold = volumic.vtkOtsuThreshold()
+        threshold.SetInputData(self.image)
+        threshold.Update()
+        self.compare("Columns of the threshold", arrays_of(threshold.GetOutput().GetRowData()))
+        self.assertEqual(threshold.GetOutput().GetValueByName(0, "Threshold").ToDouble(),
+                         threshold.GetThreshold())
+
+
+if __name__ == "__main__":
+    unittest.main()
