@@ -13,9 +13,9 @@
     evolution  the paper's figures 3 and 4                                   Cranium.inv3
     vessels    the paper's figure 6, with recovery and without               --vessels
 
-Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any scan
-of vessels, brighter than their surroundings, and its iso-value; without it that picture is left as
-it is. Each picture is less than 300 kB.
+Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any
+scan of vessels, brighter than what is around them, and its iso-value; without it that picture is
+left as it is. Each picture is less than 300 kB.
 """
 
 import argparse
@@ -107,8 +107,9 @@ def views(skull):
     size = width, common_height(frame, (("L", "S"), ("I", "A")), bounds, width)
     row = [render.draw([render.surface_actor(shown)], size, frame, *view, bounds)
            for view in (("L", "S"), ("I", "A"))]
-    row += [render.draw([cut_open(shown, centre, -frame.vector(view[0]))], size, frame, *view, bounds)
-            for view in (("L", "S"), ("S", "A"))]
+    for view in (("L", "S"), ("S", "A")):
+        half = cut_open(shown, centre, -frame.vector(view[0]))
+        row.append(render.draw([half], size, frame, *view, bounds))
     names = ("From the side", "From below", "Cut open, from the side", "Cut open, from above")
     return render.compose([row], [[(name,) for name in names]])
 
@@ -122,7 +123,8 @@ def triangles(skull):
     row = [close_view(main_component(surface)[0], skull.frame, size)]
     row += [slice_with_contour(flat, image, frame, view, window, size, bounds)
             for view in (("A", "S"), ("L", "S"))]
-    names = ("The triangles of level 0", "Its surface on a coronal slice", "and on a sagittal slice")
+    names = ("The triangles of level 0", "Their contour on a coronal slice",
+             "and on a sagittal slice")
     return render.compose([row], [[(name,) for name in names]])
 
 

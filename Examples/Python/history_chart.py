@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of an evolution: the four curves of the paper's figure 5, a colour for each level, and
-those of a second evolution, such as one without the pyramid, dashed beside them.
+"""The picture of an evolution: the four curves of the paper's figure 5, a colour for each level,
+and those of a second evolution, such as one without the pyramid, dashed beside them.
 
 Lachaud and Montanvert, "Volumic Segmentation using Hierarchical Representation and Triangulated
 Surface", ECCV 1996.

@@ -5,7 +5,6 @@
 import importlib
 import os
 
-from otsu import otsu_iso_value
 from read_volume import read_volume
 from terminal import FilterError, run_filter
 
@@ -17,7 +16,7 @@ SWITCH = {"on": True, "true": True, "1": True, "off": False, "false": False, "0"
 def load_volume(path, iso=None):
     """The image and the iso-value: the given one, else bone for the skull, else Otsu's threshold.
 
-    Prints what it found. VolumeError or ValueError where there is nothing to be found.
+    Prints what it found. VolumeError or FilterError where there is nothing to be found.
     """
     print(f"Reading {path}")
     image = read_volume(path)
@@ -34,6 +33,14 @@ def load_volume(path, iso=None):
         iso = otsu_iso_value(image)
         print(f"  iso-value {iso:g} by Otsu's threshold, a guess")
     return image, iso
+
+
+def otsu_iso_value(image):
+    """Otsu's threshold: the value that separates the voxels best into two classes."""
+    threshold = volumic().vtkOtsuThreshold()
+    threshold.SetInputData(image)
+    run_filter(threshold)
+    return threshold.GetThreshold()
 
 
 def pyramid_levels(pyramid):

@@ -53,12 +53,12 @@ class ProgressLine:
         print(f"{start}{text}".ljust(self.length + len(start)), flush=True)
 
 
-def run_filter(algorithm, title):
+def run_filter(algorithm, title=None):
     """Update the filter; returns the seconds it took, and its warnings.
 
-    On a terminal a bar shows how far it is; in a log there is one line at the end. Warnings are
-    printed below it. Raises FilterError where the filter reports errors, and Interrupted after
-    Ctrl-C.
+    With a title, a bar shows on a terminal how far it is, in a log there is one line at the end,
+    and warnings are printed below it. Raises FilterError where the filter reports errors, and
+    Interrupted after Ctrl-C.
     """
     errors, warnings, echoes = [], [], []
     line = ProgressLine(title)
@@ -76,7 +76,7 @@ def run_filter(algorithm, title):
         echoes.append(plain_message(text))
 
     # Python's signal handlers run when Python code does, so some observer has to be called.
-    observe = line.show if sys.stdout.isatty() else lambda *_: None
+    observe = line.show if title and sys.stdout.isatty() else lambda *_: None
     tags = [algorithm.AddObserver("ErrorEvent", keep_error),
             algorithm.AddObserver("WarningEvent", keep_warning),
             algorithm.AddObserver("ProgressEvent", observe)]
@@ -92,13 +92,14 @@ def run_filter(algorithm, title):
             algorithm.RemoveObserver(tag)
         algorithm.GetExecutive().RemoveObserver(executive_tag)
     seconds = time.monotonic() - started
-    line.finish(f"{title}: {seconds:.2f} s{', interrupted' if interrupts.happened else ''}")
-    for text in warnings:
-        print(f"  Warning: {text}")
+    if title:
+        line.finish(f"{title}: {seconds:.2f} s{', interrupted' if interrupts.happened else ''}")
+        for text in warnings:
+            print(f"  Warning: {text}")
     if errors or echoes:
         raise FilterError("; ".join(errors or echoes))
     if interrupts.happened:
-        raise Interrupted(f"{title}: interrupted after {seconds:.2f} s")
+        raise Interrupted(f"interrupted after {seconds:.2f} s")
     return seconds, warnings
 
 

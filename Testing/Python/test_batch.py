@@ -98,7 +98,7 @@ class ErrorsTest(BatchTest):
         table = self.table()
         self.assertEqual([table[name]["status"] for name in ("a.nrrd", "b.mha", "c.mha", "empty")],
                          ["failed", "failed", "ok", "failed"])
-        for name, reason in (("a.nrrd", "not|NRRD"), ("b.mha", "all voxels are 3"),
+        for name, reason in (("a.nrrd", "not|NRRD"), ("b.mha", "no value separates"),
                              ("empty", "no DICOM image")):
             self.assertRegex(table[name]["error"], reason)
             self.assertEqual(table[name]["vertices"], "")

@@ -14,7 +14,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
-from volumic import vtkDeformableSurface, vtkImagePyramid
+from volumic import (
+    vtkDeformableSurface, vtkImagePyramid, vtkOtsuThreshold, vtkVolumeToSurface)
 
 SIZE, RADIUS, ISO = 32, 9.0, 100.5
 HISTORY_COLUMNS = (
@@ -209,6 +210,29 @@ class UseTest(SurfaceTest):
         self.surface.SetInitialSurfaceConnection(plane.GetOutputPort())
         self.run_on(ball())
         self.refused("closed|open|border")
+
+
+class OneStepTest(unittest.TestCase):
+    def test_otsu_lies_between_two_classes_and_equals_no_voxel(self):
+        random = np.random.default_rng(1)
+        values = np.where(random.random(SIZE ** 3) < 0.3, 200, 50)
+        values += random.integers(-9, 9, values.shape)
+        for dtype in ("i2", "u1", "f4"):
+            with self.subTest(dtype):
+                image = ball()
+                image.GetPointData().SetScalars(numpy_to_vtk(values.astype(dtype), deep=True))
+                threshold = vtkOtsuThreshold()
+                threshold.SetInputData(image)
+                threshold.Update()
+                self.assertTrue(58 < threshold.GetThreshold() < 191)
+                self.assertFalse((values == threshold.GetThreshold()).any())
+
+    def test_a_volume_to_a_surface(self):
+        surface = vtkVolumeToSurface()
+        surface.SetInputData(ball())
+        surface.Update()
+        area = field(surface.GetOutput(), "Area")
+        self.assertAlmostEqual(area / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,6 @@ from examples_path import EXAMPLES
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
-from otsu import otsu_iso_value
 from read_volume import read_volume
 from volume_image import VolumeError, direction_of, make_image, world_axes
 
@@ -312,30 +311,6 @@ class RefusedTest(ReadVolumeTest):
             link.type, link.linkname = tarfile.SYMTYPE, "/etc/hostname"
             archive.addfile(link)
         self.refused(self.path("a.inv3"), "not an InVesalius project")
-
-
-class OtsuTest(unittest.TestCase):
-    def test_between_two_classes_and_equal_to_no_voxel(self):
-        random = np.random.default_rng(1)
-        values = np.where(random.random((10, 10, 10)) < 0.3, 200, 50)
-        values += random.integers(-9, 9, values.shape)
-        for dtype in ("i2", "u1", "f4"):
-            with self.subTest(dtype):
-                iso = otsu_iso_value(make_image(values.astype(dtype), SPACING))
-                self.assertTrue(58 < iso < 191)
-                self.assertFalse((values == iso).any())
-        self.assertEqual(otsu_iso_value(make_image(values.astype("i2"), SPACING)) % 1, 0.5)
-
-    def test_labels(self):
-        labels = np.zeros((3, 3, 3), "u1")
-        labels[1] = 1
-        self.assertEqual(otsu_iso_value(make_image(labels, SPACING)), 0.5)
-
-    def test_refused(self):
-        with self.assertRaisesRegex(ValueError, "all voxels are 7"):
-            otsu_iso_value(make_image(np.full((3, 3, 3), 7, "u1"), SPACING))
-        with self.assertRaisesRegex(ValueError, "NaN"):
-            otsu_iso_value(make_image(np.full((3, 3, 3), np.nan), SPACING))
 
 
 if __name__ == "__main__":

@@ -109,8 +109,9 @@ class PyramidTest(ReferenceTest):
                              {ARRAY_NAME: self.tables["Point arrays of a level"]["the input's"]})
 
     def test_field_data(self):
-        self.compare("Field data of the pyramid", arrays_of(self.pyramid.GetOutput().GetFieldData()))
-        for block in blocks_of(self.pyramid.GetOutput()):
+        pyramid = self.pyramid.GetOutput()
+        self.compare("Field data of the pyramid", arrays_of(pyramid.GetFieldData()))
+        for block in blocks_of(pyramid):
             self.compare("Field data of a level", arrays_of(block.GetFieldData()))
 
 
