@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadVolume.h"
+
+#include "ToolErrors.h"
+#include "VtkMessages.h"
+
+#include <vtkImageData.h>
+#include <vtkImageReader2.h>
+#include <vtkImageReader2Factory.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+namespace tool
+{
+namespace
+{
+bool IsDigit(char c)
+{
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+/// The number that starts at `at`, without leading zeros; `at` moves behind it.
+std::string TakeDigits(const std::string& text, std::size_t& at)
+{
+  while (at < text.size() && text[at] == '0')
+  {
+    ++at;
+  }
+  const std::size_t start = at;
+  while (at < text.size() && IsDigit(text[at]))
+  {
+    ++at;
+  }
+  return text.substr(start, at - start);
+}
+
+/// Whether a comes before b where runs of digits count as numbers.
+bool IsBefore(const std::string& a, const std::string& b)
+{
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size())
+  {
+    if (IsDigit(a[i]) && IsDigit(b[j]))
+    {
+      const std::string m = TakeDigits(a, i);
+      const std::string n = TakeDigits(b, j);
+      if (m != n)
+      {
+        return m.size() != n.size() ? m.size() < n.size() : m < n;
+      }
+    }
+    else if (a[i] != b[j])
+    {
+      return a[i] < b[j];
+    }
+    else
+    {
+      ++i;
+      ++j;
+    }
+  }
+  const bool isEndOfA = i == a.size();
+  return isEndOfA == (j == b.size()) ? a < b : isEndOfA;
+}
+
+/// The regular expression of a pattern with '*' and '%d'.
+std::regex ExpressionOf(const std::string& pattern)
+{
+  static const std::regex number("^%0?[0-9]*[diu]");
+  std::string expression;
+  for (std::size_t at = 0; at < pattern.size(); ++at)
+  {
+    std::smatch match;
+    const std::string rest = pattern.substr(at);
+    if (std::regex_search(rest, match, number))
+    {
+      expression += "[0-9]+";
+      at += static_cast<std::size_t>(match.length()) - 1;
+    }
+    else if (pattern[at] == '*')
+    {
+      expression += ".*";
+    }
+    else
+    {
+      const std::string special = "\\^$.|?+()[]{}";
+      expression += special.find(pattern[at]) == std::string::npos ? "" : "\\";
+      expression += pattern[at];
+    }
+  }
+  return std::regex(expression);
+}
+}
+
+std::vector<std::string> FilesOf(const std::string& folder)
+{
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    if (entry.is_regular_file() && entry.path().filename().string()[0] != '.')
+    {
+      files.push_back(entry.path().string());
+    }
+  }
+  std::sort(files.begin(), files.end(), IsBefore);
+  return files;
+}
+
+std::vector<std::string> MatchFiles(const std::string& pattern)
+{
+  const std::filesystem::path path(pattern);
+  const std::string folder = path.parent_path().empty() ? "." : path.parent_path().string();
+  const std::regex expression = ExpressionOf(path.filename().string());
+  std::vector<std::string> files = FilesOf(folder);
+  files.erase(
+    std::remove_if(files.begin(), files.end(),
+      [&](const std::string& file)
+      { return !std::regex_match(std::filesystem::path(file).filename().string(), expression); }),
+    files.end());
+  return files;
+}
+
+vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files)
+{
+  if (files.empty())
+  {
+    throw Failure("no pictures and no DICOM slices there");
+  }
+  std::set<std::string> suffixes;
+  vtkNew<vtkStringArray> names;
+  for (const std::string& file : files)
+  {
+    suffixes.insert(std::filesystem::path(file).extension().string());
+    names->InsertNextValue(file);
+  }
+  if (suffixes.size() > 1)
+  {
+    throw Failure("files of several kinds (" + *suffixes.begin() + ", " + *suffixes.rbegin() +
+      "); choose with a pattern, such as '*" + *suffixes.rbegin() + "'");
+  }
+  int size[2] = { 0, 0 };
+  for (const std::string& file : files)
+  {
+    auto reader = vtkSmartPointer<vtkImageReader2>::Take(
+      vtkImageReader2Factory::CreateImageReader2(file.c_str()));
+    if (!reader)
+    {
+      throw Failure(file + ": not a picture that VTK's readers know");
+    }
+    VtkMessages messages;
+    messages.ListenTo(reader);
+    reader->SetFileName(file.c_str());
+    reader->UpdateInformation();
+    const int* extent = reader->GetDataExtent();
+    const int own[2] = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1 };
+    if (!messages.Errors.empty())
+    {
+      throw Failure(file + ": cannot be read (" + messages.JoinedErrors() + ")");
+    }
+    if (file == files.front())
+    {
+      std::copy(own, own + 2, size);
+    }
+    else if (!std::equal(own, own + 2, size))
+    {
+      throw Failure(file + ": its size differs from the first picture's");
+    }
+  }
+  auto reader = vtkSmartPointer<vtkImageReader2>::Take(
+    vtkImageReader2Factory::CreateImageReader2(files.front().c_str()));
+  reader->SetFileNames(names);
+  reader->SetDataSpacing(1.0, 1.0, 1.0);
+  VtkMessages messages;
+  messages.UpdateReader(reader, files.front());
+  return reader->GetOutput();
+}
+}

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ReadStart_h
+#define ReadStart_h
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkPolyData;
+
+namespace tool
+{
+/// The points of a file as vertices: of a mesh (as ReadSurface), or of the lines "x y z", separated
+/// by blanks or commas, of a .txt, .csv or .xyz file; '#' begins a comment, and a first line
+/// without numbers is a heading. World coordinates. @throws Failure if it cannot be read or has no
+/// points.
+vtkSmartPointer<vtkPolyData> ReadSeeds(const std::string& name);
+
+/// The polygons of a .vtp, .vtk, .stl, .ply or .obj. Equal points are made one (an STL file repeats
+/// them). @throws Failure if it cannot be read or has no polygons.
+vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& name);
+}
+
+#endif

@@ -1,0 +1,349 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadVolume.h"
+
+#include "ParseNumbers.h"
+#include "ToolErrors.h"
+#include "VolumeImage.h"
+#include "VtkMessages.h"
+
+#include <vtkDataArray.h>
+#include <vtkGenericDataObjectReader.h>
+#include <vtkImageData.h>
+#include <vtkImageReader2.h>
+#include <vtkImageReader2Factory.h>
+#include <vtkMRCReader.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMetaImageReader.h>
+#include <vtkNIFTIImageReader.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSLCReader.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPImageDataReader.h>
+#ifdef VOLUMIC_HAS_HDF
+#include <vtkHDFReader.h>
+#endif
+#ifdef VOLUMIC_HAS_MINC
+#include <vtkMINCImageReader.h>
+#endif
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace tool
+{
+namespace
+{
+using Image = vtkSmartPointer<vtkImageData>;
+
+Image ImageOf(vtkAlgorithm* reader, const std::string& name)
+{
+  VtkMessages messages;
+  messages.UpdateReader(reader, name);
+  auto* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
+  if (!image)
+  {
+    throw Failure(name + ": holds no image");
+  }
+  return image;
+}
+
+template <class Reader>
+Image ReadWith(const std::string& name)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(name.c_str());
+  return ImageOf(reader, name);
+}
+
+template <class Reader>
+Image ReadIfItsFormat(const std::string& name)
+{
+  vtkNew<Reader> reader;
+  if (!reader->CanReadFile(name.c_str()))
+  {
+    throw Failure(name + ": is not what its suffix says");
+  }
+  reader->SetFileName(name.c_str());
+  return ImageOf(reader, name);
+}
+
+/// MetaImage; VTK's reader drops the directions of the axes, which are in the header's text.
+Image ReadMeta(const std::string& name)
+{
+  Image image = ReadIfItsFormat<vtkMetaImageReader>(name);
+  std::ifstream file(name, std::ios::binary);
+  std::string line;
+  while (std::getline(file, line) && line.compare(0, 15, "ElementDataFile") != 0)
+  {
+    std::istringstream words(line);
+    std::string key;
+    std::string equals;
+    words >> key >> equals;
+    if (key != "TransformMatrix" && key != "Rotation" && key != "Orientation")
+    {
+      continue;
+    }
+    VolumePlacement placement;
+    for (Vector3& axis : placement.Axes) // the file lists axis after axis
+    {
+      if (!(words >> axis[0] >> axis[1] >> axis[2]))
+      {
+        throw Failure(key + " does not hold nine numbers");
+      }
+    }
+    image->GetSpacing(placement.Spacing.data());
+    image->GetOrigin(placement.Origin.data());
+    PlaceImage(image, placement);
+    break;
+  }
+  return image;
+}
+
+/// Columns of the matrix, each times the spacing along its axis, and the translation.
+VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing)
+{
+  VolumePlacement placement;
+  std::array<Vector3, 3> steps;
+  for (int row = 0; row < 3; ++row)
+  {
+    placement.Origin[row] = matrix->GetElement(row, 3);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      steps[axis][row] = matrix->GetElement(row, axis) * spacing[axis];
+    }
+  }
+  placement.SetSteps(steps);
+  return placement;
+}
+
+/// NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails.
+Image ReadNifti(const std::string& name)
+{
+  vtkNew<vtkNIFTIImageReader> reader;
+  if (!reader->CanReadFile(name.c_str()))
+  {
+    throw Failure("not a NIfTI or Analyze file");
+  }
+  reader->SetFileName(name.c_str());
+  Image image = ImageOf(reader, name);
+  if (reader->GetTimeDimension() > 1)
+  {
+    throw Failure(NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");
+  }
+  const double slope = reader->GetRescaleSlope() == 0.0 ? 1.0 : reader->GetRescaleSlope();
+  const double shift = reader->GetRescaleIntercept();
+  if ((slope != 1.0 || shift != 0.0) && image->GetPointData()->GetScalars())
+  {
+    image->GetPointData()->SetScalars(Rescaled(image->GetPointData()->GetScalars(), slope, shift));
+  }
+  std::string failure;
+  for (vtkMatrix4x4* matrix : { reader->GetSFormMatrix(), reader->GetQFormMatrix() })
+  {
+    if (!matrix)
+    {
+      continue;
+    }
+    try
+    {
+      PlaceImage(image, PlacementOf(matrix, image->GetSpacing()));
+      return image;
+    }
+    catch (const Failure& error)
+    {
+      failure = failure.empty() ? error.what() : failure;
+    }
+  }
+  if (!failure.empty())
+  {
+    throw Failure(failure);
+  }
+  return image;
+}
+
+#ifdef VOLUMIC_HAS_MINC
+/// MINC in its world coordinates, with the real values.
+Image ReadMinc(const std::string& name)
+{
+  vtkNew<vtkMINCImageReader> reader;
+  reader->SetFileName(name.c_str());
+  reader->RescaleRealValuesOn();
+  Image image = ImageOf(reader, name);
+  if (vtkMatrix4x4* cosines = reader->GetDirectionCosines())
+  {
+    // Starts are lengths along the axes, not world coordinates.
+    VolumePlacement placement = PlacementOf(cosines, image->GetSpacing());
+    const double* start = image->GetOrigin();
+    for (int row = 0; row < 3; ++row)
+    {
+      placement.Origin[row] = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        placement.Origin[row] += placement.Axes[axis][row] * start[axis];
+      }
+    }
+    PlaceImage(image, placement);
+  }
+  return image;
+}
+#endif
+
+Image ReadFolder(const std::string& name)
+{
+  const std::vector<std::string> files = FilesOf(name);
+  std::vector<std::string> slices;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
+  return slices.empty() ? ReadPictures(files) : ReadDicom(slices);
+}
+
+Image ReadDicomFile(const std::string& name)
+{
+  const std::string folder = std::filesystem::path(name).parent_path().string();
+  return ReadFolder(folder.empty() ? "." : folder);
+}
+
+Image ReadByContent(const std::string& name)
+{
+  if (IsDicom(name))
+  {
+    return ReadDicomFile(name);
+  }
+  auto reader = vtkSmartPointer<vtkImageReader2>::Take(
+    vtkImageReader2Factory::CreateImageReader2(name.c_str()));
+  if (!reader)
+  {
+    throw Failure(name + ": not a format that VTK's readers know");
+  }
+  reader->SetFileName(name.c_str());
+  return ImageOf(reader, name);
+}
+
+using Reader = Image (*)(const std::string&);
+
+Reader ChooseReader(const std::string& name)
+{
+  static const std::vector<std::pair<std::string, Reader>> readers = {
+    { ".vti", ReadIfItsFormat<vtkXMLImageDataReader> },
+    { ".pvti", ReadIfItsFormat<vtkXMLPImageDataReader> },
+    { ".vtk", ReadWith<vtkGenericDataObjectReader> },
+#ifdef VOLUMIC_HAS_HDF
+    { ".vtkhdf", ReadIfItsFormat<vtkHDFReader> },
+    { ".hdf", ReadIfItsFormat<vtkHDFReader> },
+#endif
+    { ".mha", ReadMeta },
+    { ".mhd", ReadMeta },
+    { ".nrrd", ReadNrrd },
+    { ".nhdr", ReadNrrd },
+    { ".nii", ReadNifti },
+    { ".nii.gz", ReadNifti },
+    { ".img", ReadNifti },
+    { ".img.gz", ReadNifti },
+#ifdef VOLUMIC_HAS_MINC
+    { ".mnc", ReadMinc },
+#endif
+    { ".mrc", ReadWith<vtkMRCReader> },
+    { ".ccp4", ReadWith<vtkMRCReader> },
+    { ".slc", ReadIfItsFormat<vtkSLCReader> },
+    { ".dcm", ReadDicomFile },
+    { ".dicom", ReadDicomFile },
+    { ".ima", ReadDicomFile },
+  };
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& [suffix, reader] : readers)
+  {
+    if (lower.size() > suffix.size() &&
+      lower.compare(lower.size() - suffix.size(), suffix.size(), suffix) == 0)
+    {
+      return reader;
+    }
+  }
+  return ReadByContent;
+}
+}
+
+vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
+{
+  try
+  {
+    Image image;
+    if (std::filesystem::is_directory(name))
+    {
+      image = ReadFolder(name);
+    }
+    else if (std::filesystem::exists(name))
+    {
+      image = ChooseReader(name)(name);
+    }
+    else if (name.find_first_of("%*") != std::string::npos)
+    {
+      const std::vector<std::string> files = MatchFiles(name);
+      const bool isSeries = !files.empty() && IsDicom(files.front());
+      image = isSeries ? ReadDicom(files) : ReadPictures(files);
+    }
+    else
+    {
+      throw Failure("no such file or folder");
+    }
+    if (image->GetNumberOfPoints() == 0)
+    {
+      throw Failure("the image is empty");
+    }
+    return image;
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    throw Failure(name + ": " + error.code().message());
+  }
+  catch (const Failure& failure)
+  {
+    const std::string text = failure.what();
+    throw Failure(text.compare(0, name.size(), name) == 0 ? text : name + ": " + text);
+  }
+}
+
+void ChooseScalars(vtkImageData* image, const std::string& name, int component)
+{
+  vtkPointData* points = image->GetPointData();
+  vtkDataArray* array = name.empty() ? points->GetScalars() : points->GetArray(name.c_str());
+  if (!array && name.empty() && points->GetNumberOfArrays() == 1)
+  {
+    array = points->GetArray(0);
+  }
+  if (!array)
+  {
+    std::string names;
+    for (int i = 0; i < points->GetNumberOfArrays(); ++i)
+    {
+      names += std::string(i ? ", " : "") + points->GetArrayName(i);
+    }
+    throw Failure((name.empty() ? "the volume has no active scalars" : "no point array " + name) +
+      (names.empty() ? "; there are no point arrays" : "; point arrays: " + names));
+  }
+  const int count = array->GetNumberOfComponents();
+  if (component >= count || (component < 0 && count != 1))
+  {
+    throw Failure(NumberText(count) + " components per voxel; choose one with --component");
+  }
+  if (count > 1)
+  {
+    auto chosen = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+    chosen->SetNumberOfTuples(array->GetNumberOfTuples());
+    chosen->CopyComponent(0, array, component);
+    chosen->SetName(array->GetName() ? array->GetName() : "Intensity");
+    points->SetScalars(chosen);
+    return;
+  }
+  if (!array->GetName())
+  {
+    array->SetName("Intensity");
+  }
+  points->SetScalars(array);
+}
+}

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Report.h"
+
+#include "JsonWriter.h"
+#include "ParseNumbers.h"
+
+#include <vtkDataArray.h>
+#include <vtkDeformableSurface.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkVersion.h>
+
+#include <algorithm>
+
+namespace tool
+{
+namespace
+{
+void WriteInput(JsonWriter& json, const ReportInput& input)
+{
+  double numbers[3];
+  vtkDataArray* scalars = input.Volume->GetPointData()->GetScalars();
+  json.Name("input");
+  json.BeginObject();
+  json.Member("name", input.VolumeName);
+  std::copy_n(input.Volume->GetDimensions(), 3, numbers);
+  json.Numbers("dimensions", numbers, 3);
+  json.Numbers("spacing", input.Volume->GetSpacing(), 3);
+  json.Numbers("origin", input.Volume->GetOrigin(), 3);
+  json.Member("scalar_type", scalars->GetDataTypeAsString());
+  json.Numbers("range", scalars->GetRange(0), 2);
+  json.EndObject();
+}
+
+/// Size and shape of a surface, from its field data.
+void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface)
+{
+  static const char* const facts[][2] = { { "components", "NumberOfComponents" },
+    { "genus", "Genus" }, { "euler_characteristic", "EulerCharacteristic" }, { "area", "Area" },
+    { "volume", "Volume" }, { "delta", "Delta" }, { "unit", "Unit" }, { "level", "Level" },
+    { "iterations", "Iterations" }, { "lost_parts", "LostParts" },
+    { "recovered_parts", "RecoveredParts" } };
+  for (const auto& [name, array] : facts)
+  {
+    if (vtkDataArray* values = surface->GetFieldData()->GetArray(array))
+    {
+      json.Member(name, values->GetComponent(0, 0));
+    }
+  }
+  json.Member("vertices", static_cast<double>(surface->GetNumberOfPoints()));
+  json.Member("triangles", static_cast<double>(surface->GetNumberOfPolys()));
+  json.Member("stop_reason", StopReason(surface));
+}
+
+/// An object per component, the one of the largest area first.
+void WriteComponents(JsonWriter& json, vtkPolyData* surface)
+{
+  static const char* const facts[][2] = { { "area", "ComponentArea" },
+    { "volume", "ComponentVolume" }, { "genus", "ComponentGenus" },
+    { "centroid", "ComponentCentroid" }, { "inertia", "ComponentInertia" } };
+  vtkFieldData* fields = surface->GetFieldData();
+  vtkDataArray* areas = fields->GetArray("ComponentArea");
+  json.Name("component_features");
+  json.BeginArray();
+  for (vtkIdType c = 0; areas && c < areas->GetNumberOfTuples(); ++c)
+  {
+    json.BeginObject();
+    for (const auto& [name, array] : facts)
+    {
+      vtkDataArray* values = fields->GetArray(array);
+      if (values && values->GetNumberOfComponents() == 1)
+      {
+        json.Member(name, values->GetComponent(c, 0));
+      }
+      else if (values)
+      {
+        json.Numbers(name, values->GetTuple(c), values->GetNumberOfComponents());
+      }
+    }
+    json.EndObject();
+  }
+  json.EndArray();
+}
+
+/// The seconds of the iterations at a level.
+double LevelSeconds(vtkTable* history, double level)
+{
+  auto* levels = vtkDataArray::SafeDownCast(history->GetColumnByName("Level"));
+  auto* seconds = vtkDataArray::SafeDownCast(history->GetColumnByName("Seconds"));
+  double sum = 0.0;
+  for (vtkIdType row = 0; levels && seconds && row < history->GetNumberOfRows(); ++row)
+  {
+    sum += levels->GetComponent(row, 0) == level ? seconds->GetComponent(row, 0) : 0.0;
+  }
+  return sum;
+}
+
+void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* history)
+{
+  json.Name("levels");
+  json.BeginArray();
+  for (int h = static_cast<int>(levels->GetNumberOfBlocks()) - 1; h >= 0; --h)
+  {
+    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
+    if (surface && surface->GetNumberOfPoints() > 0)
+    {
+      json.BeginObject();
+      WriteSurfaceFacts(json, surface);
+      json.Member("seconds", LevelSeconds(history, h));
+      json.EndObject();
+    }
+  }
+  json.EndArray();
+}
+
+void WriteProperties(JsonWriter& json, const FilterPair& filters)
+{
+  json.Name("properties");
+  json.BeginObject();
+  for (const PropertyOption& property : SurfaceProperties())
+  {
+    json.Member(property.Property, property.Get(filters));
+  }
+  json.EndObject();
+}
+}
+
+std::string StopReason(vtkPolyData* surface)
+{
+  auto* reason =
+    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
+  return reason && reason->GetNumberOfValues() > 0 ? reason->GetValue(0) : "";
+}
+
+void WriteReport(std::ostream& out, const ReportInput& input)
+{
+  vtkDeformableSurface* filter = input.Filters.Surface;
+  vtkPolyData* surface = filter->GetOutput();
+  JsonWriter json(out);
+  json.BeginObject();
+  WriteInput(json, input);
+  json.Member("iso_value", filter->GetIsoValue());
+  json.Member("finished", input.IsFinished);
+  WriteSurfaceFacts(json, surface);
+  WriteComponents(json, surface);
+  WriteLevels(json, filter->GetLevels(), filter->GetHistory());
+  json.Name("seconds");
+  json.BeginObject();
+  json.Member("pyramid", input.PyramidSeconds);
+  json.Member("surface", input.SurfaceSeconds);
+  json.EndObject();
+  WriteProperties(json, input.Filters);
+  json.Name("warnings");
+  json.BeginArray();
+  for (const std::string& warning : input.Warnings)
+  {
+    json.Value(warning);
+  }
+  json.EndArray();
+  json.Name("versions");
+  json.BeginObject();
+  json.Member("volumic", VOLUMIC_VERSION);
+  json.Member("vtk", vtkVersion::GetVTKVersion());
+  json.EndObject();
+  json.EndObject();
+}
+}

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef Report_h
+#define Report_h
+
+#include "SurfaceProperties.h"
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+class vtkMultiBlockDataSet;
+class vtkPolyData;
+class vtkTable;
+
+namespace tool
+{
+/// All that a report tells; the names in it are those of the quickstart's report.json, and besides
+/// `finished` (false: interrupted or at the iteration limit) and `properties`.
+struct ReportInput
+{
+  std::string VolumeName;
+  vtkImageData* Volume = nullptr;
+  FilterPair Filters;
+  bool IsFinished = false;
+  double PyramidSeconds = 0.0;
+  double SurfaceSeconds = 0.0;
+  std::vector<std::string> Warnings;
+};
+
+/// Write the report as JSON. Lengths, areas and volumes are in world units.
+void WriteReport(std::ostream& out, const ReportInput& input);
+
+/// The `StopReason` of a surface of vtkDeformableSurface.
+std::string StopReason(vtkPolyData* surface);
+}
+
+#endif

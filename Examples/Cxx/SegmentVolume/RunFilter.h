@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RunFilter_h
+#define RunFilter_h
+
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+
+namespace tool
+{
+/// How the progress is shown on stderr.
+enum class ProgressStyle
+{
+  None,
+  OneLine, ///< one line that is drawn anew: a terminal
+  Lines    ///< a line for each tenth
+};
+
+struct FilterRun
+{
+  double Seconds = 0.0;
+  std::vector<std::string> Warnings;
+  bool IsInterrupted = false;
+};
+
+/**
+ * From here on Ctrl-C (SIGINT) and SIGTERM set the AbortExecute of the filter that runs, so that it
+ * hands over what it has; the second one ends the program at once, as usual.
+ */
+void CatchInterrupts();
+
+/// Whether there was such a signal.
+bool WasInterrupted();
+
+/// Update the filter, showing its progress. @throws Failure with the errors that it reports.
+FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style);
+}
+
+#endif

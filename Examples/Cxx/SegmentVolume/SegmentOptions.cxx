@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentOptions.h"
+
+#include "ParseNumbers.h"
+#include "ToolErrors.h"
+
+#include <algorithm>
+#include <functional>
+#include <ostream>
+#include <sstream>
+
+namespace tool
+{
+namespace
+{
+/// An option that is not a property of a filter.
+struct ProgramOption
+{
+  std::string Option;
+  std::string Argument;
+  std::string Help;
+  std::function<void(SegmentOptions&, const std::string& text)> Set;
+};
+
+// Options that take a file or name, each into its own member.
+ProgramOption Text(
+  const char* option, const char* argument, std::string SegmentOptions::*member, const char* help)
+{
+  return { option, argument, help,
+    [member](SegmentOptions& options, const std::string& text) { options.*member = text; } };
+}
+
+ProgramOption Switch(const char* option, bool SegmentOptions::*member, const char* help)
+{
+  return { option, "", help,
+    [member](SegmentOptions& options, const std::string&) { options.*member = true; } };
+}
+
+ProgramOption Show(const char* option, enum SegmentOptions::Task task, const char* help)
+{
+  return { option, "", help,
+    [task](SegmentOptions& options, const std::string&) { options.Task = task; } };
+}
+
+void SetComponent(SegmentOptions& options, const std::string& text)
+{
+  options.Component = ParseNumber<int>(text);
+  if (options.Component < 0)
+  {
+    throw UsageError("components are counted from 0");
+  }
+}
+
+void SetSpacing(SegmentOptions& options, const std::string& text)
+{
+  const std::vector<double> numbers = ParseNumbers(text, 3);
+  if (*std::min_element(numbers.begin(), numbers.end()) <= 0.0)
+  {
+    throw UsageError("distances of voxels are more than 0");
+  }
+  options.Spacing = { numbers[0], numbers[1], numbers[2] };
+}
+
+const std::vector<ProgramOption>& InputOptions()
+{
+  static const std::vector<ProgramOption> options = {
+    Text("array", "NAME", &SegmentOptions::Array,
+      "the point array of the volume to use; without this option the active scalars"),
+    { "component", "N", "the component to use of voxels that have several, counted from 0",
+      SetComponent },
+    { "spacing", "X,Y,Z",
+      "distances of neighbouring voxels along the three axes, instead of the file's", SetSpacing },
+    Text("seeds", "FILE", &SegmentOptions::Seeds,
+      "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
+      "a .txt, .csv or .xyz file; world coordinates"),
+    Text("initial-surface", "FILE", &SegmentOptions::InitialSurface,
+      "start from this closed surface: .vtp, .vtk, .stl, .ply or .obj; world coordinates"),
+  };
+  return options;
+}
+
+const std::vector<ProgramOption>& OutputOptions()
+{
+  static const std::vector<ProgramOption> options = {
+    Text("history", "FILE.csv", &SegmentOptions::History, "write a line per iteration"),
+    Text("levels-output", "FILE.vtm|DIR", &SegmentOptions::Levels,
+      "write the surface of each level: as blocks, or as level-0.vtp, level-1.vtp, ... in a "
+      "folder"),
+    Text("snapshots", "FILE.vtm|DIR", &SegmentOptions::Snapshots,
+      "write the surface on its way, every --snapshot-interval iterations (10 if that is not "
+      "given): as blocks, or as snapshot-0.vtp, ... in a folder"),
+    Text("report", "FILE.json", &SegmentOptions::Report,
+      "write components, genus, area, volume, seconds, ...; - for the standard output"),
+    Switch("quiet", &SegmentOptions::Quiet, "print errors only"),
+    Switch("progress", &SegmentOptions::Progress,
+      "print the progress even if the standard error is no terminal, then in lines"),
+    Show("list-properties", SegmentOptions::Task::ListProperties,
+      "print the options that are properties of the filters: class, property, option, default"),
+    Show("help", SegmentOptions::Task::ShowHelp, "print this text"),
+    Show("version", SegmentOptions::Task::ShowVersion, "print the versions of Volumic and VTK"),
+  };
+  return options;
+}
+
+/// What a name on the command line stands for: one of the two, or nothing.
+struct FoundOption
+{
+  const ProgramOption* Program = nullptr;
+  const PropertyOption* Property = nullptr;
+
+  bool TakesArgument() const
+  {
+    return !(this->Program ? this->Program->Argument : this->Property->Argument).empty();
+  }
+};
+
+FoundOption FindOption(const std::string& name)
+{
+  FoundOption found;
+  for (const auto* options : { &InputOptions(), &OutputOptions() })
+  {
+    for (const ProgramOption& option : *options)
+    {
+      found.Program = option.Option == name ? &option : found.Program;
+    }
+  }
+  for (const PropertyOption& option : SurfaceProperties())
+  {
+    found.Property = option.Option == name ? &option : found.Property;
+  }
+  if (!found.Program && !found.Property)
+  {
+    throw UsageError("unknown option --" + name);
+  }
+  return found;
+}
+
+void ApplyOption(SegmentOptions& options, const FoundOption& found, const std::string& text)
+{
+  if (found.Program)
+  {
+    found.Program->Set(options, text);
+  }
+  else
+  {
+    options.Properties.emplace_back(found.Property, text);
+  }
+}
+
+void CheckComplete(SegmentOptions& options)
+{
+  if (options.Task != SegmentOptions::Task::Segment)
+  {
+    return;
+  }
+  if (options.Volume.empty())
+  {
+    throw UsageError("no volume is given");
+  }
+  if (options.Surfaces.empty() && options.Levels.empty() && options.Report.empty() &&
+    options.History.empty() && options.Snapshots.empty())
+  {
+    throw UsageError("no file to write is given");
+  }
+  if (!options.Seeds.empty() && !options.InitialSurface.empty())
+  {
+    throw UsageError("--seeds and --initial-surface exclude each other");
+  }
+}
+
+// ---- Help ---------------------------------------------------------------------------------------
+
+void PrintOption(std::ostream& out, const std::string& option, const std::string& argument,
+  const std::string& help)
+{
+  const std::size_t width = 80;
+  const std::size_t indent = 8;
+  out << "  --" << option << (argument.empty() ? "" : " " + argument) << "\n";
+  std::istringstream words(help);
+  std::string word;
+  std::string line;
+  while (words >> word)
+  {
+    if (!line.empty() && indent + line.size() + 1 + word.size() > width)
+    {
+      out << std::string(indent, ' ') << line << "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  out << std::string(indent, ' ') << line << "\n";
+}
+}
+
+bool SegmentOptions::HasProperty(const std::string& property) const
+{
+  return std::any_of(this->Properties.begin(), this->Properties.end(),
+    [&](const auto& chosen) { return chosen.first->Property == property; });
+}
+
+SegmentOptions ParseOptions(int argc, const char* const argv[])
+{
+  SegmentOptions options;
+  bool isPlain = false;
+  for (int i = 1; i < argc; ++i)
+  {
+    std::string word = argv[i];
+    if (!isPlain && word == "--")
+    {
+      isPlain = true;
+      continue;
+    }
+    word = isPlain ? word : word == "-h" ? "--help" : word == "-q" ? "--quiet" : word;
+    if (isPlain || word.size() < 2 || word[0] != '-')
+    {
+      (options.Volume.empty() ? options.Volume : options.Surfaces.emplace_back()) = word;
+      continue;
+    }
+    if (word.compare(0, 2, "--") != 0)
+    {
+      throw UsageError("unknown option " + word);
+    }
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
+    const FoundOption found = FindOption(name);
+    std::string text;
+    if (equals != std::string::npos)
+    {
+      text = word.substr(equals + 1);
+      if (!found.TakesArgument())
+      {
+        throw UsageError("--" + name + " takes no argument");
+      }
+    }
+    else if (found.TakesArgument())
+    {
+      if (++i >= argc)
+      {
+        throw UsageError("--" + name + " needs an argument");
+      }
+      text = argv[i];
+    }
+    try
+    {
+      ApplyOption(options, found, text);
+    }
+    catch (const UsageError& error)
+    {
+      throw UsageError("--" + name + ": " + error.what());
+    }
+  }
+  CheckComplete(options);
+  return options;
+}
+
+void ApplyProperties(const SegmentOptions& options, const FilterPair& filters)
+{
+  for (const auto& [property, text] : options.Properties)
+  {
+    try
+    {
+      property->Set(filters, text);
+    }
+    catch (const UsageError& error)
+    {
+      throw UsageError("--" + property->Option + ": " + error.what());
+    }
+  }
+}
+
+void PrintHelp(std::ostream& out, const FilterPair& filters)
+{
+  out << "Usage: volumic [OPTION]... VOLUME SURFACE...\n"
+         "\n"
+         "Finds the surface of an object in a 3D image with a closed, deformable surface\n"
+         "that descends a pyramid of the image from coarse to fine, and writes it.\n"
+         "\n"
+         "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
+         "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
+         "SURFACE  .vtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; several are all written\n"
+         "\n"
+         "Input:\n";
+  for (const ProgramOption& option : InputOptions())
+  {
+    PrintOption(out, option.Option, option.Argument, option.Help);
+  }
+  out << "\nSegmentation:\n";
+  for (const PropertyOption& option : SurfaceProperties())
+  {
+    const std::string value = option.Get(filters);
+    const bool hasDefault = !option.Argument.empty() && value != "nan";
+    PrintOption(out, option.Option, option.Argument,
+      option.Help + (hasDefault ? " (default: " + value + ")" : ""));
+  }
+  out << "\nOutput:\n";
+  for (const ProgramOption& option : OutputOptions())
+  {
+    PrintOption(out, option.Option, option.Argument, option.Help);
+  }
+  out << "\n"
+         "Exit codes: 0 done; 1 something failed; 2 wrong usage; 3 interrupted (Ctrl-C) or\n"
+         "stopped by the iteration limit: the surface as it was then is written.\n";
+}
+
+void PrintProperties(std::ostream& out, const FilterPair& filters)
+{
+  for (const PropertyOption& option : SurfaceProperties())
+  {
+    out << option.Class << "\t" << option.Property << "\t--" << option.Option << "\t"
+        << option.Get(filters) << "\n";
+  }
+}
+}

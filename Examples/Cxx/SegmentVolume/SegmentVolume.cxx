@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// From a volume to a closed surface: the program that is installed as `volumic`. See volumic.1, or
+//   volumic --help
+#include "ParseNumbers.h"
+#include "ReadStart.h"
+#include "ReadVolume.h"
+#include "Report.h"
+#include "RunFilter.h"
+#include "SegmentOptions.h"
+#include "ToolErrors.h"
+#include "WriteResults.h"
+
+#include <vtkDataArray.h>
+#include <vtkDeformableSurface.h>
+#include <vtkImageData.h>
+#include <vtkImagePyramid.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkOtsuThreshold.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+#include <vtkVersion.h>
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <unistd.h>
+
+namespace
+{
+using namespace tool;
+
+/// What is told on stderr, unless --quiet.
+class Announcer
+{
+public:
+  explicit Announcer(const SegmentOptions& options) : IsQuiet(options.Quiet)
+  {
+    const bool isTerminal = isatty(STDERR_FILENO) != 0;
+    this->Style = options.Quiet ? ProgressStyle::None
+      : isTerminal              ? ProgressStyle::OneLine
+      : options.Progress        ? ProgressStyle::Lines
+                                : ProgressStyle::None;
+  }
+
+  void Say(const std::string& text) const
+  {
+    if (!this->IsQuiet)
+    {
+      std::cerr << "volumic: " << text << "\n";
+    }
+  }
+
+  ProgressStyle Style;
+
+private:
+  bool IsQuiet;
+};
+
+/// All that can be known to be wrong before the work begins.
+void CheckOutputs(const SegmentOptions& options)
+{
+  for (const std::string& name : options.Surfaces)
+  {
+    CheckSurfaceName(name);
+  }
+  for (const std::string& name : { options.History, options.Levels, options.Snapshots })
+  {
+    CheckFolderOf(name);
+  }
+  if (options.Report != "-")
+  {
+    CheckFolderOf(options.Report);
+  }
+}
+
+vtkSmartPointer<vtkImageData> LoadVolume(const SegmentOptions& options, const Announcer& announcer)
+{
+  const vtkSmartPointer<vtkImageData> image = ReadVolume(options.Volume);
+  try
+  {
+    ChooseScalars(image, options.Array, options.Component);
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(options.Volume + ": " + failure.what());
+  }
+  if (options.Spacing)
+  {
+    image->SetSpacing(options.Spacing->data());
+  }
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  const int* size = image->GetDimensions();
+  const double* spacing = image->GetSpacing();
+  const auto times = [](auto a, auto b, auto c)
+  { return NumberText(a) + " x " + NumberText(b) + " x " + NumberText(c); };
+  announcer.Say(options.Volume + ": " + times(size[0], size[1], size[2]) + " voxels of " +
+    times(spacing[0], spacing[1], spacing[2]) + ", " + scalars->GetDataTypeAsString() + ", " +
+    NumberText(scalars->GetRange(0)[0]) + " to " + NumberText(scalars->GetRange(0)[1]));
+  return image;
+}
+
+void SetStart(const SegmentOptions& options, vtkDeformableSurface* filter)
+{
+  const bool isChosen = options.HasProperty("Initialization");
+  if (!options.Seeds.empty())
+  {
+    filter->SetInitialSurfaceData(ReadSeeds(options.Seeds));
+    if (!isChosen)
+    {
+      filter->SetInitializationToSeeds();
+    }
+  }
+  else if (!options.InitialSurface.empty())
+  {
+    filter->SetInitialSurfaceData(ReadSurface(options.InitialSurface));
+    if (!isChosen)
+    {
+      filter->SetInitializationToInputSurface();
+    }
+  }
+}
+
+void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
+{
+  vtkDeformableSurface* filter = results.Filters.Surface;
+  const std::string remark = std::string("volumic " VOLUMIC_VERSION) +
+    (results.IsFinished ? "" : ", UNFINISHED: " + StopReason(filter->GetOutput()));
+  for (const std::string& name : options.Surfaces)
+  {
+    WriteSurface(filter->GetOutput(), name, remark);
+  }
+  if (!options.Levels.empty())
+  {
+    WriteBlocks(filter->GetLevels(), options.Levels, "level");
+  }
+  if (!options.Snapshots.empty())
+  {
+    WriteBlocks(filter->GetSnapshots(), options.Snapshots, "snapshot");
+  }
+  if (!options.History.empty())
+  {
+    WriteTable(filter->GetHistory(), options.History);
+  }
+  if (options.Report == "-")
+  {
+    WriteReport(std::cout, results);
+  }
+  else if (!options.Report.empty())
+  {
+    std::ofstream file(options.Report);
+    WriteReport(file, results);
+    if (!file.flush())
+    {
+      throw Failure(options.Report + ": cannot be written");
+    }
+  }
+}
+
+ExitCode Segment(
+  const SegmentOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
+{
+  const Announcer announcer(options);
+  CheckOutputs(options);
+  const vtkSmartPointer<vtkImageData> volume = LoadVolume(options, announcer);
+  SetStart(options, filter);
+  if (!options.HasProperty("IsoValue"))
+  {
+    vtkNew<vtkOtsuThreshold> otsu;
+    otsu->SetInputData(volume);
+    RunFilter(otsu, "Otsu's threshold", ProgressStyle::None);
+    filter->SetIsoValue(otsu->GetThreshold());
+    announcer.Say("iso-value " + NumberText(filter->GetIsoValue()) +
+      " by Otsu's threshold; choose another one with --iso");
+  }
+  if (!options.HasProperty("SnapshotInterval") && !options.Snapshots.empty())
+  {
+    filter->SetSnapshotInterval(10);
+  }
+
+  CatchInterrupts();
+  pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
+  pyramid->SetInputData(volume);
+  const FilterRun pyramidRun = RunFilter(pyramid, "Building the pyramid", announcer.Style);
+  filter->SetInputConnection(pyramid->GetOutputPort());
+  if (pyramidRun.IsInterrupted)
+  {
+    throw Failure("interrupted before there was a surface; nothing is written");
+  }
+  const FilterRun run = RunFilter(filter, "Evolving the surface", announcer.Style);
+  for (const std::string& warning : run.Warnings)
+  {
+    announcer.Say("warning: " + warning);
+  }
+
+  vtkPolyData* surface = filter->GetOutput();
+  const std::string reason = StopReason(surface);
+  if (surface->GetNumberOfPolys() == 0)
+  {
+    throw Failure(run.IsInterrupted ? "interrupted before there was a surface; nothing is written"
+                                    : "the surface vanished: is the object where the image is " +
+          std::string(filter->GetObjectIsBright() ? "above " : "below ") +
+          NumberText(filter->GetIsoValue()) + "? (--iso, --dark)");
+  }
+  ReportInput results;
+  results.VolumeName = std::filesystem::path(options.Volume).filename().string();
+  results.Volume = volume;
+  results.Filters = { pyramid, filter };
+  results.IsFinished = reason == "converged";
+  results.PyramidSeconds = pyramidRun.Seconds;
+  results.SurfaceSeconds = run.Seconds;
+  results.Warnings = run.Warnings;
+  WriteOutputs(options, results);
+
+  announcer.Say(std::to_string(surface->GetNumberOfPoints()) + " vertices after " +
+    std::to_string(filter->GetHistory()->GetNumberOfRows()) + " iterations: " + reason);
+  if (!results.IsFinished)
+  {
+    std::cerr << "volumic: unfinished (" << reason << "); the surface as it is was written\n";
+  }
+  return results.IsFinished ? Success : Unfinished;
+}
+
+ExitCode Run(int argc, char* argv[])
+{
+  vtkNew<vtkImagePyramid> pyramid;
+  vtkNew<vtkDeformableSurface> filter;
+  const FilterPair filters{ pyramid, filter };
+  const SegmentOptions options = ParseOptions(argc, argv);
+  switch (options.Task)
+  {
+    case SegmentOptions::Task::ShowHelp:
+      PrintHelp(std::cout, filters);
+      return Success;
+    case SegmentOptions::Task::ShowVersion:
+      std::cout << "volumic " VOLUMIC_VERSION " (VTK " << vtkVersion::GetVTKVersion() << ")\n";
+      return Success;
+    case SegmentOptions::Task::ListProperties:
+      PrintProperties(std::cout, filters);
+      return Success;
+    case SegmentOptions::Task::Segment:
+      break;
+  }
+  ApplyProperties(options, filters);
+  return Segment(options, pyramid, filter);
+}
+}
+
+int main(int argc, char* argv[])
+{
+  try
+  {
+    return Run(argc, argv);
+  }
+  catch (const tool::UsageError& error)
+  {
+    std::cerr << "volumic: " << error.what() << "\nTry 'volumic --help'.\n";
+    return tool::UsageFailure;
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << "volumic: not enough memory\n";
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "volumic: " << error.what() << "\n";
+  }
+  return tool::RuntimeFailure;
+}

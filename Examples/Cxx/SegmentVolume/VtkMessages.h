@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef VtkMessages_h
+#define VtkMessages_h
+
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+
+namespace tool
+{
+/// Keeps the errors and warnings of VTK objects, which would go to stderr with file and line.
+class VtkMessages
+{
+public:
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+
+  /// Listen to an algorithm and its executive. This object must outlive their runs.
+  void ListenTo(vtkAlgorithm* algorithm);
+
+  /// Update the algorithm. @throws Failure "NAME: cannot be ... (errors)" if it reports an error.
+  void UpdateReader(vtkAlgorithm* reader, const std::string& name);
+
+  std::string JoinedErrors() const;
+};
+}
+
+#endif
