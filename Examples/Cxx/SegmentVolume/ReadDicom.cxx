@@ -73,8 +73,10 @@ Slice ReadSlice(const std::string& file)
     slice.Position[c] = Decimal(position[c]);
     slice.Across[c] = Decimal(orientation[c]);
     slice.Down[c] = Decimal(orientation[3 + c]);
-    slice.Spacing[c] = Decimal(reader->GetPixelSpacing()[c]);
   }
+  // The file has the distance of the rows first, and so has VTK's reader.
+  const double* spacing = reader->GetPixelSpacing();
+  slice.Spacing = { Decimal(spacing[1]), Decimal(spacing[0]), Decimal(spacing[2]) };
   slice.Study = reader->GetStudyUID() ? reader->GetStudyUID() : "";
   slice.Image = reader->GetOutput();
   if (!slice.Image->GetPointData()->GetScalars())
@@ -113,12 +115,15 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
     (along(slices.size() - 1) - along(0)) / static_cast<double>(slices.size() - 1);
   for (std::size_t i = 1; i < slices.size(); ++i)
   {
-    const double step = along(i) - along(i - 1);
-    if (step <= 1e-4)
+    if (along(i) - along(i - 1) <= 1e-4)
     {
       throw Failure(slices[i].File + " lies where " + slices[i - 1].File +
         " does; one series per folder is needed");
     }
+  }
+  for (std::size_t i = 1; i < slices.size(); ++i)
+  {
+    const double step = along(i) - along(i - 1);
     if (std::abs(step - mean) > UnevenDistance * mean)
     {
       throw Failure(slices[i].File + " is " + NumberText(step) + " mm from the slice before, " +

@@ -278,7 +278,7 @@ void PrintHelp(std::ostream& out, const FilterPair& filters)
          "\n"
          "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
          "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
-         "SURFACE  .vtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; several are all written\n"
+         "SURFACE  .vtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; all are written\n"
          "\n"
          "Input:\n";
   for (const ProgramOption& option : InputOptions())

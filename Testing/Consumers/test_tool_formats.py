@@ -1,0 +1,188 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program `volumic` finds a ball where it is, whatever the format of the volume; and what it
+writes in each mesh format is what VTK reads from there."""
+
+import gzip
+import importlib
+import os
+import sys
+import unittest
+
+import numpy as np
+from vtkmodules.vtkIOGeometry import vtkBYUReader, vtkOBJReader, vtkSTLReader
+from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkMetaImageWriter, vtkPNGWriter, vtkTIFFWriter
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkStructuredPointsWriter
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataReader
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData
+
+from tool_test_case import (
+    CENTRE, ISO, ORIGIN, RADIUS, SIZE, SPACING, TURNED, ToolTestCase, ball, make_image)
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "Python"))
+import medical_files  # pylint: disable=wrong-import-position
+
+
+class VolumesTest(ToolTestCase):
+    def check(self, volume, *options, direction=np.eye(3), spacing=SPACING, origin=ORIGIN, iso=ISO):
+        """The ball of the report lies where the file's geometry puts it, and has its size."""
+        report = self.report(volume, "--iso", iso, "--quiet", *options)
+        self.assertEqual(report["input"]["dimensions"], SIZE.tolist())
+        np.testing.assert_allclose(report["input"]["spacing"], spacing, rtol=1e-9)
+        self.assertEqual((report["components"], report["genus"]), (1, 0))
+        centre = origin + direction @ (spacing * CENTRE)
+        np.testing.assert_allclose(report["component_features"][0]["centroid"], centre, atol=0.05)
+        whole = 4 / 3 * np.pi * RADIUS ** 3 * np.prod(spacing / SPACING)
+        # Its vertices lie on the sphere, its triangles inside.
+        self.assertTrue(0.94 < report["volume"] / whole < 1.0, report["volume"] / whole)
+        return report
+
+    def test_vtk_xml(self):
+        image = make_image(ball(), direction=TURNED)
+        self.check(self.write(vtkXMLImageDataWriter(), "a.vti", image), direction=TURNED)
+
+    def test_vtk_legacy(self):
+        self.check(self.write(vtkStructuredPointsWriter(), "a.vtk", make_image(ball())))
+
+    def test_meta_image(self):
+        self.check(self.write(vtkMetaImageWriter(), "a.mha", make_image(ball())))
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "0 1 0 -1 0 0 0 0 1")
+        self.check(self.write_bytes("b.mha", header + ball().tobytes()), direction=TURNED)
+
+    def test_nrrd(self):
+        for encoding, code in (("raw", bytes), ("gzip", gzip.compress)):
+            for endian, order in (("little", "<"), ("big", ">")):
+                with self.subTest(encoding=encoding, endian=endian):
+                    header = medical_files.nrrd_header(
+                        ball(), SPACING, ORIGIN, TURNED, encoding, endian)
+                    data = code(ball().astype(order + "i2").tobytes())
+                    self.check(self.write_bytes("a.nrrd", header + b"\n" + data), direction=TURNED)
+
+    def test_nrrd_in_two_files_and_as_text(self):
+        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, TURNED, "raw", "little")
+        self.write_bytes("a.raw", ball().tobytes())
+        self.check(self.write_bytes("a.nhdr", header + b"data file: a.raw\n"), direction=TURNED)
+        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, TURNED, "ascii", "little")
+        text = " ".join(map(str, ball().ravel())).encode()
+        self.check(self.write_bytes("b.nrrd", header + b"\n" + text), direction=TURNED)
+
+    def test_nifti_with_its_matrix_and_scale(self):
+        matrix = np.column_stack([TURNED * SPACING, ORIGIN])
+        content = medical_files.nifti(ball(), SPACING, matrix)
+        self.check(self.write_bytes("a.nii", content), direction=TURNED)
+        content = medical_files.nifti(ball(), SPACING, offset=ORIGIN, slope=0.5, intercept=-100)
+        report = self.check(self.write_bytes("b.nii.gz", gzip.compress(content)),
+                            iso=ISO / 2 - 100)
+        self.assertEqual(report["input"]["range"], (np.array([ball().min(), ball().max()]) / 2 - 100).tolist())
+
+    @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
+    def test_minc(self):
+        from vtkmodules.vtkIOMINC import vtkMINCImageWriter
+        self.check(self.write(vtkMINCImageWriter(), "a.mnc", make_image(ball())))
+
+    def test_dicom_series_in_any_order(self):
+        voxels = ball("u2") + 24
+        for k, name in enumerate(np.random.default_rng(1).permutation(SIZE[2])):
+            self.write_bytes(f"IM{name:03}.dcm", medical_files.dicom_slice(
+                voxels[k], k, SPACING, ORIGIN, TURNED, slope="1", intercept="-24"))
+        report = self.check(self.folder, direction=TURNED)
+        self.assertEqual(report["input"]["range"], [ball().min(), ball().max()])
+        self.check(self.path("IM000.dcm"), direction=TURNED)
+        self.check(self.path("IM*.dcm"), direction=TURNED)
+
+    def write_pictures(self, writer, suffix, voxels):
+        for k, plane in enumerate(voxels):
+            image = make_image(plane[np.newaxis])
+            self.write(writer, f"slice{k}.{suffix}", image)  # slice9 comes before slice10
+
+    def test_pictures_in_a_folder_or_of_a_pattern(self):
+        place = {"origin": np.zeros(3), "iso": ISO}
+        options = ("--spacing", ",".join(map(str, SPACING)))
+        self.write_pictures(vtkPNGWriter(), "png", ball("u2"))
+        self.check(self.folder, *options, **place)
+        self.write_pictures(vtkTIFFWriter(), "tif", ball("u2")[:, ::-1])  # see volumic.1
+        self.refused(r"several kinds.*'\*\.tif'", self.folder, self.path("a.vtp"))
+        for pattern in ("slice*.tif", "slice%d.tif", "*.png"):
+            with self.subTest(pattern):
+                self.check(self.path(pattern), *options, **place)
+        self.write_pictures(vtkJPEGWriter(), "jpg", ball("u1", scale=0.2))
+        self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
+
+    def test_a_picture_with_pages(self):
+        # VTK writes the slices of a volume from the last to the first page.
+        file = self.write(vtkTIFFWriter(), "a.tif", make_image(ball("u2")))
+        report = self.report(file, "--iso", ISO, "--quiet")
+        self.assertEqual(report["input"]["dimensions"], SIZE.tolist())
+        self.assertEqual((report["components"], report["genus"]), (1, 0))
+
+    def test_a_chosen_array_and_component(self):
+        image = make_image(np.zeros_like(ball()))
+        both = make_image(np.stack([np.zeros_like(ball()), ball()], axis=-1)[..., 1])
+        array = both.GetPointData().GetScalars()
+        array.SetName("other")
+        image.GetPointData().AddArray(array)
+        self.check(self.write(vtkXMLImageDataWriter(), "a.vti", image), "--array", "other")
+        self.refused("point arrays: density, other", self.path("a.vti"), self.path("a.stl"),
+                     "--array", "missing")
+
+    def test_bad_volumes(self):
+        self.refused("no such file", self.path("missing.vti"), self.path("a.stl"))
+        self.refused("suffix", self.write_bytes("a.vti", b"not an image"), self.path("a.stl"))
+        self.refused("a.xyz.*not a format", self.write_bytes("a.xyz", b"?"), self.path("a.stl"))
+        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
+        self.refused("damaged", self.write_bytes("a.nrrd", header + b"\nnothing"),
+                     self.path("a.stl"))
+        sheared = np.array([[1, 0.5, 0], [0, 1, 0], [0, 0, 1]])
+        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, sheared, "raw", "little")
+        self.refused("right angles", self.write_bytes("b.nrrd", header + b"\n" + ball().tobytes()),
+                     self.path("a.stl"))
+        self.refused("no value separates", self.write(
+            vtkXMLImageDataWriter(), "flat.vti", make_image(0 * ball())), self.path("a.stl"))
+        self.assertFalse(os.path.exists(self.path("a.stl")))
+
+    def test_bad_series(self):
+        for k in (0, 1, 2, 5, 6):
+            self.write_bytes(f"IM{k}", medical_files.dicom_slice(
+                ball()[k], k, SPACING, ORIGIN, TURNED))
+        self.refused("some are missing", self.folder, self.path("a.stl"))
+        self.write_bytes("IM5", medical_files.dicom_slice(ball()[0], 1, SPACING, ORIGIN, TURNED))
+        self.refused("one series per folder", self.folder, self.path("a.stl"))
+
+
+class SurfacesTest(ToolTestCase):
+    READERS = {"vtp": vtkXMLPolyDataReader, "vtk": vtkPolyDataReader, "stl": vtkSTLReader,
+               "ply": vtkPLYReader, "obj": vtkOBJReader, "g": vtkBYUReader}
+
+    def test_each_format_holds_the_same_surface(self):
+        others = ["iv", "geo", "facet", "tri"]
+        names = [self.path(f"a.{suffix}") for suffix in [*self.READERS, *others]]
+        report = self.report(self.ball_file(), "--iso", ISO, *names)
+        for suffix, reader_class in self.READERS.items():
+            with self.subTest(suffix):
+                reader = reader_class()
+                if suffix == "g":
+                    reader.SetGeometryFileName(self.path("a.g"))
+                else:
+                    reader.SetFileName(self.path(f"a.{suffix}"))
+                clean = vtkCleanPolyData()  # STL has the points of each triangle
+                clean.SetInputConnection(reader.GetOutputPort())
+                clean.SetTolerance(0.0)
+                clean.Update()
+                surface = clean.GetOutput()
+                self.assertEqual(surface.GetNumberOfPolys(), report["triangles"])
+                self.assertEqual(surface.GetNumberOfPoints(), report["vertices"])
+                centre = np.array(surface.GetCenter())
+                np.testing.assert_allclose(centre, ORIGIN + SPACING * CENTRE, atol=0.1)
+        for suffix in others:
+            self.assertGreater(os.path.getsize(self.path(f"a.{suffix}")), 1000, suffix)
+
+    def test_files_that_cannot_be_written(self):
+        self.refused("no folder", self.ball_file(), self.path("missing/a.stl"))
+        self.refused("suffix.*known are", self.ball_file(), self.path("a.xyz"), status=2)
+        os.mkdir(self.path("b.vtp"))
+        self.refused("cannot be written", self.ball_file(), self.path("b.vtp"))
+
+
+if __name__ == "__main__":
+    unittest.main()

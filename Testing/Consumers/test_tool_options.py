@@ -1,0 +1,231 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The options of the program `volumic`: none is forgotten, each has its effect, all are in the
+manual; exit codes and interruption."""
+
+import csv
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.vtkCommonExecutionModel import vtkImageAlgorithm, vtkPolyDataAlgorithm
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
+
+from tool_test_case import (
+    CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image)
+from volumic import vtkDeformableSurface, vtkImagePyramid
+
+# What is set in another way: inputs, and the threads of the pyramid, which are the surface's.
+NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData"},
+               "vtkImagePyramid": {"NumberOfThreads"}}
+
+
+def properties_of(filter_class, base_class):
+    """Names of the class's own Set methods, without those of one value of an enumeration."""
+    names = {name[3:] for name in dir(filter_class)
+             if name.startswith("Set") and not hasattr(base_class, name)}
+    return {n for n in names if not any(n.startswith(m + "To") for m in names)}
+
+
+class OptionTableTest(ToolTestCase):
+    def table(self):
+        lines = self.run_tool("--list-properties").stdout.splitlines()
+        return [line.split("\t") for line in lines]
+
+    def test_every_property_has_an_option(self):
+        for filter_class, base in ((vtkDeformableSurface, vtkPolyDataAlgorithm),
+                                   (vtkImagePyramid, vtkImageAlgorithm)):
+            name = filter_class.__name__
+            in_table = [row[1] for row in self.table() if row[0] == name]
+            self.assertEqual(len(in_table), len(set(in_table)), "a property has two options")
+            self.assertEqual(set(in_table),
+                             properties_of(filter_class, base) - NOT_OPTIONS[name])
+
+    def test_defaults_are_the_filters(self):
+        filters = {"vtkDeformableSurface": vtkDeformableSurface(),
+                   "vtkImagePyramid": vtkImagePyramid()}
+        for class_name, name, option, text in self.table():
+            value = getattr(filters[class_name], "Get" + name)()
+            if isinstance(value, bool):
+                self.assertEqual(text, "on" if value else "off", option)
+            elif re.fullmatch(r"[-0-9.e+]+|nan", text):
+                np.testing.assert_equal(float(text), value, option)
+
+    def test_every_option_sets_its_property_and_no_other(self):
+        """By the report's list of properties."""
+        volume = self.write(vtkXMLImageDataWriter(), "small.vti", make_image(ball()))
+        values = {
+            "iso": "400", "reduction-factor": "1.5", "sampling-ratio": "0.9", "friction": "2.5",
+            "tolerance": "0.01", "border": "replicate", "recovery": "none", "levels": "2",
+            "initialization": "iso-surface", "coarsest": "0", "finest": "0", "seed-radius": "1.5",
+            "minimum-level-size": "12", "iterations": "400", "threads": "1",
+            "minimum-part-size": "7", "snapshot-interval": "50"}
+        before = self.report(volume, "--iso", ISO)["properties"]
+        for _, name, option, default in self.table():
+            option = option[2:]
+            is_switch = default in ("on", "off")
+            value = values.get(option, "0.3")
+            arguments = [] if option == "iso" else ["--iso", str(ISO)]
+            if option == "dark":
+                volume_used = self.write(vtkXMLImageDataWriter(), "dark.vti",
+                                         make_image(1001 - ball()))
+            else:
+                volume_used = volume
+            arguments += [f"--{option}"] if is_switch else [f"--{option}", value]
+            with self.subTest(option):
+                after = self.report(volume_used, *arguments)["properties"]
+                changed = {n for n in after if after[n] != before[n]}
+                expected = {name} if default != value else set()
+                self.assertEqual(changed, expected)
+                if not is_switch:
+                    self.assertEqual(after[name], value)
+
+    def test_wrong_usage(self):
+        for reason, arguments in (
+                ("no volume", []), ("no file to write", ["a.vti"]),
+                ("unknown option --isoo", ["--isoo", "3"]), ("unknown option -z", ["-z"]),
+                ("--iso needs", ["a", "b.stl", "--iso"]),
+                ("--iso: 'x' is not a number", ["a", "b.stl", "--iso", "x"]),
+                ("--levels: '2.5' is not a whole number", ["a", "b.stl", "--levels=2.5"]),
+                ("--dark takes no", ["a", "b.stl", "--dark=on"]),
+                ("--recovery: 'all' is none of none|objects".replace("|", r"\|"),
+                 ["a", "b.stl", "--recovery", "all"]),
+                ("--spacing: .* are 2 numbers, not 3", ["a", "b.stl", "--spacing", "1,2"]),
+                ("exclude each other", ["a", "b.stl", "--seeds", "c", "--initial-surface", "d"])):
+            with self.subTest(arguments):
+                self.refused(reason, *arguments, status=2)
+
+    def test_values_that_the_filter_refuses(self):
+        self.refused("Friction", self.ball_file(), self.path("a.stl"), "--iso", ISO,
+                     "--friction", "-1")
+
+
+class ManualTest(ToolTestCase):
+    def test_every_option_is_in_the_manual_and_the_other_way_round(self):
+        options = set(re.findall(r"^  --([a-z-]+)", self.run_tool("--help").stdout, re.M))
+        self.assertGreater(len(options), 30)
+        with open(MANUAL, encoding="utf-8") as file:
+            described = set(re.findall(r"^\.It Fl (?:[a-z] , )?-([a-z-]+)", file.read(), re.M))
+        self.assertEqual(options, described)
+
+    @unittest.skipUnless(shutil.which("groff"), "no groff")
+    def test_it_renders_without_warnings(self):
+        process = subprocess.run(["groff", "-mdoc", "-ww", "-Tutf8", MANUAL], check=True,
+                                 capture_output=True, text=True)
+        self.assertEqual(process.stderr, "")
+        self.assertIn("--levels-output", re.sub(".\b", "", process.stdout))  # bold: overstruck
+
+    @unittest.skipUnless(shutil.which("mandoc"), "no mandoc")
+    def test_mandoc_finds_nothing(self):
+        process = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", MANUAL], check=False,
+                                 capture_output=True, text=True)
+        self.assertEqual(process.stdout + process.stderr, "")
+
+    def test_help_and_version(self):
+        self.assertRegex(self.run_tool("--version").stdout, r"^volumic [0-9.]+ \(VTK [0-9.]+")
+        text = self.run_tool("-h").stdout
+        prose = [line for line in text.splitlines() if not line.startswith("  --")]
+        self.assertLessEqual(max(map(len, prose)), 80)
+
+
+class RunTest(ToolTestCase):
+    def test_all_outputs(self):
+        self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO,
+                      "--history", self.path("h.csv"), "--report", self.path("r.json"),
+                      "--levels-output", self.path("l.vtm"), "--snapshots", self.path("s"),
+                      "--snapshot-interval", "5", "--levels", "2")
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertTrue(report["finished"])
+        self.assertEqual([level["level"] for level in report["levels"]], [1, 0])
+        with open(self.path("h.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(sum(level["iterations"] for level in report["levels"]), len(rows))
+        reader = vtkXMLMultiBlockDataReader()
+        reader.SetFileName(self.path("l.vtm"))
+        reader.Update()
+        self.assertEqual(reader.GetOutput().GetBlock(1).GetNumberOfPoints(),
+                         report["levels"][0]["vertices"])
+        self.assertGreater(len(os.listdir(self.path("s"))), 2)
+        self.run_tool(self.ball_file(), "--levels-output", self.path("levels"), "--iso", ISO,
+                      "--levels", "2")
+        self.assertEqual(sorted(os.listdir(self.path("levels"))), ["level-0.vtp", "level-1.vtp"])
+
+    def test_iso_value_by_otsu_is_told(self):
+        process = self.run_tool(self.ball_file(), self.path("a.vtp"))
+        told = re.search(r"iso-value ([0-9.]+) by Otsu", process.stderr)
+        self.assertTrue(100 < float(told.group(1)) < 900)
+        self.assertEqual(self.run_tool(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
+
+    def test_progress_in_lines(self):
+        process = self.run_tool(self.ball_file(), self.path("a.vtp"), "--progress")
+        self.assertRegex(process.stderr, r"(?m)^Evolving the surface: +\d+ %  Level 0, iteration")
+
+    def test_seeds_and_initial_surface(self):
+        centre = ORIGIN + SPACING * CENTRE
+        self.write_bytes("seeds.csv", b"x,y,z\n" + ",".join(map(str, centre)).encode() + b"\n")
+        options = ("--iso", ISO, "--levels", "1", "--recovery", "none", "--seed-radius", "2")
+        seeded = self.report(self.ball_file(), self.path("a.stl"), *options,
+                             "--seeds", self.path("seeds.csv"))
+        self.assertEqual(seeded["properties"]["Initialization"], "seeds")
+        again = self.report(self.ball_file(), *options, "--initial-surface", self.path("a.stl"))
+        self.assertEqual(again["properties"]["Initialization"], "input-surface")
+        self.assertAlmostEqual(again["volume"] / seeded["volume"], 1.0, delta=0.01)
+        self.assertLess(again["iterations"], seeded["iterations"])
+        self.write_bytes("bad.txt", b"1 2 3\n1 2\n")
+        self.refused("bad.txt, line 2: not three numbers", self.ball_file(), self.path("a.stl"),
+                     "--seeds", self.path("bad.txt"))
+
+    def test_iteration_limit_is_marked(self):
+        report = self.report(self.ball_file(), self.path("a.vtp"), self.path("a.stl"),
+                             "--iso", ISO, "--iterations", "3", status=3)
+        self.assertFalse(report["finished"])
+        self.assertEqual(report["stop_reason"], "iteration limit")
+        with open(self.path("a.stl"), "rb") as file:
+            self.assertIn(b"UNFINISHED: iteration limit", file.read(80))
+
+    def test_nothing_is_left(self):
+        self.refused("volumic: .*", self.ball_file(), self.path("a.vtp"), "--iso", "2000")
+        self.assertFalse(os.path.exists(self.path("a.vtp")))
+
+    def test_interrupt_writes_what_there_is(self):
+        # A large noisy volume, so that there is time; the history tells how far it came.
+        noise = np.random.default_rng(2).normal(0, 120, (100, 100, 100))
+        z, y, x = np.mgrid[0:100, 0:100, 0:100] - 49.5
+        waves = 300 * (np.sin(x / 4) + np.sin(y / 4) + np.sin(z / 4)) + noise
+        volume = self.write(vtkXMLImageDataWriter(), "waves.vti",
+                            make_image(waves.astype("f4"), (1, 1, 1)))
+        command = [PROGRAM, volume, self.path("a.vtp"), "--iso", "0", "--progress", "--tolerance",
+                   "0", "--report", self.path("r.json")]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            for line in process.stderr:
+                if line.startswith("Evolving") and "iteration" in line:
+                    break
+            time.sleep(0.2)
+            process.send_signal(signal.SIGINT)
+            started = time.monotonic()
+            rest = process.stderr.read()
+            self.assertEqual(process.wait(timeout=60), 3, rest)
+        self.assertLess(time.monotonic() - started, 30)
+        self.assertIn("unfinished (cancelled)", rest)
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertEqual((report["finished"], report["stop_reason"]), (False, "cancelled"))
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(self.path("a.vtp"))
+        reader.Update()
+        self.assertEqual(reader.GetOutput().GetNumberOfPolys(), report["triangles"])
+        self.assertEqual(
+            reader.GetOutput().GetFieldData().GetAbstractArray("StopReason").GetValue(0),
+            "cancelled")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the installed program share: the program, a folder, a volume with a ball.
+
+VOLUMIC_PROGRAM names the program, VOLUMIC_MANUAL its manual page.
+"""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+PROGRAM = os.environ["VOLUMIC_PROGRAM"]
+MANUAL = os.environ["VOLUMIC_MANUAL"]
+
+SIZE = np.array([26, 22, 18])  # voxels along x, y, z
+SPACING, ORIGIN = np.array([0.5, 0.75, 1.0]), np.array([-7.0, 8.0, 9.5])
+# A quarter turn about z: index x is world y, index y is world -x.
+TURNED = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+CENTRE, RADIUS = np.array([8.3, 12.6, 7.8]), 4.0  # of the ball; index space, world lengths
+ISO = 500.5
+
+
+def ball(dtype="i2", scale=1):
+    """Voxels [z, y, x] of a ball whose surface has the value ISO; it is no mirror image of itself,
+    since its centre is off the middle along each axis."""
+    z, y, x = np.mgrid[0:SIZE[2], 0:SIZE[1], 0:SIZE[0]]
+    distance = np.sqrt(sum((s * (n - c)) ** 2 for s, n, c in zip(SPACING, (x, y, z), CENTRE)))
+    values = np.clip(ISO + 100 * (RADIUS - distance), 0, 1000)
+    return np.round(values * scale).astype(dtype)
+
+
+def make_image(voxels, spacing=SPACING, origin=ORIGIN, direction=np.eye(3)):
+    scalars = numpy_to_vtk(np.ascontiguousarray(voxels).ravel(), deep=True)
+    scalars.SetName("density")
+    image = vtkImageData()
+    image.SetDimensions(voxels.shape[::-1])
+    image.SetSpacing(spacing)
+    image.SetOrigin(origin)
+    image.SetDirectionMatrix(np.ravel(direction))
+    image.GetPointData().SetScalars(scalars)
+    return image
+
+
+class ToolTestCase(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, writer, name, image):
+        writer.SetFileName(self.path(name))
+        writer.SetInputData(image)
+        writer.Write()
+        return self.path(name)
+
+    def write_bytes(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content)
+        return self.path(name)
+
+    def ball_file(self):
+        return self.write(vtkXMLImageDataWriter(), "ball.vti", make_image(ball()))
+
+    def run_tool(self, *arguments, status=0, **options):
+        """The finished process; a test failure with its output if it ends otherwise."""
+        process = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                                 timeout=120, check=False, **options)
+        self.assertEqual(process.returncode, status, process.stdout + process.stderr)
+        return process
+
+    def report(self, *arguments, status=0):
+        """The report of a run, parsed."""
+        return json.loads(self.run_tool(*arguments, "--report", "-", status=status).stdout)
+
+    def refused(self, reason, *arguments, status=1):
+        """The program ends with this status and says why, in one line that names itself."""
+        process = self.run_tool(*arguments, status=status)
+        self.assertRegex(process.stderr, reason)
+        self.assertRegex(process.stderr.strip().splitlines()[-1 if status == 1 else 0], "^volumic: ")
