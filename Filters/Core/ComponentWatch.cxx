@@ -89,38 +89,82 @@ double SignedVolume(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 
 void ComponentWatch::Label(SurfaceState& state)
 {
+  // Trees of vertices, each linked to a smaller one, in the place of the labels: one pass through
+  // the rings in the order of memory.
   const int n = state.Mesh.Size();
-  for (int v = 0; v < n; ++v)
+  std::vector<int>& parent = state.Component;
+  const auto root = [&parent](int v)
   {
-    state.Component[v] = -1;
-  }
-  this->Smalls.clear();
-  this->Components = 0;
-  for (int v = 0; v < n; ++v)
-  {
-    if (!state.Mesh.IsAlive(v) || state.Component[v] >= 0)
+    while (parent[v] != v)
     {
-      continue;
+      parent[v] = parent[parent[v]];
+      v = parent[v];
     }
-    const int label = this->Components++;
-    this->Stack.assign(1, v);
-    state.Component[v] = label;
-    for (std::size_t i = 0; i < this->Stack.size(); ++i)
+    return v;
+  };
+  for (int v = 0; v < n; ++v)
+  {
+    parent[v] = v;
+    int own = v;
+    const Ring& ring = state.Mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
     {
-      const Ring& ring = state.Mesh.Rings[this->Stack[i]];
-      for (int k = 0; k < ring.Count; ++k)
+      if (ring.Item[i] < v)
       {
-        if (state.Component[ring.Item[k]] < 0)
-        {
-          state.Component[ring.Item[k]] = label;
-          this->Stack.push_back(ring.Item[k]);
-        }
+        const int other = root(ring.Item[i]);
+        parent[std::max(own, other)] = std::min(own, other);
+        own = std::min(own, other);
       }
     }
-    if (this->Stack.size() <= SmallSize)
+  }
+  this->Sizes.clear();
+  for (int v = 0; v < n; ++v)
+  {
+    // Parents are smaller, so they bear their label already.
+    if (!state.Mesh.IsAlive(v))
     {
-      this->Smalls.push_back({ this->Stack, SignedVolume(state.Mesh, this->Stack) > 0 });
+      parent[v] = -1;
+      continue;
     }
+    if (parent[v] == v)
+    {
+      parent[v] = static_cast<int>(this->Sizes.size());
+      this->Sizes.push_back(0);
+    }
+    else
+    {
+      parent[v] = parent[parent[v]];
+    }
+    ++this->Sizes[parent[v]];
+  }
+  this->Components = static_cast<int>(this->Sizes.size());
+  this->Smalls.clear();
+  for (int& size : this->Sizes)
+  {
+    // From here on: the place among the small ones, or -1.
+    const bool small = size <= SmallSize;
+    size = small ? static_cast<int>(this->Smalls.size()) : -1;
+    if (small)
+    {
+      this->Smalls.emplace_back();
+      this->Smalls.back().Label = static_cast<int>(&size - this->Sizes.data());
+    }
+  }
+  if (this->Smalls.empty())
+  {
+    return;
+  }
+  for (int v = 0; v < n; ++v)
+  {
+    const int place = parent[v] >= 0 ? this->Sizes[parent[v]] : -1;
+    if (place >= 0)
+    {
+      this->Smalls[place].Vertices.push_back(v);
+    }
+  }
+  for (Small& small : this->Smalls)
+  {
+    small.Positive = SignedVolume(state.Mesh, small.Vertices) > 0;
   }
 }
 
@@ -133,7 +177,8 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
     int seed = -1;
     for (int v : small.Vertices)
     {
-      if (state.Mesh.IsAlive(v))
+      // A place that was given up may belong to a vertex of another component now.
+      if (state.Mesh.IsAlive(v) && state.Component[v] == small.Label)
       {
         seed = v;
         break;
@@ -159,12 +204,11 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
     }
     for (int v : this->Stack)
     {
-      state.Component[v] = 0;
+      state.Component[v] = small.Label;
     }
     if (this->Stack.size() > 2 * SmallSize)
     {
-      // Its place in the arrays belongs to another component now.
-      small.Vertices.clear();
+      small.Vertices.clear(); // It has grown.
       continue;
     }
     small.Vertices = this->Stack;
@@ -181,13 +225,12 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
     }
     if (doomed)
     {
+      // The labels of the others stay as they are.
       state.RemoveComponent(seed);
+      small.Vertices.clear();
+      --this->Components;
       deleted = true;
     }
-  }
-  if (deleted)
-  {
-    this->Label(state);
   }
   return deleted;
 }

@@ -20,7 +20,7 @@ public:
   /** Labels components afresh, by their smallest vertex. Call after merges and cuts. */
   void Label(SurfaceState& state);
 
-  /** Deletes what must go. @return whether anything was deleted (labels are fresh then). */
+  /** Deletes what must go; labels must be fresh. @return whether anything was deleted. */
   bool DeleteDoomed(SurfaceState& state);
 
   /**
@@ -36,11 +36,13 @@ public:
 private:
   struct Small
   {
+    int Label = 0;
     std::vector<int> Vertices;
-    bool Positive; ///< Sign of the volume.
+    bool Positive = true; ///< Sign of the volume.
   };
   std::vector<Small> Smalls;
   std::vector<int> Stack;
+  std::vector<int> Sizes;
   int Components = 0;
 };
 

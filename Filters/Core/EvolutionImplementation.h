@@ -50,7 +50,8 @@ struct SurfaceEvolution::Implementation
   std::vector<int> Suspects;
   std::vector<std::uint8_t> Marked;
   std::vector<double> Partial;
-  int Shrunk = 0; ///< Collapses since components were labelled last.
+  int Shrunk = 0;    ///< Collapses since components were labelled last.
+  int Unchecked = 0; ///< Cuts since components were last checked for being inside out.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
     : Options(options)
@@ -66,6 +67,7 @@ struct SurfaceEvolution::Implementation
   void DivideOnce();
   void Adapt();
   void WakeAll();
+  void SleepUnlessMoving(float least);
   void CollectAwake();
   void CollectWorking();
   void CollectSuspects();

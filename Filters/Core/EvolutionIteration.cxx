@@ -102,6 +102,7 @@ void SurfaceEvolution::Implementation::CollectSuspects()
           moved = std::max(moved, s.Moved[ring.Item[k]]);
         }
         s.Drift[v] += moved;
+        s.Slow[v] = moved < 0.08f * s.Delta;
       }
     });
   this->Suspects.clear();
@@ -275,10 +276,12 @@ void SurfaceEvolution::Implementation::Iterate(
     this->Shrunk = 0;
   }
   this->Watch.DeleteDoomed(s);
-  constexpr int insideOutPeriod = 10;
-  if (this->LastIterations % insideOutPeriod == 0)
+  this->Unchecked += s.Counts.Cuts;
+  constexpr int period = 10;
+  if (this->LastIterations % period == 0 && this->Unchecked > 0)
   {
-    this->Watch.DeleteInsideOut(s);
+    this->Watch.DeleteInsideOut(s); // Only a cut can give birth to one.
+    this->Unchecked = 0;
   }
   watch.Lap(Phase::Topology);
   this->FillRow(row);
@@ -327,18 +330,12 @@ double SurfaceEvolution::Implementation::MeanEdgeLength()
       double sum = 0;
       for (std::size_t v = begin; v < end; ++v)
       {
-        const Ring& ring = mesh.Rings[v];
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          sum += ring.Item[i] > static_cast<int>(v)
-            ? std::sqrt(SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]))
-            : 0.;
-        }
+        sum += this->State.EdgeSum[v];
       }
       this->Partial[b] = sum;
     });
-  // A closed surface of triangles has E = 3 (V - chi).
-  const int edges = 3 * (mesh.NumberOfVertices() - this->State.EulerCharacteristic);
-  return edges > 0 ? std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / edges : 0.;
+  // Each edge is in two sums. A closed surface of triangles has E = 3 (V - chi).
+  const int ends = 6 * (mesh.NumberOfVertices() - this->State.EulerCharacteristic);
+  return ends > 0 ? std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / ends : 0.;
 }
 }

@@ -13,6 +13,8 @@ namespace
 {
 /** Passes of tangential smoothing and snapping at the end of a level. */
 constexpr int RegularisationPasses = 12;
+/** Way in a pass, in delta, under which a vertex is left where it is. */
+constexpr float SmallestMove = 0.015f;
 }
 
 double SurfaceEvolution::Implementation::EnclosedVolume()
@@ -94,6 +96,30 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   }
 }
 
+void SurfaceEvolution::Implementation::SleepUnlessMoving(float least)
+{
+  // What went some way in the last pass stays awake, with its neighbours, and what was edited.
+  SurfaceState& s = this->State;
+  for (int v : this->Awake)
+  {
+    if (s.Mesh.IsAlive(v) && s.Quiet[v] > 0 && SquaredLength(s.Velocity[v]) <= least * least)
+    {
+      s.Awake[v] = 0;
+    }
+  }
+  for (int v : this->Awake)
+  {
+    if (s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least)
+    {
+      const Ring& ring = s.Mesh.Rings[v];
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        s.Awake[ring.Item[i]] = 1;
+      }
+    }
+  }
+}
+
 void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
@@ -102,9 +128,14 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   Remesher remesher(s, this->TheField.get(), false);
   std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
   HistoryRow row;
+  this->WakeAll();
   for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0; ++pass)
   {
-    this->WakeAll();
+    if (pass > 0)
+    {
+      this->SleepUnlessMoving(SmallestMove * s.Delta);
+    }
+    std::fill(s.Quiet.begin(), s.Quiet.end(), std::uint8_t(1)); // An edit makes it 0 again.
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
   }
   const auto start = std::chrono::steady_clock::now();

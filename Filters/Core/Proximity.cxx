@@ -13,10 +13,12 @@ namespace
 constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
-/** Largest slack, which is what a vertex far from all others gets. */
-constexpr float MostSlack = 0.1f;
+/** Slack of a vertex with nothing else in reach. */
+constexpr float ReachSlack = 0.1f;
+/** A slow vertex looks this much further, and may be left in peace for longer. */
+constexpr float FurtherReach = 0.25f;
 /** Pairs are kept while their vertices use up their slack: look a little further. */
-constexpr float PairReach = constraint::NearestOthers + MostSlack;
+constexpr float PairReach = constraint::NearestOthers + ReachSlack;
 
 Vector Minimum(const Vector& a, const Vector& b)
 {
@@ -68,16 +70,22 @@ struct Star
   Star(const SurfaceMesh& mesh, int v)
     : Centre(v)
     , Neighbours(mesh.Rings[v])
+    , Place(mesh.Position[v])
   {
-    const Vector p = mesh.Position[v];
     for (int i = 0; i < this->Neighbours.Count; ++i)
     {
-      const Vector& a = mesh.Position[this->Neighbours.Item[i]];
-      const Vector& b = mesh.Position[this->Neighbours.Next(i)];
-      this->Low[i] = Minimum(p, Minimum(a, b));
-      this->High[i] = Maximum(p, Maximum(a, b));
+      this->Rim[i] = mesh.Position[this->Neighbours.Item[i]];
+    }
+    for (int i = 0; i < this->Neighbours.Count; ++i)
+    {
+      const Vector& a = this->Rim[i];
+      const Vector& b = this->Rim[this->After(i)];
+      this->Low[i] = Minimum(this->Place, Minimum(a, b));
+      this->High[i] = Maximum(this->Place, Maximum(a, b));
+      this->Normal[i] = Normalized(Cross(a - this->Place, b - this->Place));
     }
   }
+  int After(int i) const { return i + 1 < this->Neighbours.Count ? i + 1 : 0; }
   std::array<int, 3> Face(int i) const
   {
     return { this->Centre, this->Neighbours.Item[i], this->Neighbours.Next(i) };
@@ -85,9 +93,44 @@ struct Star
 
   int Centre;
   const Ring& Neighbours;
+  Vector Place;
+  Vector Rim[Ring::Capacity];
   Vector Low[Ring::Capacity];
   Vector High[Ring::Capacity];
+  Vector Normal[Ring::Capacity]; ///< Unit, of the faces.
 };
+
+/**
+ * Whether face j of `other`, less a corner that it shares with face i of `star`, lies on one side
+ * of the plane of face i, by more than `room`; or, if they share an edge, whether the two are far
+ * from folded onto each other. Then they do not meet.
+ */
+bool IsBesidePlane(const Star& star, int i, const Star& other, int j, float room)
+{
+  const int a = star.Centre;
+  const int b = star.Neighbours.Item[i];
+  const int c = star.Neighbours.Item[star.After(i)];
+  const int name[3] = { other.Centre, other.Neighbours.Item[j],
+    other.Neighbours.Item[other.After(j)] };
+  const Vector* place[3] = { &other.Place, &other.Rim[j], &other.Rim[other.After(j)] };
+  bool above = true;
+  bool below = true;
+  int shared = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (name[k] == a || name[k] == b || name[k] == c)
+    {
+      ++shared;
+    }
+    else
+    {
+      const float height = Dot(star.Normal[i], *place[k] - star.Place);
+      above = above && height > room;
+      below = below && height < -room;
+    }
+  }
+  return shared < 2 ? above || below : Dot(star.Normal[i], other.Normal[j]) > -0.99f;
+}
 
 bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
 {
@@ -147,6 +190,7 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
   const Star second(state.Mesh, w);
   const FirstPair pair(state, listed, v, w);
   float room = SomeRoom * state.Delta;
+  const float beside = 1.2f * room; // With some to spare for the rounding of floats.
   for (int i = 0; i < first.Neighbours.Count; ++i)
   {
     const Vector margin(room, room, room);
@@ -155,6 +199,11 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
     for (int j = v == w ? i + 1 : 0; j < second.Neighbours.Count; ++j)
     {
       if (Apart(low, high, second.Low[j], second.High[j]))
+      {
+        continue;
+      }
+      if (IsBesidePlane(first, i, second, j, beside) ||
+        IsBesidePlane(second, j, first, i, beside))
       {
         continue;
       }
@@ -197,7 +246,9 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   const SurfaceMesh& mesh = state.Mesh;
   const Vector p = mesh.Position[v];
   const float reach = constraint::Reach * state.Delta;
+  const float further = reach + (state.Slow[v] ? FurtherReach * state.Delta : 0.f);
   const float near = PairReach * state.Delta;
+  const float least = ReachSlack * state.Delta;
   std::optional<Star> own; // Few vertices need it, those that do need it often.
   const auto star = [&]() -> const Star&
   {
@@ -208,20 +259,27 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
     return *own;
   };
   bool anything = false;
-  float slack = MostSlack * state.Delta;
+  float slack = further - reach + least;
   if (state.AreOpposed(v, v))
   {
     anything = true;
     slack = std::min(slack, TestStars(state, this->Listed, star(), v, block.Meetings, block.Tight));
   }
-  state.Grid.Visit(p, reach,
+  state.Grid.Visit(p, further,
     [&](int w)
     {
       const float squared = SquaredDistance(p, mesh.Position[w]);
-      if (squared > reach * reach || w == v || !state.AreOpposed(v, w))
+      if (squared > further * further || w == v || !state.AreOpposed(v, w))
       {
         return;
       }
+      if (squared > reach * reach)
+      {
+        slack = std::min(slack, std::sqrt(squared) - reach + least);
+        return;
+      }
+      slack = std::min(
+        slack, std::max(least, std::sqrt(squared) - constraint::NearestOthers * state.Delta));
       anything = true;
       if (squared < near * near && !mesh.AreNeighbours(v, w))
       {
@@ -317,47 +375,70 @@ bool NewFacesMeet(
       }
     }
   }
+  // In floats first: a box and a plane set most pairs apart.
+  struct Bounds
+  {
+    Vector Low;
+    Vector High;
+    Vector Normal; ///< Unit.
+    Vector Place;
+  };
   Vector low(faces[0].Corner[0]);
   Vector high = low;
-  std::vector<std::pair<Vector, Vector>> boxes;
-  boxes.reserve(faces.size());
+  std::vector<Bounds> bounds;
+  bounds.reserve(faces.size());
   for (const NamedTriangle& face : faces)
   {
     const Vector a(face.Corner[0]);
     const Vector b(face.Corner[1]);
     const Vector c(face.Corner[2]);
-    boxes.emplace_back(Minimum(a, Minimum(b, c)), Maximum(a, Maximum(b, c)));
-    low = Minimum(low, boxes.back().first);
-    high = Maximum(high, boxes.back().second);
+    bounds.push_back({ Minimum(a, Minimum(b, c)), Maximum(a, Maximum(b, c)),
+      Normalized(Cross(b - a, c - a)), a });
+    low = Minimum(low, bounds.back().Low);
+    high = Maximum(high, bounds.back().High);
   }
+  const float room = SomeRoom * state.Delta;
   const Vector centre = (low + high) * 0.5f;
   const float radius = 0.5f * Length(high - low) + constraint::Reach * state.Delta;
   const SurfaceMesh& mesh = state.Mesh;
+  const auto isVisited = [&](int w)
+  { return SquaredDistance(centre, mesh.Position[w]) <= radius * radius; };
   bool meets = false;
   state.Grid.Visit(centre, radius,
     [&](int w)
     {
-      if (meets || SquaredDistance(centre, mesh.Position[w]) > radius * radius)
+      if (meets || !isVisited(w))
       {
         return;
       }
-      const Star star(mesh, w);
-      for (int i = 0; i < star.Neighbours.Count && !meets; ++i)
+      const Ring& ring = mesh.Rings[w];
+      const Vector& p = mesh.Position[w];
+      for (int i = 0; i < ring.Count && !meets; ++i)
       {
-        if (Apart(star.Low[i], star.High[i], low, high))
+        const int u = ring.Item[i];
+        const int v = ring.Next(i);
+        const Vector& q = mesh.Position[u];
+        const Vector& r = mesh.Position[v];
+        const Vector lowest = Minimum(p, Minimum(q, r));
+        const Vector highest = Maximum(p, Maximum(q, r));
+        // A face is tested from the smallest of its corners that are visited.
+        if (Apart(lowest, highest, low, high) || (u < w && isVisited(u)) ||
+          (v < w && isVisited(v)) || gone.Contains({ w, u, v }))
         {
           continue;
         }
-        const std::array<int, 3> g = star.Face(i);
-        if (gone.Contains(g))
-        {
-          continue;
-        }
-        const NamedTriangle other = TriangleOf(mesh, g[0], g[1], g[2]);
         for (std::size_t k = 0; k < faces.size() && !meets; ++k)
         {
-          meets = !Apart(star.Low[i], star.High[i], boxes[k].first, boxes[k].second) &&
-            TrianglesMeet(faces[k], other, tolerance);
+          const Bounds& b = bounds[k];
+          if (Apart(lowest, highest, b.Low, b.High))
+          {
+            continue;
+          }
+          const float heights[3] = { Dot(b.Normal, p - b.Place), Dot(b.Normal, q - b.Place),
+            Dot(b.Normal, r - b.Place) };
+          meets = !(std::min({ heights[0], heights[1], heights[2] }) > room ||
+                    std::max({ heights[0], heights[1], heights[2] }) < -room) &&
+            TrianglesMeet(faces[k], TriangleOf(mesh, w, u, v), tolerance);
         }
       }
     });

@@ -14,9 +14,11 @@ void SurfaceState::Reset(const Vector& low, const Vector& high)
   this->Before = this->Mesh.Position;
   this->Anchor = this->Mesh.Position;
   this->Value.assign(n, 0.f);
+  this->EdgeSum.assign(n, 0.f);
   this->Moved.assign(n, 0.f);
   this->Drift.assign(n, 0.f);
   this->Slack.assign(n, 0.f);
+  this->Slow.assign(n, 1);
   this->Component.assign(n, 0);
   this->Awake.assign(n, 1);
   this->Quiet.assign(n, 0);
@@ -51,9 +53,11 @@ void SurfaceState::Adopt(int v, int parent)
     this->Before.resize(n);
     this->Anchor.resize(n);
     this->Value.resize(n);
+    this->EdgeSum.resize(n);
     this->Moved.resize(n);
     this->Drift.resize(n);
     this->Slack.resize(n);
+    this->Slow.resize(n);
     this->Component.resize(n);
     this->Awake.resize(n);
     this->Quiet.resize(n);
@@ -68,9 +72,11 @@ void SurfaceState::Adopt(int v, int parent)
   this->Before[v] = this->Before[parent];
   this->Anchor[v] = this->Mesh.Position[v];
   this->Value[v] = this->Value[parent];
+  this->EdgeSum[v] = 0;
   this->Moved[v] = 0;
   this->Drift[v] = 1e6f; // Not examined yet.
   this->Slack[v] = 0;
+  this->Slow[v] = 0;
   this->Component[v] = this->Component[parent];
   this->Awake[v] = 1;
   this->Quiet[v] = 0;
@@ -84,6 +90,7 @@ void SurfaceState::Forget(int v)
 {
   this->Grid.Remove(v);
   this->Awake[v] = 0;
+  this->EdgeSum[v] = 0;
 }
 
 void SurfaceState::UpdateShape(int v)
@@ -108,6 +115,12 @@ void SurfaceState::UpdateShape(int v)
     wants |= length[i] > constraint::LongestEdge * this->Delta ? Wish::Shorter : 0;
     wants |= length[i] < this->Delta ? Wish::Longer : 0;
   }
+  float edges = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    edges += length[i];
+  }
+  this->EdgeSum[v] = edges;
   Vector sum;
   for (int i = 0; i < count; ++i)
   {

@@ -59,9 +59,11 @@ public:
   std::vector<Vector> Before;  ///< Position before the last displacement: free of intersections.
   std::vector<Vector> Anchor;  ///< Where it was when last it had moved visibly.
   std::vector<float> Value;    ///< Field at the vertex, when last evaluated.
+  std::vector<float> EdgeSum;  ///< Of the lengths of its edges, found by UpdateShape.
   std::vector<float> Moved;    ///< Way gone in this iteration.
   std::vector<float> Drift;    ///< Way its star has gone since it was last examined.
   std::vector<float> Slack;    ///< Room it had then between its star and others, see Proximity.
+  std::vector<std::uint8_t> Slow; ///< Little of it would be used up in an iteration like the last.
   std::vector<int> Component;  ///< Label, kept by ComponentWatch.
   std::vector<std::uint8_t> Awake;
   std::vector<std::uint8_t> Quiet; ///< Iterations since it has moved visibly.
