@@ -35,24 +35,29 @@ long long StatusBytes(const std::string& name)
 
 } // namespace
 
-long long PeakGrowth(const std::function<void()>& run)
+MemoryUse MeasureMemory(const std::function<void()>& run)
 {
 #if defined(__GLIBC__)
   malloc_trim(0); // memory that was freed before must not serve what is measured
 #endif
+  bool peakStartsAgain = false;
   {
     std::ofstream refs("/proc/self/clear_refs");
     refs << "5"; // the peak starts again from what is resident now
     refs.flush();
-    if (!refs)
-    {
-      return -1;
-    }
+    peakStartsAgain = static_cast<bool>(refs);
   }
-  const long long before = StatusBytes("VmRSS");
+  MemoryUse use;
+  use.Before = StatusBytes("VmRSS");
   run();
-  const long long peak = StatusBytes("VmHWM");
-  return before < 0 || peak < 0 ? -1 : peak - before;
+  use.Peak = peakStartsAgain ? StatusBytes("VmHWM") : -1;
+  return use;
+}
+
+long long PeakGrowth(const std::function<void()>& run)
+{
+  const MemoryUse use = MeasureMemory(run);
+  return use.Before < 0 || use.Peak < 0 ? -1 : use.Peak - use.Before;
 }
 
 } // namespace bench

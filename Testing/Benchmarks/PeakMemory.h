@@ -17,6 +17,16 @@ namespace bench
     system does not tell (it is Linux that does). */
 long long PeakGrowth(const std::function<void()>& run);
 
+/** Resident memory of the whole process, in bytes, with its libraries and all that it holds: before
+    something ran, and at the peak while it ran. -1 where the system does not tell. */
+struct MemoryUse
+{
+  long long Before = -1;
+  long long Peak = -1;
+};
+
+MemoryUse MeasureMemory(const std::function<void()>& run);
+
 } // namespace bench
 } // namespace volumic
 

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** The command line of BenchmarkSurface. */
+
+#ifndef SurfaceBenchmarkOptions_h
+#define SurfaceBenchmarkOptions_h
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace volumic
+{
+namespace bench
+{
+
+/** A command line that can't be understood; the message tells what is wrong with it. */
+class UsageError : public std::invalid_argument
+{
+public:
+  using std::invalid_argument::invalid_argument;
+};
+
+struct SurfaceBenchmarkOptions
+{
+  // What is measured on.
+  std::string Volume; ///< a .vti, or
+  std::string Scene;  ///< the name of a synthetic scene, `SceneSize` voxels along each axis
+  int SceneSize = 48;
+  double IsoValue = std::numeric_limits<double>::quiet_NaN(); ///< NaN: that of the scene
+  bool ObjectIsBright = true;
+
+  // What is run.
+  std::vector<std::string> Runs; ///< empty: all that are found but the slow ones
+  bool Slow = false;
+  bool NoRecovery = false;
+  int Repetitions = 1;
+  int Initialization = 0; ///< vtkDeformableSurface::InitializationType
+
+  // Cost growth instead of the table of runs.
+  bool Growth = false;
+  std::vector<int> Sizes; ///< n: as many voxels as n^3 has
+
+  // What is written.
+  bool Profile = false;
+  std::string Csv;
+  std::string Output;
+  bool Help = false;
+
+  // For one run, in a process of its own.
+  std::string Run;
+  int ResampleTo = 0; ///< n as in Sizes; 0: the volume as it is
+  bool Judge = true;
+  double Delta = 0.0;      ///< by which edges are judged, voxels; 0: not judged
+  double EdgeLength = 0.0; ///< for peers that are told how fine to be: the mean, voxels
+  long long Vertices = 0;  ///< the same: how many
+  double Radius = 0.0;     ///< of CGAL's mesher: the largest surface Delaunay ball, voxels; 0: from
+                           ///< EdgeLength
+};
+
+/** Throws UsageError. */
+SurfaceBenchmarkOptions ParseSurfaceOptions(int argc, char** argv);
+
+/** The command line that makes one run in a process of its own, with the settings of `options`. */
+std::vector<std::string> ArgumentsOfRun(const SurfaceBenchmarkOptions& options);
+
+/** What --help prints. */
+std::string SurfaceUsage();
+
+} // namespace bench
+} // namespace volumic
+
+#endif

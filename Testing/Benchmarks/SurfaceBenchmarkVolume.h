@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** The volume that BenchmarkSurface measures on, as each of those who are measured wants it. */
+
+#ifndef SurfaceBenchmarkVolume_h
+#define SurfaceBenchmarkVolume_h
+
+#include "SurfaceBenchmarkOptions.h"
+
+#include <vtkImageData.h>
+#include <vtkSmartPointer.h>
+
+namespace volumic
+{
+namespace bench
+{
+
+struct BenchmarkedVolume
+{
+  vtkSmartPointer<vtkImageData> Image; ///< its own scalar type, point scalars, one component
+  double IsoValue = 0.0;
+  bool ObjectIsBright = true;
+};
+
+/** Reads or makes the volume that the options name, resampled if they say so. Throws
+    std::runtime_error with what is wrong with the file or the scene. */
+BenchmarkedVolume LoadVolume(const SurfaceBenchmarkOptions& options);
+
+/** Scaled by one factor along all axes (linear interpolation; voxels at the border stay there) so
+    that the number of voxels is about size^3. */
+vtkSmartPointer<vtkImageData> Resampled(vtkImageData* image, int size);
+
+/** The image with a voxel of air around it, the value farthest from the object. Keeps the scalar
+    type and the place in the world. */
+vtkSmartPointer<vtkImageData> InAir(vtkImageData* image, bool objectIsBright);
+
+/** The same voxels, shared, at index coordinates: extent from 0, origin 0, spacing 1. */
+vtkSmartPointer<vtkImageData> InVoxels(vtkImageData* image);
+
+} // namespace bench
+} // namespace volumic
+
+#endif

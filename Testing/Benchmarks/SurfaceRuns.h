@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** One run of the benchmark: us, or a peer, on the volume, measured and judged. */
+
+#ifndef SurfaceRuns_h
+#define SurfaceRuns_h
+
+#include "RunFigures.h"
+#include "SurfaceBenchmarkOptions.h"
+#include "SurfaceBenchmarkVolume.h"
+#include "SurfaceJudge.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace volumic
+{
+namespace bench
+{
+
+struct SurfaceRunKind
+{
+  std::string Name;
+  std::string Description;
+  bool Ours = false;
+  bool Slow = false;      ///< with --slow only
+  bool OnDemand = false;  ///< when asked for only
+  bool NeedsOurs = false; ///< is told how fine our surface is
+};
+
+/** Those that this build has, in the order of the table. */
+std::vector<SurfaceRunKind> SurfaceRunKinds();
+
+/** Any of these, or us-N. */
+bool IsSurfaceRun(const std::string& name);
+
+/** The run options.Run. Figures, with lengths in voxels:
+   - WallSeconds, ProcessorSeconds, BaseMegabytes (resident before), PeakMegabytes;
+   - those of SetVerdict and SetFit, and Fingerprint (text), the same for the same bits;
+   - ours: PyramidSeconds, Iterations, VertexIterations (vertices summed over the iterations),
+     StopReason (text), Level, Delta, Levels (the number of levels) and, as `level.h.NAME`, what
+     there is of each level: Iterations, Seconds, VertexIterations, Delta, LostParts,
+     RecoveredParts, the verdict, and the columns of the history that hold the seconds of phases
+     (`Phases`: their names in one text, with commas).
+   Throws what the libraries throw, std::runtime_error where there is no surface. */
+RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options);
+
+/** WallSeconds, ProcessorSeconds, BaseMegabytes and PeakMegabytes of `work`. */
+void MeasureCost(const std::function<void()>& work, RunFigures& figures);
+
+/** The judge's figures, each name with `prefix` before it. Edges outside [Delta, 2.5 Delta] and
+    pairs too near only if `delta` is positive. */
+void SetVerdict(const support::TriangleSurface& surface, double delta, const std::string& prefix,
+  RunFigures& figures);
+
+/** The same, how the surface fits the volume; it is in the volume's index coordinates. */
+void SetFit(const support::TriangleSurface& surface, const support::JudgedVolume& volume,
+  const std::string& prefix, RunFigures& figures);
+
+/** A hash of all bits of the points and triangles. */
+std::string Fingerprint(const support::TriangleSurface& surface);
+
+/** vtkDeformableSurface: the run options.Run of those that are ours. */
+RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOptions& options);
+
+/** The image as the judge wants it, without a copy; it has to be float and to stay alive. */
+support::JudgedVolume ToJudgedVolume(vtkImageData* inAir, const BenchmarkedVolume& volume);
+
+/** As float, as it is or in air. */
+vtkSmartPointer<vtkImageData> AsFloat(vtkImageData* image);
+
+} // namespace bench
+} // namespace volumic
+
+#endif

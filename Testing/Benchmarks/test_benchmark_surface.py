@@ -1,0 +1,221 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""BenchmarkSurface on small synthetic volumes: its tables are whole and its figures make sense.
+
+Nothing here depends on how fast the machine is. VOLUMIC_BENCHMARK_SURFACE names the program.
+"""
+
+import csv
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["VOLUMIC_BENCHMARK_SURFACE"]
+OURS = ["us-1", "us-2", "us-flat", "us-paper"]
+PEERS = ["flying", "smoothed", "decimated", "remeshed", "mesher"]
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
+
+
+def read_csv(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def number(row, column):
+    return float(row[column]) if row[column] else math.nan
+
+
+class SideBySide(unittest.TestCase):
+    """One run of everything on a ring, looked at from all sides."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        path = os.path.join(cls.folder.name, "ring.csv")
+        cls.surface = os.path.join(cls.folder.name, "ring.vtp")
+        cls.done = run("--scene", "Torus", "--size", "40", "--no-recovery", "--profile",
+                       "--repetitions", "2", "--csv", path, "--output", cls.surface)
+        if cls.done.returncode != 0:
+            raise AssertionError(cls.done.stdout + cls.done.stderr)
+        cls.runs = {row["Run"]: row for row in read_csv(path)}
+        cls.levels = read_csv(path.replace(".csv", "-levels.csv"))
+        cls.targets = read_csv(path.replace(".csv", "-targets.csv"))
+
+    def test_all_runs_have_a_row_in_order(self):
+        self.assertEqual(list(self.runs), OURS + PEERS)
+        for row in self.runs.values():
+            self.assertEqual(row["Failure"], "")
+
+    def test_costs_are_measured(self):
+        for name, row in self.runs.items():
+            with self.subTest(run=name):
+                self.assertGreater(number(row, "WallSeconds"), 0.0)
+                self.assertGreater(number(row, "ProcessorSeconds"), 0.0)
+                self.assertGreater(number(row, "BaseMegabytes"), 1.0)
+                self.assertGreaterEqual(number(row, "PeakMegabytes"), number(row, "BaseMegabytes"))
+        self.assertEqual(number(self.runs["us-1"], "WallRatio"), 1.0)
+        expected = (number(self.runs["flying"], "ProcessorSeconds")
+                    / number(self.runs["us-1"], "ProcessorSeconds"))
+        self.assertAlmostEqual(number(self.runs["flying"], "ProcessorRatio") / expected, 1.0, 6)
+
+    def test_all_find_the_ring(self):
+        volumes = [number(row, "Volume") for row in self.runs.values()]
+        for name, row in self.runs.items():
+            with self.subTest(run=name):
+                self.assertEqual(row["Components"], "1")
+                self.assertEqual(row["Genus"], "1")
+                self.assertEqual(row["Outward"], "1")
+                self.assertEqual(row["OpenEdges"], "0")
+                self.assertAlmostEqual(number(row, "Volume") / volumes[0], 1.0, delta=0.03)
+                # A closed surface of genus 1: V - E + F = 0, thus F = 2 V.
+                self.assertEqual(number(row, "Triangles"), 2 * number(row, "Vertices"))
+                self.assertGreater(number(row, "Reach"), 0.95)
+
+    def test_figures_are_in_order(self):
+        for name, row in self.runs.items():
+            with self.subTest(run=name):
+                for low, high in (("EdgeShortest", "EdgeMean"), ("EdgeMean", "EdgeLongest"),
+                                  ("RatioLeast", "RatioQuantile01"),
+                                  ("RatioQuantile01", "RatioMean")):
+                    self.assertLessEqual(number(row, low), number(row, high))
+                self.assertLess(number(row, "RatioMean"), 1.0)
+                self.assertLess(number(row, "DistanceAtVertices"), 0.5)
+
+    def test_ours_keep_what_they_promise(self):
+        for name in OURS:
+            row = self.runs[name]
+            with self.subTest(run=name):
+                for column in ("SelfIntersections", "NonManifold", "MisorientedEdges",
+                               "EdgesOutside", "NearPairs"):
+                    self.assertEqual(row[column], "0", column)
+                self.assertEqual(row["StopReason"], "converged")
+                self.assertGreater(number(row, "Iterations"), 10)
+                self.assertGreater(number(row, "MicrosecondsPerVertexIteration"), 0.0)
+        self.assertEqual(self.runs["us-1"]["Fingerprint"], self.runs["us-2"]["Fingerprint"])
+        self.assertNotEqual(self.runs["us-1"]["Fingerprint"], self.runs["us-flat"]["Fingerprint"])
+
+    def test_peers_are_as_fine_as_told(self):
+        ours = self.runs["us-1"]
+        for name, tolerance in (("decimated", 0.02), ("mesher", 0.15)):
+            share = number(self.runs[name], "Vertices") / number(ours, "Vertices")
+            self.assertAlmostEqual(share, 1.0, delta=tolerance, msg=name)
+        share = number(self.runs["remeshed"], "EdgeMean") / number(ours, "EdgeMean")
+        self.assertAlmostEqual(share, 1.0, delta=0.15)
+        for name in PEERS:
+            self.assertEqual(self.runs[name]["NearPairs"], "")  # a promise of ours alone
+
+    def test_levels_add_up_to_the_run(self):
+        ours = self.runs["us-1"]
+        self.assertGreater(len(self.levels), 1)
+        self.assertEqual([row["Level"] for row in self.levels],
+                         [str(h) for h in range(len(self.levels))])
+        self.assertEqual(sum(number(row, "Iterations") for row in self.levels),
+                         number(ours, "Iterations"))
+        for column in ("Vertices", "EdgeMean", "RatioMean", "DistanceAtCentroids"):
+            self.assertEqual(self.levels[0][column], ours[column])
+        microseconds = number(self.levels[0], "Seconds") / number(self.levels[0], "VertexIterations")
+        self.assertAlmostEqual(
+            1e6 * microseconds / number(self.levels[0], "MicrosecondsPerVertexIteration"), 1.0, 6)
+
+    def test_phases_fit_into_their_level(self):
+        for row in self.levels:
+            phases = [name for name in row if name.endswith("Seconds") and name != "Seconds"]
+            self.assertIn("ForcesSeconds", phases)
+            self.assertIn("ProximitySeconds", phases)
+            inside = sum(number(row, name) for name in phases if name != "DivisionSeconds")
+            self.assertGreater(inside, 0.0)
+            self.assertLessEqual(inside, 1.001 * number(row, "Seconds"))
+        self.assertIn("By phase", self.done.stdout)
+
+    def test_targets_follow_from_the_figures(self):
+        rows = {}
+        for row in self.targets:
+            rows.setdefault(row["target"], []).append(row)
+        self.assertEqual(sorted(rows), ["Q1", "Q2", "Q3", "Q4", "Q5",
+                                        "S1", "S2", "S3", "S4", "S5", "S6", "S7"])
+        ratio = (number(self.runs["us-1"], "ProcessorSeconds")
+                 / number(self.runs["remeshed"], "ProcessorSeconds"))
+        self.assertAlmostEqual(float(rows["S1"][0]["figure"]) / ratio, 1.0, delta=0.01)
+        self.assertEqual(rows["S1"][0]["verdict"], "reached" if ratio <= 1.0 else "missed")
+        self.assertEqual(rows["S3"][0]["verdict"], "not run")  # the level set is slow
+        for name in ("Q1", "Q2", "Q5"):
+            self.assertEqual({row["verdict"] for row in rows[name]}, {"reached"})
+
+    def test_the_surface_is_written(self):
+        self.assertGreater(os.path.getsize(self.surface), 1000)
+
+
+class Growth(unittest.TestCase):
+    def test_exponents_are_those_of_the_rows(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "growth.csv")
+            done = run("--scene", "Sphere", "--size", "40", "--growth", "--sizes", "24,32,48",
+                       "--csv", path)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows = read_csv(path)
+            exponents = {(row["Figure"], row["Against"]): row
+                         for row in read_csv(path.replace(".csv", "-exponents.csv"))}
+        self.assertEqual([row["Voxels"] for row in rows],
+                         [str(size ** 3) for size in (24, 32, 48)])
+        for figure, against in (("ProcessorSeconds", "Voxels"), ("PeakMegabytes", "Vertices"),
+                                ("Vertices", "Voxels"),
+                                ("ProximitySecondsPerFinestIteration", "FinestVertices")):
+            x = [math.log(number(row, against)) for row in rows]
+            y = [math.log(number(row, figure)) for row in rows]
+            mean_x, mean_y = sum(x) / 3, sum(y) / 3
+            slope = (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y))
+                     / sum((a - mean_x) ** 2 for a in x))
+            told = exponents[figure, against]
+            self.assertAlmostEqual(float(told["Exponent"]), slope, delta=0.01 * max(1, abs(slope)))
+            self.assertEqual(told["Sizes"], "3")
+        # A ball: its surface grows with the power 2/3 of its volume.
+        self.assertAlmostEqual(float(exponents["Vertices", "Voxels"]["Exponent"]), 2 / 3, delta=0.1)
+        self.assertIn(("ContactAndProximityPerFinestIteration", "FinestVertices"), exponents)
+
+
+class CommandLine(unittest.TestCase):
+    def test_what_is_wrong_is_told(self):
+        for arguments, message in (
+                ([], "--volume FILE.vti or --scene NAME"),
+                (["--volume", "missing.vti", "--iso", "1"], "missing.vti"),
+                (["--volume", "missing.vti"], "--iso"),
+                (["--scene", "Cube"], "there are Sphere"),
+                (["--scene", "Torus", "--iso", "9999"], "iso-value"),
+                (["--scene", "Torus", "--runs", "us-1,nobody"], "nobody"),
+                (["--scene", "Torus", "--runs", "mesher"], "--edge-length"),
+                (["--scene", "Torus", "--size", "many"], "many"),
+                (["--scene", "Torus", "--csv"], "needs a value"),
+                (["--frobnicate"], "--frobnicate")):
+            with self.subTest(arguments=arguments):
+                done = run(*arguments)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(message, done.stderr)
+
+    def test_help(self):
+        done = run("--help")
+        self.assertEqual(done.returncode, 0)
+        for name in OURS + PEERS:
+            self.assertIn(name, done.stdout)
+
+    def test_a_run_that_fails_is_told_and_others_go_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "runs.csv")
+            done = run("--scene", "Torus", "--size", "32", "--runs", "us-1,flying,mesher",
+                       "--csv", path, "--output", os.path.join(folder, "missing", "ring.vtp"))
+            rows = {row["Run"]: row for row in read_csv(path)}
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("us-1 FAILED", done.stdout)
+        self.assertIn("can't be written", rows["us-1"]["Failure"])
+        self.assertEqual(rows["flying"]["Failure"], "")
+        self.assertIn("us-1", rows["mesher"]["Failure"])  # it can't know how fine to be
+
+
+if __name__ == "__main__":
+    unittest.main()
