@@ -11,7 +11,7 @@ how it ended, its iso-value, seconds, vertices, components, genus, area and volu
 the error. A volume that fails does not stop the others.
 
 Ends with 0 if all went well, 1 if some failed, 2 if the command line is wrong or there is no
-volume, 130 after Ctrl-C.
+volume, 3 after Ctrl-C.
 """
 
 import argparse

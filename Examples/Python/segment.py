@@ -11,7 +11,8 @@ VOLUME is what read_volume.py can read. The suffix of OUTPUT tells its format: .
 is. Ctrl-C ends the evolution early: the surface as it is then is written, closed and free of
 self-intersections.
 
-Ends with 0, or 1 after an error, 2 if the command line is wrong, 130 after Ctrl-C.
+Ends with 0, or 1 after an error, 2 if the command line is wrong, 3 if Ctrl-C or the limit of the
+iterations stopped it: then the surface as it was is written.
 """
 
 import argparse
@@ -21,10 +22,10 @@ import sys
 from pipeline import (
     build_pyramid, check_properties, load_volume, prepare_surface, run_surface)
 from read_volume import VolumeError
-from surface_results import SURFACE_WRITERS, surface_line, write_surface
+from surface_results import SURFACE_WRITERS, surface_facts, surface_line, write_surface
 from terminal import FilterError, Interrupted
 
-INTERRUPTED = 130  # as shells have it
+INTERRUPTED = 3  # as the command volumic has it
 
 
 def add_filter_options(parser):
@@ -65,17 +66,16 @@ def segment(volume, output, iso, properties):
     image, iso = load_volume(volume, iso)
     pyramid, _ = build_pyramid(image)
     surface = prepare_surface(pyramid, iso, properties)
-    status = 0
     try:
         run_surface(surface)
     except Interrupted:
         if surface.GetOutput().GetNumberOfPolys() == 0:
             raise
-        status = INTERRUPTED
     write_surface(surface.GetOutput(), output)
+    finished = surface_facts(surface.GetOutput())["stop_reason"] == "converged"
     print(f"  {surface_line(surface.GetOutput())}")
-    print(f"Written: {output}{' (not finished)' if status else ''}")
-    return status
+    print(f"Written: {output}{'' if finished else ' (not finished)'}")
+    return 0 if finished else INTERRUPTED
 
 
 def main():

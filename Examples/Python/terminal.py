@@ -3,6 +3,7 @@
 """Running a VTK filter from a script: a progress bar on the terminal, errors as exceptions, and
 Ctrl-C, which lets the filter hand over what it has."""
 
+import os
 import re
 import shutil
 import signal
@@ -121,6 +122,8 @@ class AbortAtInterrupt:
             signal.signal(signal.SIGINT, self.former)
 
     def abort(self, *_):
+        if self.happened:  # a second time: at once, without the filter's consent
+            os._exit(3)
         self.happened = True
         self.algorithm.SetAbortExecute(1)
 

@@ -116,6 +116,12 @@ class OptionsTest(SegmentTest):
         fields = read_surface(self.path("a.vtp")).GetFieldData()
         self.assertEqual(fields.GetArray("Level").GetValue(0), 1)
 
+    def test_the_limit_of_the_iterations_is_told(self):
+        run = self.segment("a.stl", "--iso", str(RING_ISO), "--set", "MaximumNumberOfIterations=3")
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.assertIn("iteration limit", run.stdout)
+        self.assertEqual(open_edges(read_surface(self.path("a.stl"))), 0)
+
     def test_a_log_has_no_bar(self):
         run = self.segment("a.stl", "--iso", str(RING_ISO))
         self.assertNotIn("\r", run.stdout)
@@ -208,7 +214,7 @@ class TerminalTest(SegmentTest):
 
     def test_control_c_hands_over_a_closed_surface(self):
         shown, code = self.run_on_terminal(self.slow_volume(), "b.vtp", r"Level \d, iteration")
-        self.assertEqual(code, 130, shown)
+        self.assertEqual(code, 3, shown)
         self.assertIn("interrupted", shown)
         self.assertIn("(not finished)", shown)
         surface = read_surface(self.path("b.vtp"))

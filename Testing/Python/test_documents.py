@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""README.md and Documentation/: pictures and links are there, and the code in them runs."""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from vtkmodules.vtkIOGeometry import vtkSTLReader
+
+import medical_files
+import volumic
+from examples_path import EXAMPLES
+from sample_volumes import ring_voxels
+
+sys.path.insert(0, EXAMPLES)
+# pylint: disable=wrong-import-position
+from figures import LARGEST, SKULL_PICTURES
+from pipeline import property_names
+from read_volume import read_volume
+
+ROOT = os.path.normpath(os.path.join(EXAMPLES, "..", ".."))
+DOCUMENTS = ("README.md", "Documentation/tutorial.md", "Documentation/reference.md")
+
+
+def read(document):
+    with open(os.path.join(ROOT, document), encoding="utf-8") as file:
+        return file.read()
+
+
+def blocks(document, language):
+    """The code between fences of that language."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", read(document), flags=re.DOTALL | re.MULTILINE)
+
+
+def write(path, text):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+class LinksTest(unittest.TestCase):
+    def pictures(self):
+        """(document, path of a picture that it shows)."""
+        for document in DOCUMENTS:
+            for link in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", read(document)):
+                yield document, os.path.normpath(
+                    os.path.join(ROOT, os.path.dirname(document), link))
+
+    def test_pictures_are_there_and_small(self):
+        shown = list(self.pictures())
+        self.assertGreater(len(shown), 5)
+        for document, path in shown:
+            self.assertTrue(os.path.isfile(path), f"{document}: {path}")
+            self.assertLessEqual(os.path.getsize(path), LARGEST, path)
+
+    def test_no_picture_is_left_over_or_without_a_script(self):
+        shown = {os.path.basename(path) for _, path in self.pictures()}
+        there = {name for name in os.listdir(os.path.join(ROOT, "Documentation"))
+                 if name.endswith(".png")}
+        self.assertEqual(there, shown)
+        scripted = {draw.__name__ + ".png" for draw in SKULL_PICTURES} | {"vessels.png"}
+        for name in there - scripted:
+            self.assertTrue(name.startswith("paraview"), name)  # windows, not pictures of data
+
+    def test_links_lead_somewhere(self):
+        for document in DOCUMENTS:
+            for link in re.findall(r"\]\((?!https?:)([^)]+)\)", read(document)):
+                path, _, heading = link.partition("#")
+                target = os.path.normpath(os.path.join(os.path.dirname(document), path)) if path \
+                    else document
+                self.assertTrue(os.path.exists(os.path.join(ROOT, target)), f"{document}: {link}")
+                if heading:
+                    self.assertIn(heading, self.anchors(target))
+
+    def anchors(self, document):
+        """Of the headings, as repositories show them."""
+        headings = re.findall(r"^#+ (.*)$", read(document), flags=re.MULTILINE)
+        return [re.sub(r"[^\w -]", "", heading).strip().lower().replace(" ", "-")
+                for heading in headings]
+
+    def test_files_that_are_named_exist(self):
+        for document in DOCUMENTS:
+            for path in re.findall(r"\b((?:Examples|Testing|Documentation|CMake)/[\w/.-]+\w)",
+                                   read(document)):
+                self.assertTrue(os.path.exists(os.path.join(ROOT, path)), f"{document}: {path}")
+
+    def test_scripts_that_are_named_exist(self):
+        for name in re.findall(r"^\| `(\w+\.py)", read("README.md"), flags=re.MULTILINE):
+            self.assertTrue(os.path.exists(os.path.join(EXAMPLES, name)), name)
+
+    def test_properties_on_command_lines_are_known(self):
+        names = property_names(volumic.vtkDeformableSurface())
+        settings = re.findall(r"--set (\w+)=", "".join(map(read, DOCUMENTS)))
+        self.assertTrue(settings)
+        self.assertLessEqual(set(settings), set(names))
+
+
+class CodeTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
+        with open(os.path.join(self.folder, "scan.nii.gz"), "wb") as file:
+            file.write(medical_files.nifti(ring_voxels().astype("i2"), (1, 1, 1.5)))
+
+    def run_here(self, *command, **options):
+        run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False,
+                             timeout=250, **options)
+        self.assertEqual(run.returncode, 0, f"{shlex.join(command)}\n{run.stdout}\n{run.stderr}")
+        return run
+
+    def check_surface(self):
+        """surface.stl is the ring."""
+        reader = vtkSTLReader()
+        reader.SetFileName(os.path.join(self.folder, "surface.stl"))
+        reader.Update()
+        surface = reader.GetOutput()
+        self.assertGreater(surface.GetNumberOfPolys(), 500)
+        self.assertEqual(2 * surface.GetNumberOfPoints(), surface.GetNumberOfPolys())
+
+    def test_python_of_the_readme(self):
+        code, = blocks("README.md", "python")
+        self.assertLessEqual(len([line for line in code.splitlines() if line]), 14)
+        run = self.run_here(sys.executable, "-c", code)
+        self.assertEqual((run.stdout, run.stderr), ("genus 1\n", ""))
+        self.check_surface()
+
+    def test_python_of_the_tutorial(self):
+        code, = blocks("Documentation/tutorial.md", "python")
+        run = self.run_here(sys.executable, "-c", code
+                            + "\nprint(surface.GetOutput().GetNumberOfPolys())")
+        self.assertEqual(run.stderr, "")
+        self.assertGreater(int(run.stdout), 500)
+
+    def test_header_of_the_tutorial(self):
+        header = re.search(r"^```\n(ObjectType.*?)^```$", read("Documentation/tutorial.md"),
+                           flags=re.DOTALL | re.MULTILINE).group(1)
+        header = header.replace("256 256 256", "4 5 6")
+        write(os.path.join(self.folder, "a.mhd"), header)
+        name = re.search(r"ElementDataFile = (.*)", header).group(1)
+        with open(os.path.join(self.folder, name), "wb") as file:
+            file.write(bytes(range(120)))
+        image = read_volume(os.path.join(self.folder, "a.mhd"))
+        self.assertEqual(image.GetDimensions(), (4, 5, 6))
+        self.assertEqual(image.GetScalarRange(), (0, 119))
+
+    @unittest.skipUnless(shutil.which("cmake") and shutil.which("c++"), "no compiler here")
+    def test_cpp_of_the_readme(self):
+        source, = blocks("README.md", "cpp")
+        project, = blocks("README.md", "cmake")
+        write(os.path.join(self.folder, "example.cxx"), source)
+        write(os.path.join(self.folder, "CMakeLists.txt"), project)
+        prefix = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
+        self.run_here("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}",
+                      f"-DPython3_EXECUTABLE={sys.executable}")
+        self.run_here("cmake", "--build", "build")
+        self.run_here(os.path.join(self.folder, "build", "example"))
+        self.check_surface()
+
+    def test_build_commands_name_options_that_exist(self):
+        known = read("CMake/VolumicOptions.cmake")
+        names = re.findall(r"`(VOLUMIC_\w+)`", read("README.md"))
+        self.assertTrue(names)
+        for name in names:
+            self.assertIn(name, known)
+
+
+if __name__ == "__main__":
+    unittest.main()
