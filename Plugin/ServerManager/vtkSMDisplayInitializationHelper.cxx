@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSMDisplayInitializationHelper.h"
+
+#include <vtkObjectFactory.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkSMDisplayInitializationHelper);
+
+namespace
+{
+std::vector<std::string> Words(const char* text)
+{
+  std::istringstream stream(text ? text : "");
+  return { std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>() };
+}
+
+void SetValues(vtkSMProperty* property, const std::vector<std::string>& values)
+{
+  vtkSMPropertyHelper helper(property);
+  for (unsigned int i = 0; i < values.size(); ++i)
+  {
+    if (property->IsA("vtkSMStringVectorProperty"))
+    {
+      helper.Set(i, values[i].c_str());
+    }
+    else
+    {
+      helper.Set(i, std::stod(values[i]));
+    }
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+vtkSMDisplayInitializationHelper::vtkSMDisplayInitializationHelper() = default;
+vtkSMDisplayInitializationHelper::~vtkSMDisplayInitializationHelper() = default;
+
+//------------------------------------------------------------------------------
+void vtkSMDisplayInitializationHelper::PostInitializeProxy(
+  vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType)
+{
+  for (unsigned int i = 0; i < xml->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* element = xml->GetNestedElement(i);
+    const char* name = element->GetAttribute("property");
+    if (vtkSMProperty* property = name ? proxy->GetProperty(name) : nullptr)
+    {
+      const char* text = element->GetAttribute("text");
+      const char* values = element->GetAttribute("values");
+      SetValues(property, text ? std::vector<std::string>{ text } : Words(values));
+    }
+  }
+  proxy->UpdateVTKObjects();
+}
+
+//------------------------------------------------------------------------------
+void vtkSMDisplayInitializationHelper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
