@@ -31,6 +31,10 @@ using Complex = CGAL::Complex_2_in_triangulation_3<Triangulation>;
 using Traits = Triangulation::Geom_traits;
 using Point = Traits::Point_3;
 
+/** How well a vertex is put onto the isopotential, voxels. With CGAL's default, a share of the
+    enclosing sphere, vertices would be off by tenths of a voxel. */
+constexpr double Precision = 0.03;
+
 /** Where a place lies among the voxels: the first of the eight around it, and the way to the last,
     between 0 and 1 along each axis. */
 struct Cell
@@ -201,7 +205,7 @@ SurfaceJob MesherJob(vtkImageData* image, double isoValue, bool objectIsBright, 
   {
     const double enclosing = field.EnclosingRadius();
     const CGAL::Implicit_surface_3<Traits, ImplicitField> surface(
-      field, Traits::Sphere_3(inside, enclosing * enclosing), 1e-3 / enclosing);
+      field, Traits::Sphere_3(inside, enclosing * enclosing), Precision / enclosing);
     const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(30.0, radius, 0.5 * radius);
     Triangulation triangulation;
     Complex complex(triangulation);

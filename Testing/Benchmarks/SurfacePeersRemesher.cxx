@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace volumic
 {
@@ -18,23 +19,31 @@ namespace bench
 namespace
 {
 
+/** Points that no triangle uses, left by the choice of the largest component, stay behind. */
 void Fill(vtkPolyData* surface, CgalMesh& mesh)
 {
-  for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+  std::vector<CgalMesh::Vertex_index> vertices(
+    static_cast<std::size_t>(surface->GetNumberOfPoints()));
+  const auto vertexAt = [&](vtkIdType point)
   {
-    double place[3];
-    surface->GetPoint(p, place);
-    mesh.add_vertex(CgalKernel::Point_3(place[0], place[1], place[2]));
-  }
+    CgalMesh::Vertex_index& vertex = vertices[static_cast<std::size_t>(point)];
+    if (vertex == CgalMesh::null_vertex())
+    {
+      double place[3];
+      surface->GetPoint(point, place);
+      vertex = mesh.add_vertex(CgalKernel::Point_3(place[0], place[1], place[2]));
+    }
+    return vertex;
+  };
   vtkCellArray* triangles = surface->GetPolys();
   for (vtkIdType t = 0; t < triangles->GetNumberOfCells(); ++t)
   {
     vtkIdType size;
     const vtkIdType* corners;
     triangles->GetCellAtId(t, size, corners);
-    const auto corner = [corners](int c)
-    { return CgalMesh::Vertex_index(static_cast<CgalMesh::size_type>(corners[c])); };
-    if (size != 3 || mesh.add_face(corner(0), corner(1), corner(2)) == CgalMesh::null_face())
+    if (size != 3 ||
+      mesh.add_face(vertexAt(corners[0]), vertexAt(corners[1]), vertexAt(corners[2])) ==
+        CgalMesh::null_face())
     {
       throw std::runtime_error("the marching surface is not manifold");
     }

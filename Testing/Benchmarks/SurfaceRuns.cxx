@@ -11,6 +11,7 @@
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -77,6 +78,27 @@ SurfaceJob MakePeerJob(const std::string& name, vtkImageData* image,
 bool FollowsGradient(const std::string& name)
 {
   return name != "mesher" && name != "levelset";
+}
+
+/** What vtkPolyDataConnectivityFilter leaves behind must not count as reached. */
+void DropUnusedPoints(support::TriangleSurface& surface)
+{
+  std::vector<int> places(surface.Points.size(), -1);
+  std::vector<std::array<double, 3>> points;
+  for (auto& triangle : surface.Triangles)
+  {
+    for (int& corner : triangle)
+    {
+      int& place = places[static_cast<std::size_t>(corner)];
+      if (place < 0)
+      {
+        place = static_cast<int>(points.size());
+        points.push_back(surface.Points[static_cast<std::size_t>(corner)]);
+      }
+      corner = place;
+    }
+  }
+  surface.Points.swap(points);
 }
 
 std::size_t UsedPoints(const support::TriangleSurface& surface, const support::TopologyVerdict& t)
@@ -261,6 +283,7 @@ RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options)
   {
     throw std::runtime_error("no surface");
   }
+  DropUnusedPoints(surface);
   if (!volume.ObjectIsBright && FollowsGradient(options.Run))
   {
     for (auto& triangle : surface.Triangles)

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Builds the benchmarks and runs them: the pyramid on the skull CT of Debian's invesalius-examples
-# and on a generated volume, then the surface on the skull, with the judge's verdict. The machine
-# should have nothing else to do.
+# and on a generated volume, then the surface beside its peers, on the skull or on other volumes. The
+# machine should have nothing else to do.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../../CMake/debian.sh"
@@ -14,22 +14,55 @@ usage()
   cat << 'USAGE'
 Usage: bash Testing/Benchmarks/run.sh [OPTION]...
   --with-itk           install ITK (large), to be compared with too; used anyway where it is there
+  --surface-only       leave the pyramid out
+  --pyramid-only       leave the surface out
   --generate SIZE      voxels along the axes of the generated volume (default 512; 0: leave it out)
-  --repetitions N      per program and volume (default 15 on the skull, 5 on the generated volume)
+  --repetitions N      per program and volume (default: of the pyramid 15 on the skull, 5 on the
+                       generated volume, of the surface 1)
+The surface:
+  --volume FILE.vti --iso VALUE   on this volume instead of the skull
+  --all-scans          on the skull and on all volumes of ../shared/data, where that folder is
+  --slow               also beside ITK's level set, which takes minutes
+  --no-recovery        also without Recovery
+  --growth             also how cost grows, on the volume resampled to 64^3 ... 512^3 voxels
+  --max-size N         of these, those up to N^3
   --help               this text
-Tables are printed; every repetition is left in build/benchmarks/*.json, the surface in surface.vtp.
+Tables are printed; all figures are left in build/benchmarks: every repetition of the pyramid in
+*.json, the surface in surface-NAME*.csv and surface-NAME.vtp, its growth in growth-NAME*.csv.
 USAGE
 }
 
 generated_size=512
 repetitions=
+with_pyramid=yes
+with_surface=yes
+volume=
+iso=
+all_scans=
+growth=
+surface_options=()
+growth_options=()
 packages=("${tool_packages[@]}" libbenchmark-dev libcgal-dev invesalius-examples)
 while [ $# -gt 0 ]; do
   case $1 in
     --with-itk) packages+=(libinsighttoolkit5-dev) ;;
-    --generate | --repetitions)
+    --surface-only) with_pyramid= ;;
+    --pyramid-only) with_surface= ;;
+    --slow | --no-recovery) surface_options+=("$1") ;;
+    --all-scans) all_scans=yes ;;
+    --growth) growth=yes ;;
+    --volume | --iso)
+      [ $# -ge 2 ] || fail "$1 needs a value"
+      if [ "$1" = --volume ]; then volume=$2; else iso=$2; fi
+      shift
+      ;;
+    --generate | --repetitions | --max-size)
       [[ ${2:-} =~ ^[0-9]+$ ]] || fail "$1 needs a number"
-      if [ "$1" = --generate ]; then generated_size=$2; else repetitions=$2; fi
+      case $1 in
+        --generate) generated_size=$2 ;;
+        --repetitions) repetitions=$2 ;;
+        --max-size) growth_options+=("$1" "$2") ;;
+      esac
       shift
       ;;
     -h | --help)
@@ -43,6 +76,8 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
+[ -z "$volume" ] || [ -n "$iso" ] || fail "--volume needs --iso VALUE"
+[ -z "$iso" ] || [ -n "$volume" ] || fail "--iso needs --volume FILE.vti"
 
 results=$build/benchmarks
 mkdir -p "$results"
@@ -56,13 +91,52 @@ run_step "Reading the skull CT" benchmark-skull \
   "$(vtk_python)" "$root/Examples/Python/read_volume.py" \
   /usr/share/doc/invesalius-examples/examples/Cranium.inv3 "$results/skull.vti"
 
+# list_scans: name, file and iso-value of the volumes of ../shared/data, from the table there. Of
+# several iso-values the first; half a step up where voxels are whole numbers, so that none equals it.
+list_scans()
+{
+  local folder=$root/../shared/data
+  [ -f "$folder/MANIFEST.md" ] || return 0
+  awk -F ' *[|] *' -v folder="$folder" '$2 ~ /\.vti$/ {
+    split($8, iso, " ")
+    name = substr($2, 1, length($2) - 4)
+    print name, folder "/" $2, ($6 ~ /float|double/ ? iso[1] : iso[1] + 0.5)
+  }' "$folder/MANIFEST.md"
+}
+
+# measure_surface NAME FILE ISO
+measure_surface()
+{
+  local program=$build/vtk/bin/BenchmarkSurface
+  say ""
+  "$program" --volume "$2" --iso "$3" --repetitions "${repetitions:-1}" --profile \
+    --csv "$results/surface-$1.csv" --output "$results/surface-$1.vtp" "${surface_options[@]}"
+  [ -n "$growth" ] || return 0
+  say ""
+  "$program" --volume "$2" --iso "$3" --growth --csv "$results/growth-$1.csv" \
+    "${growth_options[@]}"
+}
+
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
-"$build/vtk/bin/BenchmarkImagePyramid" --volume "$results/skull.vti" \
-  --repetitions "${repetitions:-15}" --benchmark_out="$results/pyramid-skull.json"
-if [ "$generated_size" -gt 0 ]; then
-  "$build/vtk/bin/BenchmarkImagePyramid" --generate "$generated_size" \
-    --repetitions "${repetitions:-5}" --benchmark_out="$results/pyramid-generated.json"
+if [ -n "$with_pyramid" ]; then
+  "$build/vtk/bin/BenchmarkImagePyramid" --volume "$results/skull.vti" \
+    --repetitions "${repetitions:-15}" --benchmark_out="$results/pyramid-skull.json"
+  if [ "$generated_size" -gt 0 ]; then
+    "$build/vtk/bin/BenchmarkImagePyramid" --generate "$generated_size" \
+      --repetitions "${repetitions:-5}" --benchmark_out="$results/pyramid-generated.json"
+  fi
 fi
-say ""
-"$build/vtk/bin/MeasureSurface" --volume "$results/skull.vti" --iso 226.5 --peer \
-  --output "$results/surface.vtp"
+if [ -n "$with_surface" ]; then
+  if [ -n "$volume" ]; then
+    measure_surface "$(basename "$volume" .vti)" "$volume" "$iso"
+  else
+    measure_surface skull "$results/skull.vti" 226.5
+  fi
+  if [ -n "$all_scans" ]; then
+    list_scans > "$results/scans"
+    [ -s "$results/scans" ] || say "No volumes beside the checkout, in ../shared/data."
+    while read -r name file iso; do
+      measure_surface "$name" "$file" "$iso"
+    done < "$results/scans"
+  fi
+fi
