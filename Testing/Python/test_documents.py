@@ -162,6 +162,10 @@ class CodeTest(unittest.TestCase):
         self.run_here(os.path.join(self.folder, "build", "example"))
         self.check_surface()
 
+    def test_citation_is_of_this_version(self):
+        version, = re.findall(r"^version: (.*)$", read("CITATION.cff"), flags=re.MULTILINE)
+        self.assertEqual(version, volumic.__version__)
+
     def test_build_commands_name_options_that_exist(self):
         known = read("CMake/VolumicOptions.cmake")
         names = re.findall(r"`(VOLUMIC_\w+)`", read("README.md"))

@@ -64,6 +64,11 @@ class PackageTest(unittest.TestCase):
         printed = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
         self.assertEqual(printed.stdout.decode().strip(), "vtkImagePyramid")
 
+    def test_help_of_the_package_names_every_class(self):
+        for name in dir(volumic):
+            if hasattr(getattr(volumic, name), "GetOutputPort"):
+                self.assertIn(name, volumic.__doc__)
+
     def test_help_tells_units_and_defaults(self):
         text = pydoc.render_doc(vtkImagePyramid, renderer=pydoc.plaintext)
         text = re.sub(r"[\s|]+", " ", text)
