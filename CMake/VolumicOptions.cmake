@@ -35,6 +35,18 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
+# Debian packages (VolumicDebian.cmake) install into /usr, and the paths below it are fixed here.
+set(volumic_makes_packages OFF)
+if (CMAKE_LIBRARY_ARCHITECTURE
+    AND CMAKE_INSTALL_LIBDIR STREQUAL "lib/${CMAKE_LIBRARY_ARCHITECTURE}")
+  set(volumic_makes_packages ON)
+  # VTK's messages name the source file: not where it lay when the package was made.
+  if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    add_compile_options("-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/="
+      "-fmacro-prefix-map=${CMAKE_BINARY_DIR}/=")
+  endif ()
+endif ()
+
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")

@@ -20,7 +20,7 @@ logs=$build/logs
 mkdir -p "$logs"
 
 tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
-test_packages=(libgtest-dev libcgal-dev xvfb xauth libgl1-mesa-dri)
+test_packages=(dpkg-dev libgtest-dev libcgal-dev xvfb xauth libgl1-mesa-dri)
 example_packages=(invesalius-examples)
 
 # Debian's own interpreter; another python3 (conda, pyenv) may be the first on PATH.
@@ -315,7 +315,8 @@ configure()
     rm -rf "$tree"
   fi
   cmake -S "$root" -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON \
-    -DCMAKE_INSTALL_PREFIX="$build/install-$1" -DVOLUMIC_WRAP_PYTHON=ON "${@:2}"
+    -DCMAKE_INSTALL_PREFIX="$build/install-$1" -DCMAKE_INSTALL_LIBDIR="lib/$(multiarch)" \
+    -DVOLUMIC_WRAP_PYTHON=ON "${@:2}"
 }
 
 compile_and_install()

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# Debian packages, made by `cpack` in the build tree:
+#   with VTK       volumic (program and library), volumic-dev, python3-volumic
+#   with ParaView  paraview-volumic (plugin, its library and Python package)
+# The headers and CMake files for ParaView's VTK are in no package: they would be where those of
+# volumic-dev are.
+
+if (NOT volumic_makes_packages)
+  message(STATUS "No Debian packages: they need -DCMAKE_INSTALL_LIBDIR="
+    "lib/${CMAKE_LIBRARY_ARCHITECTURE} (or -DCMAKE_INSTALL_PREFIX=/usr)")
+  return ()
+endif ()
+
+set(VOLUMIC_PACKAGE_MAINTAINER "Volumic contributors <volumic@users.noreply.invalid>" CACHE STRING
+  "Maintainer of the Debian packages: name and address")
+mark_as_advanced(VOLUMIC_PACKAGE_MAINTAINER)
+
+set(volumic_debian "${CMAKE_CURRENT_LIST_DIR}/debian")
+set(volumic_debian_revision 1)
+set(volumic_debian_version "${Volumic_VERSION}-${volumic_debian_revision}")
+string(TIMESTAMP volumic_debian_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+
+# volumic_describe_package(COMPONENT PACKAGE SECTION SUMMARY): what is the same for all packages:
+# copyright and changelog (in an ordinary installation there are none).
+function (volumic_describe_package component package section summary)
+  set(changelog "${CMAKE_BINARY_DIR}/debian/${package}/changelog.Debian")
+  configure_file("${volumic_debian}/changelog.in" "${changelog}" @ONLY)
+  install(FILES "${volumic_debian}/copyright" "${changelog}"
+    DESTINATION "share/doc/${package}"
+    COMPONENT "${component}"
+    EXCLUDE_FROM_ALL)
+  string(TOUPPER "${component}" upper)
+  set(prefix "CPACK_DEBIAN_${upper}")
+  set("${prefix}_PACKAGE_NAME" "${package}" PARENT_SCOPE)
+  set("${prefix}_PACKAGE_SECTION" "${section}" PARENT_SCOPE)
+  file(READ "${volumic_debian}/description.txt" common)
+  file(READ "${volumic_debian}/description-${package}.txt" own)
+  string(STRIP "${summary}\n${common}${own}" description)
+  set("${prefix}_DESCRIPTION" "${description}" PARENT_SCOPE)
+endfunction ()
+
+# volumic_add_control_files(COMPONENT PACKAGE TEMPLATE...): files of CMake/debian, without their
+# suffix .in and prefix python- or library-.
+function (volumic_add_control_files component package)
+  string(TOUPPER "${component}" upper)
+  set(variable "CPACK_DEBIAN_${upper}_PACKAGE_CONTROL_EXTRA")
+  foreach (template IN LISTS ARGN)
+    string(REGEX REPLACE "^(python|library)-(.*)[.]in$" "\\2" name "${template}")
+    set(file "${CMAKE_BINARY_DIR}/debian/${package}/${name}")
+    configure_file("${volumic_debian}/${template}" "${file}" @ONLY)
+    list(APPEND "${variable}" "${file}")
+  endforeach ()
+  set("${variable}" "${${variable}}" PARENT_SCOPE)
+endfunction ()
+# Byte-compile at installation, and leave nothing behind.
+set(volumic_python_control python-postinst.in python-prerm.in)
+# Tell the linker and other packages of the library.
+set(volumic_library_control library-shlibs.in library-triggers.in)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME volumic)
+set(CPACK_PACKAGE_VENDOR "Volumic contributors")
+# Each package has its own summary: the first line of its description.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
+set(CPACK_PACKAGE_CONTACT "${VOLUMIC_PACKAGE_MAINTAINER}")
+set(CPACK_PACKAGE_VERSION "${Volumic_VERSION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_SOURCE_DIR}/LICENSE")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_PRE_BUILD_SCRIPTS "${volumic_debian}/PrepareTree.cmake")
+set(CPACK_VERBATIM_VARIABLES ON)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE "${volumic_debian_revision}")
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+# Which packages the libraries come from; our own are found in the build and named below.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+
+# An extension module works with one version of Python.
+math(EXPR volumic_next_python "${Python3_VERSION_MINOR} + 1")
+set(volumic_python_dependency
+  "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${volumic_next_python})")
+
+if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+  # One package of all that is not for development.
+  set(CPACK_COMPONENTS_ALL runtime plugin)
+  if (VOLUMIC_WRAP_PYTHON)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    set(CPACK_DEBIAN_PLUGIN_PACKAGE_RECOMMENDS "python3-paraview")
+    volumic_add_control_files(plugin paraview-volumic ${volumic_python_control})
+  endif ()
+  set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+  foreach (component IN LISTS CPACK_COMPONENTS_ALL)
+    string(TOUPPER "${component}" upper)
+    set("CPACK_COMPONENT_${upper}_GROUP" plugin)
+  endforeach ()
+  list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${VOLUMIC_PLUGIN_DIR}")
+  volumic_add_control_files(plugin paraview-volumic ${volumic_library_control})
+  volumic_describe_package(plugin paraview-volumic science
+    "trustworthy surfaces from 3D images, plugin for ParaView")
+else ()
+  set(CPACK_COMPONENTS_ALL runtime development)
+  volumic_add_control_files(runtime volumic ${volumic_library_control})
+  volumic_describe_package(runtime volumic science
+    "trustworthy surfaces from 3D images, program and library")
+  volumic_describe_package(development volumic-dev libdevel
+    "trustworthy surfaces from 3D images, development files")
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "volumic (= ${volumic_debian_version}), libvtk9-dev (>= 9.1)")
+  if (VOLUMIC_WRAP_PYTHON)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    volumic_describe_package(python python3-volumic python
+      "trustworthy surfaces from 3D images, Python package")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "volumic (= ${volumic_debian_version}), python3-vtk9, ${volumic_python_dependency}")
+    volumic_add_control_files(python python3-volumic ${volumic_python_control})
+  endif ()
+endif ()
+
+include(CPack)

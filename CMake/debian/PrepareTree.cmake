@@ -1,0 +1,23 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# Run by cpack on the trees that become packages: what an installation anywhere needs and one in
+# /usr must not have.
+
+file(GLOB_RECURSE files LIST_DIRECTORIES OFF "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/*")
+foreach (file IN LISTS files)
+  if (IS_SYMLINK "${file}")
+    continue ()
+  endif ()
+  if (file MATCHES "/plugins/[^/]+/[^/]+[.]so$")
+    # The plugin's own library lies beside it; all others are where the system looks.
+    file(RPATH_SET FILE "${file}" NEW_RPATH "$ORIGIN")
+  elseif (file MATCHES "[.]so([.0-9]*)$" OR file MATCHES "/bin/[^/]+$")
+    file(RPATH_REMOVE FILE "${file}")
+  elseif (file MATCHES "/share/man/man[0-9]/[^/]+[.][0-9]$" OR file MATCHES "/changelog[.]Debian$")
+    execute_process(COMMAND gzip -9nf "${file}" RESULT_VARIABLE status)
+    if (NOT status EQUAL 0)
+      message(FATAL_ERROR "gzip failed for ${file}")
+    endif ()
+  endif ()
+endforeach ()

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The packages hold what they should, where Debian wants it, and depend on what they need."""
+
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from debian_packages import BUILD, FLAVOUR, NAMES, SOURCE, made_packages, output_of
+
+# Findings of lintian that say nothing about the packages themselves: nobody has filed an intent to
+# package, and the library has no package of its own.
+LINTIAN_EXCEPTIONS = {"initial-upload-closes-no-bugs", "package-name-doesnt-match-sonames",
+                      "copyright-without-copyright-notice", "maintscript-calls-ldconfig",
+                      "bogus-mail-host"}
+
+
+class ContentsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.packages = made_packages()
+        cls.library = "/usr/lib/" + output_of("dpkg-architecture", "-qDEB_HOST_MULTIARCH").strip()
+
+    def unpack(self, package):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        output_of("dpkg-deb", "-x", package.file, folder.name)
+        return Path(folder.name)
+
+    def holds(self, name, *patterns):
+        """Each pattern fits a path of the package."""
+        paths = self.packages[name].paths()
+        for pattern in patterns:
+            self.assertTrue(any(re.fullmatch(pattern, path) for path in paths),
+                            f"{name} has no {pattern}: {sorted(paths)}")
+
+    def test_names(self):
+        self.assertEqual(sorted(self.packages), sorted(NAMES))
+
+    @unittest.skipUnless(FLAVOUR == "vtk", "packages of the build with VTK")
+    def test_files_for_vtk(self):
+        lib = re.escape(self.library)
+        self.holds("volumic", "/usr/bin/volumic", lib + r"/libvtkFiltersVolumic\.so\.[0-9.]+",
+                   r"/usr/share/man/man1/volumic\.1\.gz")
+        self.holds("volumic-dev", "/usr/include/volumic/vtkDeformableSurface.h",
+                   lib + r"/libvtkFiltersVolumic\.so", lib + "/cmake/Volumic/VolumicConfig.cmake",
+                   lib + "/cmake/Volumic/Volumic-targets.cmake")
+        self.holds("python3-volumic", "/usr/lib/python3/dist-packages/volumic/__init__.py",
+                   r"/usr/lib/python3/dist-packages/volumic/vtkFiltersVolumic\..*\.so")
+
+    @unittest.skipUnless(FLAVOUR == "paraview", "packages of the build with ParaView")
+    def test_files_for_paraview(self):
+        lib = re.escape(self.library)
+        self.holds("paraview-volumic", lib + r"/paraview-[0-9.]+/plugins/Volumic/Volumic\.so",
+                   lib + r"/libvtkFiltersVolumic-pv[0-9.]+\.so\.[0-9.]+")
+        for path in self.packages["paraview-volumic"].paths():
+            # What the packages of the other flavour have.
+            self.assertNotRegex(path, r"^/usr/bin|/include/|/dist-packages/|/cmake/|Volumic\.so\.")
+
+    def test_dependencies(self):
+        if FLAVOUR == "paraview":
+            own = self.packages["paraview-volumic"]
+            relations = own.dependencies()["paraview"]
+            self.assertTrue(any(r.startswith(">=") for r in relations), relations)
+            self.assertTrue(any(r.startswith("<<") for r in relations), relations)
+            self.assertNotIn("libvtk9.1", own.dependencies())
+            self.assertIn("python3-paraview", own.dependencies("Recommends"))
+            return
+        program, develop, python = (self.packages[name] for name in NAMES)
+        for package in (program, python):
+            self.assertTrue(any(n.startswith("libvtk") for n in package.dependencies()),
+                            package.dependencies())
+            self.assertIn("libc6", package.dependencies())
+        self.assertIn("libstdc++6", program.dependencies())
+        for package in (develop, python):
+            self.assertEqual(package.dependencies()["volumic"], [f"= {program.version}"])
+        self.assertIn("libvtk9-dev", develop.dependencies())
+        self.assertIn("python3-vtk9", python.dependencies())
+        self.assertEqual([r[:2] for r in python.dependencies()["python3"]], [">=", "<<"])
+
+    def test_every_package_is_in_order(self):
+        seen = {}
+        for name, package in self.packages.items():
+            with self.subTest(name):
+                self.holds(name, f"/usr/share/doc/{name}/copyright",
+                           rf"/usr/share/doc/{name}/changelog\.Debian\.gz")
+                for mode, owner, path in package.files():
+                    self.assertTrue(path.startswith("/usr/"), path)
+                    self.assertEqual(owner, "root/root", path)
+                    if mode[0] != "l":
+                        self.assertNotRegex(mode, "^.....w|^........w", path)
+                for path in package.paths():
+                    self.assertNotIn(path, seen, f"also in {seen.get(path)}")
+                    seen[path] = name
+                self.assertRegex(package.field("Maintainer"), r"^[^<]+ <[^>]+@[^>]+>$")
+                self.assertIn(package.field("Section"), ("science", "libdevel", "python"))
+                lines = package.field("Description").splitlines()
+                self.assertLessEqual(len(lines[0]), 80)
+                self.assertGreater(len(lines), 5)
+
+    def test_nothing_of_the_build_machine_is_left(self):
+        for name, package in self.packages.items():
+            folder = self.unpack(package)
+            for path in package.paths():
+                file = folder / path[1:]
+                if file.is_symlink():
+                    continue
+                content = file.read_bytes()
+                for place in (BUILD, SOURCE):
+                    self.assertFalse(f"{place}/".encode() in content,
+                                     f"{name}: {path} holds the path {place}")
+                if content.startswith(b"\x7fELF"):
+                    dynamic = output_of("readelf", "-d", file)
+                    paths = re.findall(r"(?:RPATH|RUNPATH)\).*\[(.*)\]", dynamic)
+                    expected = [["$ORIGIN"]] if "/plugins/" in path else [[]]
+                    self.assertIn(paths, expected, f"{name}: {path}")
+
+    @unittest.skipUnless(shutil.which("lintian"), "no lintian")
+    def test_lintian(self):
+        files = [package.file for package in self.packages.values()]
+        process = subprocess.run(["lintian", "--allow-root", "--tag-display-limit", "0", *files],
+                                 check=False, capture_output=True, text=True)
+        found = re.findall(r"^([EW]): \S+: (\S+).*$", process.stdout, re.M)
+        self.assertEqual([tag for tag in found if tag[1] not in LINTIAN_EXCEPTIONS], [],
+                         process.stdout + process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
