@@ -70,15 +70,24 @@ class Session:
             raise RuntimeError("Xvfb did not start")
         return server, f":{number}"
 
-    def play(self, events, timeout=240):
-        """Play the events in a new window, which stays open. Returns whether all succeeded."""
+    def play(self, events, timeout=240, python=""):
+        """Play the events in a new window, which stays open. Returns whether all succeeded.
+
+        python: code that the window's own interpreter runs first; what it prints is in `output`.
+        """
         script = os.path.join(self._folder.name, "events.xml")
         with open(script, "w", encoding="utf-8") as file:
             file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(events) +
                        "\n</pqevents>\n")
+        options = []
+        if python:
+            path = os.path.join(self._folder.name, "before.py")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(python)
+            options = [f"--script={path}"]
         self._window = subprocess.Popen(
             [self._paraview, "--dr", f"--plugin-search-paths={os.path.dirname(self._plugin)}",
-             "--plugins=Volumic", f"--test-script={script}"],
+             "--plugins=Volumic", *options, f"--test-script={script}"],
             env=self._environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, preexec_fn=end_with_parent)
         deadline = time.monotonic() + timeout

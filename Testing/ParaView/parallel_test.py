@@ -11,6 +11,7 @@ from paraview import simple
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 
@@ -18,6 +19,9 @@ class ParallelTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         testing.load_plugin()
+        sys.path.insert(0, os.environ["VOLUMIC_PYTHON"])
+        import volumic
+        cls.package = volumic
 
     def test_there_are_two_processes(self):
         self.assertEqual(vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses(), 2)
@@ -29,9 +33,9 @@ class ParallelTest(unittest.TestCase):
         self.assertEqual(information.GetNumberOfPoints(), 21**3 + 12**3)
         self.assertEqual(information.GetBounds(), (-10, 10) * 3)
 
-    def check_one_whole_surface(self, source, **properties):
+    def check_one_whole_surface(self, source, make=None, **properties):
         source.UpdatePipeline()
-        filter_ = simple.DeformableSurface(source, **properties)
+        filter_ = (make or simple.DeformableSurface)(source, **properties)
         filter_.UpdatePipeline()
         # Fields and history of one surface: twice as many if both processes had made it.
         surface = servermanager.Fetch(filter_)
@@ -46,9 +50,19 @@ class ParallelTest(unittest.TestCase):
         iterations = [history.GetColumnByName("Iteration").GetTuple1(row)
                       for row in range(history.GetNumberOfRows())]
         self.assertEqual(iterations, list(range(1, len(iterations) + 1)))
+        return filter_
 
     def test_one_whole_surface_of_an_image(self):
         self.check_one_whole_surface(simple.Wavelet())
+
+    def test_one_whole_surface_at_the_threshold_of_the_whole_image(self):
+        filter_ = self.check_one_whole_surface(simple.Wavelet(), simple.VolumetoSurface)
+        otsu = self.package.vtkOtsuThreshold()
+        # What simple.Wavelet gives a single process.
+        whole = vtkRTAnalyticSource()
+        otsu.SetInputConnection(whole.GetOutputPort())
+        otsu.Update()
+        self.assertEqual(filter_.IsoValue, otsu.GetThreshold())
 
     def test_one_whole_surface_of_a_pyramid(self):
         wavelet = simple.Wavelet()

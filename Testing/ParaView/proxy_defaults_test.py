@@ -18,18 +18,38 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 
 PLUGIN_SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Plugin/*.xml")
+FILTER_GROUPS = ("filters", "internal_filters")
 
 # Properties whose value depends on the data, so that the class has none or another to begin with.
-FROM_DATA = {"IsoValue", "SeedRadius"}
-VALUE_ELEMENTS = ("IntVectorProperty", "DoubleVectorProperty")
+FROM_DATA = {"IsoValue"}
 
 
 def proxy_elements():
-    """(group, element) of every proxy that the plugin's XML describes."""
+    """(group, element) of every filter that the plugin's XML describes."""
     for path in glob.glob(PLUGIN_SOURCES):
         for group in ElementTree.parse(path).getroot().iter("ProxyGroup"):
             for element in group:
-                yield group.get("name"), element
+                if group.get("name") in FILTER_GROUPS:
+                    yield group.get("name"), element
+
+
+def properties_of(proxy):
+    """(name, property) of all that the proxy has, inherited ones too."""
+    iterator = proxy.NewPropertyIterator()
+    iterator.Begin()
+    while not iterator.IsAtEnd():
+        yield iterator.GetKey(), iterator.GetProperty()
+        iterator.Next()
+
+
+def values_of(proxy):
+    """(name, property, setter) of those that hold a number."""
+    for name, property_ in properties_of(proxy):
+        command = property_.GetCommand() or ""
+        if property_.IsA("vtkSMVectorProperty") and command.startswith("Set") \
+                and not property_.IsA("vtkSMStringVectorProperty") \
+                and not property_.GetInformationOnly():
+            yield name, property_, command
 
 
 class ProxyDefaultsTest(unittest.TestCase):
@@ -50,61 +70,73 @@ class ProxyDefaultsTest(unittest.TestCase):
         return proxy
 
     def test_there_are_proxies(self):
-        self.assertIn("ImagePyramid", [element.get("name") for _, element in self.elements])
+        names = {element.get("name") for _, element in self.elements}
+        self.assertEqual(
+            names, {"DeformableSurface", "ImagePyramid", "OtsuThreshold", "VolumeToSurface"})
 
     def test_values_agree(self):
-        compared = 0
+        compared = set()
         for group, element in self.elements:
             proxy = self.new_proxy(group, element.get("name"))
             # A second object, which the proxy has not touched.
             fresh = proxy.GetClientSideObject().NewInstance()
-            for property_ in element.iter():
-                command = property_.get("command", "")
-                if property_.tag not in VALUE_ELEMENTS or not command.startswith("Set"):
-                    continue
-                name = property_.get("name")
+            for name, held, command in values_of(proxy):
                 if name in FROM_DATA:
                     continue
                 with self.subTest(proxy=element.get("name"), property=name):
                     expected = getattr(fresh, "Get" + command[3:])()
                     # Not through the Python proxy, which gives an enumeration's text.
-                    self.assertEqual(proxy.GetProperty(name).GetElement(0), expected)
-                    compared += 1
-        self.assertGreaterEqual(compared, 4)
+                    self.assertEqual(held.GetElement(0), expected)
+                    compared.add((element.get("name"), name))
+        # Inherited ones too.
+        for name in ("Friction", "SnapshotInterval", "FinestLevel", "ReductionFactor"):
+            self.assertIn(("VolumeToSurface", name), compared)
+        self.assertGreater(len(compared), 50)
+
+    def test_every_setter_of_the_class_has_its_property(self):
+        for group, element in self.elements:
+            proxy = self.new_proxy(group, element.get("name"))
+            offered = {command for _, _, command in values_of(proxy)}
+            class_ = type(proxy.GetClientSideObject())
+            # Setters of our own classes that have a getter, that is, properties.
+            for base in class_.__mro__:
+                if not base.__module__.startswith("volumic"):
+                    continue
+                for setter in (name for name in vars(base) if name.startswith("Set")):
+                    if hasattr(class_, "Get" + setter[3:]):
+                        with self.subTest(proxy=element.get("name"), setter=setter):
+                            self.assertIn(setter, offered)
 
     def test_values_reach_the_object(self):
         """Client-server wrapping drops a setter that it doesn't understand, without a word."""
         for group, element in self.elements:
             proxy = self.new_proxy(group, element.get("name"))
-            for property_ in element.iter():
-                command = property_.get("command", "")
-                if property_.tag not in VALUE_ELEMENTS or not command.startswith("Set"):
-                    continue
-                name = property_.get("name")
+            for name, held, command in values_of(proxy):
                 with self.subTest(proxy=element.get("name"), property=name):
-                    held = proxy.GetProperty(name)
-                    other = self.another_value(held.GetElement(0), property_)
+                    other = self.another_value(held)
                     held.SetElement(0, other)
                     proxy.UpdateVTKObjects()
                     value = getattr(proxy.GetClientSideObject(), "Get" + command[3:])()
                     self.assertEqual(value, other)
 
     @staticmethod
-    def another_value(value, element):
-        if element.find("BooleanDomain") is not None:
+    def another_value(property_):
+        value = property_.GetElement(0)
+        if property_.FindDomain("vtkSMBooleanDomain"):
             return 1 - value
-        if element.tag == "IntVectorProperty":
+        if property_.IsA("vtkSMIntVectorProperty"):
             return value + 1
         return value * 0.9 if value else 0.5
 
     def test_every_property_is_documented(self):
         for group, element in self.elements:
-            for property_ in element.iter():
-                if property_.tag.endswith("Property") and property_.get("command"):
-                    with self.subTest(proxy=element.get("name"), property=property_.get("name")):
-                        text = property_.findtext("Documentation", "").strip()
-                        self.assertGreater(len(text), 20)
+            for name, property_ in properties_of(self.new_proxy(group, element.get("name"))):
+                if property_.GetCommand():
+                    with self.subTest(proxy=element.get("name"), property=name):
+                        text = property_.GetDocumentation().GetDescription().strip()
+                        self.assertGreater(len(text), 10)
                         self.assertTrue(text.endswith("."))
+                        self.assertTrue(property_.GetXMLLabel())
 
     def test_filters_are_in_their_menu(self):
         for group, element in self.elements:
@@ -112,6 +144,7 @@ class ProxyDefaultsTest(unittest.TestCase):
                 with self.subTest(proxy=element.get("name")):
                     entry = element.find("Hints/ShowInMenu")
                     self.assertEqual(entry.get("category"), "Volumic")
+                    self.assertTrue(entry.get("icon").startswith(":/volumic/"))
 
 
 testing.main()

@@ -9,7 +9,9 @@ import sys
 import time
 import unittest
 
+from paraview import servermanager
 from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
@@ -35,33 +37,54 @@ def start_server(port):
     raise RuntimeError("pvserver ended: " + "".join(said))
 
 
+def outputs_of(filter_):
+    filter_.UpdatePipeline()
+    return [servermanager.Fetch(filter_, idx=port) for port in range(4)]
+
+
+def points(surface):
+    return vtk_to_numpy(surface.GetPoints().GetData()).tobytes()
+
+
 def wavelet_pyramid():
     source = simple.Wavelet()
     source.UpdatePipeline()
     return simple.ImagePyramid(Input=source, NumberOfLevels=3)
 
 
+def wavelet_to_surface():
+    source = simple.Wavelet()
+    source.UpdatePipeline()
+    return simple.VolumetoSurface(source, SnapshotInterval=30)
+
+
 class RemoteServerTest(unittest.TestCase):
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         # What the built-in server gives is what the remote one has to give.
         testing.load_plugin()
-        self.local = testing.fetch(wavelet_pyramid())
+        cls.local = testing.fetch(wavelet_pyramid())
+        filter_ = wavelet_to_surface()
+        cls.local_iso_value = filter_.IsoValue
+        cls.local_outputs = outputs_of(filter_)
         port = free_port()
-        self.server = start_server(port)
+        cls.server = start_server(port)
         deadline = time.monotonic() + 30
         while not simple.Connect("localhost", port):
-            self.assertLess(time.monotonic(), deadline, "no connection to pvserver")
+            if time.monotonic() > deadline:
+                raise RuntimeError("no connection to pvserver")
             time.sleep(0.2)
+        testing.load_plugin(remote=True)
 
-    def tearDown(self):
+    @classmethod
+    def tearDownClass(cls):
         simple.Disconnect()
         # It ends by itself only once the last Python object of the session is gone.
-        self.server.terminate()
-        self.server.wait()
-        self.server.stdout.close()
+        cls.server.terminate()
+        cls.server.wait()
+        cls.server.stdout.close()
 
     def test_same_pyramid_as_without_a_server(self):
-        testing.load_plugin(remote=True)
         filter_ = wavelet_pyramid()
         self.assertIsNone(filter_.GetClientSideObject(), "the filter runs on the server")
         remote = testing.fetch(filter_)
@@ -77,6 +100,33 @@ class RemoteServerTest(unittest.TestCase):
                              testing.voxels(there, "RTData").tobytes())
         information = filter_.GetDataInformation()
         self.assertEqual(information.GetCompositeDataClassName(), "vtkMultiBlockDataSet")
+
+    def test_same_surface_as_without_a_server(self):
+        filter_ = wavelet_to_surface()
+        self.assertIsNone(filter_.GetClientSideObject(), "the filter runs on the server")
+        # Preset where the data is.
+        self.assertEqual(filter_.IsoValue, self.local_iso_value)
+        surface, levels, history, snapshots = outputs_of(filter_)
+        here = self.local_outputs
+        self.assertGreater(surface.GetNumberOfPolys(), 0)
+        self.assertEqual(points(surface), points(here[0]))
+        self.assertEqual(levels.GetNumberOfBlocks(), here[1].GetNumberOfBlocks())
+        self.assertEqual(history.GetNumberOfRows(), here[2].GetNumberOfRows())
+        self.assertEqual(history.GetNumberOfColumns(), here[2].GetNumberOfColumns())
+        names = [[blocks.GetMetaData(b).Get(blocks.NAME())
+                  for b in range(blocks.GetNumberOfBlocks())] for blocks in (snapshots, here[3])]
+        self.assertEqual(*names)
+        for there, local in zip(testing.levels(snapshots), testing.levels(here[3])):
+            self.assertEqual(points(there), points(local))
+
+    def test_displays_on_the_client(self):
+        filter_ = wavelet_to_surface()
+        view = simple.CreateView("RenderView")
+        red, _, blue = simple.Show(filter_, view).DiffuseColor
+        self.assertGreater(red, blue, "bone")
+        chart = simple.CreateView("VolumicHistoryView")
+        display = simple.Show(simple.OutputPort(filter_, 2), chart)
+        self.assertEqual(len(display.SeriesVisibility), 4)
 
 
 testing.main()

@@ -20,7 +20,7 @@ ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "Recovery", "Minim
             "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "Friction", "BorderValue", "TopologyChanges", "SnapToIsoValue",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
-            "NumberOfThreads")
+            "NumberOfThreads", "SnapshotInterval", "Profile")
 
 
 def middle_of_the_wavelet():
@@ -45,8 +45,10 @@ class SurfaceWindowTest(window.WindowTestCase):
             "surface-applied")
         state = window.proxies_of(path)
         self.assertIn("DeformableSurface", state)
-        # Nothing but the surface was shown: the history did not take half of the window.
-        self.assertNotIn("XYChartView", state)
+        # Beside the surface, the history is a chart; neither levels nor a table are shown.
+        self.assertEqual(state.count("VolumicHistoryView"), 1)
+        self.assertEqual(state.count("VolumicHistoryRepresentation"), 1)
+        self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
         self.assertNotIn("SpreadSheetView", state)
 
         filter_ = window.open_state(path, "DeformableSurface1")
@@ -77,18 +79,6 @@ class SurfaceWindowTest(window.WindowTestCase):
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")
         self.assertGreater(testing.fetch(filter_).GetNumberOfCells(), 0)
-
-    def test_history_is_plotted(self):
-        path, save = self.saved_state("history.pvsm")
-        self.play(VOLUME + [
-            SURFACE, APPLY, window.in_the_pipeline(0, 0, 2),
-            filter_of_the_menu("PlotAttributes", "Alphabetical"), APPLY, *save, gui.pause(1500)],
-            "surface-history")
-        state = window.proxies_of(path)
-        self.assertIn("XYChartView", state)
-        table = testing.fetch(window.open_state(path, "PlotData1"))
-        self.assertGreater(table.GetNumberOfRows(), 10)
-        self.assertIsNotNone(table.GetColumnByName("KineticEnergy"))
 
     def test_not_offered_for_what_is_no_volume(self):
         path, save = self.saved_state("surface-of-sphere.pvsm")

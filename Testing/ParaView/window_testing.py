@@ -70,9 +70,12 @@ class WindowTestCase(unittest.TestCase):
     def tearDown(self):
         self.session.close_window()
 
-    def play(self, events, picture):
-        """Play the events in a new window, and take its picture, also if an event failed."""
-        succeeded = self.session.play(events)
+    def play(self, events, picture, **options):
+        """Play the events in a new window, and take its picture, also if an event failed.
+
+        options: of Session.play
+        """
+        succeeded = self.session.play(events, **options)
         pixels = self.session.screenshot(testing.output_path(f"{picture}.png"))
         self.assertTrue(succeeded, self.session.output)
         # A warning opens a box over the window, and is none that the plugin's hints may cause.

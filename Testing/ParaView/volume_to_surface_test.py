@@ -1,0 +1,208 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Volume to Surface filter of the installed plugin, in scripts of pvbatch and pvpython."""
+
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import servermanager
+from paraview import simple
+from paraview import smtrace
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import plugin_testing as testing
+
+SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
+FOUR_CURVES = {"Seconds", "KineticEnergy", "MeanEdgeLength", "Vertices"}
+SIZE, RADIUS, DARK, BRIGHT = 32, 10.0, 20.0, 220.0
+
+
+def ball_values():
+    """values[z, y, x]: bright in a ball about the middle, over about two voxels dark around it."""
+    x = numpy.arange(SIZE) - (SIZE - 1) / 2
+    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
+    inside = numpy.clip(0.5 + 0.5 * (RADIUS - distance), 0, 1)
+    return (DARK + (BRIGHT - DARK) * inside).astype(numpy.float32)
+
+
+def ball_of_cells():
+    """The same ball in cells, whose centres are where the points are."""
+    image = testing.make_image(numpy.zeros((SIZE + 1,) * 3, numpy.float32), origin=(-0.5,) * 3)
+    points = testing.make_image(ball_values(), name="density")
+    image.GetPointData().Initialize()
+    image.GetCellData().AddArray(points.GetPointData().GetArray("density"))
+    return image
+
+
+def output(filter_, port=SURFACE):
+    filter_.UpdatePipeline()
+    return servermanager.Fetch(filter_, idx=port)
+
+
+def field(surface, name):
+    return surface.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def points(surface):
+    return vtk_to_numpy(surface.GetPoints().GetData())
+
+
+class VolumeToSurfaceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+        cls.ball = testing.produce(testing.make_image(ball_values(), name="density"))
+
+    def tearDown(self):
+        # What comes last has nothing after it.
+        for source in reversed(list(simple.GetSources().values())):
+            if source != self.ball:
+                simple.Delete(source)
+
+    def check_ball(self, surface, tolerance=0.5):
+        self.assertEqual(field(surface, "StopReason"), "converged")
+        self.assertEqual(field(surface, "NumberOfComponents"), 1)
+        distance = numpy.linalg.norm(points(surface) - (SIZE - 1) / 2, axis=1)
+        self.assertLess(numpy.abs(distance - RADIUS).max(), tolerance)
+
+    def test_iso_value_is_preset_and_apply_is_enough(self):
+        filter_ = simple.VolumetoSurface(self.ball)
+        self.assertGreater(filter_.IsoValue, DARK + 30)
+        self.assertLess(filter_.IsoValue, BRIGHT - 30)
+        low, high = self.ball.PointData["density"].GetRange()
+        self.assertNotAlmostEqual(filter_.IsoValue, (low + high) / 2, places=3)
+        self.check_ball(output(filter_))
+
+    def test_iso_value_is_reset_to_the_data(self):
+        # What the button beside the value does.
+        values = ball_values()
+        image = testing.make_image(values, name="density")
+        testing.add_array(image, values * 10 - 7, "other")
+        filter_ = simple.VolumetoSurface(testing.produce(image))
+        self.assertEqual(filter_.Voxels[1], "density")
+        preset = filter_.IsoValue
+        filter_.Voxels = ["POINTS", "other"]
+        self.assertEqual(filter_.IsoValue, preset)
+        filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
+        filter_.SMProxy.UpdateVTKObjects()
+        self.assertAlmostEqual(filter_.IsoValue, preset * 10 - 7, delta=0.01)
+        self.check_ball(output(filter_))
+
+    def test_voxels_in_cells(self):
+        of_cells = simple.VolumetoSurface(testing.produce(ball_of_cells()))
+        self.assertEqual(list(of_cells.Voxels), ["CELLS", "density"])
+        of_points = simple.VolumetoSurface(self.ball)
+        self.assertEqual(of_cells.IsoValue, of_points.IsoValue)
+        self.assertEqual(points(output(of_cells)).tobytes(), points(output(of_points)).tobytes())
+
+    def test_volume_without_a_boundary(self):
+        flat = testing.produce(testing.make_image(numpy.full((16,) * 3, 4.0, numpy.float32)))
+        with testing.CapturedMessages() as messages:
+            filter_ = simple.VolumetoSurface(flat)
+            self.assertEqual(filter_.IsoValue, 4.0)
+            surface = output(filter_)
+        self.assertIn("ranges from 4 to 4", messages.text)
+        self.assertIn("IsoValue is 4, outside the range", messages.text)
+        self.assertEqual(surface.GetNumberOfPoints(), 0)
+
+    def test_pyramid_inside(self):
+        filter_ = simple.VolumetoSurface(self.ball, NumberOfLevels=2, FinestLevel=1)
+        self.assertEqual(field(output(filter_), "Level"), 1)
+        self.assertEqual(output(filter_, LEVELS).GetNumberOfBlocks(), 2)
+
+    def test_snapshots(self):
+        filter_ = simple.VolumetoSurface(self.ball, SnapshotInterval=10)
+        blocks = output(filter_, SNAPSHOTS)
+        names = [blocks.GetMetaData(b).Get(blocks.NAME())
+                 for b in range(blocks.GetNumberOfBlocks())]
+        self.assertEqual(names[:2], ["Level 2, iteration 0", "Level 2, iteration 10"])
+        for name, surface in zip(names, testing.levels(blocks)):
+            self.assertEqual(
+                name, f"Level {field(surface, 'Level')}, iteration {field(surface, 'Iterations')}")
+            self.assertGreater(surface.GetNumberOfPolys(), 0)
+        filter_.SnapshotInterval = 0
+        self.assertEqual(output(filter_, SNAPSHOTS).GetNumberOfBlocks(), 0)
+
+    def test_displays(self):
+        filter_ = simple.VolumetoSurface(self.ball)
+        view = simple.CreateView("RenderView")
+        for port in (SURFACE, LEVELS, SNAPSHOTS):
+            display = simple.Show(simple.OutputPort(filter_, port), view)
+            self.assertEqual(display.Representation, "Surface")
+            red, _, blue = display.DiffuseColor
+            self.assertGreater(red, blue, "bone")
+            self.assertFalse(display.ColorArrayName[1])
+        chart = simple.CreateView("VolumicHistoryView")
+        display = simple.Show(simple.OutputPort(filter_, HISTORY), chart)
+        self.assertEqual(set(display.SeriesVisibility), FOUR_CURVES)
+        self.assertEqual(display.XArrayName, "Iteration")
+        self.assertFalse(display.UseIndexForXAxis)
+        self.assertTrue(chart.LeftAxisLogScale)
+        # Also with the columns of the profile.
+        filter_.Profile = 1
+        filter_.UpdatePipeline()
+        self.assertEqual(set(display.SeriesVisibility), FOUR_CURVES)
+        for view_ in (view, chart):
+            simple.Delete(view_)
+
+    def test_trace(self):
+        source = simple.Wavelet(registrationName="TracedWavelet")
+        source.UpdatePipeline()
+        config = smtrace.start_trace()
+        config.SetFullyTraceSupplementalProxies(False)
+        filter_ = simple.VolumetoSurface(registrationName="Traced", Input=source, FinestLevel=1)
+        filter_.UpdatePipeline()
+        iso, wanted = filter_.IsoValue, points(output(filter_)).tobytes()
+        text = smtrace.stop_trace()
+        self.assertIn("VolumetoSurface(", text)
+        self.assertIn("FinestLevel = 1", text)
+        self.assertIn("IsoValue", text)
+        simple.Delete(filter_)
+        played = {}
+        exec(compile(text, "trace", "exec"), played)
+        again = simple.FindSource("Traced")
+        self.assertIsNotNone(again, text)
+        self.assertAlmostEqual(again.IsoValue, iso, places=9)
+        self.assertEqual(points(output(again)).tobytes(), wanted)
+
+    def test_state(self):
+        source = simple.Wavelet(registrationName="SavedWavelet")
+        source.UpdatePipeline()
+        filter_ = simple.VolumetoSurface(
+            source, registrationName="Saved", IsoValue=140.0, SnapshotInterval=25)
+        wanted = points(output(filter_)).tobytes()
+        for name in ("volume-to-surface.pvsm", "volume-to-surface-state.py"):
+            with self.subTest(name=name):
+                path = testing.output_path(name)
+                simple.SaveState(path)
+                simple.Delete(simple.FindSource("Saved"))
+                simple.Delete(simple.FindSource("SavedWavelet"))
+                simple.LoadState(path)
+                again = simple.FindSource("Saved")
+                self.assertEqual(again.IsoValue, 140.0)
+                self.assertEqual(again.SnapshotInterval, 25)
+                self.assertEqual(points(output(again)).tobytes(), wanted)
+
+    def test_abort_and_the_next_apply(self):
+        filter_ = simple.VolumetoSurface(self.ball)
+        algorithm = filter_.GetClientSideObject()
+        reports = []
+
+        def stop_after_the_tenth(*_):
+            reports.append(algorithm.GetProgressText())
+            if len(reports) == 10:
+                algorithm.SetAbortExecute(1)
+        tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
+        surface = output(filter_)
+        self.assertEqual(field(surface, "StopReason"), "cancelled")
+        self.assertGreater(surface.GetNumberOfPolys(), 0)
+        algorithm.RemoveObserver(tag)
+        # Nobody takes the request back; any change and Apply will do.
+        filter_.Friction = 2.9
+        self.check_ball(output(filter_))
+
+
+testing.main()

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Volume to Surface in ParaView's window: its panel, undo and redo, and stopping it on its way."""
+
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import plugin_testing as testing
+import window_testing as window
+from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+from paraview import simple
+
+VOLUME = source("RTAnalyticSource")
+FILTER = filter_of_the_menu("VolumeToSurface")
+ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "FinestLevel")
+ADVANCED = ("NumberOfLevels", "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction",
+            "SnapshotInterval")
+
+# Runs in the window: from the first filter that is made, whoever makes it, its first run is
+# stopped after some iterations; the end of each run is told.
+STOP_THE_FIRST_RUN = """
+from paraview import servermanager
+
+watched = []
+
+def watch(manager, event):
+    from paraview import simple
+    for filter_ in simple.GetSources().values():
+        algorithm = filter_.GetClientSideObject()
+        if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in watched:
+            watched.append(algorithm)
+            runs = []
+            def progress(caller, event):
+                if len(runs) == 1 and "iteration 7," in (caller.GetProgressText() or ""):
+                    caller.SetAbortExecute(1)
+            def end(caller, event):
+                surface = caller.GetOutputDataObject(0)
+                reason = surface.GetFieldData().GetAbstractArray("StopReason")
+                print("Run", len(runs), "ended:", reason.GetValue(0) if reason else "",
+                      "with triangles:", surface.GetNumberOfPolys(), flush=True)
+            algorithm.AddObserver("StartEvent", lambda *_: runs.append(1))
+            algorithm.AddObserver("ProgressEvent", progress)
+            algorithm.AddObserver("EndEvent", end)
+
+servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+"""
+
+
+def edit(action):
+    return gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", action)
+
+
+def iso_of_the_wavelet():
+    """What the panel of Iso Value says for the volume of the tests."""
+    testing.load_plugin()
+    wavelet = simple.Wavelet()
+    wavelet.UpdatePipeline()
+    return repr(simple.VolumetoSurface(wavelet).IsoValue)
+
+
+class VolumeWindowTest(window.WindowTestCase):
+    def test_menu_panel_and_apply(self):
+        path, save = self.saved_state("volume.pvsm")
+        self.play(VOLUME + [
+            FILTER, gui.pause(500),
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
+            *[window.shown(name, True) for name in BASIC],
+            *[window.shown(name, False) for name in ADVANCED],
+            APPLY, *save, gui.pause(1500)], "volume-applied")
+        state = window.proxies_of(path)
+        self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
+        # The surface has the window for itself.
+        self.assertNotIn("VolumicHistoryView", state)
+        surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
+        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
+                         "converged")
+
+    def test_button_that_finds_the_iso_value_again(self):
+        self.play(VOLUME + [
+            FILTER, gui.event(ISO_VALUE, "set_string", "111"), gui.pause(500),
+            gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(500),
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet())], "volume-reset")
+
+    def test_advanced_panel(self):
+        levels = f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit"
+        self.play(VOLUME + [
+            FILTER, SHOW_ADVANCED, gui.pause(1000),
+            *[window.shown(name, True) for name in BASIC + ADVANCED],
+            window.shown("SeedRadius", False),
+            gui.event(levels, "set_string", "3"), gui.pause(300),
+            window.shown("MinimumLevelSize", False)], "volume-advanced")
+
+    def test_undo_and_redo(self):
+        undone, save_undone = self.saved_state("undone.pvsm")
+        redone, save_redone = self.saved_state("redone.pvsm")
+        self.play(VOLUME + [
+            FILTER, APPLY,
+            gui.event(ISO_VALUE, "set_string", "140"), APPLY,
+            edit("actionEditUndo"), gui.pause(1000), *save_undone,
+            edit("actionEditRedo"), gui.pause(1000), *save_redone, gui.pause(1500)],
+            "volume-redone")
+        iso = float(iso_of_the_wavelet())
+        for path, value in ((undone, iso), (redone, 140.0)):
+            filter_ = window.open_state(path, "VolumetoSurface1")
+            self.assertAlmostEqual(filter_.IsoValue, value, places=9)
+            self.assertGreater(testing.fetch(filter_).GetNumberOfPolys(), 0)
+
+    def test_stopped_on_its_way_and_applied_again(self):
+        self.play(VOLUME + [
+            FILTER, APPLY, gui.pause(1000),
+            gui.event(ISO_VALUE, "set_string", "140"), APPLY, gui.pause(1500)],
+            "volume-stopped", python=STOP_THE_FIRST_RUN)
+        runs = re.findall(r"Run (\d+) ended: (\w+) with triangles: (\d+)", self.session.output)
+        self.assertEqual([run[:2] for run in runs], [("1", "cancelled"), ("2", "converged")],
+                         self.session.output)
+        self.assertTrue(all(int(triangles) > 0 for _, _, triangles in runs))
+
+    def test_not_offered_for_what_is_no_volume(self):
+        path, save = self.saved_state("volume-of-sphere.pvsm")
+        # The menu's entry is there, but greyed out, and does nothing.
+        self.session.play(source("SphereSource") + [FILTER, *save])
+        self.assertIn("SphereSource", window.proxies_of(path))
+        self.assertNotIn("VolumeToSurface", window.proxies_of(path))
+
+
+window.main()
