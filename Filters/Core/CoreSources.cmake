@@ -10,6 +10,7 @@ set(volumic_core_sources
   CycleCut.cxx
   Division.cxx
   Dynamics.cxx
+  EdgeAttraction.cxx
   EdgeCollapse.cxx
   EdgeFlip.cxx
   EdgeSplit.cxx
@@ -20,6 +21,7 @@ set(volumic_core_sources
   InitialSurface.cxx
   LevelReduction.cxx
   LostParts.cxx
+  PointAttraction.cxx
   Proximity.cxx
   PyramidGeometry.cxx
   Remesher.cxx
@@ -42,6 +44,7 @@ set(volumic_core_headers
   CycleCut.h
   Division.h
   Dynamics.h
+  EdgeAttraction.h
   EdgeCollapse.h
   EdgeFlip.h
   EdgeSplit.h
@@ -53,6 +56,7 @@ set(volumic_core_headers
   LevelReduction.h
   LostParts.h
   Monitor.h
+  PointAttraction.h
   Proximity.h
   PyramidGeometry.h
   Remesher.h

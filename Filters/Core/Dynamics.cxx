@@ -27,6 +27,17 @@ float Clamp(float x)
 }
 }
 
+Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
+  : TheField(field)
+  , Options(options)
+  , Threads(executor)
+{
+  if (options.EdgeAttractionWeight > 0 && field.Image().Edges)
+  {
+    this->Edges = std::make_unique<EdgeAttraction>(field.Image(), executor);
+  }
+}
+
 Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
 {
   const Vector& n = state.Normal[v];
@@ -42,6 +53,11 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
     const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
     along -= static_cast<float>(this->Options.GradientWeight) *
       Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+  }
+  if (this->Edges)
+  {
+    along += static_cast<float>(this->Options.EdgeAttractionWeight) *
+      this->Edges->Along(state.Mesh.Position[v], n);
   }
   const Ring& ring = state.Mesh.Rings[v];
   Vector tension = state.Pull[v];
@@ -66,7 +82,8 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
   this->Fastest.assign((n + BlockSize - 1) / BlockSize, 0.f);
   const float friction = static_cast<float>(this->Options.Friction);
   const float drive =
-    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight);
+    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight +
+      (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
   const float step = static_cast<float>(this->Options.MaximumStep) * state.Delta;
   // A free vertex at its final speed under full force goes just the largest step.
   const float longest =

@@ -3,11 +3,13 @@
 #ifndef volumicDynamics_h
 #define volumicDynamics_h
 
+#include "EdgeAttraction.h"
 #include "Field.h"
 #include "Proximity.h"
 #include "SurfaceOptions.h"
 #include "SurfaceState.h"
 
+#include <memory>
 #include <vector>
 
 namespace volumic
@@ -28,16 +30,13 @@ namespace volumic
  *   of by value, give an image with valleys where the contours are (such as minus the gradient
  *   magnitude), GradientWeight 1, and a small IsopotentialWeight whose iso-value drives the
  *   surface over the flat parts.
+ * - edges: EdgeAttractionWeight times EdgeAttraction::Along, if the image of the field has a map
+ *   of edges.
  */
 class Dynamics
 {
 public:
-  Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
-    : TheField(field)
-    , Options(options)
-    , Threads(executor)
-  {
-  }
+  Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor);
 
   /**
    * Computes forces and velocities of the awake vertices; `pairs` are the contacts known from the
@@ -76,6 +75,7 @@ private:
   const Field& TheField;
   const SurfaceOptions& Options;
   Executor& Threads;
+  std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
   float Step = 0;
   std::vector<Vector> Force;
   std::vector<float> Fastest;

@@ -16,7 +16,7 @@ namespace volumic
  * (i Step[0], j Step[1], k Step[2]) with Step = M_0 / M_h along each axis. All lengths inside the
  * core are lengths of the workspace.
  *
- * Values are not owned and must outlive every call they are given to.
+ * Values and Edges are not owned and must outlive every call they are given to.
  */
 struct LevelImage
 {
@@ -24,6 +24,7 @@ struct LevelImage
   std::array<int, 3> Size = { 0, 0, 0 };       ///< Number of voxels along each axis.
   std::array<double, 3> Step = { 1., 1., 1. }; ///< Distance of neighbouring voxels, workspace.
   double Unit = 1.;                            ///< U_h = T^h, workspace (U_0 = 1).
+  const float* Edges = nullptr; ///< May be null: a map of edges at the same voxels.
 };
 }
 

@@ -48,11 +48,15 @@ SurfaceEvolution::SurfaceEvolution(
   CheckRange("ElasticityWeight", options.ElasticityWeight, 0., 1e6);
   CheckRange("IsopotentialWeight", options.IsopotentialWeight, 0., 1e6);
   CheckRange("GradientWeight", options.GradientWeight, 0., 1e6);
+  CheckRange("PointAttractionWeight", options.PointAttractionWeight, 0., 1e6);
+  CheckRange("EdgeAttractionWeight", options.EdgeAttractionWeight, 0., 1e6);
   CheckRange("Friction", options.Friction, 1e-6, 1e6);
   CheckRange("SeedRadius", options.SeedRadius, 0., 1e9);
   CheckRange("ConvergenceTolerance", options.ConvergenceTolerance, 0., 1.);
   CheckRange("MaximumStep", options.MaximumStep, 1e-3, 0.5);
-  this->Self = std::make_unique<Implementation>(options, executor, monitor);
+  SurfaceOptions adjusted = options;
+  adjusted.SnapToIsoValue = options.SnapToIsoValue && !(options.EdgeAttractionWeight > 0.);
+  this->Self = std::make_unique<Implementation>(adjusted, executor, monitor);
 }
 
 SurfaceEvolution::~SurfaceEvolution() = default;

@@ -29,6 +29,13 @@ struct SurfaceOptions
   double ElasticityWeight = 0.1;   ///< F_e, springs along edges, rest length 1.6 delta.
   double IsopotentialWeight = 1.;  ///< F_i, along the normal, bounded by 1.
   double GradientWeight = 0.;      ///< F_di, descent along the discrete gradient; see Dynamics.h.
+  double PointAttractionWeight = 1.; ///< Of points known to belong to the object; PointAttraction.h
+  /**
+   * Of the edges of LevelImage::Edges, which stop the surface where this is more than
+   * IsopotentialWeight; see EdgeAttraction.h. Not 0: the surface may rest at an edge that is not
+   * at the iso-value, and SnapToIsoValue is without effect.
+   */
+  double EdgeAttractionWeight = 0.;
   double Friction = 3.;            ///< Per unit of time.
 
   Border BorderValue = Border::Background;

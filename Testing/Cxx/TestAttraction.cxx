@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "EdgeAttraction.h"
+#include "Executor.h"
+#include "Field.h"
+#include "PointAttraction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+
+/** The last first, one index at a time. */
+class BackwardExecutor final : public Executor
+{
+public:
+  void For(std::size_t n, std::size_t, const std::function<void(std::size_t, std::size_t)>& body)
+    override
+  {
+    for (std::size_t i = n; i > 0; --i)
+    {
+      body(i - 1, i);
+    }
+  }
+};
+
+/** 100 below the plane x = 6, 0 above, falling over two voxels; the points act far from it. */
+TestVolume Half()
+{
+  return MakeVolume(33, [](double x, double, double) { return 100. * Soft(x - 6.); });
+}
+
+SurfaceOptions HalfOptions(double iso)
+{
+  SurfaceOptions options;
+  options.IsoValue = iso;
+  return options;
+}
+
+/** Distance from `centre` along +x at which the bent field leaves the object; 0: never in it. */
+double RadiusOf(const TestVolume& volume, const SurfaceOptions& options,
+  const std::vector<AttractingPoint>& points, double weight, const Point& centre)
+{
+  const std::vector<float> bent =
+    PointAttraction(points, weight).Bend(volume.Image, options, Threads);
+  LevelImage image = volume.Image;
+  image.Values = bent.data();
+  const Field field(image, options, Threads);
+  double radius = 0;
+  while (radius < 10 &&
+    field.ValueAt(Vector(static_cast<float>(centre[0] + radius), static_cast<float>(centre[1]),
+      static_cast<float>(centre[2]))) > 0)
+  {
+    radius += 0.02;
+  }
+  return radius;
+}
+}
+
+TEST(PointAttraction, MakesABallOfItsRadiusHoweverDarkItIs)
+{
+  const TestVolume volume = Half();
+  const Point place = { 20, 16, 16 };
+  for (double iso : { 20., 50., 90. })
+  {
+    for (double radius : { 3., 5. })
+    {
+      EXPECT_NEAR(RadiusOf(volume, HalfOptions(iso), { { place, 1., radius } }, 1., place), radius,
+        0.35 * radius)
+        << iso;
+    }
+  }
+}
+
+TEST(PointAttraction, AddsWeights)
+{
+  const TestVolume volume = Half();
+  const Point place = { 20, 16, 16 };
+  const SurfaceOptions options = HalfOptions(50);
+  const double one = RadiusOf(volume, options, { { place, 1., 4. } }, 1., place);
+  EXPECT_GT(one, 3.);
+  EXPECT_NEAR(RadiusOf(volume, options, { { place, 2., 4. } }, 0.5, place), one, 1e-6);
+  EXPECT_NEAR(
+    RadiusOf(volume, options, { { place, 0.5, 4. }, { place, 0.5, 4. } }, 1., place), one, 0.03);
+  EXPECT_GT(RadiusOf(volume, options, { { place, 3., 4. } }, 1., place), one + 0.3);
+  EXPECT_EQ(RadiusOf(volume, options, { { place, 0.15, 4. } }, 1., place), 0.);
+}
+
+TEST(PointAttraction, HasARadiusThatTheLevelCanHold)
+{
+  TestVolume volume = Half();
+  volume.Image.Unit = 2.;
+  const Point place = { 20, 16, 16 };
+  EXPECT_NEAR(RadiusOf(volume, HalfOptions(50), { { place, 1., 0. } }, 1., place), 4., 0.8);
+}
+
+TEST(PointAttraction, BringsABoundaryOutToThePoint)
+{
+  const TestVolume volume = Half();
+  const SurfaceOptions options = HalfOptions(50);
+  const std::vector<AttractingPoint> points = { { { 8, 16, 16 }, 1., 0. } };
+  const double before = RadiusOf(volume, options, {}, 1., { 1, 16, 16 }) + 1;
+  const double after = RadiusOf(volume, options, points, 1., { 1, 16, 16 }) + 1;
+  EXPECT_NEAR(before, 6., 0.05);
+  EXPECT_GT(after, 9.);
+  EXPECT_LT(after, 10.5);
+}
+
+TEST(PointAttraction, ServesDarkObjectsToo)
+{
+  TestVolume volume = Half();
+  for (float& value : volume.Values)
+  {
+    value = -value;
+  }
+  SurfaceOptions options = HalfOptions(-50);
+  options.ObjectIsBright = false;
+  const Point place = { 20, 16, 16 };
+  const double dark = RadiusOf(volume, options, { { place, 1., 4. } }, 1., place);
+  EXPECT_NEAR(dark,
+    RadiusOf(Half(), HalfOptions(50), { { place, 1., 4. } }, 1., place), 1e-6);
+}
+
+TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
+{
+  const TestVolume volume = Half();
+  const PointAttraction attraction({ { { 20, 16, 16 }, 1., 3. }, { { 22, 17, 15 }, 2., 4. } }, 1.);
+  const SurfaceOptions options = HalfOptions(50);
+  const std::vector<float> bent = attraction.Bend(volume.Image, options, Threads);
+  BackwardExecutor backward;
+  EXPECT_EQ(bent, attraction.Bend(volume.Image, options, backward));
+  int changed = 0;
+  for (int k = 0, i = 0; k < 33; ++k)
+  {
+    for (int y = 0; y < 33; ++y)
+    {
+      for (int x = 0; x < 33; ++x, ++i)
+      {
+        const bool near =
+          Distance(x, y, k, 20, 16, 16) < 4.5 || Distance(x, y, k, 22, 17, 15) < 6.;
+        ASSERT_EQ(bent[i] != volume.Values[i], near) << x << ' ' << y << ' ' << k;
+        changed += near;
+      }
+    }
+  }
+  EXPECT_GT(changed, 900);
+}
+
+TEST(EdgeAttraction, LeadsToTheRidgeFromBothSidesWhateverTheScale)
+{
+  for (double scale : { 0.01, 1000. })
+  {
+    TestVolume volume = MakeVolume(33,
+      [scale](double x, double, double) { return scale * std::exp(-0.25 * (x - 16) * (x - 16)); });
+    volume.Image.Edges = volume.Values.data();
+    const EdgeAttraction edges(volume.Image, Threads);
+    const Vector out(1, 0, 0);
+    EXPECT_GT(edges.Along(Vector(14.5f, 16, 16), out), 0.9f);
+    EXPECT_LT(edges.Along(Vector(17.5f, 16, 16), out), -0.9f);
+    EXPECT_GT(edges.Along(Vector(17.5f, 16, 16), Vector(-1, 0, 0)), 0.9f);
+    EXPECT_NEAR(edges.Along(Vector(16, 16, 16), out), 0.f, 1e-4f);
+    EXPECT_NEAR(edges.Along(Vector(14.5f, 16, 16), Vector(0, 1, 0)), 0.f, 1e-4f);
+    EXPECT_NEAR(edges.Along(Vector(5, 16, 16), out), 0.f, 1e-4f);
+  }
+}
+
+TEST(EdgeAttraction, IsNothingWhereTheMapIsFlat)
+{
+  TestVolume volume = MakeVolume(17, [](double, double, double) { return 7.; });
+  volume.Image.Edges = volume.Values.data();
+  const EdgeAttraction edges(volume.Image, Threads);
+  EXPECT_EQ(edges.Along(Vector(8, 8, 8), Vector(1, 0, 0)), 0.f);
+}
