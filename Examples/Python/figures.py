@@ -94,8 +94,10 @@ def level_row(surface, frame, columns, bounds):
 
 def levels(skull):
     surface = skull.run()
+    # As large as the skull allows: the head rest of the finest level passes the panel's border.
+    shown, _ = main_component(surface.GetOutput())
     row, captions = level_row(surface, skull.frame, len(visited_levels(surface.GetLevels())),
-                              surface.GetOutput().GetBounds())
+                              shown.GetBounds())
     return render.compose([row], [captions])
 
 
