@@ -131,11 +131,13 @@ class CodeTest(unittest.TestCase):
         self.check_surface()
 
     def test_python_of_the_tutorial(self):
-        code, = blocks("Documentation/tutorial.md", "python")
-        run = self.run_here(sys.executable, "-c", code
-                            + "\nprint(surface.GetOutput().GetNumberOfPolys())")
-        self.assertEqual(run.stderr, "")
-        self.assertGreater(int(run.stdout), 500)
+        pieces = blocks("Documentation/tutorial.md", "python")
+        self.assertTrue(pieces)
+        for code in pieces:
+            run = self.run_here(sys.executable, "-c", code
+                                + "\nprint(surface.GetOutput().GetNumberOfPolys())")
+            self.assertEqual(run.stderr, "")
+            self.assertGreater(int(run.stdout), 500)
 
     def test_header_of_the_tutorial(self):
         header = re.search(r"^```\n(ObjectType.*?)^```$", read("Documentation/tutorial.md"),
