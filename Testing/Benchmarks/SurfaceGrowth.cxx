@@ -130,7 +130,9 @@ TextRows ExponentRows(
   add(PerIteration("Finest"), "FinestVertices");
   for (const std::string& phase : phases)
   {
-    add(PerIteration(phase), "FinestVertices");
+    // What happens between iterations has no share of one.
+    add(phase == BetweenIterations ? phase : PerIteration(phase),
+      phase == BetweenIterations ? "Vertices" : "FinestVertices");
   }
   if (!phases.empty())
   {
@@ -219,8 +221,12 @@ bool MeasureGrowth(const SurfaceBenchmarkOptions& options)
   {
     for (const std::string& phase : phases)
     {
-      names.push_back(PerIteration(phase));
+      if (phase != BetweenIterations)
+      {
+        names.push_back(PerIteration(phase));
+      }
     }
+    names.push_back(PerIteration(SearchPhases));
     names.push_back(PerIteration("Finest"));
     WriteCsv(options.Csv, GrowthRows(runs, names, ExactText));
     WriteCsv(CsvNameOf(options.Csv, "exponents"), exponents);

@@ -66,9 +66,6 @@ const std::vector<Figure> QualityFigures = {
   { "Reach", "share reached", 4 },
 };
 
-/** The phase that the seconds of iterations do not include. */
-const std::string BetweenIterations = "DivisionSeconds";
-
 /** In the CSV only. */
 const std::vector<Figure> MoreFigures = {
   { "Volume", "" },

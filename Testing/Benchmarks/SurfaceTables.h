@@ -49,6 +49,9 @@ TextRows LevelRows(const RunFigures& ours);
  */
 void PrintProfile(const RunFigures& ours);
 
+/** The phase that the seconds of iterations do not include. */
+constexpr const char* BetweenIterations = "DivisionSeconds";
+
 /** Names of the phases' figures, none without a profile. */
 std::vector<std::string> PhasesOf(const RunFigures& ours);
 
