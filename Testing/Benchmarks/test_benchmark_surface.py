@@ -68,8 +68,6 @@ class SideBySide(unittest.TestCase):
     def test_all_find_the_ring(self):
         volumes = [number(row, "Volume") for row in self.runs.values()]
         for name, row in self.runs.items():
-            if name == "us-paper":
-                continue  # the hole that a coarse level has lost may stay lost
             with self.subTest(run=name):
                 self.assertEqual(row["Components"], "1")
                 self.assertEqual(row["Genus"], "1")
@@ -88,18 +86,15 @@ class SideBySide(unittest.TestCase):
                                   ("RatioQuantile01", "RatioMean")):
                     self.assertLessEqual(number(row, low), number(row, high))
                 self.assertLess(number(row, "RatioMean"), 1.0)
-                if name != "us-paper":
-                    self.assertLess(number(row, "DistanceAtVertices"), 0.5)
+                self.assertLess(number(row, "DistanceAtVertices"), 0.5)
 
     def test_ours_keep_what_they_promise(self):
         for name in OURS:
             row = self.runs[name]
             with self.subTest(run=name):
                 for column in ("SelfIntersections", "OpenEdges", "NonManifold",
-                               "MisorientedEdges", "EdgesOutside"):
+                               "MisorientedEdges", "EdgesOutside", "NearPairs"):
                     self.assertEqual(row[column], "0", column)
-                if name != "us-paper":
-                    self.assertEqual(row["NearPairs"], "0")
                 self.assertEqual(row["StopReason"], "converged")
                 self.assertGreater(number(row, "Iterations"), 10)
                 self.assertGreater(number(row, "MicrosecondsPerVertexIteration"), 0.0)
