@@ -60,3 +60,8 @@ PYTHONPATH="$(dirname "$site")${PYTHONPATH:+:$PYTHONPATH}" PYTHONDONTWRITEBYTECO
   "$(vtk_python)" "$script_folder/Python/quickstart.py" --output "$output" -- "${inputs[@]}" \
   2> >(tee "$logs/quickstart-errors.log" >&2) \
   || fail "The example failed. Its errors are above and in $logs/quickstart-errors.log"
+
+say ""
+say "To use it yourself:"
+say "  $build/install-vtk/bin/volumic --help"
+say "  PYTHONPATH=$(dirname "$site") $(vtk_python) $script_folder/Python/segment.py --help"
