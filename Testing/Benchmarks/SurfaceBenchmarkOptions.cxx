@@ -279,7 +279,8 @@ Volume
                         along each axis (default 48)
 
 Runs
-  --runs LIST           only these, with commas between; default: all but those marked slow
+  --runs LIST           only these, with commas between; default: all but us-paper and those
+                        marked slow
 )";
   for (const SurfaceRunKind& kind : SurfaceRunKinds())
   {

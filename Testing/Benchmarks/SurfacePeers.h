@@ -25,6 +25,7 @@ struct SurfaceJob
 {
   std::function<void()> Work;                       ///< what is measured
   std::function<support::TriangleSurface()> Result; ///< then, what it made, as the judge wants it
+  std::function<double()> Iterations; ///< how many it took; empty where there are none
 };
 
 /** vtkFlyingEdges3D. */

@@ -92,6 +92,7 @@ SurfaceJob LevelSetJob(vtkImageData* image, double isoValue, bool objectIsBright
   double range[2];
   image->GetScalarRange(range);
   const auto result = std::make_shared<vtkSmartPointer<vtkPolyData>>();
+  const auto iterations = std::make_shared<double>(0.0);
   const Image::Pointer feature = MakeImage(image->GetDimensions());
   CopyInto(image, feature);
   SurfaceJob job;
@@ -112,8 +113,10 @@ SurfaceJob LevelSetJob(vtkImageData* image, double isoValue, bool objectIsBright
     segmentation->SetMaximumRMSError(0.02);
     segmentation->SetNumberOfIterations(1200);
     segmentation->Update();
+    *iterations = static_cast<double>(segmentation->GetElapsedIterations());
     *result = ZeroSurface(segmentation->GetOutput(), image->GetDimensions());
   };
+  job.Iterations = [iterations]() { return *iterations; };
   job.Result = [result]()
   {
     support::TriangleSurface surface = support::ToTriangleSurface(*result);

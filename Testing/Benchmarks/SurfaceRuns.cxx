@@ -278,6 +278,10 @@ RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options)
   RunFigures figures;
   figures.Set("Voxels", voxels);
   MeasureCost(job.Work, figures);
+  if (job.Iterations)
+  {
+    figures.Set("Iterations", job.Iterations());
+  }
   support::TriangleSurface surface = job.Result();
   if (surface.Triangles.empty())
   {
