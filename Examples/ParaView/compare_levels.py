@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The surface at each level side by side in ParaView, all views turned together.
+
+As a macro: Macros > Import new macro..., choose this file; then select a Volume to Surface or a
+Deformable Surface that has been applied, and press the macro's button.
+
+As a script, which writes the picture (the plugin must be known to ParaView, or named):
+    pvbatch compare_levels.py VOLUME PICTURE.png [ISO_VALUE] [--plugin=.../Volumic.so]
+"""
+
+import os
+import sys
+
+from paraview import simple
+
+FILTERS = ("VolumeToSurface", "DeformableSurface")
+LEVELS = 1  # output port
+MOST = 4  # views beside each other; the coarsest levels of more are left out
+
+
+def chosen_filter():
+    """The active source, or what it is an output of; else the last of the filters."""
+    active = simple.GetActiveSource()
+    candidates = [active] if active else []
+    candidates += reversed(list(simple.GetSources().values()))
+    for source in candidates:
+        if source.GetXMLName() in FILTERS:
+            return source
+    raise RuntimeError("There is no Volume to Surface and no Deformable Surface to compare.")
+
+
+def visited_levels(filter_):
+    """Numbers of the levels that have a surface, the coarsest first."""
+    filter_.UpdatePipeline()
+    information = filter_[LEVELS].GetDataInformation().DataInformation
+    count = information.GetHierarchy().GetNumberOfChildren(0)
+    visited = [level for level in reversed(range(count))
+               if filter_.SMProxy.GetSubsetDataInformation(
+                   LEVELS, f"/Root/Level{level}", "Hierarchy").GetNumberOfPoints() > 0]
+    return visited[-MOST:]
+
+
+def side_by_side(layout, count):
+    """Cells of the layout from left to right, equally wide."""
+    cells, cell = [], 0
+    for rest in range(count, 1, -1):
+        left = layout.SplitHorizontal(cell, 1.0 / rest)
+        cells.append(left)
+        cell = left + 1
+    return cells + [cell]
+
+
+def compare_levels(filter_):
+    """A new layout with a view per level; the views, from the coarsest level to the finest."""
+    levels = visited_levels(filter_)
+    layout = simple.CreateLayout(f"Levels of {chosen_name(filter_)}")
+    views = []
+    for level, cell in zip(levels, side_by_side(layout, len(levels))):
+        view = simple.CreateView("RenderView")
+        simple.AssignViewToLayout(view=view, layout=layout, hint=cell)
+        view.OrientationAxesVisibility = 0
+        display = simple.Show(simple.OutputPort(filter_, LEVELS), view)
+        display.BlockSelectors = [f"/Root/Level{level}"]
+        caption = simple.Text(registrationName=f"Caption of level {level}",
+                              Text=f"Level {level}")
+        simple.Show(caption, view)
+        views.append(view)
+    simple.ResetCamera(views[-1])
+    for number, view in enumerate(views[:-1]):
+        simple.AddCameraLink(views[-1], view, f"levels {filter_.GetGlobalIDAsString()} {number}")
+    simple.SetActiveView(views[-1])
+    simple.SetActiveSource(filter_)
+    simple.RenderAllViews()
+    return layout, views
+
+
+def chosen_name(filter_):
+    names = [key[0] for key, source in simple.GetSources().items() if source == filter_]
+    return names[0] if names else "a surface"
+
+
+def main(arguments):
+    plugins = [a.partition("=")[2] for a in arguments if a.startswith("--plugin=")]
+    plain = [a for a in arguments if not a.startswith("--")]
+    if len(plain) not in (2, 3):
+        sys.exit(__doc__)
+    volume, picture, *iso = plain
+    for plugin in plugins:
+        simple.LoadPlugin(plugin, remote=False, ns=vars(simple))
+    reader = simple.OpenDataFile(volume)
+    reader.UpdatePipeline()
+    filter_ = simple.VolumetoSurface(reader)
+    if iso:
+        filter_.IsoValue = float(iso[0])
+    layout, views = compare_levels(filter_)
+    layout.SetSize(420 * len(views), 420)
+    for view in views:
+        view.GetActiveCamera().Elevation(20)
+        view.GetActiveCamera().Azimuth(30)
+    simple.ResetCamera(views[-1])
+    simple.SaveScreenshot(picture, layout)
+    print(f"Written: {picture}")
+
+
+# A macro runs within ParaView, whose arguments are not ours.
+if sys.argv and os.path.basename(sys.argv[0]) == "compare_levels.py":
+    main(sys.argv[1:])
+else:
+    compare_levels(chosen_filter())
