@@ -104,17 +104,19 @@ list_scans()
   }' "$folder/MANIFEST.md"
 }
 
-# measure_surface NAME FILE ISO
+# measure_surface NAME FILE ISO. A run that fails is told in its table and doesn't stop the others.
+failed=
 measure_surface()
 {
   local program=$build/vtk/bin/BenchmarkSurface
   say ""
   "$program" --volume "$2" --iso "$3" --repetitions "${repetitions:-1}" --profile \
-    --csv "$results/surface-$1.csv" --output "$results/surface-$1.vtp" "${surface_options[@]}"
+    --csv "$results/surface-$1.csv" --output "$results/surface-$1.vtp" "${surface_options[@]}" \
+    || failed=yes
   [ -n "$growth" ] || return 0
   say ""
   "$program" --volume "$2" --iso "$3" --growth --csv "$results/growth-$1.csv" \
-    "${growth_options[@]}"
+    "${growth_options[@]}" || failed=yes
 }
 
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
@@ -140,3 +142,4 @@ if [ -n "$with_surface" ]; then
     done < "$results/scans"
   fi
 fi
+[ -z "$failed" ] || fail "Some runs failed; see above."
