@@ -135,6 +135,7 @@ struct OptionTable
     this->Count("--size", o.SceneSize, 16, 1024);
     this->Count("--repetitions", o.Repetitions, 1, 1000);
     this->Count("--initialization", o.Initialization, 0, 2);
+    this->Count("--coarsest", o.CoarsestLevel, 0, 30);
     this->Count("--resample", o.ResampleTo, 16, 1024);
     this->Values["--vertices"] = [&o](const std::string& text)
     { o.Vertices = ToCount("--vertices", text, 4, std::numeric_limits<int>::max()); };
@@ -255,6 +256,10 @@ std::vector<std::string> ArgumentsOfRun(const SurfaceBenchmarkOptions& options)
   {
     add("--vertices", std::to_string(options.Vertices));
   }
+  if (options.CoarsestLevel >= 0)
+  {
+    add("--coarsest", std::to_string(options.CoarsestLevel));
+  }
   add("--initialization", std::to_string(options.Initialization));
   addNumber("--delta", options.Delta);
   addNumber("--edge-length", options.EdgeLength);
@@ -294,6 +299,8 @@ Runs
   --repetitions N       of each run; the one of median processor time is told (default 1)
   --initialization N    0 enclosing icosahedron (default), 1 seeds, 2 iso-surface of the coarsest
                         level
+  --coarsest LEVEL      where us-N starts; default: the coarsest level at which a voxel of the
+                        object is left (the filter refuses coarser ones)
   --edge-length X       mean edge, voxels, and
   --vertices N          number of vertices that the peers aim at; default: those of us-1
 

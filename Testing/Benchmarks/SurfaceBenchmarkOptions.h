@@ -38,6 +38,7 @@ struct SurfaceBenchmarkOptions
   bool NoRecovery = false;
   int Repetitions = 1;
   int Initialization = 0; ///< vtkDeformableSurface::InitializationType
+  int CoarsestLevel = -1; ///< -1: the coarsest where there is still something of the object
 
   // Cost growth instead of the table of runs.
   bool Growth = false;

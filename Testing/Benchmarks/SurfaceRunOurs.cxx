@@ -116,6 +116,28 @@ void JudgeLevel(vtkPolyData* surface, vtkImageData* level0, vtkImageData* level,
     support::ToTriangleSurface(surface, values), ToJudgedVolume(values, volume), prefix, figures);
 }
 
+/** The coarsest level where there is still something of the object: the filter refuses to start
+   from one where all of it has vanished, as thin things do, and advises this one. */
+int CoarsestLevelWithObject(const BenchmarkedVolume& volume)
+{
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(volume.Image);
+  pyramid->Update();
+  int level = static_cast<int>(pyramid->GetOutput()->GetNumberOfBlocks()) - 1;
+  for (; level > 0; --level)
+  {
+    auto* image =
+      vtkImageData::SafeDownCast(pyramid->GetOutput()->GetBlock(static_cast<unsigned int>(level)));
+    double range[2];
+    image->GetScalarRange(range);
+    if (volume.ObjectIsBright ? range[1] > volume.IsoValue : range[0] < volume.IsoValue)
+    {
+      break;
+    }
+  }
+  return level;
+}
+
 int ThreadsOf(const std::string& run)
 {
   return run.find_first_not_of("0123456789", 3) == std::string::npos ? std::stoi(run.substr(3)) : 1;
@@ -137,11 +159,14 @@ RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOp
   deformable->SetObjectIsBright(volume.ObjectIsBright);
   deformable->SetInitialization(options.Initialization);
   deformable->SetNumberOfThreads(threads);
+  int coarsest =
+    options.CoarsestLevel >= 0 ? options.CoarsestLevel : CoarsestLevelWithObject(volume);
   if (options.Run == "us-flat")
   {
     pyramid->SetNumberOfLevels(1);
-    deformable->SetCoarsestLevel(0);
+    coarsest = 0;
   }
+  deformable->SetCoarsestLevel(coarsest);
   if (options.Run == "us-paper")
   {
     deformable->SetRecovery(vtkDeformableSurface::NoRecovery);
@@ -149,6 +174,7 @@ RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOp
   deformable->SetProfile(options.Profile);
 
   RunFigures figures;
+  figures.Set("CoarsestLevel", coarsest);
   double pyramidSeconds = 0.0;
   MeasureCost(
     [&]()
@@ -163,7 +189,7 @@ RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOp
   vtkPolyData* finest = deformable->GetOutput();
   if (finest->GetNumberOfPoints() == 0)
   {
-    throw std::runtime_error("no surface");
+    throw std::runtime_error("no surface, see the filter's message");
   }
   figures.Set("PyramidSeconds", pyramidSeconds);
   figures.SetText("StopReason", StopReason(finest));

@@ -39,10 +39,11 @@ bool IsSurfaceRun(const std::string& name);
 /** The run options.Run. Figures, with lengths in voxels:
    - WallSeconds, ProcessorSeconds, BaseMegabytes (resident before), PeakMegabytes;
    - those of SetVerdict and SetFit, and Fingerprint (text), the same for the same bits;
-   - ours: PyramidSeconds, Iterations, VertexIterations (vertices summed over the iterations),
-     StopReason (text), Level, Delta, Levels (the number of levels) and, as `level.h.NAME`, what
-     there is of each level: Iterations, Seconds, VertexIterations, Delta, LostParts,
-     RecoveredParts, the verdict, and the columns of the history that hold the seconds of phases
+   - ours: CoarsestLevel, PyramidSeconds, Iterations, VertexIterations (vertices summed over the
+   iterations), StopReason (text), Level, Delta, Levels (the number of levels) and, as
+   `level.h.NAME`, what there is of each level: Iterations, Seconds, VertexIterations, Delta,
+   LostParts, RecoveredParts, the verdict, and the columns of the history that hold the seconds of
+   phases
      (`Phases`: their names in one text, with commas).
    Throws what the libraries throw, std::runtime_error where there is no surface. */
 RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options);

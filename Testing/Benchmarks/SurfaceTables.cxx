@@ -29,6 +29,7 @@ const std::vector<Figure> CostFigures = {
   { "PyramidSeconds", "of these the pyramid" },
   { "BaseMegabytes", "MB before", 4 },
   { "PeakMegabytes", "MB at the peak", 4 },
+  { "CoarsestLevel", "coarsest level" },
   { "Iterations", "iterations" },
   { "MicrosecondsPerVertexIteration", "us / vertex, iteration" },
 };

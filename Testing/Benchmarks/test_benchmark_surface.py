@@ -181,6 +181,15 @@ class Growth(unittest.TestCase):
 
 
 class CommandLine(unittest.TestCase):
+    def test_coarsest_level(self):
+        for arguments, expected in (([], "2"), (["--coarsest", "1"], "1")):
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "runs.csv")
+                done = run("--scene", "Torus", "--size", "40", "--runs", "us-1", "--csv", path,
+                           *arguments)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(read_csv(path)[0]["CoarsestLevel"], expected)
+
     def test_what_is_wrong_is_told(self):
         for arguments, message in (
                 ([], "--volume FILE.vti or --scene NAME"),
