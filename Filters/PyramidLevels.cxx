@@ -154,6 +154,12 @@ PyramidLevels::PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selec
   }
 }
 
+std::array<int, 3> PyramidLevels::SizeOfLevel0() const
+{
+  const int* size = this->Images[0]->GetDimensions();
+  return { size[0], size[1], size[2] };
+}
+
 double PyramidLevels::UnitInWorld(int level) const
 {
   return this->Units[level] * this->Space.WorldUnit();

@@ -43,6 +43,9 @@ public:
   int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }
 
+  /// Voxels of the finest level along each axis.
+  std::array<int, 3> SizeOfLevel0() const;
+
   /// U_h in world units.
   double UnitInWorld(int level) const;
 

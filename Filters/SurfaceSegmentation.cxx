@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace volumic
 {
@@ -108,9 +109,56 @@ SurfaceSegmentation::SurfaceSegmentation(
   this->Settings.Options.RecoverLostParts =
     settings.Recovery == vtkDeformableSurface::RecoverObjects;
   this->Settings.Options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
+  this->ReadAttraction(blocks);
 }
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
+
+void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
+{
+  try
+  {
+    std::vector<AttractingPoint> points = AttractingPointsOf(this->Settings.AttractingPoints,
+      this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
+    if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
+    {
+      this->Points = std::make_unique<PointAttraction>(
+        std::move(points), this->Settings.Options.PointAttractionWeight);
+    }
+  }
+  catch (const std::invalid_argument& error)
+  {
+    Refuse("Input port 2: ", error.what());
+  }
+  if (this->Settings.Options.EdgeAttractionWeight > 0.0)
+  {
+    this->Edges = std::make_unique<EdgeLevels>(
+      blocks, this->Settings.EdgeSelection, this->Settings.NumberOfThreads);
+  }
+}
+
+LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
+{
+  LevelImage image;
+  try
+  {
+    image = this->Pyramid.Load(level, threads);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    Refuse("Input port 0: ", error.what());
+  }
+  if (this->Edges)
+  {
+    image.Edges = this->Edges->Load(level, image.Size, threads);
+  }
+  if (this->Points)
+  {
+    this->Bent = this->Points->Bend(image, this->Settings.Options, threads);
+    image.Values = this->Bent.data();
+  }
+  return image;
+}
 
 void SurfaceSegmentation::ChooseLevels()
 {
@@ -273,15 +321,7 @@ void SurfaceSegmentation::Run()
       };
       for (int level = this->Coarsest; level >= this->LastLevel; --level)
       {
-        LevelImage image;
-        try
-        {
-          image = this->Pyramid.Load(level, threads);
-        }
-        catch (const std::invalid_argument& error)
-        {
-          Refuse("Input port 0: ", error.what());
-        }
+        const LevelImage image = this->Load(level, threads);
         if (level == this->Coarsest)
         {
           this->CheckObjectIsThere(image);

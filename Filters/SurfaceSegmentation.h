@@ -3,6 +3,8 @@
 #ifndef SurfaceSegmentation_h
 #define SurfaceSegmentation_h
 
+#include "AttractionInputs.h"
+#include "Core/PointAttraction.h"
 #include "Core/SurfaceEvolution.h"
 #include "Core/SurfaceOptions.h"
 #include "PyramidLevels.h"
@@ -11,7 +13,9 @@
 #include <vtkSmartPointer.h>
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 class vtkInformation;
 class vtkMultiBlockDataSet;
@@ -35,6 +39,8 @@ struct SegmentationSettings
   bool Profile = false;                  ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
   vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
+  vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
+  vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
 
   /// Share of the work that is done and what is being done; false asks to stop.
   std::function<bool(double share, const std::string& text)> Progress;
@@ -64,6 +70,8 @@ public:
 
 private:
   void ChooseLevels();
+  void ReadAttraction(vtkMultiBlockDataSet* blocks);
+  LevelImage Load(int level, Executor& threads);
   void CheckIsoValue();
   void CheckObjectIsThere(const LevelImage& image);
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
@@ -72,6 +80,9 @@ private:
 
   SegmentationSettings Settings;
   PyramidLevels Pyramid;
+  std::unique_ptr<PointAttraction> Points; ///< null: none
+  std::unique_ptr<EdgeLevels> Edges;       ///< null: none
+  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
   int Coarsest = 0;
   int LastLevel = 0; ///< the finest to visit
   vtkSmartPointer<vtkPolyData> Finest;

@@ -48,6 +48,8 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->ElasticityWeight = defaults.ElasticityWeight;
   this->IsopotentialWeight = defaults.IsopotentialWeight;
   this->GradientWeight = defaults.GradientWeight;
+  this->PointAttractionWeight = defaults.PointAttractionWeight;
+  this->EdgeAttractionWeight = defaults.EdgeAttractionWeight;
   this->Friction = defaults.Friction;
   this->BorderValue = static_cast<int>(defaults.BorderValue);
   this->Recovery = defaults.RecoverLostParts ? RecoverObjects : NoRecovery;
@@ -61,7 +63,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->Profile = false;
   this->SnapshotInterval = 0;
 
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -104,6 +106,16 @@ void vtkDeformableSurface::SetInitialSurfaceData(vtkDataObject* data)
   this->SetInputDataObject(1, data);
 }
 
+void vtkDeformableSurface::SetAttractingPointsConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(2, output);
+}
+
+void vtkDeformableSurface::SetAttractingPointsData(vtkDataObject* data)
+{
+  this->SetInputDataObject(2, data);
+}
+
 vtkMultiBlockDataSet* vtkDeformableSurface::GetLevels()
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(1));
@@ -123,7 +135,7 @@ vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForWholeInputs(request, input, 2, output);
+  volumic::AskForWholeInputs(request, input, 3, output);
   return 1;
 }
 
@@ -177,6 +189,8 @@ int vtkDeformableSurface::RequestData(
     settings.Options.ElasticityWeight = this->ElasticityWeight;
     settings.Options.IsopotentialWeight = this->IsopotentialWeight;
     settings.Options.GradientWeight = this->GradientWeight;
+    settings.Options.PointAttractionWeight = this->PointAttractionWeight;
+    settings.Options.EdgeAttractionWeight = this->EdgeAttractionWeight;
     settings.Options.Friction = this->Friction;
     settings.Options.MinimumPartSize = this->MinimumPartSize;
     settings.Options.TopologyChanges = this->TopologyChanges;
@@ -193,6 +207,8 @@ int vtkDeformableSurface::RequestData(
     settings.Profile = this->Profile;
     settings.SnapshotInterval = this->SnapshotInterval;
     settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
+    settings.AttractingPoints = vtkPolyData::GetData(inputVector[2]);
+    settings.EdgeSelection = this->GetInputArrayInformation(1);
 
     settings.Progress = [this, before](double share, const std::string& text)
     {
@@ -238,6 +254,8 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ElasticityWeight: " << this->ElasticityWeight << endl;
   os << indent << "IsopotentialWeight: " << this->IsopotentialWeight << endl;
   os << indent << "GradientWeight: " << this->GradientWeight << endl;
+  os << indent << "PointAttractionWeight: " << this->PointAttractionWeight << endl;
+  os << indent << "EdgeAttractionWeight: " << this->EdgeAttractionWeight << endl;
   os << indent << "Friction: " << this->Friction << endl;
   os << indent << "BorderValue: " << this->BorderValue << endl;
   os << indent << "Recovery: " << this->Recovery << endl;

@@ -21,6 +21,12 @@
  * surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
  * polygons are triangulated). With Initialization Seeds, its vertices are the centres of the seeds
  * (all its points if it has no cells). World coordinates.
+ * Port 2, optional: a vtkPolyData with points known to belong to the object, see
+ * PointAttractionWeight: its vertices, or all its points if it has none. Point arrays, optional:
+ * `Weight` (any numeric type, at least 0, default 1) and `Radius` (world units, default 0:
+ * automatic).
+ * A map of edges, optional, see EdgeAttractionWeight: a second point array of the image of port 0,
+ * chosen by SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name).
  *
  * @par Output:
  * All geometry is in world coordinates, through origin, spacing and direction of the input, and
@@ -197,6 +203,37 @@ public:
 
   ///@{
   /**
+   * How much the points of port 2, known to belong to the object, attract the surface (1 by
+   * default; 0: not at all); times the point's own `Weight`. Around a point the field is raised to
+   * the object's side, the nearer the more, so that a point of weight 1 makes a ball of its
+   * `Radius` part of the object even where the image is all background, and a surface that passes
+   * nearer than that comes out to the point. Points near each other join: a few close a gap
+   * through which the isopotential alone would leak, and points along a vessel keep it at the
+   * coarse levels. Under a weight of about 0.3 a point only tips places near IsoValue. A radius
+   * is at least two units of the level, so without an array `Radius` the balls shrink with the
+   * levels. Merges, Recovery, SnapToIsoValue and `Residual` all see the raised field.
+   */
+  vtkSetMacro(PointAttractionWeight, double);
+  vtkGetMacro(PointAttractionWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * How much edges detected beforehand attract the surface (0, the default: not at all). The map
+   * of edges, large on edges, such as the gradient magnitude of the image or Canny's edges, is a
+   * second point array of the image of port 0, see Input; its scale does not matter. Where port 0
+   * has a pyramid whose blocks don't all carry the array, the map's pyramid is made of block 0's.
+   * The force is bounded by this weight, that of the isopotential by IsopotentialWeight: with more
+   * than it edges stop the surface, with less they only shift it. For edges that no IsoValue gives
+   * choose a value that drives the surface over the flat parts, and 2 here. At the end of a level
+   * SnapToIsoValue then leads vertices onto the edges near them, instead of the isopotential.
+   */
+  vtkSetMacro(EdgeAttractionWeight, double);
+  vtkGetMacro(EdgeAttractionWeight, double);
+  ///@}
+
+  ///@{
+  /**
    * Friction per unit of the simulated time, more than 0: little oscillates, much is slow.
    */
   vtkSetMacro(Friction, double);
@@ -311,6 +348,14 @@ public:
 
   ///@{
   /**
+   * The points known to belong to the object: port 2.
+   */
+  void SetAttractingPointsConnection(vtkAlgorithmOutput* output);
+  void SetAttractingPointsData(vtkDataObject* data);
+  ///@}
+
+  ///@{
+  /**
    * Outputs 1, 2 and 3.
    */
   vtkMultiBlockDataSet* GetLevels();
@@ -350,6 +395,8 @@ protected:
   double ElasticityWeight;
   double IsopotentialWeight;
   double GradientWeight;
+  double PointAttractionWeight;
+  double EdgeAttractionWeight;
   double Friction;
   int BorderValue;
   int Recovery;

@@ -150,6 +150,10 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
             move += n * std::min(std::max(step, -longest), longest);
           }
         }
+        if (this->Edges && this->Options.SnapToEdges)
+        {
+          move += n * (longest * this->Edges->Along(state.Mesh.Position[v], n));
+        }
         const float length = Length(move);
         state.Velocity[v] = length > longest ? move * (longest / length) : move;
       }

@@ -47,8 +47,8 @@ public:
 
   /**
    * Instead of Accelerate, at the end of a level: velocities that even the mesh out tangentially
-   * and, on request, lead onto the isopotential (Newton's step along the normal), never towards a
-   * contact.
+   * and, on request, lead onto the isopotential (Newton's step along the normal), or, by
+   * SurfaceOptions::SnapToEdges, up to the ridge of the map of edges, never towards a contact.
    */
   void Relax(SurfaceState& state, const std::vector<int>& vertices,
     const std::vector<Proximity::ClosePair>& pairs, bool snap);

@@ -55,7 +55,8 @@ SurfaceEvolution::SurfaceEvolution(
   CheckRange("ConvergenceTolerance", options.ConvergenceTolerance, 0., 1.);
   CheckRange("MaximumStep", options.MaximumStep, 1e-3, 0.5);
   SurfaceOptions adjusted = options;
-  adjusted.SnapToIsoValue = options.SnapToIsoValue && !(options.EdgeAttractionWeight > 0.);
+  adjusted.SnapToEdges = options.SnapToIsoValue && options.EdgeAttractionWeight > 0.;
+  adjusted.SnapToIsoValue = options.SnapToIsoValue && !adjusted.SnapToEdges;
   this->Self = std::make_unique<Implementation>(adjusted, executor, monitor);
 }
 

@@ -32,8 +32,7 @@ struct SurfaceOptions
   double PointAttractionWeight = 1.; ///< Of points known to belong to the object; PointAttraction.h
   /**
    * Of the edges of LevelImage::Edges, which stop the surface where this is more than
-   * IsopotentialWeight; see EdgeAttraction.h. Not 0: the surface may rest at an edge that is not
-   * at the iso-value, and SnapToIsoValue is without effect.
+   * IsopotentialWeight; see EdgeAttraction.h.
    */
   double EdgeAttractionWeight = 0.;
   double Friction = 3.;            ///< Per unit of time.
@@ -48,7 +47,12 @@ struct SurfaceOptions
    */
   double ConvergenceTolerance = 5e-4;
   bool FreezeMotionlessVertices = true; ///< Skip vertices at rest until something near changes.
-  bool SnapToIsoValue = true;           ///< Vertices onto the isopotential at the end of a level.
+  /**
+   * Vertices onto the isopotential at the end of a level; where EdgeAttractionWeight is not 0, and
+   * the surface may rest at edges that are not at the iso-value, onto the edges near them instead.
+   */
+  bool SnapToIsoValue = true;
+  bool SnapToEdges = false; ///< Found by SurfaceEvolution: which of the two it is.
 
   /**
    * After a division, parts of the object that the coarser level did not resolve, and that the

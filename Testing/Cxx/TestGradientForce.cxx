@@ -6,6 +6,7 @@
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
 #include "SyntheticScenes.h"
+#include "WrongVoxels.h"
 #include "vtkDeformableSurface.h"
 
 #include <vtkDataArray.h>
@@ -19,72 +20,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 using namespace volumic::support;
 
 namespace
 {
-/// Voxels that are on the wrong side of a closed surface, as a share of the object's. The surface
-/// is in index coordinates; sides are found by counting crossings along rows of voxels.
-double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
-{
-  const auto [nx, ny, nz] = scene.Size;
-  // Crossings of the rows, a little beside the voxels so that no row meets an edge.
-  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(ny) * nz);
-  const double dy = 1.234567e-4;
-  const double dz = 2.345678e-4;
-  for (const auto& triangle : surface.Triangles)
-  {
-    const auto& a = surface.Points[triangle[0]];
-    const auto& b = surface.Points[triangle[1]];
-    const auto& c = surface.Points[triangle[2]];
-    const auto range = [&](int axis, double shift, int n)
-    {
-      const auto limits = std::minmax({ a[axis], b[axis], c[axis] });
-      return std::make_pair(std::max(0, static_cast<int>(std::ceil(limits.first - shift))),
-        std::min(n - 1, static_cast<int>(std::floor(limits.second - shift))));
-    };
-    const auto rows = range(1, dy, ny);
-    const auto slices = range(2, dz, nz);
-    for (int k = slices.first; k <= slices.second; ++k)
-    {
-      for (int j = rows.first; j <= rows.second; ++j)
-      {
-        const double y = j + dy;
-        const double z = k + dz;
-        const auto side = [&](const std::array<double, 3>& p, const std::array<double, 3>& q)
-        { return (q[1] - p[1]) * (z - p[2]) - (q[2] - p[2]) * (y - p[1]); };
-        const double u = side(b, c);
-        const double v = side(c, a);
-        const double w = side(a, b);
-        if ((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0))
-        {
-          crossings[static_cast<std::size_t>(k) * ny + j].push_back(
-            (u * a[0] + v * b[0] + w * c[0]) / (u + v + w));
-        }
-      }
-    }
-  }
-  std::size_t wrong = 0;
-  std::size_t index = 0;
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
-    {
-      const auto& row = crossings[static_cast<std::size_t>(k) * ny + j];
-      for (int i = 0; i < nx; ++i, ++index)
-      {
-        const auto before = std::count_if(row.begin(), row.end(), [i](double x) { return x < i; });
-        wrong += (before % 2 == 1) != (scene.Inside[index] != 0) ? 1 : 0;
-      }
-    }
-  }
-  const auto object = std::count(scene.Inside.begin(), scene.Inside.end(), 1);
-  return static_cast<double>(wrong) / static_cast<double>(object);
-}
-
 double BestShareByIsoValue(vtkImageData* image, const Scene& scene)
 {
   double range[2];

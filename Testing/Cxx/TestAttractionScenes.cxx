@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the iso-value alone can't do: a few points close a gap in a wall, a map of edges finds a
+// boundary that no iso-value gives.
+#include "SupportVtkConversions.h"
+#include "SurfaceJudge.h"
+#include "SyntheticScenes.h"
+#include "WrongVoxels.h"
+#include "vtkDeformableSurface.h"
+#include "vtkImagePyramid.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkImageGradientMagnitude.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+using namespace volumic::support;
+
+namespace
+{
+constexpr double Pi = 3.14159265358979;
+/// Of SceneKind::ShellWithOpening, at 64 voxels.
+constexpr double OuterRadius = 26.0;
+constexpr double InnerRadius = 17.5;
+
+double BallVolume(double radius)
+{
+  return 4.0 / 3.0 * Pi * radius * radius * radius;
+}
+
+/// One point in the middle of the shell's opening, six about it.
+vtkSmartPointer<vtkPolyData> PointsInTheOpening(const Scene& scene)
+{
+  // The scene's seed lies in the middle of the wall, opposite of the opening.
+  const double middle = 0.5 * (scene.Size[0] - 1);
+  std::array<double, 3> axis;
+  for (int a = 0; a < 3; ++a)
+  {
+    axis[a] = middle - scene.Seeds[0][a];
+  }
+  const double height = std::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+  for (double& a : axis)
+  {
+    a /= height;
+  }
+  const double flat = std::hypot(axis[0], axis[1]);
+  const std::array<double, 3> u = { axis[1] / flat, -axis[0] / flat, 0.0 };
+  const std::array<double, 3> v = { axis[1] * u[2] - axis[2] * u[1],
+    axis[2] * u[0] - axis[0] * u[2], axis[0] * u[1] - axis[1] * u[0] };
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < 7; ++i)
+  {
+    const double x = i == 0 ? 0.0 : 5.0 * std::cos(i * Pi / 3);
+    const double y = i == 0 ? 0.0 : 5.0 * std::sin(i * Pi / 3);
+    points->InsertNextPoint(middle + height * axis[0] + x * u[0] + y * v[0],
+      middle + height * axis[1] + x * u[1] + y * v[1],
+      middle + height * axis[2] + x * u[2] + y * v[2]);
+  }
+  vtkNew<vtkDoubleArray> radius;
+  radius->SetName("Radius");
+  radius->SetNumberOfTuples(points->GetNumberOfPoints());
+  radius->Fill(5.0);
+  auto polyData = vtkSmartPointer<vtkPolyData>::New();
+  polyData->SetPoints(points);
+  polyData->GetPointData()->AddArray(radius);
+  return polyData;
+}
+
+vtkSmartPointer<vtkDeformableSurface> FilterOf(vtkDataObject* input, double isoValue)
+{
+  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  filter->SetInputDataObject(input);
+  filter->SetIsoValue(isoValue);
+  return filter;
+}
+
+SurfaceVerdict JudgeOutput(vtkDeformableSurface* filter)
+{
+  filter->Update();
+  vtkPolyData* surface = filter->GetOutput();
+  const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(surface),
+    surface->GetFieldData()->GetArray("Delta")->GetComponent(0, 0));
+  EXPECT_TRUE(verdict.Topology.Outward);
+  EXPECT_EQ(verdict.Intersections.Pairs, 0u);
+  EXPECT_EQ(verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong, 0u);
+  EXPECT_EQ(verdict.Lengths.NearPairs, 0u);
+  EXPECT_STREQ(
+    surface->GetFieldData()->GetAbstractArray("StopReason")->GetVariantValue(0).ToString().c_str(),
+    "converged");
+  return verdict;
+}
+
+double VolumeOf(vtkDeformableSurface* filter)
+{
+  return filter->GetOutput()->GetFieldData()->GetArray("Volume")->GetComponent(0, 0);
+}
+
+/// The scene with its gradient magnitude as a second array, `Edges`.
+vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
+{
+  const auto image = ToImage(scene);
+  vtkNew<vtkImageGradientMagnitude> gradient;
+  gradient->SetInputData(image);
+  gradient->SetDimensionality(3);
+  gradient->HandleBoundariesOn();
+  gradient->Update();
+  vtkDataArray* edges = gradient->GetOutput()->GetPointData()->GetScalars();
+  edges->SetName("Edges");
+  image->GetPointData()->AddArray(edges);
+  return image;
+}
+
+/// Half of the way from the iso-value of the middle to the brightest voxel: the surface shrinks
+/// over background and object, and only the edges can stop it.
+vtkSmartPointer<vtkDeformableSurface> EdgeFilterOf(vtkDataObject* input, const Scene& scene)
+{
+  const double brightest = *std::max_element(scene.Values.begin(), scene.Values.end());
+  auto filter = FilterOf(input, 0.5 * (scene.IsoValue + brightest));
+  filter->SetEdgeAttractionWeight(2.0);
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
+  return filter;
+}
+}
+
+TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
+{
+  const Scene scene = MakeScene(SceneKind::ShellWithOpening);
+  const auto image = ToImage(scene);
+  const auto leaking = FilterOf(image, scene.IsoValue);
+  JudgeOutput(leaking);
+  EXPECT_LT(VolumeOf(leaking), 0.7 * BallVolume(OuterRadius)) << "the scene must need points";
+
+  const auto closed = FilterOf(image, scene.IsoValue);
+  closed->SetAttractingPointsData(PointsInTheOpening(scene));
+  const SurfaceVerdict verdict = JudgeOutput(closed);
+  EXPECT_EQ(verdict.Topology.Components.size(), 1u);
+  EXPECT_EQ(verdict.Topology.Genus, 0);
+  EXPECT_NEAR(VolumeOf(closed) / BallVolume(OuterRadius), 1.0, 0.02);
+
+  closed->SetPointAttractionWeight(0.0);
+  closed->Update();
+  EXPECT_EQ(VolumeOf(closed), VolumeOf(leaking));
+}
+
+TEST(PointAttractionScene, PointsCloseTheGapOfASurfaceThatHasLeaked)
+{
+  // Only a merge can: the opening's rims must meet where the image says background.
+  const Scene scene = MakeScene(SceneKind::ShellWithOpening);
+  const auto image = ToImage(scene);
+  const auto leaked = FilterOf(image, scene.IsoValue);
+  leaked->Update();
+  const auto closed = FilterOf(image, scene.IsoValue);
+  closed->SetInitialSurfaceData(leaked->GetOutput());
+  closed->SetInitializationToInputSurface();
+  closed->SetCoarsestLevel(0);
+  closed->SetAttractingPointsData(PointsInTheOpening(scene));
+  const SurfaceVerdict verdict = JudgeOutput(closed);
+  EXPECT_EQ(verdict.Topology.Components.size(), 2u);
+  EXPECT_NEAR(VolumeOf(closed) / (BallVolume(OuterRadius) - BallVolume(InnerRadius)), 1.0, 0.04);
+}
+
+TEST(PointAttractionScene, ThreadsChangeNothing)
+{
+  const Scene scene = MakeScene(SceneKind::ShellWithOpening);
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+  for (int threads : { 1, 2 })
+  {
+    const auto image = WithEdges(scene);
+    const auto filter = FilterOf(image, scene.IsoValue);
+    filter->SetAttractingPointsData(PointsInTheOpening(scene));
+    filter->SetEdgeAttractionWeight(0.5);
+    filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
+    filter->SetNumberOfThreads(threads);
+    filter->Update();
+    surfaces.emplace_back(filter->GetOutput());
+  }
+  EXPECT_GT(surfaces[0]->GetNumberOfPoints(), 1000);
+  EXPECT_EQ(
+    ToTriangleSurface(surfaces[0]).Points, ToTriangleSurface(surfaces[1]).Points);
+}
+
+TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
+{
+  const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
+  ASSERT_FALSE(scene.OneIsoValueFits);
+  const auto image = WithEdges(scene);
+  double byIsoValue = 1e9;
+  for (double share : { -0.25, 0.0, 0.25, 0.5, 0.75 })
+  {
+    const double brightest = *std::max_element(scene.Values.begin(), scene.Values.end());
+    const auto filter =
+      FilterOf(image, scene.IsoValue + share * (brightest - scene.IsoValue));
+    filter->SetCoarsestLevel(0);
+    filter->Update();
+    byIsoValue = std::min(
+      byIsoValue, ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene));
+  }
+
+  const auto filter = EdgeFilterOf(image, scene);
+  const SurfaceVerdict verdict = JudgeOutput(filter);
+  EXPECT_EQ(verdict.Topology.Components.size(), 1u);
+  EXPECT_EQ(verdict.Topology.Genus, 0);
+  const double byEdges = ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene);
+  EXPECT_LT(byEdges, 0.02);
+  EXPECT_GT(byIsoValue, 5 * byEdges) << "the scene must be one that needs it";
+}
+
+TEST(EdgeAttractionScene, MakesThePyramidOfTheEdgesWhereTheInputsLacksIt)
+{
+  const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
+  const auto image = WithEdges(scene);
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(image);
+  pyramid->SetReductionFactor(1.5);
+  pyramid->Update();
+  const auto filter = EdgeFilterOf(pyramid->GetOutput(), scene);
+  JudgeOutput(filter);
+  EXPECT_LT(ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene), 0.03);
+}

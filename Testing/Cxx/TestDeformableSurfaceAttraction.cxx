@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterTestTools.h"
+#include "SurfaceTestTools.h"
+#include "vtkDeformableSurface.h"
+
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/// A ball of radius 9.6 about (15.5, 15.5, 15.5), and points to attract its surface.
+class DeformableSurfaceAttraction : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Filter->SetInputDataObject(this->Image);
+    this->Filter->SetIsoValue(50.0);
+    this->Points->SetPoints(vtkNew<vtkPoints>());
+    this->Filter->SetAttractingPointsData(this->Points);
+  }
+
+  template <typename Array>
+  void SetArray(const char* name, const std::vector<double>& values)
+  {
+    vtkNew<Array> array;
+    array->SetName(name);
+    for (const double value : values)
+    {
+      array->InsertNextValue(value);
+    }
+    this->Points->GetPointData()->AddArray(array);
+  }
+
+  /// By how much the surface reaches beyond the ball along +x.
+  double Bump()
+  {
+    this->Filter->Update();
+    vtkPolyData* surface = this->Filter->GetOutput();
+    double bounds[6];
+    surface->GetBounds(bounds);
+    return bounds[1] - (15.5 + 9.6);
+  }
+
+  void ExpectError(const std::vector<std::string>& parts)
+  {
+    MessagesOf errors(this->Filter);
+    this->Filter->Modified();
+    this->Filter->Update();
+    for (const std::string& part : parts)
+    {
+      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
+    }
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  }
+
+  vtkSmartPointer<vtkImageData> Image = BallImage(32, 32, 32);
+  vtkNew<vtkPolyData> Points;
+  vtkNew<vtkDeformableSurface> Filter;
+};
+}
+
+TEST_F(DeformableSurfaceAttraction, PointsDrawTheSurfaceOut)
+{
+  EXPECT_NEAR(this->Bump(), 0.0, 0.3) << "no points, no bump";
+  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
+  this->Points->Modified();
+  EXPECT_GT(this->Bump(), 1.4) << "the point is inside";
+  EXPECT_LT(this->Bump(), 4.5);
+  this->Filter->SetPointAttractionWeight(0.0);
+  EXPECT_NEAR(this->Bump(), 0.0, 0.3);
+}
+
+TEST_F(DeformableSurfaceAttraction, RadiusAndWeightCount)
+{
+  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
+  this->SetArray<vtkIntArray>("Weight", { 1 });
+  const double automatic = this->Bump();
+  this->SetArray<vtkDoubleArray>("Radius", { 4.0 });
+  this->Points->Modified();
+  EXPECT_GT(this->Bump(), automatic + 1.0);
+  this->SetArray<vtkDoubleArray>("Weight", { 0.0 });
+  this->Points->Modified();
+  EXPECT_NEAR(this->Bump(), 0.0, 0.3);
+}
+
+TEST_F(DeformableSurfaceAttraction, RadiusIsInWorldUnits)
+{
+  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
+  this->SetArray<vtkDoubleArray>("Radius", { 4.0 });
+  const double bump = this->Bump();
+  this->Image->SetSpacing(0.5, 0.5, 0.5);
+  this->Points->GetPoints()->SetPoint(0, 13.25, 7.75, 7.75);
+  this->SetArray<vtkDoubleArray>("Radius", { 2.0 });
+  this->Points->Modified();
+  this->Filter->Update();
+  double bounds[6];
+  this->Filter->GetOutput()->GetBounds(bounds);
+  EXPECT_NEAR(2.0 * bounds[1] - (15.5 + 9.6), bump, 1e-3);
+}
+
+TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
+{
+  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
+  this->Points->GetPoints()->InsertNextPoint(15.5, 15.5, 26.5);
+  this->Points->SetVerts(vtkNew<vtkCellArray>());
+  const vtkIdType id = 1;
+  this->Points->GetVerts()->InsertNextCell(1, &id);
+  EXPECT_NEAR(this->Bump(), 0.0, 0.3);
+  double bounds[6];
+  this->Filter->GetOutput()->GetBounds(bounds);
+  EXPECT_GT(bounds[5], 15.5 + 9.6 + 1.4);
+}
+
+TEST_F(DeformableSurfaceAttraction, PointsThatMakeNoSenseAreRefused)
+{
+  this->Points->GetPoints()->InsertNextPoint(16, 16, 40);
+  this->ExpectError({ "Input port 2", "point 0", "outside the image" });
+  this->Points->GetPoints()->SetPoint(0, 16, 16, 26);
+  this->SetArray<vtkDoubleArray>("Weight", { -1.0 });
+  this->ExpectError({ "Input port 2", "Weight of point 0 is -1" });
+  this->SetArray<vtkDoubleArray>("Weight", { 1.0 });
+  this->SetArray<vtkDoubleArray>("Radius", { std::numeric_limits<double>::infinity() });
+  this->ExpectError({ "Input port 2", "Radius of point 0 is inf" });
+  vtkNew<vtkDoubleArray> vectors;
+  vectors->SetName("Radius");
+  vectors->SetNumberOfComponents(3);
+  vectors->SetNumberOfTuples(1);
+  vectors->Fill(1.0);
+  this->Points->GetPointData()->AddArray(vectors);
+  this->ExpectError({ "Input port 2", "Radius", "one number per point" });
+}
+
+TEST_F(DeformableSurfaceAttraction, WeightsThatMakeNoSenseAreRefused)
+{
+  this->Filter->SetPointAttractionWeight(-1.0);
+  this->ExpectError({ "PointAttractionWeight is -1" });
+  this->Filter->SetPointAttractionWeight(1.0);
+  this->Filter->SetEdgeAttractionWeight(-1.0);
+  this->ExpectError({ "EdgeAttractionWeight is -1" });
+}
+
+TEST_F(DeformableSurfaceAttraction, AMapOfEdgesMustBeThere)
+{
+  this->Filter->SetEdgeAttractionWeight(1.0);
+  this->ExpectError({ "EdgeAttractionWeight", "SetInputArrayToProcess(1" });
+  this->Filter->SetInputArrayToProcess(
+    1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
+  this->ExpectError({ "Input port 0", "edges", "'Edges'" });
+  this->Filter->SetEdgeAttractionWeight(0.0);
+  this->Filter->Update();
+  EXPECT_GT(this->Filter->GetOutput()->GetNumberOfPoints(), 100);
+}
