@@ -66,11 +66,13 @@ def compare_levels(filter_):
                               Text=f"Level {level}")
         simple.Show(caption, view)
         views.append(view)
-    simple.ResetCamera(views[-1])
+    # What is seen is known once it has been drawn.
+    simple.RenderAllViews()
     for number, view in enumerate(views[:-1]):
         simple.AddCameraLink(views[-1], view, f"levels {filter_.GetGlobalIDAsString()} {number}")
     simple.SetActiveView(views[-1])
     simple.SetActiveSource(filter_)
+    simple.ResetCamera(views[-1])
     simple.RenderAllViews()
     return layout, views
 

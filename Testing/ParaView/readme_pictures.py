@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The README's pictures of ParaView's window, by playing its four steps on a volume.
+
+    VOLUMIC_PLUGIN=.../Volumic.so VOLUMIC_PARAVIEW_BIN=.../bin VOLUMIC_XVFB=/usr/bin/Xvfb \\
+      pvpython readme_pictures.py VOLUME ISO_VALUE FOLDER
+
+VOLUME is a file that ParaView opens, such as the skull.vti that Examples/Python/read_volume.py makes.
+"""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import plugin_testing as testing
+from window_testing import APPLY, FILTERS, PROPERTIES, filter_of_the_menu
+
+KEY_UP, KEY_RIGHT, KEY_DOWN = (f"6,{key},0,,0,1" for key in (16777235, 16777236, 16777237))
+ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
+MACRO = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                                     "../../Examples/ParaView/compare_levels.py"))
+# The face of the skull.
+FROM_THE_FRONT = [gui.event(f"{gui.WINDOW}/cameraToolbar/actionNegativeY", "activate"),
+                  gui.pause(1500)]
+
+
+def opened(volume):
+    return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", volume), APPLY,
+            gui.pause(1000)]
+
+
+def main(volume, iso_value, folder):
+    session = gui.Session(testing.program("paraview"), testing.plugin_path(),
+                          os.environ["VOLUMIC_XVFB"], size=(1180, 800))
+    start = opened(volume)
+    macro = f"""
+from paraview import simple
+volume = simple.OpenDataFile({volume!r})
+volume.UpdatePipeline()
+surface = simple.VolumetoSurface(volume, IsoValue={iso_value})
+simple.SetActiveSource(surface)
+exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}})
+"""
+    pictures = {
+        # Two: the menu of a volume that has been opened.
+        "paraview-menu.png": ("", start + [
+            gui.event(f"{gui.WINDOW}/menubar", "activate", "menuFilters"), gui.pause(1000),
+            gui.event(FILTERS, "keyEvent", KEY_UP), gui.pause(500),
+            gui.event(FILTERS, "keyEvent", KEY_RIGHT), gui.pause(500),
+            *[gui.event(f"{FILTERS}/Volumic", "keyEvent", KEY_DOWN)] * 2, gui.pause(1500)]),
+        # Four: the surface.
+        "paraview-volume-to-surface.png": ("", start + [
+            filter_of_the_menu("VolumeToSurface"), gui.event(ISO_VALUE, "set_string", iso_value),
+            APPLY, gui.pause(1000), *FROM_THE_FRONT]),
+        # The macro.
+        "paraview-levels.png": (macro, [gui.pause(1000), *FROM_THE_FRONT]),
+    }
+    for name, (python, events) in pictures.items():
+        succeeded = session.play(events, timeout=600, python=python)
+        session.screenshot(os.path.join(folder, name))
+        session.close_window()
+        if not succeeded:
+            sys.exit(session.output)
+        print(f"Written: {os.path.join(folder, name)}")
+    session.close()
+
+
+main(*sys.argv[1:])
