@@ -10,7 +10,8 @@
 /// What differs between VTK 9.1, ParaView 5.11's VTK 9.2 and newer ones.
 namespace volumic
 {
-/// Has someone asked the filter to stop? Newer VTKs can also be asked through filters downstream.
+/// Has someone asked the filter to stop? Newer VTKs can also be asked through other filters. The
+/// filter's own flag comes first: after CheckAbort() says yes, the executive empties the outputs.
 inline bool IsAbortRequested(vtkAlgorithm* algorithm)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230000)

@@ -186,7 +186,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
                 self.assertEqual(again.SnapshotInterval, 25)
                 self.assertEqual(points(output(again)).tobytes(), wanted)
 
-    def test_abort_and_the_next_apply(self):
+    def check_abort_and_the_next_apply(self, abort):
         filter_ = simple.VolumetoSurface(self.ball)
         algorithm = filter_.GetClientSideObject()
         reports = []
@@ -194,7 +194,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
         def stop_after_the_tenth(*_):
             reports.append(algorithm.GetProgressText())
             if len(reports) == 10:
-                algorithm.SetAbortExecute(1)
+                abort(algorithm)
         tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
         surface = output(filter_)
         self.assertEqual(field(surface, "StopReason"), "cancelled")
@@ -203,6 +203,13 @@ class VolumeToSurfaceTest(unittest.TestCase):
         # Nobody takes the request back; any change and Apply will do.
         filter_.Friction = 2.9
         self.check_ball(output(filter_))
+
+    def test_abort_and_the_next_apply(self):
+        self.check_abort_and_the_next_apply(lambda algorithm: algorithm.SetAbortExecute(1))
+
+    def test_abort_by_the_button_of_newer_paraviews(self):
+        self.check_abort_and_the_next_apply(
+            lambda algorithm: algorithm.SetAbortExecuteAndUpdateTime())
 
 
 testing.main()
