@@ -19,11 +19,12 @@ from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
 
 from tool_test_case import (
-    CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image)
+    CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SIZE, SPACING, ToolTestCase, ball, make_image)
 from volumic import vtkDeformableSurface, vtkImagePyramid
 
 # What is set in another way: inputs, and the threads of the pyramid, which are the surface's.
-NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData"},
+NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
+                                        "AttractingPointsConnection", "AttractingPointsData"},
                "vtkImagePyramid": {"NumberOfThreads"}}
 
 
@@ -78,6 +79,8 @@ class OptionTableTest(ToolTestCase):
                                          make_image(1001 - ball()))
             else:
                 volume_used = volume
+            if option == "edge-attraction":
+                arguments += ["--edges", volume]
             arguments += [f"--{option}"] if is_switch else [f"--{option}", value]
             with self.subTest(option):
                 after = self.report(volume_used, *arguments)["properties"]
@@ -98,6 +101,7 @@ class OptionTableTest(ToolTestCase):
                 ("--recovery: 'all' is none of none|objects".replace("|", r"\|"),
                  ["a", "b.stl", "--recovery", "all"]),
                 ("--spacing: .* are 2 numbers, not 3", ["a", "b.stl", "--spacing", "1,2"]),
+                ("--edge-attraction needs", ["a", "b.stl", "--edge-attraction", "1"]),
                 ("exclude each other", ["a", "b.stl", "--seeds", "c", "--initial-surface", "d"])):
             with self.subTest(arguments):
                 self.refused(reason, *arguments, status=2)
@@ -179,9 +183,45 @@ class RunTest(ToolTestCase):
         self.assertEqual(again["properties"]["Initialization"], "input-surface")
         self.assertAlmostEqual(again["volume"] / seeded["volume"], 1.0, delta=0.01)
         self.assertLess(again["iterations"], seeded["iterations"])
-        self.write_bytes("bad.txt", b"1 2 3\n1 2\n")
-        self.refused("bad.txt, line 2: not three numbers", self.ball_file(), self.path("a.stl"),
+        self.write_bytes("bad.txt", b"x y z\n1 2 3\n1 2\n")
+        self.refused("bad.txt, line 3: not three numbers", self.ball_file(), self.path("a.stl"),
                      "--seeds", self.path("bad.txt"))
+
+    def test_attracting_points(self):
+        """A point of weight 1 makes a ball of its radius part of the object."""
+        point, radius = ORIGIN + SPACING * [20, 5, 13], 2.0
+        self.write_bytes("points.txt", " ".join(map(str, [*point, 1, radius])).encode())
+        report = self.report(self.ball_file(), "--iso", ISO, "--levels", "1",
+                             "--minimum-part-size", "5", "--attracting-points",
+                             self.path("points.txt"))
+        self.assertEqual(report["components"], 2)
+        found = report["component_features"][1]
+        np.testing.assert_allclose(found["centroid"], point, atol=0.3)
+        # A ball in the filter's workspace, where voxels are cubes of the shortest spacing.
+        whole = 4 / 3 * np.pi * radius ** 3 * np.prod(SPACING / SPACING.min())
+        self.assertTrue(0.8 < found["volume"] / whole < 1.1, found)
+        self.write_bytes("bad.txt", b"1 2 3 4 5 6\n1 2 3 4 5 6\n")
+        self.refused("bad.txt, line 2: not three to five", self.ball_file(), self.path("a.stl"),
+                     "--attracting-points", self.path("bad.txt"))
+
+    def test_edges_as_an_array_or_a_file(self):
+        image = make_image(ball("f4"))
+        magnitude = np.sqrt(sum(np.square(g) for g in np.gradient(
+            ball("f4"), *SPACING[::-1])))
+        edges = make_image(magnitude.astype("f4"))
+        array = edges.GetPointData().GetScalars()
+        array.SetName("gradient")
+        file = self.write(vtkXMLImageDataWriter(), "edges.vti", edges)
+        plain = self.report(self.ball_file(), "--iso", ISO)
+        from_file = self.report(self.ball_file(), "--iso", ISO, "--edges", file)
+        self.assertEqual(from_file["properties"]["EdgeAttractionWeight"], "2")
+        self.assertNotEqual(from_file["volume"], plain["volume"])
+        image.GetPointData().AddArray(array)
+        both = self.write(vtkXMLImageDataWriter(), "both.vti", image)
+        from_array = self.report(both, "--iso", ISO, "--edges", "gradient")
+        self.assertAlmostEqual(from_array["volume"] / from_file["volume"], 1.0, delta=0.02)
+        small = self.write(vtkXMLImageDataWriter(), "small.vti", make_image(ball()[1:]))
+        self.refused("its size differs", self.ball_file(), self.path("a.stl"), "--edges", small)
 
     def test_iteration_limit_is_marked(self):
         report = self.report(self.ball_file(), self.path("a.vtp"), self.path("a.stl"),

@@ -8,9 +8,11 @@
 
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
+#include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
@@ -74,7 +76,16 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");
 }
 
-void ReadPointLines(const std::string& name, vtkPoints* points)
+/// Points, and what comes with each.
+struct PointList
+{
+  vtkNew<vtkPoints> Points;
+  vtkNew<vtkDoubleArray> Weights;
+  vtkNew<vtkDoubleArray> Radii;
+};
+
+/// Lines of three numbers, or up to `columns`.
+void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
 {
   std::ifstream file(name);
   if (!file)
@@ -98,12 +109,15 @@ void ReadPointLines(const std::string& name, vtkPoints* points)
     }
     try
     {
-      if (texts.size() != 3)
+      if (texts.size() < 3 || texts.size() > columns)
       {
-        throw UsageError("not three numbers");
+        throw UsageError(columns == 3 ? "not three numbers" : "not three to five numbers");
       }
-      points->InsertNextPoint(ParseNumber<double>(texts[0]), ParseNumber<double>(texts[1]),
-        ParseNumber<double>(texts[2]));
+      std::vector<double> values = { 0.0, 0.0, 0.0, 1.0, 0.0 };
+      std::transform(texts.begin(), texts.end(), values.begin(), ParseNumber<double>);
+      list.Points->InsertNextPoint(values.data());
+      list.Weights->InsertNextValue(values[3]);
+      list.Radii->InsertNextValue(values[4]);
     }
     catch (const UsageError& error)
     {
@@ -114,38 +128,60 @@ void ReadPointLines(const std::string& name, vtkPoints* points)
     }
   }
 }
+
+bool IsText(const std::string& name)
+{
+  const std::string suffix = SuffixOf(name);
+  return suffix == ".txt" || suffix == ".csv" || suffix == ".xyz";
+}
+
+/// The points as vertices, without arrays.
+vtkSmartPointer<vtkPolyData> MakeVertices(vtkPoints* points, const std::string& name)
+{
+  if (!points || points->GetNumberOfPoints() == 0)
+  {
+    throw Failure(name + ": has no points");
+  }
+  auto vertices = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    cells->InsertNextCell(1, &i);
+  }
+  vertices->SetPoints(points);
+  vertices->SetVerts(cells);
+  return vertices;
+}
 }
 
 vtkSmartPointer<vtkPolyData> ReadSeeds(const std::string& name)
 {
-  const std::string suffix = SuffixOf(name);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  if (suffix == ".txt" || suffix == ".csv" || suffix == ".xyz")
+  if (!IsText(name))
   {
-    ReadPointLines(name, points);
+    return MakeVertices(ReadMesh(name)->GetPoints(), name);
   }
-  else
+  PointList list;
+  ReadPointLines(name, 3, list);
+  return MakeVertices(list.Points, name);
+}
+
+vtkSmartPointer<vtkPolyData> ReadAttractingPoints(const std::string& name)
+{
+  if (!IsText(name))
   {
     const vtkSmartPointer<vtkPolyData> mesh = ReadMesh(name);
-    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-    {
-      points->InsertNextPoint(mesh->GetPoint(i));
-    }
+    const vtkSmartPointer<vtkPolyData> points = MakeVertices(mesh->GetPoints(), name);
+    points->GetPointData()->ShallowCopy(mesh->GetPointData());
+    return points;
   }
-  if (points->GetNumberOfPoints() == 0)
-  {
-    throw Failure(name + ": has no points");
-  }
-  auto seeds = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkCellArray> vertices;
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    vertices->InsertNextCell(1, &i);
-  }
-  seeds->SetPoints(points);
-  seeds->SetVerts(vertices);
-  return seeds;
+  PointList list;
+  list.Weights->SetName("Weight");
+  list.Radii->SetName("Radius");
+  ReadPointLines(name, 5, list);
+  const vtkSmartPointer<vtkPolyData> points = MakeVertices(list.Points, name);
+  points->GetPointData()->AddArray(list.Weights);
+  points->GetPointData()->AddArray(list.Radii);
+  return points;
 }
 
 vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& name)

@@ -76,6 +76,14 @@ const std::vector<ProgramOption>& InputOptions()
       "a .txt, .csv or .xyz file; world coordinates"),
     Text("initial-surface", "FILE", &SegmentOptions::InitialSurface,
       "start from this closed surface: .vtp, .vtk, .stl, .ply or .obj; world coordinates"),
+    Text("attracting-points", "FILE", &SegmentOptions::AttractingPoints,
+      "points known to belong to the object, see --point-attraction: a mesh file's, with its "
+      "arrays "
+      "Weight and Radius, or the lines 'x y z [weight [radius]]' of a .txt, .csv or .xyz file; "
+      "world coordinates"),
+    Text("edges", "NAME|FILE", &SegmentOptions::Edges,
+      "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
+      "of the volume, or a volume of the same size"),
   };
   return options;
 }
@@ -162,6 +170,10 @@ void CheckComplete(SegmentOptions& options)
     options.History.empty() && options.Snapshots.empty())
   {
     throw UsageError("no file to write is given");
+  }
+  if (options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"))
+  {
+    throw UsageError("--edge-attraction needs --edges");
   }
   if (!options.Seeds.empty() && !options.InitialSurface.empty())
   {

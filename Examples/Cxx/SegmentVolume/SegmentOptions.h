@@ -33,6 +33,8 @@ struct SegmentOptions
   std::optional<std::array<double, 3>> Spacing; ///< instead of the file's, world units
   std::string Seeds;                            ///< file of points
   std::string InitialSurface;                   ///< file of a closed surface
+  std::string AttractingPoints;                 ///< file of points
+  std::string Edges;                            ///< point array of the volume, or file of a volume
   std::string History;                          ///< .csv
   std::string Levels;                           ///< .vtm, or a folder
   std::string Snapshots;                        ///< .vtm, or a folder

@@ -13,6 +13,7 @@
 #include "WriteResults.h"
 
 #include <vtkDataArray.h>
+#include <vtkDataObject.h>
 #include <vtkDeformableSurface.h>
 #include <vtkImageData.h>
 #include <vtkImagePyramid.h>
@@ -24,6 +25,7 @@
 #include <vtkTable.h>
 #include <vtkVersion.h>
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -124,6 +126,42 @@ void SetStart(const SegmentOptions& options, vtkDeformableSurface* filter)
       filter->SetInitializationToInputSurface();
     }
   }
+  if (!options.AttractingPoints.empty())
+  {
+    filter->SetAttractingPointsData(ReadAttractingPoints(options.AttractingPoints));
+  }
+}
+
+/// Hand the map of edges to the filter, as a second array of the volume.
+void SetEdges(const SegmentOptions& options, vtkImageData* volume, vtkDeformableSurface* filter)
+{
+  if (options.Edges.empty())
+  {
+    return;
+  }
+  std::string name = options.Edges;
+  vtkPointData* points = volume->GetPointData();
+  if (!points->HasArray(name.c_str()))
+  {
+    const vtkSmartPointer<vtkImageData> edges = ReadVolume(options.Edges);
+    ChooseScalars(edges, "", -1);
+    if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
+    {
+      throw Failure(options.Edges + ": its size differs from the volume's");
+    }
+    name = "Edges";
+    while (points->HasArray(name.c_str()))
+    {
+      name += "_";
+    }
+    edges->GetPointData()->GetScalars()->SetName(name.c_str());
+    points->AddArray(edges->GetPointData()->GetScalars());
+  }
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name.c_str());
+  if (!options.HasProperty("EdgeAttractionWeight"))
+  {
+    filter->SetEdgeAttractionWeight(2.0);
+  }
 }
 
 void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
@@ -169,6 +207,7 @@ ExitCode Segment(
   CheckOutputs(options);
   const vtkSmartPointer<vtkImageData> volume = LoadVolume(options, announcer);
   SetStart(options, filter);
+  SetEdges(options, volume, filter);
   if (!options.HasProperty("IsoValue"))
   {
     vtkNew<vtkOtsuThreshold> otsu;

@@ -118,6 +118,12 @@ std::vector<PropertyOption> MakeProperties()
       "weight of the force along the normal to the iso-value"),
     SURFACE_NUMBER(
       GradientWeight, "gradient", "WEIGHT", "weight of the force along the image's gradient"),
+    SURFACE_NUMBER(PointAttractionWeight, "point-attraction", "WEIGHT",
+      "how much the points of --attracting-points make what is around them a part of the object; "
+      "0: not at all"),
+    SURFACE_NUMBER(EdgeAttractionWeight, "edge-attraction", "WEIGHT",
+      "how much the edges of the map --edges attract the surface; 0: not at all; more than "
+      "--isopotential: they stop it"),
     SURFACE_NUMBER(Friction, "friction", "VALUE", "little oscillates, much is slow; more than 0"),
     SURFACE_SWITCH(TopologyChanges, false, "no-topology-changes",
       "no merges and cuts: the surface keeps its topology, contacts stop it"),
