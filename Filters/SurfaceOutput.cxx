@@ -26,25 +26,6 @@ namespace volumic
 {
 namespace
 {
-IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space)
-{
-  IndexedSurface world;
-  world.Points.reserve(surface.Points.size());
-  for (const Point& point : surface.Points)
-  {
-    world.Points.push_back(space.ToWorld(point));
-  }
-  world.Triangles = surface.Triangles;
-  if (space.IsMirrored())
-  {
-    for (Triangle& triangle : world.Triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-  return world;
-}
-
 template <typename Array, typename Value>
 void AddField(vtkPolyData* polyData, const char* name, Value value)
 {
@@ -169,6 +150,25 @@ void AddColumn(
   }
   table->AddColumn(column);
 }
+}
+
+IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space)
+{
+  IndexedSurface world;
+  world.Points.reserve(surface.Points.size());
+  for (const Point& point : surface.Points)
+  {
+    world.Points.push_back(space.ToWorld(point));
+  }
+  world.Triangles = surface.Triangles;
+  if (space.IsMirrored())
+  {
+    for (Triangle& triangle : world.Triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  return world;
 }
 
 vtkSmartPointer<vtkPolyData> MakePolyData(

@@ -110,9 +110,33 @@ SurfaceSegmentation::SurfaceSegmentation(
     settings.Recovery == vtkDeformableSurface::RecoverObjects;
   this->Settings.Options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
   this->ReadAttraction(blocks);
+  this->ReadComponentChoice();
 }
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
+
+void SurfaceSegmentation::ReadComponentChoice()
+{
+  CheckEnumeration(
+    "KeepComponents", this->Settings.KeepComponents, vtkDeformableSurface::LargeComponents);
+  if (!(this->Settings.MinimumComponentVolume >= 0.0))
+  {
+    Refuse("MinimumComponentVolume is ", this->Settings.MinimumComponentVolume,
+      "; it must be 0 or more.");
+  }
+  this->Choice.Mode = this->Settings.KeepComponents;
+  this->Choice.MinimumVolume = this->Settings.MinimumComponentVolume;
+  if (this->Choice.Mode == vtkDeformableSurface::ComponentsAtPoints)
+  {
+    this->Choice.Places = PlacesOf(this->Settings.InitialSurface, this->Settings.AttractingPoints,
+      this->Pyramid.GetWorkspace());
+    if (this->Choice.Places.empty())
+    {
+      Refuse("KeepComponents is 2, those at points, but there are none: give seeds to input port 1, "
+             "or points known to belong to the object to input port 2.");
+    }
+  }
+}
 
 void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
 {
@@ -284,7 +308,13 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     description.LostParts = lost.Found;
     description.RecoveredParts = lost.Seeded;
   }
-  this->Finest = MakePolyData(evolution.Result(), description, this->Pyramid.GetWorkspace());
+  const SurfaceResult surface = evolution.Result();
+  const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
+  if (kept.Points.empty() && !surface.Points.empty())
+  {
+    this->Settings.Warn(Join("Level ", level, ": KeepComponents leaves none of the components."));
+  }
+  this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
   this->Blocks->SetBlock(level, this->Finest);
   this->Table =
     MakeHistory(evolution.History(), this->Pyramid.GetWorkspace(), this->Settings.Profile);

@@ -7,6 +7,7 @@
 #include "Core/PointAttraction.h"
 #include "Core/SurfaceEvolution.h"
 #include "Core/SurfaceOptions.h"
+#include "KeepComponents.h"
 #include "PyramidLevels.h"
 #include "SurfaceSnapshots.h"
 
@@ -33,6 +34,8 @@ struct SegmentationSettings
   int Initialization = 0; ///< vtkDeformableSurface::InitializationType, if it is one
   int BorderValue = 0;    ///< vtkDeformableSurface::BorderValueType, if it is one
   int Recovery = 0;       ///< vtkDeformableSurface::RecoveryType, if it is one
+  int KeepComponents = 0; ///< vtkDeformableSurface::KeepComponentsType, if it is one
+  double MinimumComponentVolume = 0.0; ///< world units cubed
   int CoarsestLevel = -1;
   int FinestLevel = 0;
   int NumberOfThreads = 0;
@@ -70,6 +73,7 @@ public:
 
 private:
   void ChooseLevels();
+  void ReadComponentChoice();
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
   LevelImage Load(int level, Executor& threads);
   void CheckIsoValue();
@@ -83,6 +87,7 @@ private:
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none
   std::vector<float> Bent;                 ///< the level's voxels as the points bend them
+  ComponentChoice Choice;
   int Coarsest = 0;
   int LastLevel = 0; ///< the finest to visit
   vtkSmartPointer<vtkPolyData> Finest;

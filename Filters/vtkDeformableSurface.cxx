@@ -54,6 +54,8 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->BorderValue = static_cast<int>(defaults.BorderValue);
   this->Recovery = defaults.RecoverLostParts ? RecoverObjects : NoRecovery;
   this->MinimumPartSize = defaults.MinimumPartSize;
+  this->KeepComponents = AllComponents;
+  this->MinimumComponentVolume = 0.0;
   this->TopologyChanges = defaults.TopologyChanges;
   this->MaximumNumberOfIterations = defaults.MaximumNumberOfIterations;
   this->ConvergenceTolerance = defaults.ConvergenceTolerance;
@@ -201,6 +203,8 @@ int vtkDeformableSurface::RequestData(
     settings.Initialization = this->Initialization;
     settings.BorderValue = this->BorderValue;
     settings.Recovery = this->Recovery;
+    settings.KeepComponents = this->KeepComponents;
+    settings.MinimumComponentVolume = this->MinimumComponentVolume;
     settings.CoarsestLevel = this->CoarsestLevel;
     settings.FinestLevel = this->FinestLevel;
     settings.NumberOfThreads = this->NumberOfThreads;
@@ -260,6 +264,8 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BorderValue: " << this->BorderValue << endl;
   os << indent << "Recovery: " << this->Recovery << endl;
   os << indent << "MinimumPartSize: " << this->MinimumPartSize << endl;
+  os << indent << "KeepComponents: " << this->KeepComponents << endl;
+  os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << endl;
   os << indent << "TopologyChanges: " << this->TopologyChanges << endl;
   os << indent << "MaximumNumberOfIterations: " << this->MaximumNumberOfIterations << endl;
   os << indent << "ConvergenceTolerance: " << this->ConvergenceTolerance << endl;

@@ -120,6 +120,14 @@ public:
     NoRecovery = 0,
     RecoverObjects = 1
   };
+  /// Which components of the surfaces the outputs hold.
+  enum KeepComponentsType
+  {
+    AllComponents = 0,
+    LargestComponent = 1,
+    ComponentsAtPoints = 2,
+    LargeComponents = 3
+  };
 
   ///@{
   /**
@@ -137,6 +145,25 @@ public:
   vtkSetMacro(ObjectIsBright, bool);
   vtkGetMacro(ObjectIsBright, bool);
   vtkBooleanMacro(ObjectIsBright, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Which components the outputs Surface and Levels hold, with their arrays and field data; the
+   * evolution is the same. AllComponents (default); LargestComponent: that of the largest area;
+   * ComponentsAtPoints: those that enclose a seed of port 1 or a point of port 2, or pass it within
+   * the length of an edge (2.5 Delta); LargeComponents: those that enclose at least
+   * MinimumComponentVolume (world units cubed, default 0). Cavities go with the component about
+   * them: they are kept if it is.
+   */
+  vtkSetMacro(KeepComponents, int);
+  vtkGetMacro(KeepComponents, int);
+  void SetKeepComponentsToAllComponents() { this->SetKeepComponents(AllComponents); }
+  void SetKeepComponentsToLargestComponent() { this->SetKeepComponents(LargestComponent); }
+  void SetKeepComponentsToComponentsAtPoints() { this->SetKeepComponents(ComponentsAtPoints); }
+  void SetKeepComponentsToLargeComponents() { this->SetKeepComponents(LargeComponents); }
+  vtkSetMacro(MinimumComponentVolume, double);
+  vtkGetMacro(MinimumComponentVolume, double);
   ///@}
 
   ///@{
@@ -401,6 +428,8 @@ protected:
   int BorderValue;
   int Recovery;
   int MinimumPartSize;
+  int KeepComponents;
+  double MinimumComponentVolume;
   bool TopologyChanges;
   int MaximumNumberOfIterations;
   double ConvergenceTolerance;

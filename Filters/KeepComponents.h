@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef KeepComponents_h
+#define KeepComponents_h
+
+#include "Core/SurfaceEvolution.h"
+#include "Workspace.h"
+
+#include <vector>
+
+class vtkPolyData;
+
+namespace volumic
+{
+/// Which components of a surface go into an output.
+struct ComponentChoice
+{
+  int Mode = 0;               ///< vtkDeformableSurface::KeepComponentsType
+  double MinimumVolume = 0.0; ///< world units, cubed
+  std::vector<Point> Places;  ///< workspace
+};
+
+/// The places for a choice by points: the points of port 1, if it has no polygons, and of port 2.
+/// Both may be missing. Workspace.
+std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space);
+
+/**
+ * The part of a closed surface that is chosen. A cavity (negative volume) belongs to the component
+ * that encloses it most closely, and is kept with it. A component touches a place if it is the
+ * innermost that encloses it, and no cavity, or if a vertex of it or of its cavities is not farther
+ * than 2.5 delta. Cost: O(n log n) of triangles and places.
+ */
+SurfaceResult KeepChosen(
+  const SurfaceResult& surface, const ComponentChoice& choice, const Workspace& space);
+}
+
+#endif

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterTestTools.h"
+#include "SurfaceTestTools.h"
+#include "vtkDeformableSurface.h"
+
+#include <vtkCellData.h>
+#include <vtkImageData.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+double BallVolume(double radius)
+{
+  return 4.0 / 3.0 * vtkMath::Pi() * std::pow(radius, 3);
+}
+
+/// A hollow ball (radii 12 and 8) about (16, 16, 16) that holds a ball of radius 4, and beside it a
+/// ball of radius 6 about (38, 16, 16).
+vtkSmartPointer<vtkImageData> HollowBallAndBall()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(50, 32, 32);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  image->GetPointData()->GetScalars()->SetName("Voxels");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double* p = image->GetPoint(i);
+    const auto ball = [p](double x, double radius)
+    {
+      const double centre[3] = { x + 0.13, 16.07, 15.91 }; // no voxel has the iso-value
+      return std::sqrt(vtkMath::Distance2BetweenPoints(p, centre)) - radius;
+    };
+    const double distance =
+      std::min({ std::max(ball(16, 12), -ball(16, 8)), ball(16, 4), ball(38, 6) });
+    image->GetPointData()->GetScalars()->SetComponent(
+      i, 0, std::clamp(50.0 - 50.0 * distance, 0.0, 100.0));
+  }
+  return image;
+}
+
+class DeformableSurfaceComponents : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Filter->SetInputDataObject(HollowBallAndBall());
+    this->Filter->SetIsoValue(50.0);
+    this->Filter->SetCoarsestLevel(0);
+    this->Filter->SetInitializationToIsoSurface();
+  }
+
+  /// Volumes of the components that are put out, in their order.
+  std::vector<double> Volumes()
+  {
+    this->Filter->Update();
+    vtkPolyData* surface = this->Filter->GetOutput();
+    if (!surface->GetFieldData()->HasArray("NumberOfComponents"))
+    {
+      ADD_FAILURE() << "no output";
+      return {};
+    }
+    const int n = static_cast<int>(FieldOf(surface, "NumberOfComponents"));
+    std::vector<double> volumes;
+    double sum = 0;
+    for (int c = 0; c < n; ++c)
+    {
+      volumes.push_back(FieldOf(surface, "ComponentVolume", c));
+      sum += volumes.back();
+    }
+    EXPECT_EQ(surface->GetFieldData()->GetArray("ComponentArea")->GetNumberOfTuples(), n);
+    EXPECT_NEAR(FieldOf(surface, "Volume"), sum, 1e-6);
+    EXPECT_EQ(FieldOf(surface, "EulerCharacteristic"), 2 * n);
+    EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+    if (n > 0)
+    {
+      EXPECT_EQ(surface->GetCellData()->GetArray("Component")->GetRange()[1], n - 1);
+      EXPECT_EQ(
+        surface->GetPointData()->GetNormals()->GetNumberOfTuples(), surface->GetNumberOfPoints());
+      EXPECT_NEAR(EnclosedVolume(surface), sum, 1e-6 * std::abs(sum));
+    }
+    auto* level = vtkPolyData::SafeDownCast(this->Filter->GetLevels()->GetBlock(0));
+    EXPECT_EQ(level->GetNumberOfPoints(), surface->GetNumberOfPoints());
+    return volumes;
+  }
+
+  static void ExpectVolumes(
+    const std::vector<double>& volumes, const std::vector<double>& expected)
+  {
+    ASSERT_EQ(volumes.size(), expected.size());
+    for (std::size_t c = 0; c < expected.size(); ++c)
+    {
+      EXPECT_NEAR(volumes[c] / expected[c], 1.0, 0.08) << c;
+    }
+  }
+
+  void SetSeed(double x, double y, double z)
+  {
+    vtkNew<vtkPoints> points;
+    points->InsertNextPoint(x, y, z);
+    vtkNew<vtkPolyData> seed;
+    seed->SetPoints(points);
+    this->Filter->SetInitialSurfaceData(seed);
+  }
+
+  vtkNew<vtkDeformableSurface> Filter;
+  const double Outside = BallVolume(12);
+  const double Cavity = -BallVolume(8);
+  const double Beside = BallVolume(6);
+  const double Inner = BallVolume(4);
+};
+}
+
+TEST_F(DeformableSurfaceComponents, AllAreThereByDefault)
+{
+  ExpectVolumes(
+    this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
+}
+
+TEST_F(DeformableSurfaceComponents, TheLargestComesWithItsCavity)
+{
+  this->Filter->SetKeepComponentsToLargestComponent();
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
+}
+
+TEST_F(DeformableSurfaceComponents, LargeOnesCountByVolume)
+{
+  this->Filter->SetKeepComponentsToLargeComponents();
+  this->Filter->SetMinimumComponentVolume(600.0);
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity, this->Beside });
+  this->Filter->SetMinimumComponentVolume(2000.0);
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
+  this->Filter->SetMinimumComponentVolume(200.0);
+  ExpectVolumes(
+    this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
+}
+
+TEST_F(DeformableSurfaceComponents, PointsChooseTheInnermostThatEnclosesThem)
+{
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  this->SetSeed(38.3, 15.7, 16.2);
+  ExpectVolumes(this->Volumes(), { this->Beside });
+  this->SetSeed(16, 16, 16);
+  ExpectVolumes(this->Volumes(), { this->Inner });
+  this->SetSeed(6, 16, 16);
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
+  this->SetSeed(38, 16, 23);
+  ExpectVolumes(this->Volumes(), { this->Beside });
+}
+
+TEST_F(DeformableSurfaceComponents, PointsKnownToBelongToTheObjectChooseToo)
+{
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(38, 16, 16);
+  points->InsertNextPoint(16, 16, 17);
+  vtkNew<vtkPolyData> known;
+  known->SetPoints(points);
+  this->Filter->SetAttractingPointsData(known);
+  ExpectVolumes(this->Volumes(), { this->Beside, this->Inner });
+}
+
+TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
+{
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  this->SetSeed(28.5, 27.0, 27.0);
+  MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  EXPECT_TRUE(this->Volumes().empty());
+  EXPECT_TRUE(warnings.Has("KeepComponents leaves none"));
+}
+
+TEST_F(DeformableSurfaceComponents, SizesAndPlacesAreThoseOfTheWorld)
+{
+  auto image = HollowBallAndBall();
+  image->SetSpacing(0.5, -0.5, 1.5);
+  image->SetOrigin(7, 8, 9);
+  this->Filter->SetInputDataObject(image);
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  this->SetSeed(7 + 0.5 * 38, 8 - 0.5 * 16, 9 + 1.5 * 16);
+  const double voxel = 0.5 * 0.5 * 1.5;
+  ExpectVolumes(this->Volumes(), { voxel * this->Beside });
+  this->Filter->SetKeepComponentsToLargeComponents();
+  this->Filter->SetMinimumComponentVolume(voxel * 600.0);
+  ExpectVolumes(this->Volumes(),
+    { voxel * this->Outside, voxel * this->Cavity, voxel * this->Beside });
+}
+
+TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
+{
+  const auto refused = [this](const char* part)
+  {
+    MessagesOf errors(this->Filter);
+    this->Filter->Update();
+    EXPECT_TRUE(errors.Has(part)) << errors.Get();
+  };
+  this->Filter->SetKeepComponents(4);
+  refused("KeepComponents is 4");
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  refused("input port 1");
+  this->Filter->SetKeepComponentsToLargeComponents();
+  this->Filter->SetMinimumComponentVolume(-1.0);
+  refused("MinimumComponentVolume is -1");
+}
