@@ -25,7 +25,8 @@ from pipeline import property_names
 from read_volume import read_volume
 
 ROOT = os.path.normpath(os.path.join(EXAMPLES, "..", ".."))
-DOCUMENTS = ("README.md", "Documentation/tutorial.md", "Documentation/reference.md")
+DOCUMENTS = ("README.md", *(f"Documentation/{name}.md"
+                            for name in ("tutorial", "reference", "paraview")))
 
 
 def read(document):
@@ -168,12 +169,11 @@ class CodeTest(unittest.TestCase):
         version, = re.findall(r"^version: (.*)$", read("CITATION.cff"), flags=re.MULTILINE)
         self.assertEqual(version, volumic.__version__)
 
-    def test_build_commands_name_options_that_exist(self):
-        known = read("CMake/VolumicOptions.cmake")
-        names = re.findall(r"`(VOLUMIC_\w+)`", read("README.md"))
-        self.assertTrue(names)
-        for name in names:
-            self.assertIn(name, known)
+    def test_options_of_the_build_are_told(self):
+        known = re.findall(r"^option\((\w+)", read("CMake/VolumicOptions.cmake"),
+                           flags=re.MULTILINE)
+        told = re.findall(r"^\| `([A-Z_]+)` \|", read("README.md"), flags=re.MULTILINE)
+        self.assertEqual(sorted(told), sorted(known))
 
 
 if __name__ == "__main__":
