@@ -7,6 +7,7 @@ package of Volumic, or a file that one would replace, is there already; where so
 depend on is missing (nothing else is installed or removed for the test).
 """
 
+import atexit
 import json
 import os
 import re
@@ -209,4 +210,5 @@ class InstallationTest(unittest.TestCase):
 if __name__ == "__main__":
     print(f"Packages of the build with {FLAVOUR}")
     InstallationTest.packages = choose_packages()
+    atexit.register(InstallationTest.purge)  # also where somebody stops the test
     unittest.main()
