@@ -67,7 +67,8 @@ class OptionTableTest(ToolTestCase):
             "tolerance": "0.01", "border": "replicate", "recovery": "none", "levels": "2",
             "initialization": "iso-surface", "coarsest": "0", "finest": "0", "seed-radius": "1.5",
             "minimum-level-size": "12", "iterations": "400", "threads": "1",
-            "minimum-part-size": "7", "snapshot-interval": "50"}
+            "minimum-part-size": "7", "snapshot-interval": "50",
+            "keep": "largest"}
         before = self.report(volume, "--iso", ISO)["properties"]
         for _, name, option, default in self.table():
             option = option[2:]
@@ -195,7 +196,11 @@ class RunTest(ToolTestCase):
                              "--minimum-part-size", "5", "--attracting-points",
                              self.path("points.txt"))
         self.assertEqual(report["components"], 2)
+        kept = self.report(self.ball_file(), "--iso", ISO, "--levels", "1", "--keep", "at-points",
+                           "--minimum-part-size", "5", "--attracting-points",
+                           self.path("points.txt"))
         found = report["component_features"][1]
+        self.assertEqual(kept["component_features"], [found])
         np.testing.assert_allclose(found["centroid"], point, atol=0.3)
         # A ball in the filter's workspace, where voxels are cubes of the shortest spacing.
         whole = 4 / 3 * np.pi * radius ** 3 * np.prod(SPACING / SPACING.min())

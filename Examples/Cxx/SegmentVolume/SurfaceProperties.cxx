@@ -134,6 +134,12 @@ std::vector<PropertyOption> MakeProperties()
       FreezeMotionlessVertices, false, "no-freeze", "compute vertices at rest too (slower)"),
     SURFACE_SWITCH(SnapToIsoValue, false, "no-snap",
       "don't move vertices onto the iso-value at the end of a level"),
+    SURFACE_MENU(KeepComponents, "keep",
+      "which components are written: all; the one of the largest area; those at --seeds or "
+      "--attracting-points; or those of --minimum-component-volume; cavities stay with theirs",
+      "all", "largest", "at-points", "large"),
+    SURFACE_NUMBER(MinimumComponentVolume, "minimum-component-volume", "VOLUME",
+      "what a component must enclose to be large, in world units cubed"),
     SURFACE_NUMBER(NumberOfThreads, "threads", "N", "0: all; the result does not depend on it"),
     SURFACE_SWITCH(Profile, true, "profile", "put into --history where the time goes"),
     SURFACE_NUMBER(SnapshotInterval, "snapshot-interval", "N",
