@@ -22,7 +22,6 @@ struct Ray
   int Vertex;
   VectorD Origin;
   bool IsCavity; ///< The component's volume is negative.
-  int Crossings = 0;
 };
 
 /** Whether the face crosses the ray, seen along x. */
@@ -40,8 +39,8 @@ bool Crosses(const Ray& ray, const VectorD& a, const VectorD& b, const VectorD& 
 }
 
 /** Counts the faces that have v as their smallest vertex. `rays` is sorted by Y. */
-void CountCrossings(
-  const SurfaceMesh& mesh, const std::vector<int>& labels, int v, std::vector<Ray>& rays)
+void CountCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int v,
+  const std::vector<Ray>& rays, std::vector<int>& crossings)
 {
   const Ring& ring = mesh.Rings[v];
   for (int i = 0; i < ring.Count; ++i)
@@ -63,7 +62,7 @@ void CountCrossings(
     {
       if (labels[ray->Vertex] != labels[v] && Crosses(*ray, a, b, c))
       {
-        ++ray->Crossings;
+        ++crossings[ray - rays.begin()];
       }
     }
   }
@@ -87,11 +86,11 @@ double SignedVolume(const SurfaceMesh& mesh, const std::vector<int>& vertices)
   return sum / 18.;
 }
 
-void ComponentWatch::Label(SurfaceState& state)
+void ComponentWatch::Label(SurfaceState& state, Executor& executor)
 {
-  // Trees of vertices, each linked to a smaller one, in the place of the labels: one pass through
-  // the rings in the order of memory.
-  const int n = state.Mesh.Size();
+  // Trees of vertices, each linked to a smaller one, in the place of the labels: first within
+  // blocks, side by side, then across their borders.
+  const std::size_t n = state.Mesh.Rings.size();
   std::vector<int>& parent = state.Component;
   const auto root = [&parent](int v)
   {
@@ -102,39 +101,71 @@ void ComponentWatch::Label(SurfaceState& state)
     }
     return v;
   };
-  for (int v = 0; v < n; ++v)
-  {
-    parent[v] = v;
-    int own = v;
-    const Ring& ring = state.Mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
+  constexpr std::size_t size = 16384;
+  this->Borders.resize((n + size - 1) / size);
+  ForBlocks(executor, n, size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      if (ring.Item[i] < v)
+      this->Borders[b].clear();
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        const int other = root(ring.Item[i]);
-        parent[std::max(own, other)] = std::min(own, other);
-        own = std::min(own, other);
+        parent[v] = v;
+        int own = v;
+        const Ring& ring = state.Mesh.Rings[v];
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          const int w = ring.Item[i];
+          if (w < static_cast<int>(begin))
+          {
+            this->Borders[b].emplace_back(v, w);
+          }
+          else if (w < v)
+          {
+            const int other = root(w);
+            parent[std::max(own, other)] = std::min(own, other);
+            own = std::min(own, other);
+          }
+        }
       }
+    });
+  for (const auto& border : this->Borders)
+  {
+    for (const auto& edge : border)
+    {
+      const int a = root(edge.first);
+      const int b = root(edge.second);
+      parent[std::max(a, b)] = std::min(a, b);
     }
   }
+  this->Roots.resize(n);
+  executor.For(n, 4096,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        int at = parent[v];
+        while (parent[at] != at)
+        {
+          at = parent[at];
+        }
+        this->Roots[v] = at;
+      }
+    });
   this->Sizes.clear();
-  for (int v = 0; v < n; ++v)
+  for (int v = 0; v < static_cast<int>(n); ++v)
   {
-    // Parents are smaller, so they bear their label already.
+    // Roots are the smallest of their component, so they bear their label already.
     if (!state.Mesh.IsAlive(v))
     {
       parent[v] = -1;
       continue;
     }
-    if (parent[v] == v)
+    if (this->Roots[v] == v)
     {
       parent[v] = static_cast<int>(this->Sizes.size());
       this->Sizes.push_back(0);
     }
-    else
-    {
-      parent[v] = parent[parent[v]];
-    }
+    parent[v] = parent[this->Roots[v]];
     ++this->Sizes[parent[v]];
   }
   this->Components = static_cast<int>(this->Sizes.size());
@@ -154,7 +185,7 @@ void ComponentWatch::Label(SurfaceState& state)
   {
     return;
   }
-  for (int v = 0; v < n; ++v)
+  for (int v = 0; v < static_cast<int>(n); ++v)
   {
     const int place = parent[v] >= 0 ? this->Sizes[parent[v]] : -1;
     if (place >= 0)
@@ -235,9 +266,9 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
   return deleted;
 }
 
-bool ComponentWatch::DeleteInsideOut(SurfaceState& state)
+bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
-  this->Label(state);
+  this->Label(state, executor);
   if (this->Components < 2)
   {
     return false;
@@ -278,25 +309,37 @@ bool ComponentWatch::DeleteInsideOut(SurfaceState& state)
   }
   std::sort(rays.begin(), rays.end(),
     [](const Ray& a, const Ray& b) { return a.Origin.Y < b.Origin.Y; });
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (mesh.IsAlive(v))
+  constexpr std::size_t size = 8192;
+  std::vector<std::vector<int>> crossings((mesh.Rings.size() + size - 1) / size);
+  ForBlocks(executor, mesh.Rings.size(), size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      CountCrossings(mesh, state.Component, v, rays);
-    }
-  }
+      crossings[b].assign(rays.size(), 0);
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (mesh.IsAlive(static_cast<int>(v)))
+        {
+          CountCrossings(mesh, state.Component, static_cast<int>(v), rays, crossings[b]);
+        }
+      }
+    });
   bool deleted = false;
-  for (const Ray& ray : rays)
+  for (std::size_t i = 0; i < rays.size(); ++i)
   {
-    if ((ray.Crossings % 2 == 1) != ray.IsCavity)
+    int sum = 0;
+    for (const std::vector<int>& block : crossings)
     {
-      state.RemoveComponent(ray.Vertex);
+      sum += block[i];
+    }
+    if ((sum % 2 == 1) != rays[i].IsCavity)
+    {
+      state.RemoveComponent(rays[i].Vertex);
       deleted = true;
     }
   }
   if (deleted)
   {
-    this->Label(state);
+    this->Label(state, executor);
   }
   return deleted;
 }

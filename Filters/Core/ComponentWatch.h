@@ -5,6 +5,7 @@
 
 #include "SurfaceState.h"
 
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -18,7 +19,7 @@ class ComponentWatch
 {
 public:
   /** Labels components afresh, by their smallest vertex. Call after merges and cuts. */
-  void Label(SurfaceState& state);
+  void Label(SurfaceState& state, Executor& executor);
 
   /** Deletes what must go; labels must be fresh. @return whether anything was deleted. */
   bool DeleteDoomed(SurfaceState& state);
@@ -29,7 +30,7 @@ public:
    * grow without limit. Rays along x are counted: O(n + pairs of ray and triangle that overlap).
    * @return whether anything was deleted (labels are fresh then).
    */
-  bool DeleteInsideOut(SurfaceState& state);
+  bool DeleteInsideOut(SurfaceState& state, Executor& executor);
 
   int NumberOfComponents() const { return this->Components; }
 
@@ -43,6 +44,8 @@ private:
   std::vector<Small> Smalls;
   std::vector<int> Stack;
   std::vector<int> Sizes;
+  std::vector<int> Roots;
+  std::vector<std::vector<std::pair<int, int>>> Borders;
   int Components = 0;
 };
 

@@ -279,33 +279,59 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
   }
 }
 
-void Dynamics::Freeze(SurfaceState& state, const std::vector<int>& awake)
+void Dynamics::Freeze(
+  SurfaceState& state, const std::vector<int>& awake, const std::vector<int>& working)
 {
   const float visible = Visible * state.Delta;
   const float slide = Slide * state.Delta;
+  this->HasMoved.resize(state.Mesh.Rings.size(), 0);
+  this->Threads.For(awake.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = awake[i];
+        if (!state.Mesh.IsAlive(v))
+        {
+          continue;
+        }
+        // Along the normal: sliding along the surface changes nothing, and is left to the end.
+        const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
+        if (std::abs(Dot(moved, state.Normal[v])) > visible ||
+          SquaredLength(moved) > slide * slide)
+        {
+          state.Anchor[v] = state.Mesh.Position[v];
+          this->HasMoved[v] = 1;
+        }
+      }
+    });
+  this->Threads.For(working.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = working[i];
+        const Ring& ring = state.Mesh.Rings[v];
+        bool moved = this->HasMoved[v];
+        for (int k = 0; k < ring.Count && !moved; ++k)
+        {
+          moved = this->HasMoved[ring.Item[k]];
+        }
+        if (moved)
+        {
+          state.Wake(v);
+        }
+        else if (this->Options.FreezeMotionlessVertices && state.Awake[v] &&
+          ++state.Quiet[v] >= Patience)
+        {
+          state.Awake[v] = 0;
+          state.Velocity[v] = Vector();
+        }
+      }
+    });
   for (int v : awake)
   {
-    if (!state.Mesh.IsAlive(v))
-    {
-      continue;
-    }
-    // Along the normal: sliding along the surface changes nothing, and is left to the end.
-    const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
-    if (std::abs(Dot(moved, state.Normal[v])) > visible || SquaredLength(moved) > slide * slide)
-    {
-      state.Anchor[v] = state.Mesh.Position[v];
-      state.Wake(v);
-      const Ring& ring = state.Mesh.Rings[v];
-      for (int i = 0; i < ring.Count; ++i)
-      {
-        state.Wake(ring.Item[i]);
-      }
-    }
-    else if (this->Options.FreezeMotionlessVertices && ++state.Quiet[v] >= Patience)
-    {
-      state.Awake[v] = 0;
-      state.Velocity[v] = Vector();
-    }
+    this->HasMoved[v] = 0;
   }
 }
 }

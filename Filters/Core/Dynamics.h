@@ -10,6 +10,7 @@
 #include "SurfaceState.h"
 
 #include <memory>
+#include <cstdint>
 #include <vector>
 
 namespace volumic
@@ -56,8 +57,12 @@ public:
   /** Displaces them; the place before is kept in SurfaceState::Before. */
   void Displace(SurfaceState& state, const std::vector<int>& awake);
 
-  /** After roll back: puts vertices at rest to sleep and wakes the neighbours of moved ones. */
-  void Freeze(SurfaceState& state, const std::vector<int>& awake);
+  /**
+   * After roll back: puts vertices at rest to sleep and wakes the neighbours of moved ones.
+   * `working` holds the awake vertices and all their neighbours.
+   */
+  void Freeze(
+    SurfaceState& state, const std::vector<int>& awake, const std::vector<int>& working);
 
   /** Of the last step. */
   double TimeStep() const { return this->Step; }
@@ -78,6 +83,7 @@ private:
   std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
   float Step = 0;
   std::vector<Vector> Force;
+  std::vector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.
   std::vector<float> Fastest;
   struct Group
   {

@@ -64,6 +64,7 @@ struct SurfaceEvolution::Implementation
   void Reset();
   void Recover();
   void LayGrid();
+  void SplitLongEdges();
   void DivideOnce();
   void Adapt();
   void WakeAll();

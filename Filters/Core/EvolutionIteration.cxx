@@ -243,13 +243,20 @@ void SurfaceEvolution::Implementation::Iterate(
   this->RollBack();
   if (!relax)
   {
-    dynamics.Freeze(s, this->Awake);
+    dynamics.Freeze(s, this->Awake, this->Working);
   }
   watch.Lap(Phase::Verification);
 
   if (!relax)
   {
     remesher.Merge(this->Near.Pairs());
+    // Rungs of a merge's band may be longer than eq. (1) allows.
+    std::vector<int> bands = s.Touched;
+    for (int v : bands)
+    {
+      s.Wants[v] |= SurfaceState::Shorter;
+    }
+    remesher.Split(bands);
   }
   watch.Lap(Phase::Topology);
   remesher.Collapse(this->Working);
@@ -262,6 +269,10 @@ void SurfaceEvolution::Implementation::Iterate(
       --s.Stuck[v];
     }
   }
+  // What was rolled back, or drawn back from a cut, may have made edges too long.
+  this->Working.insert(this->Working.end(), s.Touched.begin(), s.Touched.end());
+  this->UpdateTouched();
+  remesher.Split(this->Working);
   this->UpdateTouched();
   watch.Lap(Phase::Remeshing);
 
@@ -272,7 +283,7 @@ void SurfaceEvolution::Implementation::Iterate(
   // cavity it was: labels are made afresh before anything is deleted.
   if (s.Counts.Merges + s.Counts.Cuts > 0 || this->Shrunk > suspicious)
   {
-    this->Watch.Label(s);
+    this->Watch.Label(s, this->Threads);
     this->Shrunk = 0;
   }
   this->Watch.DeleteDoomed(s);
@@ -280,7 +291,7 @@ void SurfaceEvolution::Implementation::Iterate(
   constexpr int period = 10;
   if (this->LastIterations % period == 0 && this->Unchecked > 0)
   {
-    this->Watch.DeleteInsideOut(s); // Only a cut can give birth to one.
+    this->Watch.DeleteInsideOut(s, this->Threads); // Only a cut can give birth to one.
     this->Unchecked = 0;
   }
   watch.Lap(Phase::Topology);

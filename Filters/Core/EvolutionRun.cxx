@@ -141,12 +141,12 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   const auto start = std::chrono::steady_clock::now();
   const int cuts = s.Counts.Cuts;
   SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
-    this->Options.TopologyChanges)
+    this->Options.TopologyChanges, this->Threads)
     .Run();
   this->UpdateTouched();
   if (s.Counts.Cuts > cuts)
   {
-    this->Watch.Label(s);
+    this->Watch.Label(s, this->Threads);
     this->Watch.DeleteDoomed(s);
   }
   row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -23,14 +23,19 @@ void SurfaceEvolution::Implementation::Reset()
   SurfaceState& s = this->State;
   s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
   this->LayGrid();
+  this->SplitLongEdges();
+  this->Near.Examine(s, this->Awake, this->Threads);
+  this->Watch.Label(s, this->Threads);
+}
+
+void SurfaceEvolution::Implementation::SplitLongEdges()
+{
+  // Verification relies on it that no edge is longer than the constraints allow.
+  SurfaceState& s = this->State;
   this->CollectAwake();
   s.UpdateShape(this->Awake, this->Threads);
-  // Verification relies on it that no edge is longer than the constraints allow.
   Remesher(s, nullptr, false).Split(this->Awake);
-  s.Touched.clear();
-  s.UpdateShape(this->Awake, this->Threads);
-  this->Near.Examine(s, this->Awake, this->Threads);
-  this->Watch.Label(s);
+  this->UpdateTouched();
 }
 
 void SurfaceEvolution::Implementation::LayGrid()
@@ -139,11 +144,9 @@ void SurfaceEvolution::Implementation::Recover()
   SurfaceState& s = this->State;
   const LostPartCover lost = FindLostParts(s, *this->TheField, this->Options.MinimumPartSize);
   this->LastLost = { lost.Found, this->Options.RecoverLostParts ? lost.Covered : 0 };
-  if (lost.Covered == 0 || !this->Options.RecoverLostParts)
+  if (lost.Covered > 0 && this->Options.RecoverLostParts)
   {
-    return;
+    s.Mesh.Append(lost.Surface);
   }
-  s.Mesh.Append(lost.Surface);
-  this->Reset();
 }
 }

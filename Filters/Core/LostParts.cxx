@@ -223,10 +223,10 @@ std::vector<std::vector<int>> Search::Parts()
 }
 
 /**
- * Edge length of the cells, in delta. Edges are then 1.6 and 2.26 delta long, within eq. (1), and
- * corners that no edge joins keep 1.6 delta, over lambda.
+ * Edge length of the cells, in delta. Edges are then 1.7 and 2.4 delta long, within eq. (1), and
+ * corners that no edge joins keep 1.7 delta, over lambda.
  */
-constexpr double CellEdge = 1.6;
+constexpr double CellEdge = 1.7;
 
 /** Whether no triangle of the surface can reach the cell. */
 bool KeepsClear(

@@ -398,13 +398,20 @@ bool NewFacesMeet(
     high = Maximum(high, bounds.back().High);
   }
   const float room = SomeRoom * state.Delta;
-  const Vector centre = (low + high) * 0.5f;
-  const float radius = 0.5f * Length(high - low) + constraint::Reach * state.Delta;
+  // A face that meets one of the new ones has a corner this near to the box of those.
+  const float reach = constraint::Reach * state.Delta;
+  const Vector margin(reach, reach, reach);
+  const Vector lowVisited = low - margin;
+  const Vector highVisited = high + margin;
   const SurfaceMesh& mesh = state.Mesh;
   const auto isVisited = [&](int w)
-  { return SquaredDistance(centre, mesh.Position[w]) <= radius * radius; };
+  {
+    const Vector& p = mesh.Position[w];
+    return p.X >= lowVisited.X && p.X <= highVisited.X && p.Y >= lowVisited.Y &&
+      p.Y <= highVisited.Y && p.Z >= lowVisited.Z && p.Z <= highVisited.Z;
+  };
   bool meets = false;
-  state.Grid.Visit(centre, radius,
+  state.Grid.VisitBox(lowVisited, highVisited,
     [&](int w)
     {
       if (meets || !isVisited(w))
@@ -417,13 +424,16 @@ bool NewFacesMeet(
       {
         const int u = ring.Item[i];
         const int v = ring.Next(i);
+        // A face is tested from the smallest of its corners that are visited.
+        if ((u < w && isVisited(u)) || (v < w && isVisited(v)))
+        {
+          continue;
+        }
         const Vector& q = mesh.Position[u];
         const Vector& r = mesh.Position[v];
         const Vector lowest = Minimum(p, Minimum(q, r));
         const Vector highest = Maximum(p, Maximum(q, r));
-        // A face is tested from the smallest of its corners that are visited.
-        if (Apart(lowest, highest, low, high) || (u < w && isVisited(u)) ||
-          (v < w && isVisited(v)) || gone.Contains({ w, u, v }))
+        if (Apart(lowest, highest, low, high) || gone.Contains({ w, u, v }))
         {
           continue;
         }

@@ -127,8 +127,13 @@ void SurfaceEvolution::Divide(const LevelImage& image, int level)
   {
     self.DivideOnce();
   }
-  self.Reset();
+  if (divisions < 1)
+  {
+    self.LayGrid();
+  }
+  self.SplitLongEdges();
   self.Recover();
+  self.Reset();
 }
 
 SurfaceResult SurfaceEvolution::Result() const

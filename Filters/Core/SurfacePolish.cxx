@@ -232,6 +232,7 @@ bool SurfacePolish::Slide(int v)
   s.UpdateShape(v);
   const Vector p = s.Mesh.Position[v];
   const float before = this->StarScore(v, p);
+  const bool bad = before < Bad;
   Vector n = s.Normal[v];
   n.Unused = 0;
   const Vector across = std::abs(n.X) < 0.6f ? Vector(1, 0, 0) : Vector(0, 1, 0);
@@ -245,12 +246,16 @@ bool SurfacePolish::Slide(int v)
     {
       static const float cosine[8] = { 1, 0.70710678f, 0, -0.70710678f, -1, -0.70710678f, 0,
         0.70710678f };
-      const Vector x =
-        p + (first * cosine[k] + second * cosine[(k + 6) % 8]) * (step * s.Delta);
-      const float score = this->StarScore(v, x);
-      if (score > best.Score)
+      const Vector slide = first * cosine[k] + second * cosine[(k + 6) % 8];
+      // A bad star in a crease has no plane to slide in.
+      for (int lift = bad ? -1 : 0; lift <= (bad ? 1 : 0); ++lift)
       {
-        best = { score, x };
+        const Vector x = p + (slide + n * static_cast<float>(lift)) * (step * s.Delta);
+        const float score = this->StarScore(v, x);
+        if (score > best.Score)
+        {
+          best = { score, x };
+        }
       }
     }
     if (best.Score > before + Gain)
@@ -262,9 +267,9 @@ bool SurfacePolish::Slide(int v)
     [](const Candidate& a, const Candidate& b) { return a.Score > b.Score; });
   for (const Candidate& candidate : this->Candidates)
   {
-    const Vector place = this->Snapped(v, candidate.Position);
+    const Vector place = bad ? candidate.Position : this->Snapped(v, candidate.Position);
     if (this->StarScore(v, place) > before + Gain &&
-      (before < 0 || !(this->Strays(v, place) || this->Approaches(v, place))) &&
+      (bad || !(this->Strays(v, place) || this->Approaches(v, place))) &&
       this->Editor.Move(v, place, SurfaceEditor::Care::Smooth))
     {
       return true;
@@ -328,9 +333,9 @@ bool SurfacePolish::Approaches(int v, const Vector& position) const
   return approaches;
 }
 
-bool SurfacePolish::Separate(int v)
+Vector SurfacePolish::PushAt(int v) const
 {
-  SurfaceState& s = this->State;
+  const SurfaceState& s = this->State;
   const float near = (1 + Margin) * constraint::NearestOthers * s.Delta;
   const Vector p = s.Mesh.Position[v];
   Vector push;
@@ -345,6 +350,14 @@ bool SurfacePolish::Separate(int v)
       }
     });
   push.Unused = 0;
+  return push;
+}
+
+bool SurfacePolish::Separate(int v)
+{
+  SurfaceState& s = this->State;
+  const Vector p = s.Mesh.Position[v];
+  Vector push = this->PushAt(v);
   const float length = Length(push);
   if (length <= 1e-3f * Margin * s.Delta)
   {
@@ -377,9 +390,21 @@ void SurfacePolish::SeparateAll()
   }
   for (int round = 0; round < SeparatingRounds; ++round)
   {
-    for (int v : crowded)
+    this->Scores.assign(crowded.size(), 0.f);
+    this->Threads.For(crowded.size(), 256,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->Scores[i] = SquaredLength(this->PushAt(crowded[i]));
+        }
+      });
+    for (std::size_t i = 0; i < crowded.size(); ++i)
     {
-      this->Separate(v);
+      if (this->Scores[i] > 0)
+      {
+        this->Separate(crowded[i]);
+      }
     }
   }
 }
@@ -400,10 +425,23 @@ void SurfacePolish::ImproveAll(float good)
   {
     const std::size_t edited = s.Touched.size();
     left.clear();
-    for (int v : list)
+    const auto score = [&s, this](int v)
+    { return s.Mesh.IsAlive(v) ? this->StarScore(v, s.Mesh.Position[v]) : 1.f; };
+    this->Scores.resize(list.size());
+    this->Threads.For(list.size(), 1024,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->Scores[i] = score(list[i]);
+        }
+      });
+    for (std::size_t i = 0; i < list.size(); ++i)
     {
-      const float score = s.Mesh.IsAlive(v) ? this->StarScore(v, s.Mesh.Position[v]) : 1.f;
-      if (score < good && !this->Improve(v) && score < Bad)
+      const int v = list[i];
+      // An edit beside it may have changed what was found.
+      const float now = this->Scores[i] < good ? score(v) : 1.f;
+      if (now < good && !this->Improve(v) && now < Bad)
       {
         left.push_back(v); // What is edited next to it may help.
       }

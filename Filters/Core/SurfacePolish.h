@@ -20,15 +20,18 @@ namespace volumic
  *
  * Every edit is one of SurfaceEditor's, verified, so the mesh stays manifold and free of
  * intersections; one is made only where the worst of the faces concerned gets better, so it ends.
- * Sequential, in order of index: the same for any executor.
+ * What needs an edit is looked for on all threads, edits are made one after the other in order of
+ * index: the same for any executor.
  */
 class SurfacePolish
 {
 public:
   /** `snapTo` (may be null): vertices that slide are led back onto its isopotential. */
-  SurfacePolish(SurfaceState& state, const Field* snapTo, bool topologyChanges)
+  SurfacePolish(
+    SurfaceState& state, const Field* snapTo, bool topologyChanges, Executor& executor)
     : State(state)
     , Editor(state)
+    , Threads(executor)
     , SnapTo(snapTo)
     , TopologyChanges(topologyChanges)
   {
@@ -50,6 +53,7 @@ private:
   bool AreStrangers(int v, int w) const;
   bool Approaches(int v, const Vector& position) const;
   bool Slide(int v);
+  Vector PushAt(int v) const;
   bool Separate(int v);
   bool Improve(int v);
   void SeparateAll();
@@ -63,9 +67,11 @@ private:
 
   SurfaceState& State;
   SurfaceEditor Editor;
+  Executor& Threads;
   const Field* SnapTo;
   bool TopologyChanges;
   bool MayCut = false;
+  std::vector<float> Scores;
   std::vector<Candidate> Candidates;
 };
 }

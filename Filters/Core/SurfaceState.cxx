@@ -158,7 +158,7 @@ void SurfaceState::UpdateShape(int v)
   }
   pull.Unused = area * (1.f / 6.f);
   this->Pull[v] = pull;
-  spring.Unused = std::sqrt(std::max(0.f, 1 - cone * cone));
+  spring.Unused = 0;
   this->Spring[v] = spring;
   this->Wants[v] = wants;
 }

@@ -8,6 +8,7 @@
 #include "VertexGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -55,7 +56,7 @@ public:
   std::vector<Vector> Velocity;
   std::vector<Vector> Normal;  ///< Unit; the fourth lane holds the cosine of the cone, see Shape.
   std::vector<Vector> Pull;    ///< Barycentre of the neighbours minus position; fourth lane: area.
-  std::vector<Vector> Spring;  ///< Sum of the springs' pulls; fourth lane: sine of the cone.
+  std::vector<Vector> Spring;  ///< Sum of the springs' pulls.
   std::vector<Vector> Before;  ///< Position before the last displacement: free of intersections.
   std::vector<Vector> Anchor;  ///< Where it was when last it had moved visibly.
   std::vector<float> Value;    ///< Field at the vertex, when last evaluated.
@@ -119,8 +120,8 @@ public:
     const Vector& m = this->Normal[w];
     const float cv = n.Unused;
     const float cw = m.Unused;
-    const float sv = this->Spring[v].Unused;
-    const float sw = this->Spring[w].Unused;
+    const float sv = std::sqrt(std::max(0.f, 1 - cv * cv));
+    const float sw = std::sqrt(std::max(0.f, 1 - cw * cw));
     const float cosine = cv * cw - sv * sw; // of the sum of the two cones' angles
     const float sine = sv * cw + cv * sw;
     // Opposed if the angle between the normals and both cones add up to over 150 degrees.

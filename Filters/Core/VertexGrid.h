@@ -41,12 +41,20 @@ public:
   template <typename Visitor>
   void Visit(const Vector& position, float radius, Visitor&& visit) const
   {
-    const int x0 = this->Along(position.X - radius, 0);
-    const int x1 = this->Along(position.X + radius, 0);
-    const int y0 = this->Along(position.Y - radius, 1);
-    const int y1 = this->Along(position.Y + radius, 1);
-    const int z0 = this->Along(position.Z - radius, 2);
-    const int z1 = this->Along(position.Z + radius, 2);
+    const Vector margin(radius, radius, radius);
+    this->VisitBox(position - margin, position + margin, visit);
+  }
+
+  /** Calls visit(w) for a superset of the vertices in a box. */
+  template <typename Visitor>
+  void VisitBox(const Vector& low, const Vector& high, Visitor&& visit) const
+  {
+    const int x0 = this->Along(low.X, 0);
+    const int x1 = this->Along(high.X, 0);
+    const int y0 = this->Along(low.Y, 1);
+    const int y1 = this->Along(high.Y, 1);
+    const int z0 = this->Along(low.Z, 2);
+    const int z1 = this->Along(high.Z, 2);
     for (int z = z0; z <= z1; ++z)
     {
       for (int y = y0; y <= y1; ++y)

@@ -43,8 +43,9 @@ TEST(ComponentWatch, CountsComponents)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 0, 0, 0 }, 5, true), Ball({ 30, 0, 0 }, 5) });
+  SequentialExecutor executor;
   ComponentWatch watch;
-  watch.Label(state);
+  watch.Label(state, executor);
   EXPECT_EQ(watch.NumberOfComponents(), 3);
 }
 
@@ -54,8 +55,9 @@ TEST(ComponentWatch, KeepsCavitiesInsideAndIslandsInThem)
   Fill(state,
     { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10, true), Ball({ 1, 0, 0 }, 4),
       Ball({ 30, 0, 0 }, 5) });
+  SequentialExecutor executor;
   ComponentWatch watch;
-  EXPECT_FALSE(watch.DeleteInsideOut(state));
+  EXPECT_FALSE(watch.DeleteInsideOut(state, executor));
   EXPECT_EQ(watch.NumberOfComponents(), 4);
 }
 
@@ -64,8 +66,9 @@ TEST(ComponentWatch, DeletesACavityInTheOpen)
   SurfaceState state;
   const IndexedSurface ball = Ball({ 0, 0, 0 }, 10);
   Fill(state, { ball, Ball({ 20, 0, 0 }, 3, true), Ball({ -20, 3, 1 }, 3, true) });
+  SequentialExecutor executor;
   ComponentWatch watch;
-  EXPECT_TRUE(watch.DeleteInsideOut(state));
+  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
   EXPECT_EQ(watch.NumberOfComponents(), 1);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(ball.Points.size()));
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
@@ -75,7 +78,8 @@ TEST(ComponentWatch, DeletesAnIslandWithinTheObject)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 2, 1, 3 }, 4) });
+  SequentialExecutor executor;
   ComponentWatch watch;
-  EXPECT_TRUE(watch.DeleteInsideOut(state));
+  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
   EXPECT_EQ(watch.NumberOfComponents(), 1);
 }

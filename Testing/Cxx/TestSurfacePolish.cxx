@@ -78,7 +78,8 @@ TEST(SurfacePolish, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
     const Shape before = ShapeOf(state);
     ASSERT_GT(before.EdgesOutside, 10);
     ASSERT_LT(before.WorstRatio, 0.5);
-    SurfacePolish(state, nullptr, false).Run();
+    SequentialExecutor executor;
+    SurfacePolish(state, nullptr, false, executor).Run();
     const Shape after = ShapeOf(state);
     EXPECT_EQ(after.EdgesOutside, 0);
     EXPECT_GT(after.WorstRatio, 0.5);
@@ -115,7 +116,8 @@ TEST(SurfacePolish, PushesStrangersApart)
     return least;
   };
   ASSERT_LT(nearest(), 1.2);
-  SurfacePolish(state, nullptr, false).Run();
+  SequentialExecutor executor;
+  SurfacePolish(state, nullptr, false, executor).Run();
   EXPECT_GT(nearest(), 1.42); // lambda = 1.443
   EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), 4);
