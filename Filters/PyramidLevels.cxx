@@ -162,7 +162,12 @@ std::array<int, 3> PyramidLevels::SizeOfLevel0() const
 
 double PyramidLevels::UnitInWorld(int level) const
 {
-  return this->Units[level] * this->Space.WorldUnit();
+  return this->UnitOf(level) * this->Space.WorldUnit();
+}
+
+double PyramidLevels::UnitOf(int level) const
+{
+  return level < 0 ? this->Units[0] / std::sqrt(3.0) : this->Units[level];
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const
@@ -172,8 +177,9 @@ std::array<double, 2> PyramidLevels::Range(int level) const
   return range;
 }
 
-LevelImage PyramidLevels::Load(int level, Executor& executor)
+LevelImage PyramidLevels::Load(int wanted, Executor& executor)
 {
+  const int level = std::max(wanted, 0);
   vtkImageData* image = this->Images[level];
   const std::string name = "level " + std::to_string(level);
   CheckSize(image, name, "Set CoarsestLevel to a finer level.");
@@ -220,7 +226,7 @@ LevelImage PyramidLevels::Load(int level, Executor& executor)
     loaded.Step[axis] =
       static_cast<double>(this->Images[0]->GetDimensions()[axis]) / loaded.Size[axis];
   }
-  loaded.Unit = this->Units[level];
+  loaded.Unit = this->UnitOf(wanted);
   return loaded;
 }
 }

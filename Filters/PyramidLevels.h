@@ -46,14 +46,14 @@ public:
   /// Voxels of the finest level along each axis.
   std::array<int, 3> SizeOfLevel0() const;
 
-  /// U_h in world units.
+  /// U_h in world units. Level -1, finer than the image, has U_0 / sqrt 3.
   double UnitInWorld(int level) const;
 
   /// Smallest and largest voxel of a level.
   std::array<double, 2> Range(int level) const;
 
   /**
-   * The voxels of a level as float; they stay valid until the next call. Float voxels are shared,
+   * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call. Float voxels are shared,
    * others converted.
    * @throws if the level is under MinimumSize along an axis, or has voxels that are not finite
    *         or too large for single precision.
@@ -61,6 +61,8 @@ public:
   LevelImage Load(int level, Executor& executor);
 
 private:
+  double UnitOf(int level) const;
+
   std::vector<vtkImageData*> Images;
   std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
   std::vector<double> Units; ///< workspace

@@ -194,11 +194,16 @@ void SurfaceSegmentation::ChooseLevels()
     Refuse("CoarsestLevel is ", this->Settings.CoarsestLevel,
       ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
   }
-  if (this->LastLevel < 0 || this->LastLevel > this->Coarsest)
+  if (this->LastLevel < -1 || this->LastLevel > this->Coarsest)
   {
     Refuse("FinestLevel is ", this->LastLevel, "; it must lie between 0 and the coarsest level, ",
-      this->Coarsest, ".");
+      this->Coarsest, ", or be -1 for a last division beyond the image.");
   }
+}
+
+unsigned int SurfaceSegmentation::BlockOf(int level) const
+{
+  return static_cast<unsigned int>(level < 0 ? this->Pyramid.NumberOfLevels() : level);
 }
 
 void SurfaceSegmentation::CheckIsoValue()
@@ -315,7 +320,7 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     this->Settings.Warn(Join("Level ", level, ": KeepComponents leaves none of the components."));
   }
   this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
-  this->Blocks->SetBlock(level, this->Finest);
+  this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
   this->Table =
     MakeHistory(evolution.History(), this->Pyramid.GetWorkspace(), this->Settings.Profile);
   if (reason == StopReason::Vanished)
@@ -331,11 +336,11 @@ void SurfaceSegmentation::Run()
 {
   this->ChooseLevels();
   this->CheckIsoValue();
-  for (int level = 0; level < this->Pyramid.NumberOfLevels(); ++level)
+  for (int level = std::min(this->LastLevel, 0); level < this->Pyramid.NumberOfLevels(); ++level)
   {
-    this->Blocks->SetBlock(level, nullptr);
-    this->Blocks->GetMetaData(level)->Set(
-      vtkCompositeDataSet::NAME(), Join("Level ", level).c_str());
+    this->Blocks->SetBlock(this->BlockOf(level), nullptr);
+    this->Blocks->GetMetaData(this->BlockOf(level))
+      ->Set(vtkCompositeDataSet::NAME(), Join("Level ", level).c_str());
   }
 
   HostThreads threads(this->Settings.NumberOfThreads);

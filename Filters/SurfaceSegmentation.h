@@ -73,6 +73,7 @@ public:
 
 private:
   void ChooseLevels();
+  unsigned int BlockOf(int level) const;
   void ReadComponentChoice();
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
   LevelImage Load(int level, Executor& threads);

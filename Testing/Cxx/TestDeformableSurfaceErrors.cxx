@@ -238,6 +238,8 @@ TEST_F(DeformableSurfaceErrors, LevelsThatThereAreNot)
   this->Filter->SetCoarsestLevel(1);
   this->Filter->SetFinestLevel(2);
   this->ExpectError({ "FinestLevel is 2", "between 0 and the coarsest level, 1" });
+  this->Filter->SetFinestLevel(-2);
+  this->ExpectError({ "FinestLevel is -2", "or be -1 for a last division" });
 }
 
 TEST_F(DeformableSurfaceErrors, NumbersOutsideTheirRange)
