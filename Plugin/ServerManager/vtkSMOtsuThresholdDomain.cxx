@@ -4,6 +4,7 @@
 
 #include <vtkMath.h>
 #include <vtkObjectFactory.h>
+#include <vtkPVDataInformation.h>
 #include <vtkSMInputProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSessionProxyManager.h>
@@ -30,7 +31,8 @@ double vtkSMOtsuThresholdDomain::ComputeThreshold()
   }
   vtkSMUncheckedPropertyHelper source(input);
   vtkSMUncheckedPropertyHelper chosen(selection);
-  vtkSMProxy* producer = source.GetNumberOfElements() > 0 ? source.GetAsProxy() : nullptr;
+  auto* producer = vtkSMSourceProxy::SafeDownCast(
+    source.GetNumberOfElements() > 0 ? source.GetAsProxy() : nullptr);
   // Before the data is known there is no array to choose.
   if (!producer || chosen.GetNumberOfElements() < 5 || !*chosen.GetAsString(4))
   {
@@ -51,7 +53,16 @@ double vtkSMOtsuThresholdDomain::ComputeThreshold()
     array.Set(i, chosen.GetAsString(i));
   }
   filter->UpdateVTKObjects();
-  filter->UpdatePipeline();
+  // At the time that is shown, so that nothing before has to run again.
+  vtkPVDataInformation* data = producer->GetDataInformation(source.GetOutputPort());
+  if (data && data->GetHasTime())
+  {
+    filter->UpdatePipeline(data->GetTime());
+  }
+  else
+  {
+    filter->UpdatePipeline();
+  }
   filter->UpdatePropertyInformation();
   return vtkSMPropertyHelper(filter, "Threshold").GetAsDouble();
 }
