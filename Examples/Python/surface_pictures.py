@@ -38,10 +38,11 @@ def plural(count, noun):
 
 
 def visited_levels(levels):
-    """(number, surface) of the blocks that hold a surface, coarsest first."""
-    blocks = [(h, levels.GetBlock(h)) for h in range(levels.GetNumberOfBlocks())]
-    return [(h, block) for h, block in blocks[::-1]
-            if block is not None and block.GetNumberOfPolys() > 0]
+    """(number, surface) of the blocks that hold a surface, coarsest first; the last may be -1."""
+    blocks = [levels.GetBlock(b) for b in range(levels.GetNumberOfBlocks())]
+    visited = [(int(field_value(block, "Level")), block) for block in blocks
+               if block is not None and block.GetNumberOfPolys() > 0]
+    return sorted(visited, key=lambda entry: -entry[0])
 
 
 def levels_picture(levels, frame, title):
