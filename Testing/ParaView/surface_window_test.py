@@ -68,7 +68,12 @@ class SurfaceWindowTest(window.WindowTestCase):
             # Only of use for seeds.
             window.shown("SeedRadius", False),
             gui.event(f"{PROPERTIES}/Initialization/ComboBox", "set_string", "Seeds"),
-            window.shown("SeedRadius", True)], "surface-advanced")
+            window.shown("SeedRadius", True),
+            # Only of use if edges attract.
+            window.shown("EdgeMap", False),
+            gui.event(f"{PROPERTIES}/EdgeAttractionWeight/DoubleRangeWidget/DoubleLineEdit",
+                      "set_string", "2"), gui.pause(300),
+            window.shown("EdgeMap", True)], "surface-advanced")
 
     def test_after_image_pyramid(self):
         path, save = self.saved_state("pyramid-and-surface.pvsm")
