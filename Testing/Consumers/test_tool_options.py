@@ -163,6 +163,15 @@ class RunTest(ToolTestCase):
                       "--levels", "2")
         self.assertEqual(sorted(os.listdir(self.path("levels"))), ["level-0.vtp", "level-1.vtp"])
 
+    def test_level_finer_than_the_image(self):
+        report = self.report(self.ball_file(), "--iso", ISO, "--levels", "2", "--finest", "-1",
+                             "--levels-output", self.path("levels"))
+        self.assertEqual([level["level"] for level in report["levels"]], [1, 0, -1])
+        self.assertGreater(report["vertices"], 2 * report["levels"][1]["vertices"])
+        self.assertTrue(all(level["seconds"] > 0 for level in report["levels"]))
+        self.assertEqual(sorted(os.listdir(self.path("levels"))),
+                         ["level--1.vtp", "level-0.vtp", "level-1.vtp"])
+
     def test_iso_value_by_otsu_is_told(self):
         process = self.run_tool(self.ball_file(), self.path("a.vtp"))
         told = re.search(r"iso-value ([0-9.]+) by Otsu", process.stderr)

@@ -17,6 +17,8 @@
 #include <vtkVersion.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 namespace tool
 {
@@ -101,20 +103,27 @@ double LevelSeconds(vtkTable* history, double level)
   return sum;
 }
 
+/// From the coarsest level to the finest.
 void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* history)
 {
-  json.Name("levels");
-  json.BeginArray();
-  for (int h = static_cast<int>(levels->GetNumberOfBlocks()) - 1; h >= 0; --h)
+  std::map<double, vtkPolyData*, std::greater<double>> surfaces;
+  for (unsigned int block = 0; block < levels->GetNumberOfBlocks(); ++block)
   {
-    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
+    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(block));
     if (surface && surface->GetNumberOfPoints() > 0)
     {
-      json.BeginObject();
-      WriteSurfaceFacts(json, surface);
-      json.Member("seconds", LevelSeconds(history, h));
-      json.EndObject();
+      // The last block may be level -1.
+      surfaces[surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0)] = surface;
     }
+  }
+  json.Name("levels");
+  json.BeginArray();
+  for (const auto& [level, surface] : surfaces)
+  {
+    json.BeginObject();
+    WriteSurfaceFacts(json, surface);
+    json.Member("seconds", LevelSeconds(history, level));
+    json.EndObject();
   }
   json.EndArray();
 }

@@ -15,6 +15,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDeformableSurface.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkImagePyramid.h>
 #include <vtkMultiBlockDataSet.h>
@@ -164,6 +165,12 @@ void SetEdges(const SegmentOptions& options, vtkImageData* volume, vtkDeformable
   }
 }
 
+/// The last block of the levels may be level -1.
+int LevelOf(vtkPolyData* surface)
+{
+  return static_cast<int>(surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0));
+}
+
 void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
@@ -175,7 +182,7 @@ void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
   }
   if (!options.Levels.empty())
   {
-    WriteBlocks(filter->GetLevels(), options.Levels, "level");
+    WriteBlocks(filter->GetLevels(), options.Levels, "level", LevelOf);
   }
   if (!options.Snapshots.empty())
   {

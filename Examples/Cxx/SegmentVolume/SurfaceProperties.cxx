@@ -91,7 +91,8 @@ std::vector<PropertyOption> MakeProperties()
     PYRAMID_NUMBER(MinimumLevelSize, "minimum-level-size", "N",
       "no level whose smallest axis has fewer voxels, unless --levels asks for it"),
     SURFACE_NUMBER(CoarsestLevel, "coarsest", "LEVEL", "level to begin with; -1: the last"),
-    SURFACE_NUMBER(FinestLevel, "finest", "LEVEL", "level to end with; 0: the image itself"),
+    SURFACE_NUMBER(FinestLevel, "finest", "LEVEL",
+      "level to end with; 0: the image itself; -1: finer than that"),
     SURFACE_MENU(Initialization, "initialization",
       "what to start from: an icosahedron about the image; seeds, at the points of --seeds or on a "
       "grid; the iso-surface of the coarsest level; or --initial-surface",

@@ -169,7 +169,8 @@ void WriteSurface(vtkPolyData* surface, const std::string& name, const std::stri
   FindWriter(name)(surface, name, remark);
 }
 
-void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix)
+void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
+  int (*numbers)(vtkPolyData*))
 {
   if (fs::path(name).extension() == ".vtm")
   {
@@ -190,7 +191,8 @@ void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, const st
     auto* surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i));
     if (surface && surface->GetNumberOfPoints() > 0)
     {
-      const fs::path file = fs::path(name) / (prefix + "-" + std::to_string(i) + ".vtp");
+      const std::string number = std::to_string(numbers ? numbers(surface) : static_cast<int>(i));
+      const fs::path file = fs::path(name) / (prefix + "-" + number + ".vtp");
       WriteWith<vtkXMLPolyDataWriter>(surface, file.string(), "");
     }
   }

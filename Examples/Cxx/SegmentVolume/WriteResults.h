@@ -21,9 +21,11 @@ void CheckSurfaceName(const std::string& name);
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const std::string& remark);
 
-/// Write the blocks that are not empty: to one .vtm, or each to DIR/PREFIX-NUMBER.vtp.
+/// Write the blocks that are not empty: to one .vtm, or each to DIR/PREFIX-NUMBER.vtp,
+/// where `numbers` tells a surface's number (none: that of the block).
 /// @throws Failure if they cannot be written.
-void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix);
+void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
+  int (*numbers)(vtkPolyData*) = nullptr);
 
 /// Write a .csv with a line of column names. @throws Failure if it cannot be written.
 void WriteTable(vtkTable* table, const std::string& name);
