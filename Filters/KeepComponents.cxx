@@ -203,6 +203,14 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
       part.Normals.push_back(surface.Normals[p]);
       part.Residual.push_back(surface.Residual[p]);
       part.Motionless.push_back(surface.Motionless[p]);
+      part.Held.push_back(surface.Held[p]);
+    }
+  }
+  for (const std::array<int, 2>& pair : surface.Contacts)
+  {
+    if (index[pair[0]] >= 0 && index[pair[1]] >= 0)
+    {
+      part.Contacts.push_back({ index[pair[0]], index[pair[1]] });
     }
   }
   for (Triangle& triangle : part.Triangles)

@@ -97,6 +97,16 @@ void SetPointArrays(vtkPolyData* polyData, const SurfaceResult& surface, const W
   polyData->GetPointData()->SetNormals(normals);
   polyData->GetPointData()->AddArray(residual);
   polyData->GetPointData()->AddArray(motionless);
+  vtkNew<vtkUnsignedCharArray> contact;
+  contact->SetName("Contact");
+  contact->SetNumberOfTuples(numberOfPoints);
+  std::copy(surface.Held.begin(), surface.Held.end(), contact->GetPointer(0));
+  for (const std::array<int, 2>& pair : surface.Contacts)
+  {
+    contact->SetValue(pair[0], 1);
+    contact->SetValue(pair[1], 1);
+  }
+  polyData->GetPointData()->AddArray(contact);
 }
 
 void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features)
@@ -182,6 +192,13 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
   AddField<vtkDoubleArray>(polyData, "Unit", description.Unit);
   AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
+  AddField<vtkIntArray>(
+    polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
+  auto* contact =
+    vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
+  AddField<vtkIntArray>(polyData, "ContactVertices",
+    static_cast<int>(
+      std::count(contact->GetPointer(0), contact->GetPointer(surface.Points.size()), 1)));
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
   if (description.TotalIterations >= 0)

@@ -41,15 +41,20 @@
  * level).
  *
  * Point arrays of each surface: `Normals` (float, active), `Residual` (float, field minus IsoValue
- * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest). Cell array: `Component`
- * (int, 0 = largest area). Field data: `Level` (int), `Delta` and `Unit` (double, world units),
- * `NumberOfComponents`, `EulerCharacteristic`, `Genus` (sum over the components), `Iterations`
- * (int, at this level), `Area`, `Volume` (double), `StopReason` (string: `converged`, `iteration
- * limit`, `cancelled`, `vanished`), `LostParts` and `RecoveredParts` (int, see Recovery) and, with
- * an entry per component, `ComponentArea`, `ComponentVolume` (negative for a cavity),
- * `ComponentGenus`, `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the
- * enclosed solid of density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration`
- * (int): the number of the last row that the history had then.
+ * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest), `Contact` (unsigned char, 1
+ * where walls or gaps are thinner than the triangles can hold, see FinestLevel: another part of the
+ * surface, at least four edges away along it, keeps the vertex more than 0.1 Delta away from the
+ * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
+ * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
+ * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
+ * `Area`, `Volume` (double), `StopReason` (string: `converged`, `iteration limit`, `cancelled`,
+ * `vanished`), `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of
+ * vertices nearer than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts` and
+ * `RecoveredParts` (int, see Recovery) and, with an entry per component, `ComponentArea`,
+ * `ComponentVolume` (negative for a cavity), `ComponentGenus`, `ComponentCentroid` (3) and
+ * `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of density 1 about its centroid).
+ * A snapshot has no `StopReason`, but `Iteration` (int): the number of the last row that the
+ * history had then.
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
  * (mean over the vertices, along the normals, per unit of mass, in voxels of level 0 and units of

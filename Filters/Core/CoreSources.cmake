@@ -24,6 +24,7 @@ set(volumic_core_sources
   PointAttraction.cxx
   Proximity.cxx
   PyramidGeometry.cxx
+  RemainingContacts.cxx
   Remesher.cxx
   RowKernels.cxx
   StarMerge.cxx
@@ -59,6 +60,7 @@ set(volumic_core_headers
   PointAttraction.h
   Proximity.h
   PyramidGeometry.h
+  RemainingContacts.h
   Remesher.h
   RestCriterion.h
   Refuse.h

@@ -4,12 +4,14 @@
 
 #include "EvolutionImplementation.h"
 #include "InitialSurface.h"
+#include "RemainingContacts.h"
 #include "SurfaceCheck.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace volumic
 {
@@ -143,6 +145,13 @@ SurfaceResult SurfaceEvolution::Result() const
   static_cast<IndexedSurface&>(result) = s.Mesh.ToIndexed();
   result.Delta = s.Delta;
   const float sign = this->Self->Options.ObjectIsBright ? 1.f : -1.f;
+  std::vector<int> index(static_cast<std::size_t>(s.Mesh.Size()), -1); // As ToIndexed numbers them.
+  int points = 0;
+  RemainingContacts contacts;
+  if (s.Mesh.NumberOfVertices() > 0)
+  {
+    contacts = FindRemainingContacts(s, *this->Self->TheField, this->Self->Threads);
+  }
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
     if (s.Mesh.IsAlive(v))
@@ -151,7 +160,14 @@ SurfaceResult SurfaceEvolution::Result() const
       result.Normals.push_back({ n.X, n.Y, n.Z });
       result.Residual.push_back(sign * this->Self->TheField->ValueAt(s.Mesh.Position[v]));
       result.Motionless.push_back(!s.Awake[v]);
+      result.Held.push_back(contacts.Held[v]);
+      index[v] = points++;
     }
+  }
+  result.Contacts = std::move(contacts.Pairs);
+  for (std::array<int, 2>& pair : result.Contacts)
+  {
+    pair = { index[pair[0]], index[pair[1]] };
   }
   return result;
 }

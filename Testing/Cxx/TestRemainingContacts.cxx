@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Walls that are too thin are told of: the filter's counts against the judge's.
+#include "SupportVtkConversions.h"
+#include "SurfaceJudge.h"
+#include "SyntheticScenes.h"
+#include "vtkDeformableSurface.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+using namespace volumic::support;
+
+namespace
+{
+double FieldOf(vtkPolyData* surface, const char* name)
+{
+  return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
+}
+
+/// A hollow ball of radius 18, open on one side, with a wall as thick as is said.
+Scene HollowBall(double wall)
+{
+  Scene scene = MakeScene(SceneKind::Sphere);
+  for (std::size_t voxel = 0; voxel < scene.Values.size(); ++voxel)
+  {
+    const double x = voxel % 64 - 31.5;
+    const double y = voxel / 64 % 64 - 31.5;
+    const double z = voxel / 64 / 64 - 31.5;
+    const double radius = std::sqrt(x * x + y * y + z * z);
+    const double height = 0.301 * x + 0.501 * y + 0.8116 * z;
+    const double beside =
+      height > 0 ? std::sqrt(std::max(0., radius * radius - height * height)) : radius;
+    const double distance = std::max({ radius - 18, 18 - wall - radius, 6 - beside });
+    scene.Values[voxel] = static_cast<float>(50. * std::erfc(2. * distance));
+  }
+  scene.IsoValue = 50;
+  return scene;
+}
+
+class RemainingContacts : public ::testing::Test
+{
+protected:
+  void Run(double wall)
+  {
+    this->Content = HollowBall(wall);
+    this->Filter->SetInputData(ToImage(this->Content));
+    this->Filter->SetIsoValue(this->Content.IsoValue);
+    this->Filter->SetCoarsestLevel(0);
+    this->Filter->Update();
+  }
+
+  void ExpectCountsOfTheJudge(vtkPolyData* surface)
+  {
+    const LengthVerdict verdict =
+      JudgeLengths(ToTriangleSurface(surface), FieldOf(surface, "Delta"));
+    EXPECT_EQ(FieldOf(surface, "RemainingContacts"), verdict.NearPairs);
+    vtkDataArray* contact = surface->GetPointData()->GetArray("Contact");
+    int vertices = 0;
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+    {
+      vertices += contact->GetComponent(i, 0) == 1;
+    }
+    EXPECT_EQ(FieldOf(surface, "ContactVertices"), vertices);
+  }
+
+  Scene Content;
+  vtkNew<vtkDeformableSurface> Filter;
+};
+}
+
+TEST_F(RemainingContacts, AreNoneWhereTheWallIsThickEnough)
+{
+  this->Run(3);
+  EXPECT_EQ(FieldOf(this->Filter->GetOutput(), "RemainingContacts"), 0);
+  EXPECT_EQ(FieldOf(this->Filter->GetOutput(), "ContactVertices"), 0);
+  this->ExpectCountsOfTheJudge(this->Filter->GetOutput());
+}
+
+TEST_F(RemainingContacts, TellOfAWallThatIsTooThinAndGoAwayAtAFinerLevel)
+{
+  this->Run(1); // Less than 2.5/sqrt(3) delta = 1.23.
+  vtkPolyData* surface = this->Filter->GetOutput();
+  this->ExpectCountsOfTheJudge(surface);
+  const double share =
+    FieldOf(surface, "ContactVertices") / static_cast<double>(surface->GetNumberOfPoints());
+  EXPECT_GT(share, 0.2);
+  this->Filter->SetFinestLevel(-1);
+  this->Filter->Update();
+  surface = this->Filter->GetOutput();
+  this->ExpectCountsOfTheJudge(surface);
+  EXPECT_LT(FieldOf(surface, "ContactVertices") / surface->GetNumberOfPoints(), 0.2 * share);
+}
+
+TEST_F(RemainingContacts, AreCountedOnTheWayToo)
+{
+  // Snapshots show the surface while it still touches itself.
+  this->Filter->SetSnapshotInterval(5);
+  this->Run(1);
+  vtkMultiBlockDataSet* snapshots = this->Filter->GetSnapshots();
+  double most = 0;
+  for (unsigned int b = 1; b < snapshots->GetNumberOfBlocks(); ++b)
+  {
+    auto* surface = vtkPolyData::SafeDownCast(snapshots->GetBlock(b));
+    if (b % 8 == 0)
+    {
+      this->ExpectCountsOfTheJudge(surface);
+    }
+    most = std::max(most, FieldOf(surface, "RemainingContacts"));
+  }
+  EXPECT_GT(most, 20);
+}
