@@ -18,7 +18,7 @@ FACTS = {
     "euler_characteristic": "EulerCharacteristic", "area": "Area", "volume": "Volume",
     "delta": "Delta", "unit": "Unit",
     "level": "Level", "iterations": "Iterations", "lost_parts": "LostParts",
-    "recovered_parts": "RecoveredParts",
+    "recovered_parts": "RecoveredParts", "remaining_contacts": "RemainingContacts",
 }
 COMPONENT_FACTS = {
     "area": "ComponentArea", "volume": "ComponentVolume", "genus": "ComponentGenus",
