@@ -31,13 +31,19 @@ def chosen_filter():
 
 
 def visited_levels(filter_):
-    """Numbers of the levels that have a surface, the coarsest first."""
+    """(name, selector) of the blocks that have a surface, the coarsest level first."""
     filter_.UpdatePipeline()
-    information = filter_[LEVELS].GetDataInformation().DataInformation
-    count = information.GetHierarchy().GetNumberOfChildren(0)
-    visited = [level for level in reversed(range(count))
-               if filter_.SMProxy.GetSubsetDataInformation(
-                   LEVELS, f"/Root/Level{level}", "Hierarchy").GetNumberOfPoints() > 0]
+    tree = filter_[LEVELS].GetDataInformation().DataInformation.GetHierarchy()
+    visited = []
+    for node in (tree.GetChild(0, i) for i in range(tree.GetNumberOfChildren(0))):
+        name = tree.GetAttributeOrDefault(node, "label", "")
+        # Not the node's path, which is the same for levels 1 and -1.
+        selector = f"/Root/*[@label='{name}']"
+        surface = filter_.SMProxy.GetSubsetDataInformation(LEVELS, selector, "Hierarchy")
+        if surface.GetNumberOfPoints() > 0:
+            visited.append((name, selector))
+    # "Level 2": level -1, finer than the volume, comes last among the blocks.
+    visited.sort(key=lambda level: -int(level[0].split()[1]))
     return visited[-MOST:]
 
 
@@ -56,14 +62,13 @@ def compare_levels(filter_):
     levels = visited_levels(filter_)
     layout = simple.CreateLayout(f"Levels of {chosen_name(filter_)}")
     views = []
-    for level, cell in zip(levels, side_by_side(layout, len(levels))):
+    for (name, selector), cell in zip(levels, side_by_side(layout, len(levels))):
         view = simple.CreateView("RenderView")
         simple.AssignViewToLayout(view=view, layout=layout, hint=cell)
         view.OrientationAxesVisibility = 0
         display = simple.Show(simple.OutputPort(filter_, LEVELS), view)
-        display.BlockSelectors = [f"/Root/Level{level}"]
-        caption = simple.Text(registrationName=f"Caption of level {level}",
-                              Text=f"Level {level}")
+        display.BlockSelectors = [selector]
+        caption = simple.Text(registrationName=f"Caption of {name}", Text=name)
         simple.Show(caption, view)
         views.append(view)
     # What is seen is known once it has been drawn.

@@ -4,6 +4,7 @@
 
 import os
 import sys
+import xml.etree.ElementTree as ElementTree
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
@@ -34,11 +35,14 @@ class CompareLevelsTest(window.WindowTestCase):
         self.assertEqual(state.count("RenderView"), 3)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 3)
         self.assertEqual(state.count("TextSource"), 2)
-        with open(path, encoding="utf-8") as file:
-            text = file.read()
+        elements = ElementTree.parse(path).iter()
+        chosen = {element.get("value") for property_ in elements
+                  if property_.get("name") == "BlockSelectors"
+                  for element in property_.iter("Element")}
         for level in range(2):
-            self.assertIn(f"/Root/Level{level}", text)
-        self.assertIn("CameraLink", text)
+            self.assertIn(f"/Root/*[@label='Level {level}']", chosen)
+        links = {element.get("name") for element in ElementTree.parse(path).iter("CameraLink")}
+        self.assertEqual(len(links), 1)
 
 
 window.main()
