@@ -173,7 +173,7 @@ const float* EdgeLevels::Load(int level, const std::array<int, 3>& size, Executo
     {
       Refuse("its level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1], " x ",
         loaded.Size[2], " voxels, that of the voxels ", size[0], " x ", size[1], " x ", size[2],
-        ". Give the image instead of its pyramid, or a pyramid whose blocks all carry both arrays.");
+        ". Give the image instead of its pyramid, or one whose blocks all carry both arrays.");
     }
     return loaded.Values;
   }

@@ -53,8 +53,8 @@ public:
   std::array<double, 2> Range(int level) const;
 
   /**
-   * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call. Float voxels are shared,
-   * others converted.
+   * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call.
+   * Float voxels are shared, others converted.
    * @throws if the level is under MinimumSize along an axis, or has voxels that are not finite
    *         or too large for single precision.
    */

@@ -132,8 +132,8 @@ void SurfaceSegmentation::ReadComponentChoice()
       this->Pyramid.GetWorkspace());
     if (this->Choice.Places.empty())
     {
-      Refuse("KeepComponents is 2, those at points, but there are none: give seeds to input port 1, "
-             "or points known to belong to the object to input port 2.");
+      Refuse("KeepComponents is 2, those at points, but there are none: give seeds to input port "
+             "1, or points known to belong to the object to input port 2.");
     }
   }
 }

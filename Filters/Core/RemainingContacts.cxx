@@ -30,10 +30,17 @@ bool AreFarAlongTheSurface(const SurfaceMesh& mesh, int v, int w)
   }
   for (int i = 0; i < first.Count; ++i)
   {
+    if (second.Contains(first.Item[i]))
+    {
+      return false; // Two edges: nearly all that are near and no neighbours.
+    }
+  }
+  for (int i = 0; i < first.Count; ++i)
+  {
     const Ring& between = mesh.Rings[first.Item[i]];
     for (int j = 0; j < second.Count; ++j)
     {
-      if (first.Item[i] == second.Item[j] || between.Contains(second.Item[j]))
+      if (between.Contains(second.Item[j]))
       {
         return false;
       }
@@ -73,11 +80,15 @@ RemainingContacts FindRemainingContacts(
           {
             const VectorD across = VectorD(mesh.Position[w]) - p;
             const double squared = Dot(across, across);
-            if (w != v && squared < static_cast<double>(reach) * reach &&
+            const bool isForbidden = squared < bound * bound;
+            // What holds a vertex faces it.
+            const bool mayHold = !hasOther && squared < static_cast<double>(reach) * reach &&
+              Dot(state.Normal[v], state.Normal[w]) < 0;
+            if (w != v && ((isForbidden && w > v) || mayHold) &&
               AreFarAlongTheSurface(mesh, v, w))
             {
-              hasOther = true;
-              if (w > v && squared < bound * bound)
+              hasOther = hasOther || mayHold;
+              if (isForbidden && w > v)
               {
                 blocks[b].push_back({ v, w });
               }

@@ -27,8 +27,8 @@ struct RemainingContacts
    */
   std::vector<std::array<int, 2>> Pairs;
   /**
-   * Per vertex, 1 where eq. (1) is kept at the cost of the place: such a vertex is less than 1.15
-   * lambda delta away, and the isopotential more than 0.1 delta.
+   * Per vertex, 1 where eq. (1) is kept at the cost of the place: such a vertex, with the opposite
+   * normal, is less than 1.15 lambda delta away, and the isopotential more than 0.1 delta.
    */
   std::vector<std::uint8_t> Held;
 };
