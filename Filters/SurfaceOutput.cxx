@@ -201,6 +201,8 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
       std::count(contact->GetPointer(0), contact->GetPointer(surface.Points.size()), 1)));
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
+  AddField<vtkIntArray>(polyData, "LostCavities", description.LostCavities);
+  AddField<vtkIntArray>(polyData, "RecoveredCavities", description.RecoveredCavities);
   if (description.TotalIterations >= 0)
   {
     AddField<vtkIntArray>(polyData, "Iteration", description.TotalIterations);
@@ -238,6 +240,7 @@ vtkSmartPointer<vtkTable> MakeHistory(
   AddColumn<vtkIntArray>(
     table, "EulerCharacteristic", rows, [](const Row& r) { return r.EulerCharacteristic; });
   AddColumn<vtkIntArray>(table, "Components", rows, [](const Row& r) { return r.Components; });
+  AddColumn<vtkIntArray>(table, "RecoveredParts", rows, [](const Row& r) { return r.Recovered; });
   if (withPhases)
   {
     for (const auto& [phase, name] : PhaseColumns)

@@ -26,6 +26,8 @@ struct SurfaceDescription
   std::string StopReason;   ///< empty: none, the surface is still on its way
   int LostParts = 0;
   int RecoveredParts = 0;
+  int LostCavities = 0;
+  int RecoveredCavities = 0;
 };
 
 /// Points and triangles in world coordinates, outward oriented there too.

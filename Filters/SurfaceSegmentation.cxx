@@ -91,7 +91,8 @@ SurfaceSegmentation::SurfaceSegmentation(
 {
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
   CheckEnumeration("BorderValue", settings.BorderValue, vtkDeformableSurface::Replicate);
-  CheckEnumeration("Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjects);
+  CheckEnumeration(
+    "Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjectsAndCavities);
   if (settings.Options.MaximumNumberOfIterations < 1)
   {
     Refuse("MaximumNumberOfIterations is ", settings.Options.MaximumNumberOfIterations,
@@ -107,7 +108,9 @@ SurfaceSegmentation::SurfaceSegmentation(
   }
   this->Settings.Options.BorderValue = static_cast<Border>(settings.BorderValue);
   this->Settings.Options.RecoverLostParts =
-    settings.Recovery == vtkDeformableSurface::RecoverObjects;
+    settings.Recovery != vtkDeformableSurface::NoRecovery;
+  this->Settings.Options.RecoverCavities =
+    settings.Recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
   this->Settings.Options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
   this->ReadAttraction(blocks);
   this->ReadComponentChoice();
@@ -224,29 +227,37 @@ void SurfaceSegmentation::CheckIsoValue()
   }
 }
 
-void SurfaceSegmentation::CheckObjectIsThere(const LevelImage& image)
+int SurfaceSegmentation::CoarsestLevelWithObject(int from)
 {
-  const auto isObject = [this](float value)
+  const bool bright = this->Settings.Options.ObjectIsBright;
+  const double iso = this->Settings.Options.IsoValue;
+  int level = from;
+  for (; level > 0; --level)
   {
-    const double difference = value - this->Settings.Options.IsoValue;
-    return this->Settings.Options.ObjectIsBright ? difference > 0 : difference < 0;
-  };
-  const std::ptrdiff_t n =
-    static_cast<std::ptrdiff_t>(image.Size[0]) * image.Size[1] * image.Size[2];
-  if (std::any_of(image.Values, image.Values + n, isObject))
+    const std::array<double, 2> range = this->Pyramid.Range(level);
+    if (bright ? static_cast<float>(range[1]) > iso : static_cast<float>(range[0]) < iso)
+    {
+      break;
+    }
+  }
+  return level;
+}
+
+void SurfaceSegmentation::CheckObjectIsThere()
+{
+  if (this->Points)
+  {
+    return; // Every level shows what points mark.
+  }
+  const int level = this->CoarsestLevelWithObject(this->Coarsest);
+  if (level == this->Coarsest)
   {
     return;
   }
-  // Levels above this one have lost it too; the range of the others tells where it is still there.
-  int level = this->Coarsest;
-  const auto isThere = [&](int h)
+  if (this->Settings.CoarsestLevel == -1 && level >= this->LastLevel)
   {
-    const std::array<double, 2> range = this->Pyramid.Range(h);
-    return isObject(static_cast<float>(range[this->Settings.Options.ObjectIsBright ? 1 : 0]));
-  };
-  while (level > 0 && !isThere(level))
-  {
-    --level;
+    this->Coarsest = level;
+    return;
   }
   Refuse("the object has vanished at level ", this->Coarsest, ", the coarsest: no voxel is ",
     this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",
@@ -288,7 +299,7 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
 void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
 {
   // What was found again is told by the field data; only what stays lost is worth a warning.
-  const int missing = lost.Found - lost.Seeded;
+  const int missing = lost.Found - lost.Enclosed;
   if (missing > 0)
   {
     this->Settings.Warn(Join("Level ", level, " shows ", lost.Found, " part",
@@ -311,7 +322,9 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
   {
     const SurfaceEvolution::LostParts lost = evolution.Lost();
     description.LostParts = lost.Found;
-    description.RecoveredParts = lost.Seeded;
+    description.RecoveredParts = lost.Enclosed;
+    description.LostCavities = lost.FoundCavities;
+    description.RecoveredCavities = lost.EnclosedCavities;
   }
   const SurfaceResult surface = evolution.Result();
   const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
@@ -336,6 +349,7 @@ void SurfaceSegmentation::Run()
 {
   this->ChooseLevels();
   this->CheckIsoValue();
+  this->CheckObjectIsThere();
   for (int level = std::min(this->LastLevel, 0); level < this->Pyramid.NumberOfLevels(); ++level)
   {
     this->Blocks->SetBlock(this->BlockOf(level), nullptr);
@@ -359,7 +373,6 @@ void SurfaceSegmentation::Run()
         const LevelImage image = this->Load(level, threads);
         if (level == this->Coarsest)
         {
-          this->CheckObjectIsThere(image);
           this->Start(evolution, image);
         }
         else

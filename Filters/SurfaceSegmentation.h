@@ -78,7 +78,9 @@ private:
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
   LevelImage Load(int level, Executor& threads);
   void CheckIsoValue();
-  void CheckObjectIsThere(const LevelImage& image);
+  /// At most `from`; 0 where no other level has any of the object.
+  int CoarsestLevelWithObject(int from);
+  void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   bool RunLevel(SurfaceEvolution& evolution, int level);
   void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);

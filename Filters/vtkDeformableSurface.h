@@ -49,10 +49,11 @@
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
  * `Area`, `Volume` (double), `StopReason` (string: `converged`, `iteration limit`, `cancelled`,
  * `vanished`), `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of
- * vertices nearer than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts` and
- * `RecoveredParts` (int, see Recovery) and, with an entry per component, `ComponentArea`,
- * `ComponentVolume` (negative for a cavity), `ComponentGenus`, `ComponentCentroid` (3) and
- * `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of density 1 about its centroid).
+ * vertices nearer than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
+ * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
+ * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
+ * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
+ * density 1 about its centroid).
  * A snapshot has no `StopReason`, but `Iteration` (int): the number of the last row that the
  * history had then.
  *
@@ -123,7 +124,8 @@ public:
   enum RecoveryType
   {
     NoRecovery = 0,
-    RecoverObjects = 1
+    RecoverObjects = 1,
+    RecoverObjectsAndCavities = 2
   };
   /// Which components of the surfaces the outputs hold.
   enum KeepComponentsType
@@ -197,8 +199,8 @@ public:
 
   ///@{
   /**
-   * The levels to visit: from CoarsestLevel (-1, the default: the last of the pyramid) down to
-   * FinestLevel (0, the default: the input). Equal values run on one level alone. FinestLevel -1
+   * The levels to visit: from CoarsestLevel (-1, the default: the last of the pyramid on which
+   * anything of the object is left) down to FinestLevel (0, the default: the input). Equal values run on one level alone. FinestLevel -1
    * goes one level finer than the image: the surface is divided once more, so that delta is that
    * of level 0 over sqrt(3), and evolves on the field of level 0. It resolves walls and gaps that
    * are thinner than the triangles of level 0, at about three times their number. What belongs to
@@ -291,9 +293,11 @@ public:
   ///@{
   /**
    * Parts of the object that a coarser level could not resolve lie outside the surface when it
-   * comes to a level. RecoverObjects (default) seeds each part of at least MinimumPartSize voxels
-   * of that level, and the seed joins the evolution; NoRecovery is the paper's behaviour, where
-   * only what is connected to the surface is found again.
+   * comes to a level. RecoverObjects (default) encloses each part of at least MinimumPartSize
+   * voxels of that level with a new component, which shrinks onto it and merges with the rest where
+   * they touch; RecoverObjectsAndCavities does the same for background that the object encloses,
+   * with cavities; NoRecovery is the paper's behaviour, where only what is connected to the surface
+   * is found again. Field data and History tell how many parts were found.
    */
   vtkSetMacro(Recovery, int);
   vtkGetMacro(Recovery, int);

@@ -71,6 +71,12 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     }
     HistoryRow row;
     this->Iterate(row, dynamics, remesher, Mode::Evolve);
+    if (this->LastIterations == 0)
+    {
+      row.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
+      row.PhaseSeconds[static_cast<int>(Phase::Division)] += this->Preparing;
+      this->Preparing = 0.;
+    }
     this->Rows.push_back(row);
     ++this->LastIterations;
     Monitor::Status status;

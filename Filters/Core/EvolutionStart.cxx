@@ -141,12 +141,26 @@ void SurfaceEvolution::Implementation::Recover()
   {
     return;
   }
-  SurfaceState& s = this->State;
-  const LostPartCover lost = FindLostParts(s, *this->TheField, this->Options.MinimumPartSize);
-  this->LastLost = { lost.Found, this->Options.RecoverLostParts ? lost.Covered : 0 };
-  if (lost.Covered > 0 && this->Options.RecoverLostParts)
+  const bool recovers = this->Options.RecoverLostParts;
+  const LostPartCover objects = FindLostParts(
+    this->State, *this->TheField, PartKind::Object, this->Options.MinimumPartSize);
+  this->LastLost.Found = objects.Found;
+  this->LastLost.Enclosed = recovers ? objects.Covered : 0;
+  LostPartCover cavities;
+  if (recovers && this->Options.RecoverCavities)
   {
-    s.Mesh.Append(lost.Surface);
+    cavities = FindLostParts(
+      this->State, *this->TheField, PartKind::Cavity, this->Options.MinimumPartSize);
+    this->LastLost.FoundCavities = cavities.Found;
+    this->LastLost.EnclosedCavities = cavities.Covered;
+  }
+  if (this->LastLost.Enclosed > 0)
+  {
+    this->State.Mesh.Append(objects.Surface);
+  }
+  if (this->LastLost.EnclosedCavities > 0)
+  {
+    this->State.Mesh.Append(cavities.Surface);
   }
 }
 }

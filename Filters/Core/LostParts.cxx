@@ -23,11 +23,13 @@ enum : std::uint8_t
 class Search
 {
 public:
-  Search(const SurfaceState& state, const Field& field)
+  Search(const SurfaceState& state, const Field& field, PartKind kind)
     : State(state)
     , TheField(field)
+    , Kind(kind)
     , Size(field.Image().Size)
-    , Mark(static_cast<std::size_t>(Size[0]) * Size[1] * Size[2], Unknown)
+    , Mark(static_cast<std::size_t>(Size[0]) * Size[1] * Size[2],
+        kind == PartKind::Object ? Unknown : Covered)
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -35,9 +37,10 @@ public:
     }
   }
 
-  void CoverInside();
+  /** Marks what lies inside the surface: of no interest for lost objects, all for cavities. */
+  void MarkInside();
   void CoverNear();
-  /** Connected sets of uncovered voxels of the object. */
+  /** Connected sets of lost voxels. */
   std::vector<std::vector<int>> Parts();
 
   Point Place(int voxel) const
@@ -54,6 +57,7 @@ private:
 
   const SurfaceState& State;
   const Field& TheField;
+  PartKind Kind;
   std::array<int, 3> Size;
   double Inverse[3];
   std::vector<std::uint8_t> Mark;
@@ -116,7 +120,7 @@ void Search::Cross(int a, int b, int c)
   }
 }
 
-void Search::CoverInside()
+void Search::MarkInside()
 {
   this->State.Mesh.VisitFaces([this](int a, int b, int c) { this->Cross(a, b, c); });
   std::sort(this->Crossings.begin(), this->Crossings.end());
@@ -133,7 +137,8 @@ void Search::CoverInside()
       std::min(this->Size[0] - 1, static_cast<int>(std::floor(this->Crossings[i + 1].second)));
     for (int x = first; x <= last; ++x)
     {
-      this->Mark[static_cast<std::size_t>(row) * this->Size[0] + x] = Covered;
+      this->Mark[static_cast<std::size_t>(row) * this->Size[0] + x] =
+        this->Kind == PartKind::Object ? Covered : Unknown;
     }
     i += 2;
   }
@@ -141,7 +146,7 @@ void Search::CoverInside()
 
 void Search::CoverNear()
 {
-  constexpr int width = 2;
+  constexpr double width = 2.;
   for (int v = 0; v < this->State.Mesh.Size(); ++v)
   {
     if (!this->State.Mesh.IsAlive(v))
@@ -163,9 +168,13 @@ void Search::CoverNear()
       for (int j = low[1]; j <= high[1]; ++j)
       {
         const std::size_t row = static_cast<std::size_t>(k * this->Size[1] + j) * this->Size[0];
+        const double across = (j - place[1]) * (j - place[1]) + (k - place[2]) * (k - place[2]);
         for (int i = low[0]; i <= high[0]; ++i)
         {
-          this->Mark[row + i] = Covered;
+          if (across + (i - place[0]) * (i - place[0]) <= width * width)
+          {
+            this->Mark[row + i] = Covered;
+          }
         }
       }
     }
@@ -181,7 +190,8 @@ std::vector<std::vector<int>> Search::Parts()
     {
       for (int i = 0; i < this->Size[0]; ++i, ++voxel)
       {
-        if (this->Mark[voxel] == Unknown && this->TheField.Voxel(i, j, k) > 0)
+        if (this->Mark[voxel] == Unknown &&
+          (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object))
         {
           this->Mark[voxel] = Lost;
         }
@@ -261,10 +271,11 @@ bool KeepsClear(
 }
 }
 
-LostPartCover FindLostParts(const SurfaceState& state, const Field& field, int minimumSize)
+LostPartCover FindLostParts(
+  const SurfaceState& state, const Field& field, PartKind kind, int minimumSize)
 {
-  Search search(state, field);
-  search.CoverInside();
+  Search search(state, field, kind);
+  search.MarkInside();
   search.CoverNear();
   LostPartCover result;
   const CellLattice lattice(CellEdge * state.Delta);
@@ -297,6 +308,13 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, int m
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   result.Surface = lattice.Boundary(cells);
+  if (kind == PartKind::Cavity)
+  {
+    for (Triangle& triangle : result.Surface.Triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
   return result;
 }
 }

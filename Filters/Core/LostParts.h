@@ -10,19 +10,26 @@
 
 namespace volumic
 {
+/** What a surface may have lost. */
+enum class PartKind
+{
+  Object, ///< Object outside the surface.
+  Cavity  ///< Background inside the surface.
+};
+
 /** Result of FindLostParts. */
 struct LostPartCover
 {
-  int Found = 0;          ///< Parts of the object that the surface has lost.
+  int Found = 0;          ///< Parts that the surface has lost.
   int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
-  IndexedSurface Surface; ///< Closed, outward oriented, manifold; workspace.
+  IndexedSurface Surface; ///< Closed, manifold, oriented as the kind wants it; workspace.
 };
 
 /**
  * Looks for what coarser levels have lost (method.md section 10, last paragraph): connected sets
- * of at least `minimumSize` voxels on the object's side that are neither inside the surface nor
- * within two voxels of a vertex, and encloses them with a new surface, which then shrinks onto
- * them as the first one did onto the object.
+ * of at least `minimumSize` voxels on the object's side outside the surface, or on the other side
+ * inside it, all farther than two voxels from any vertex; and encloses them with a new surface,
+ * which then shrinks onto them as the first one did onto the object.
  *
  * It is the boundary of the truncated octahedra (CellLattice) that hold voxels of such parts and
  * keep clear of the surface as it is, with edges and distances that respect eq. (1). Seeds inside
@@ -32,7 +39,8 @@ struct LostPartCover
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.
  */
-LostPartCover FindLostParts(const SurfaceState& state, const Field& field, int minimumSize);
+LostPartCover FindLostParts(
+  const SurfaceState& state, const Field& field, PartKind kind, int minimumSize);
 }
 
 #endif

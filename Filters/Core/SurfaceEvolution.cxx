@@ -8,6 +8,7 @@
 #include "SurfaceCheck.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,25 @@ void CheckRange(const char* name, double value, double low, double high)
       ", it must lie in [" + std::to_string(low) + ", " + std::to_string(high) + "].");
   }
 }
+}
+
+namespace
+{
+/** Adds the time of its life. */
+class Timer
+{
+public:
+  explicit Timer(double& seconds) : Seconds(seconds), Start(std::chrono::steady_clock::now()) {}
+  ~Timer()
+  {
+    this->Seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+private:
+  double& Seconds;
+  std::chrono::steady_clock::time_point Start;
+};
 }
 
 const char* Describe(StopReason reason)
@@ -67,6 +87,7 @@ SurfaceEvolution::~SurfaceEvolution() = default;
 void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
   self.Enter(image, level);
   self.State.Mesh.Clear();
   self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Delta));
@@ -77,6 +98,7 @@ int SurfaceEvolution::StartSeeds(
   const LevelImage& image, int level, const std::vector<Point>& centres)
 {
   Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
   self.Enter(image, level);
   const double delta = self.State.Delta;
   const double radius = std::max(
@@ -98,6 +120,7 @@ void SurfaceEvolution::StartSurface(
   CheckInitialSurface(surface);
   CheckOverlapsImage(surface, image);
   Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
   const IndexedSurface prepared = LimitValence(surface);
   if (CountSelfIntersections(prepared, 1) > 0)
   {
@@ -119,6 +142,7 @@ StopReason SurfaceEvolution::Run()
 void SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
   const double coarse = self.State.Delta;
   self.Enter(image, level);
   // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is

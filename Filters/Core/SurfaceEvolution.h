@@ -57,6 +57,7 @@ struct HistoryRow
   int Flips = 0;
   int EulerCharacteristic = 0;
   int Components = 0;
+  int Recovered = 0; ///< Lost parts and cavities enclosed again before the first of a level.
   std::array<double, static_cast<int>(Phase::Count)> PhaseSeconds{};
 };
 
@@ -126,11 +127,13 @@ public:
   /** Iterations of the last Run(). */
   int Iterations() const;
 
-  /** Lost parts that the last Divide() found, and how many of them it enclosed (if asked to). */
+  /** Lost parts that the last Divide() found, and how many of them it enclosed, if asked to. */
   struct LostParts
   {
-    int Found = 0;
-    int Seeded = 0;
+    int Found = 0; ///< Parts of the object outside the surface; told also where recovery is off.
+    int Enclosed = 0;
+    int FoundCavities = 0; ///< Parts of the background inside it; looked for only on request.
+    int EnclosedCavities = 0;
   };
   LostParts Lost() const;
 

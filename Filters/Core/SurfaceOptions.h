@@ -59,7 +59,8 @@ struct SurfaceOptions
    * surface therefore has lost (method.md section 10, last paragraph), are enclosed again.
    */
   bool RecoverLostParts = true;
-  int MinimumPartSize = 40; ///< Voxels of the level that a lost part must have to be recovered.
+  bool RecoverCavities = false; ///< The same for background that the object encloses.
+  int MinimumPartSize = 20; ///< Voxels of the level that a lost part must have to be recovered.
 
   double MaximumStep = 0.5; ///< Largest displacement of an iteration, in delta; at most 0.5.
 };

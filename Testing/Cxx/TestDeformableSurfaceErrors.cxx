@@ -136,6 +136,7 @@ TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
   image->GetPointData()->GetScalars()->FillComponent(0, 0.0);
   image->SetScalarComponentFromDouble(20, 20, 20, 0, 100.0);
   this->Filter->SetInputDataObject(image);
+  this->Filter->SetCoarsestLevel(2);
   this->ExpectError({ "vanished at level 2", "above IsoValue 50", "set CoarsestLevel to 0" });
 }
 

@@ -106,9 +106,9 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   vtkTable* history = filter->GetHistory();
   const char* columns[] = { "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength",
     "Seconds", "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
-    "EulerCharacteristic", "Components" };
-  ASSERT_EQ(history->GetNumberOfColumns(), 15);
-  for (int c = 0; c < 15; ++c)
+    "EulerCharacteristic", "Components", "RecoveredParts" };
+  ASSERT_EQ(history->GetNumberOfColumns(), 16);
+  for (int c = 0; c < 16; ++c)
   {
     EXPECT_STREQ(history->GetColumnName(c), columns[c]);
   }
@@ -133,6 +133,7 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
     EXPECT_GE(history->GetValueByName(r, "Seconds").ToDouble(), 0.0);
     EXPECT_EQ(history->GetValueByName(r, "EulerCharacteristic").ToInt(), 2);
     EXPECT_EQ(history->GetValueByName(r, "Components").ToInt(), 1);
+    EXPECT_EQ(history->GetValueByName(r, "RecoveredParts").ToInt(), 0);
   }
   EXPECT_GT(history->GetValueByName(0, "KineticEnergy").ToDouble(), 0.0);
   EXPECT_EQ(history->GetValueByName(0, "Level").ToInt(), 2);
@@ -151,10 +152,10 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
   vtkTable* history = filter->GetHistory();
   const char* phases[] = { "ForcesSeconds", "ContactSeconds", "ProximitySeconds",
     "VerificationSeconds", "RemeshingSeconds", "TopologySeconds", "DivisionSeconds" };
-  ASSERT_EQ(history->GetNumberOfColumns(), 22);
+  ASSERT_EQ(history->GetNumberOfColumns(), 23);
   for (int i = 0; i < 7; ++i)
   {
-    EXPECT_STREQ(history->GetColumnName(15 + i), phases[i]);
+    EXPECT_STREQ(history->GetColumnName(16 + i), phases[i]);
   }
   ASSERT_GT(history->GetNumberOfRows(), 10);
   double all = 0.0;

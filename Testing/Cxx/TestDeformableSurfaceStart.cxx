@@ -4,7 +4,9 @@
 
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -12,8 +14,12 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
+#include <vtkTable.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 using namespace volumic;
 
@@ -99,8 +105,84 @@ TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
     recovered +=
       FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredParts");
   }
-  EXPECT_EQ(recovered, 1);
+  EXPECT_GE(recovered, 1);
   EXPECT_EQ(warnings.Get(), "");
+  vtkTable* history = filter->GetHistory();
+  double told = 0;
+  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
+  {
+    told += history->GetValueByName(r, "RecoveredParts").ToInt();
+  }
+  EXPECT_EQ(told, recovered);
+}
+
+TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
+{
+  // A bubble in the ball, which no surface from outside comes into.
+  const auto image = BallImage(64, 64, 64, 0.4);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (int k = 0; k < 64; ++k)
+  {
+    for (int j = 0; j < 64; ++j)
+    {
+      for (int i = 0; i < 64; ++i)
+      {
+        const double distance = std::hypot(i - 30.0, j - 32.0, k - 33.0);
+        const vtkIdType voxel = (k * 64 + j) * 64 + i;
+        voxels->SetComponent(voxel, 0,
+          std::min(voxels->GetComponent(voxel, 0),
+            std::clamp(50.0 + 25.0 * (distance - 9.0), 0.0, 100.0)));
+      }
+    }
+  }
+  for (int recovery : { vtkDeformableSurface::RecoverObjects,
+         vtkDeformableSurface::RecoverObjectsAndCavities })
+  {
+    SCOPED_TRACE(recovery);
+    const bool wanted = recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
+    vtkNew<vtkDeformableSurface> filter;
+    filter->SetInputData(image);
+    filter->SetIsoValue(50.0);
+    filter->SetRecovery(recovery);
+    filter->Update();
+    vtkPolyData* surface = filter->GetOutput();
+    ASSERT_EQ(FieldOf(surface, "NumberOfComponents"), wanted ? 2 : 1);
+    EXPECT_EQ(FieldOf(surface, "Genus"), 0);
+    if (wanted)
+    {
+      double cavities = 0;
+      for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
+      {
+        cavities += FieldOf(
+          vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredCavities");
+      }
+      EXPECT_EQ(cavities, 1);
+      vtkDataArray* volumes = surface->GetFieldData()->GetArray("ComponentVolume");
+      const double bubble = -4.0 / 3.0 * vtkMath::Pi() * std::pow(9.0, 3);
+      EXPECT_NEAR(volumes->GetComponent(1, 0) / bubble, 1.0, 0.05);
+    }
+  }
+}
+
+TEST(DeformableSurfaceStart, BeginsWhereTheObjectIsStillThere)
+{
+  // The rod alone, which the coarsest levels do not show at all.
+  const auto image = BallAndRod();
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
+  {
+    if (voxel % 64 > 10)
+    {
+      voxels->SetComponent(voxel, 0, 0.0);
+    }
+  }
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(image);
+  filter->SetIsoValue(50.0);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+  const unsigned int last = filter->GetLevels()->GetNumberOfBlocks() - 1;
+  EXPECT_FALSE(filter->GetLevels()->GetBlock(last)) << "not visited";
 }
 
 TEST(DeformableSurfaceStart, WarnsOfWhatStaysLostAndNamesTheLevel)

@@ -239,7 +239,7 @@ TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
     evolution.Divide(fine.Image, 0);
     EXPECT_EQ(evolution.Lost().Found, 1) << "told also where it is not recovered";
-    EXPECT_EQ(evolution.Lost().Seeded, recover ? 1 : 0);
+    EXPECT_EQ(evolution.Lost().Enclosed, recover ? 1 : 0);
     evolution.Run();
     ExpectSound(evolution);
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), recover ? 2u : 1u);

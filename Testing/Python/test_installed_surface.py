@@ -21,7 +21,7 @@ SIZE, RADIUS, ISO = 32, 9.0, 100.5
 HISTORY_COLUMNS = (
     "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds", "TimeStep",
     "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips", "EulerCharacteristic",
-    "Components")
+    "Components", "RecoveredParts")
 
 
 def ball(bright=200, dark=0, centre=(SIZE - 1) / 2):

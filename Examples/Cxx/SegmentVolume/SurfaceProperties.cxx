@@ -100,8 +100,9 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",
       "radius of the seeds in world units; 0: three times the shortest edge of the coarsest level"),
     SURFACE_MENU(Recovery, "recovery",
-      "what to do about parts of the object that a coarser level has lost: none, or a seed in each",
-      "none", "objects"),
+      "what to find again that a coarser level has lost: nothing; parts of the object; those and the "
+      "cavities in it",
+      "none", "objects", "objects-and-cavities"),
     SURFACE_NUMBER(MinimumPartSize, "minimum-part-size", "N",
       "voxels of the level that a part needs to be recovered"),
     SURFACE_MENU(BorderValue, "border",
