@@ -298,14 +298,15 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
 
 void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
 {
-  // What was found again is told by the field data; only what stays lost is worth a warning.
+  // The field data tell it of every level; only what stays lost in the end is worth a warning.
   const int missing = lost.Found - lost.Enclosed;
-  if (missing > 0)
+  if (missing > 0 && level == this->LastLevel)
   {
     this->Settings.Warn(Join("Level ", level, " shows ", lost.Found, " part",
       lost.Found == 1 ? "" : "s", " of the object that the surface lost at level ", level + 1, "; ",
       missing, missing == 1 ? " is" : " are", " not found again. ",
-      this->Settings.Options.RecoverLostParts ? "Set CoarsestLevel to a finer level to keep more."
+      this->Settings.Options.RecoverLostParts ? "They lie too close to the surface for one of their "
+                                                "own; a finer CoarsestLevel may keep more."
                                               : "Turn Recovery on to find them."));
   }
 }
