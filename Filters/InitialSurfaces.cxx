@@ -15,6 +15,7 @@
 #include <vtkTriangleFilter.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -74,13 +75,20 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   const auto range = std::minmax_element(image.Values, image.Values + n);
   const float background = options.ObjectIsBright ? *range.first : *range.second;
   std::fill(values, values + padded->GetNumberOfPoints(), background);
+  // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are moved
+  // a little to the side of the background. The surface finds its place anyway.
+  const float iso = static_cast<float>(options.IsoValue);
+  const float room = 0.01f * std::max(*range.second - iso, iso - *range.first);
+  const float beside = options.ObjectIsBright ? iso - room : iso + room;
+  const auto clear = [&](float value) { return std::abs(value - iso) < room ? beside : value; };
   for (int k = 0; k < image.Size[2]; ++k)
   {
     for (int j = 0; j < image.Size[1]; ++j)
     {
       const float* row =
         image.Values + (static_cast<std::ptrdiff_t>(k) * image.Size[1] + j) * image.Size[0];
-      std::copy(row, row + image.Size[0], static_cast<float*>(padded->GetScalarPointer(0, j, k)));
+      std::transform(row, row + image.Size[0],
+        static_cast<float*>(padded->GetScalarPointer(0, j, k)), clear);
     }
   }
   return padded;

@@ -337,7 +337,9 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
   this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
   this->Table =
     MakeHistory(evolution.History(), this->Pyramid.GetWorkspace(), this->Settings.Profile);
-  if (reason == StopReason::Vanished)
+  // With recovery a finer level may find again what has vanished.
+  if (reason == StopReason::Vanished &&
+    (level == this->LastLevel || !this->Settings.Options.RecoverLostParts))
   {
     this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
       ": the object is too thin for it. Set CoarsestLevel to a finer level."));

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <map>
+#include <cstdint>
+#include <unordered_map>
 
 namespace volumic
 {
@@ -122,12 +122,18 @@ Point CellLattice::Corner(const Cell& cell, int index) const
 IndexedSurface CellLattice::Boundary(const std::vector<Cell>& cells) const
 {
   IndexedSurface surface;
-  std::map<Offset, int> places;
+  std::unordered_map<std::uint64_t, int> places;
   const auto place = [&](const Cell& cell, const Offset& offset)
   {
     const Offset at = { 2 * cell[0] + offset[0], 2 * cell[1] + offset[1],
       2 * cell[2] + offset[2] };
-    const auto found = places.emplace(at, static_cast<int>(surface.Points.size()));
+    // 21 bits each hold any lattice that memory holds.
+    std::uint64_t key = 0;
+    for (int x : at)
+    {
+      key = key << 21 | (static_cast<std::uint64_t>(static_cast<std::int64_t>(x)) & 0x1fffff);
+    }
+    const auto found = places.emplace(key, static_cast<int>(surface.Points.size()));
     if (found.second)
     {
       surface.Points.push_back(

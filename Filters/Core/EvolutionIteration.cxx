@@ -250,13 +250,6 @@ void SurfaceEvolution::Implementation::Iterate(
   if (!relax)
   {
     remesher.Merge(this->Near.Pairs());
-    // Rungs of a merge's band may be longer than eq. (1) allows.
-    std::vector<int> bands = s.Touched;
-    for (int v : bands)
-    {
-      s.Wants[v] |= SurfaceState::Shorter;
-    }
-    remesher.Split(bands);
   }
   watch.Lap(Phase::Topology);
   remesher.Collapse(this->Working);
@@ -317,16 +310,22 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.Collapses = s.Counts.Collapses;
   row.Flips = s.Counts.Flips;
   this->FillCounts(row);
-  double energy = 0;
-  for (int v : this->Awake)
-  {
-    if (s.Mesh.IsAlive(v))
+  constexpr std::size_t size = 4096;
+  this->Partial.assign((this->Awake.size() + size - 1) / size, 0.);
+  ForBlocks(this->Threads, this->Awake.size(), size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      const double speed = Dot(s.Velocity[v], s.Normal[v]);
-      energy += 0.5 * speed * speed;
-    }
-  }
-  row.KineticEnergy = energy / std::max(row.Vertices, 1);
+      double sum = 0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = this->Awake[i];
+        const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v]) : 0.;
+        sum += 0.5 * speed * speed;
+      }
+      this->Partial[b] = sum;
+    });
+  row.KineticEnergy =
+    std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / std::max(row.Vertices, 1);
   row.MeanEdgeLength = this->MeanEdgeLength();
 }
 

@@ -142,15 +142,18 @@ void SurfaceEvolution::Implementation::Recover()
     return;
   }
   const bool recovers = this->Options.RecoverLostParts;
-  const LostPartCover objects = FindLostParts(
-    this->State, *this->TheField, PartKind::Object, this->Options.MinimumPartSize);
+  const auto find = [this](PartKind kind)
+  {
+    return FindLostParts(
+      this->State, *this->TheField, kind, this->Options.MinimumPartSize, this->Threads);
+  };
+  const LostPartCover objects = find(PartKind::Object);
   this->LastLost.Found = objects.Found;
   this->LastLost.Enclosed = recovers ? objects.Covered : 0;
   LostPartCover cavities;
   if (recovers && this->Options.RecoverCavities)
   {
-    cavities = FindLostParts(
-      this->State, *this->TheField, PartKind::Cavity, this->Options.MinimumPartSize);
+    cavities = find(PartKind::Cavity);
     this->LastLost.FoundCavities = cavities.Found;
     this->LastLost.EnclosedCavities = cavities.Covered;
   }

@@ -41,7 +41,7 @@ public:
   void MarkInside();
   void CoverNear();
   /** Connected sets of lost voxels. */
-  std::vector<std::vector<int>> Parts();
+  std::vector<std::vector<int>> Parts(Executor& executor);
 
   Point Place(int voxel) const
   {
@@ -181,26 +181,36 @@ void Search::CoverNear()
   }
 }
 
-std::vector<std::vector<int>> Search::Parts()
+std::vector<std::vector<int>> Search::Parts(Executor& executor)
 {
-  const int count = static_cast<int>(this->Mark.size());
-  for (int k = 0, voxel = 0; k < this->Size[2]; ++k)
-  {
-    for (int j = 0; j < this->Size[1]; ++j)
+  // Slabs of voxels; each hands over the lost ones that it has, in order.
+  std::vector<std::vector<int>> lost(this->Size[2]);
+  ForBlocks(executor, lost.size(), 1,
+    [&](std::size_t slab, std::size_t, std::size_t)
     {
-      for (int i = 0; i < this->Size[0]; ++i, ++voxel)
+      const int k = static_cast<int>(slab);
+      int voxel = k * this->Size[1] * this->Size[0];
+      for (int j = 0; j < this->Size[1]; ++j)
       {
-        if (this->Mark[voxel] == Unknown &&
-          (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object))
+        for (int i = 0; i < this->Size[0]; ++i, ++voxel)
         {
-          this->Mark[voxel] = Lost;
+          if (this->Mark[voxel] == Unknown &&
+            (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object))
+          {
+            this->Mark[voxel] = Lost;
+            lost[slab].push_back(voxel);
+          }
         }
       }
-    }
+    });
+  std::vector<int> seeds;
+  for (const std::vector<int>& slab : lost)
+  {
+    seeds.insert(seeds.end(), slab.begin(), slab.end());
   }
   std::vector<std::vector<int>> parts;
   const int stride[3] = { 1, this->Size[0], this->Size[0] * this->Size[1] };
-  for (int seed = 0; seed < count; ++seed)
+  for (int seed : seeds)
   {
     if (this->Mark[seed] != Lost)
     {
@@ -271,8 +281,8 @@ bool KeepsClear(
 }
 }
 
-LostPartCover FindLostParts(
-  const SurfaceState& state, const Field& field, PartKind kind, int minimumSize)
+LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
+  int minimumSize, Executor& executor)
 {
   Search search(state, field, kind);
   search.MarkInside();
@@ -281,7 +291,7 @@ LostPartCover FindLostParts(
   const CellLattice lattice(CellEdge * state.Delta);
   std::vector<CellLattice::Cell> cells;
   std::vector<CellLattice::Cell> own;
-  for (const std::vector<int>& part : search.Parts())
+  for (const std::vector<int>& part : search.Parts(executor))
   {
     if (static_cast<int>(part.size()) < minimumSize)
     {

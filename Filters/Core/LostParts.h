@@ -39,8 +39,8 @@ struct LostPartCover
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.
  */
-LostPartCover FindLostParts(
-  const SurfaceState& state, const Field& field, PartKind kind, int minimumSize);
+LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
+  int minimumSize, Executor& executor);
 }
 
 #endif

@@ -398,8 +398,9 @@ bool NewFacesMeet(
     high = Maximum(high, bounds.back().High);
   }
   const float room = SomeRoom * state.Delta;
-  // A face that meets one of the new ones has a corner this near to the box of those.
-  const float reach = constraint::Reach * state.Delta;
+  // A face that meets one of the new ones has a corner this near to the box of those: lambda delta,
+  // and some more for edges that are a little too long until the end of the iteration.
+  const float reach = 1.1f * constraint::NearestOthers * state.Delta;
   const Vector margin(reach, reach, reach);
   const Vector lowVisited = low - margin;
   const Vector highVisited = high + margin;

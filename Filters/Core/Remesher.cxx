@@ -141,9 +141,17 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
     {
       continue;
     }
-    if (this->WantsMerge(pair.V, pair.W))
+    const std::size_t touched = s.Touched.size();
+    if (this->WantsMerge(pair.V, pair.W) && this->Editor.Merge(pair.V, pair.W))
     {
-      this->Editor.Merge(pair.V, pair.W);
+      // Rungs of the band may be longer than eq. (1) allows, on which verification relies.
+      this->Band.assign(
+        s.Touched.begin() + static_cast<std::ptrdiff_t>(touched), s.Touched.end());
+      for (int v : this->Band)
+      {
+        s.Wants[v] |= SurfaceState::Shorter;
+      }
+      this->Split(this->Band);
     }
   }
 }

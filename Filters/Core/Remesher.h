@@ -55,6 +55,7 @@ private:
   const Field* TheField;
   bool TopologyChanges;
   std::vector<Proximity::ClosePair> Sorted;
+  std::vector<int> Band; ///< Corners of the last merge's.
 };
 }
 

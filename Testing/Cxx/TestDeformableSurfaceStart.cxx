@@ -70,6 +70,27 @@ TEST(DeformableSurfaceStart, StartsFromAGivenSurface)
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
 }
 
+TEST(DeformableSurfaceStart, StartsFromAnIsoSurfaceThroughVoxels)
+{
+  // All voxels within a shell have the iso-value itself.
+  const auto image = BallImage(40, 40, 40);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
+  {
+    const double value = voxels->GetComponent(voxel, 0);
+    voxels->SetComponent(voxel, 0, value < 25.0 ? 0.0 : (value > 75.0 ? 100.0 : 50.0));
+  }
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(image);
+  filter->SetIsoValue(50.0);
+  filter->SetInitializationToIsoSurface();
+  filter->SetCoarsestLevel(0);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), 0);
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.6);
+}
+
 namespace
 {
 /// The ball, and a rod beside it that is too thin for the coarse levels.
