@@ -13,32 +13,33 @@
  * (in between, as when it is cancelled, the band of a fresh merge may have longer ones).
  *
  * @par Input:
- * Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid is
- * built here with default settings. Of each level the array chosen by SetInputArrayToProcess() is
- * used, by default the active point scalars: one component, any numeric type, finite values of at
- * most 1e37 in size (the surface computes in single precision). At least 8 voxels along each axis.
- * Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
- * surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
- * polygons are triangulated). With Initialization Seeds, its vertices are the centres of the seeds
- * (all its points if it has no cells). World coordinates.
- * Port 2, optional: a vtkPolyData with points known to belong to the object, see
- * PointAttractionWeight: its vertices, or all its points if it has none. Point arrays, optional:
- * `Weight` (any numeric type, at least 0, default 1) and `Radius` (world units, default 0:
- * automatic).
- * A map of edges, optional, see EdgeAttractionWeight: a second point array of the image of port 0,
- * chosen by SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name).
+ * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
+ *   is built here with default settings. Of each level the array chosen by SetInputArrayToProcess()
+ *   is used, by default the active point scalars: one component, any numeric type, finite values of
+ *   at most 1e37 in size (the surface computes in single precision). At least 8 voxels along each
+ *   axis.
+ * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
+ *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
+ *   polygons are triangulated). With Initialization Seeds, its vertices are the centres of the
+ *   seeds (all its points if it has no cells). World coordinates.
+ * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
+ *   PointAttractionWeight: its vertices, or all its points if it has none. Point arrays, optional:
+ *   `Weight` (any numeric type, at least 0, default 1) and `Radius` (world units, default 0:
+ *   automatic).
+ * - A map of edges, optional, see EdgeAttractionWeight: a second point array of the image of port
+ *   0, chosen by SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name).
  *
  * @par Output:
  * All geometry is in world coordinates, through origin, spacing and direction of the input, and
  * oriented outward: normals point from inside, where the object is, to outside. Points are double,
  * so that the way to world coordinates makes no triangles intersect.
- * Port 0, `Surface`: vtkPolyData, the surface of the finest level that was reached.
- * Port 1, `Levels`: vtkMultiBlockDataSet, block h the surface that rested at level h, named
- * `Level h`; blocks of levels that were not visited are empty. With FinestLevel -1 a block more.
- * Port 2, `History`: vtkTable, a row per iteration.
- * Port 3, `Snapshots`: vtkMultiBlockDataSet, with SnapshotInterval the surface on its way, a block
- * per snapshot in the order in which they were taken, named `Level 3, iteration 20` (of that
- * level).
+ * - Port 0, `Surface`: vtkPolyData, the surface of the finest level that was reached.
+ * - Port 1, `Levels`: vtkMultiBlockDataSet, block h the surface that rested at level h, named
+ *   `Level h`; blocks of levels that were not visited are empty. With FinestLevel -1 a block more.
+ * - Port 2, `History`: vtkTable, a row per iteration.
+ * - Port 3, `Snapshots`: vtkMultiBlockDataSet, with SnapshotInterval the surface on its way, a
+ *   block per snapshot in the order in which they were taken, named `Level 3, iteration 20` (of
+ *   that level).
  *
  * Point arrays of each surface: `Normals` (float, active), `Residual` (float, field minus IsoValue
  * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest), `Contact` (unsigned char, 1
@@ -53,19 +54,19 @@
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
- * density 1 about its centroid).
- * A snapshot has no `StopReason`, but `Iteration` (int): the number of the last row that the
- * history had then.
+ * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration` (int): the number
+ * of the last row that the history had then.
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
  * (mean over the vertices, along the normals, per unit of mass, in voxels of level 0 and units of
- * the simulated time, squared), `MeanEdgeLength` (world units, for voxels that are
- * cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those
- * awake), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this
- * iteration), `EulerCharacteristic`, `Components`. With Profile, also what `Seconds` is made of:
- * `ForcesSeconds`, `ContactSeconds`, `ProximitySeconds`, `VerificationSeconds`,
- * `RemeshingSeconds`, `TopologySeconds`; and `DivisionSeconds`, not in `Seconds`: what happens
- * between two iterations (regularisation at the end of a level, in the level's last row).
+ * the simulated time, squared), `MeanEdgeLength` (world units, for voxels that are cubes of the
+ * smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those awake),
+ * `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this iteration),
+ * `EulerCharacteristic`, `Components`, `RecoveredParts` (found before this iteration, see
+ * Recovery). With Profile, also what `Seconds` is made of: `ForcesSeconds`, `ContactSeconds`,
+ * `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`, `TopologySeconds`; and
+ * `DivisionSeconds`, not in `Seconds`: what happens between two iterations (regularisation at the
+ * end of a level, in the level's last row).
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: every
@@ -169,6 +170,12 @@ public:
   void SetKeepComponentsToLargestComponent() { this->SetKeepComponents(LargestComponent); }
   void SetKeepComponentsToComponentsAtPoints() { this->SetKeepComponents(ComponentsAtPoints); }
   void SetKeepComponentsToLargeComponents() { this->SetKeepComponents(LargeComponents); }
+  ///@}
+
+  ///@{
+  /**
+   * Enclosed volume, world units cubed, that KeepComponents LargeComponents asks for. Default: 0.
+   */
   vtkSetMacro(MinimumComponentVolume, double);
   vtkGetMacro(MinimumComponentVolume, double);
   ///@}
@@ -199,16 +206,22 @@ public:
 
   ///@{
   /**
-   * The levels to visit: from CoarsestLevel (-1, the default: the last of the pyramid on which
-   * anything of the object is left) down to FinestLevel (0, the default: the input). Equal values run on one level alone. FinestLevel -1
-   * goes one level finer than the image: the surface is divided once more, so that delta is that
-   * of level 0 over sqrt(3), and evolves on the field of level 0. It resolves walls and gaps that
-   * are thinner than the triangles of level 0, at about three times their number. What belongs to
-   * this level is called level -1: in the field data, in the history, and as `Level -1`, the last
-   * block of the output Levels, after those of the pyramid.
+   * The level to start at; -1, the default: the last of the pyramid on which anything of the object
+   * is left.
    */
   vtkSetMacro(CoarsestLevel, int);
   vtkGetMacro(CoarsestLevel, int);
+  ///@}
+
+  ///@{
+  /**
+   * The level to end at; 0, the default: the input. The same as CoarsestLevel: one level alone.
+   * FinestLevel -1 goes one level finer than the image: the surface is divided once more, so that
+   * delta is that of level 0 over sqrt(3), and evolves on the field of level 0. It resolves walls
+   * and gaps that are thinner than the triangles of level 0, at about three times their number.
+   * What belongs to this level is called level -1: in the field data, in the history, and as
+   * `Level -1`, the last block of the output Levels, after those of the pyramid.
+   */
   vtkSetMacro(FinestLevel, int);
   vtkGetMacro(FinestLevel, int);
   ///@}
@@ -216,7 +229,7 @@ public:
   ///@{
   /**
    * delta_h / U_h (eq. 7): the smallest edge of the surface in units of the level, between
-   * sqrt(3)/2.5 = 0.693 and 1.
+   * sqrt(3)/2.5 = 0.693 and 1. Default: 0.85.
    */
   vtkSetMacro(SamplingRatio, double);
   vtkGetMacro(SamplingRatio, double);
@@ -224,18 +237,35 @@ public:
 
   ///@{
   /**
-   * The weights of the four forces, at least 0, without unit: tension pulls a vertex to the
-   * barycentre of its neighbours, elasticity acts as springs along the edges, the isopotential
-   * force moves it along its normal to the iso-value, the gradient force descends along the
-   * gradient of the image (0 by default: give an image whose valleys are the boundaries, such as
-   * the negative gradient magnitude, to use it).
+   * Weight of the force that pulls a vertex to the barycentre of its neighbours, at least 0,
+   * without unit as all four. Default: 0.2.
    */
   vtkSetMacro(TensionWeight, double);
   vtkGetMacro(TensionWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * Weight of the springs along the edges, at least 0. Default: 0.1.
+   */
   vtkSetMacro(ElasticityWeight, double);
   vtkGetMacro(ElasticityWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * Weight of the force that moves a vertex along its normal to the iso-value, at least 0.
+   * Default: 1.
+   */
   vtkSetMacro(IsopotentialWeight, double);
   vtkGetMacro(IsopotentialWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * Weight of the descent along the gradient of the image, at least 0. Default: 0. To use it, give
+   * an image whose valleys are the boundaries, such as the negative gradient magnitude.
+   */
   vtkSetMacro(GradientWeight, double);
   vtkGetMacro(GradientWeight, double);
   ///@}
@@ -274,6 +304,7 @@ public:
   ///@{
   /**
    * Friction per unit of the simulated time, more than 0: little oscillates, much is slow.
+   * Default: 3.
    */
   vtkSetMacro(Friction, double);
   vtkGetMacro(Friction, double);
@@ -301,6 +332,12 @@ public:
    */
   vtkSetMacro(Recovery, int);
   vtkGetMacro(Recovery, int);
+  ///@}
+
+  ///@{
+  /**
+   * Voxels of a level that a lost part must have there to be recovered. Default: 20.
+   */
   vtkSetMacro(MinimumPartSize, int);
   vtkGetMacro(MinimumPartSize, int);
   ///@}
@@ -326,7 +363,7 @@ public:
   /**
    * A level rests when the enclosed volume changes by less than this share of it over 10 and over
    * 20 iterations. Differs from the paper, which waits for the kinetic energy: that either stops
-   * while tips still grow, or never.
+   * while tips still grow, or never. Default: 0.0005.
    */
   vtkSetMacro(ConvergenceTolerance, double);
   vtkGetMacro(ConvergenceTolerance, double);
@@ -379,30 +416,26 @@ public:
   vtkGetMacro(SnapshotInterval, int);
   ///@}
 
-  ///@{
-  /**
-   * The initial surface or the centres of the seeds: port 1.
-   */
+  /** The initial surface or the centres of the seeds: port 1. */
   void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
+
+  /** The same as data that is no filter's output. */
   void SetInitialSurfaceData(vtkDataObject* data);
-  ///@}
 
-  ///@{
-  /**
-   * The points known to belong to the object: port 2.
-   */
+  /** The points known to belong to the object: port 2. */
   void SetAttractingPointsConnection(vtkAlgorithmOutput* output);
-  void SetAttractingPointsData(vtkDataObject* data);
-  ///@}
 
-  ///@{
-  /**
-   * Outputs 1, 2 and 3.
-   */
+  /** The same as data that is no filter's output. */
+  void SetAttractingPointsData(vtkDataObject* data);
+
+  /** Output 1: the surface of each level. */
   vtkMultiBlockDataSet* GetLevels();
+
+  /** Output 2: a row per iteration. */
   vtkTable* GetHistory();
+
+  /** Output 3: the surface on its way; see SnapshotInterval. */
   vtkMultiBlockDataSet* GetSnapshots();
-  ///@}
 
 protected:
   vtkDeformableSurface();

@@ -32,12 +32,27 @@ public:
 
   ///@{
   /**
-   * The pyramid: see vtkImagePyramid. 0 levels, the default: as many as MinimumLevelSize allows.
+   * Number of levels of the pyramid, the image included. 0, the default: as many as
+   * MinimumLevelSize allows.
    */
   vtkSetMacro(NumberOfLevels, int);
   vtkGetMacro(NumberOfLevels, int);
+  ///@}
+
+  ///@{
+  /**
+   * With NumberOfLevels 0: no level after the image has an axis of fewer voxels than this.
+   * Default: 10.
+   */
   vtkSetMacro(MinimumLevelSize, int);
   vtkGetMacro(MinimumLevelSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many times fewer voxels a level has along each axis than the level below it. Between 1 and
+   * 2, both excluded. Default: sqrt(3).
+   */
   vtkSetMacro(ReductionFactor, double);
   vtkGetMacro(ReductionFactor, double);
   ///@}

@@ -154,6 +154,16 @@ class UseTest(SurfaceTest):
         for words in ("world units", "ComponentVolume", "SetIsoValue", "StopReason"):
             self.assertTrue(words in text, words)
 
+    def test_help_explains_every_property(self):
+        for kind in (vtkDeformableSurface, vtkImagePyramid, vtkVolumeToSurface):
+            names = [name for name in vars(kind)
+                     if name.startswith("Set") and hasattr(kind, "Get" + name[3:])]
+            self.assertGreater(len(names), 2)
+            names += [n for n in vars(kind) if re.match("Set(InitialSurface|AttractingPoints)", n)]
+            for name in names:
+                signature, _, explanation = getattr(kind, name).__doc__.partition("\n\n")
+                self.assertTrue(explanation.strip(), signature)
+
     def test_an_image_without_a_pyramid_gives_the_same(self):
         direct = vtk_to_numpy(self.run_on(ball()).GetPoints().GetData())
         pyramid = vtkImagePyramid()
