@@ -81,7 +81,10 @@ done
 install_packages "${packages[@]}"
 
 for flavour in "${flavours[@]}"; do
-  "build_${flavour}_flavour" -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=ON
+  options=(-DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=ON)
+  # The benchmarks have a test too, for which VTK's flavour is enough.
+  [ "$flavour" = vtk ] && options+=(-DVOLUMIC_BUILD_BENCHMARKS=ON)
+  "build_${flavour}_flavour" "${options[@]}"
 done
 test_logs=()
 for flavour in "${flavours[@]}"; do
