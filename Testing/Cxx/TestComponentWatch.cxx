@@ -83,3 +83,25 @@ TEST(ComponentWatch, DeletesAnIslandWithinTheObject)
   EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
   EXPECT_EQ(watch.NumberOfComponents(), 1);
 }
+
+TEST(ComponentWatch, DeletesSmallOnesAndKeepsCount)
+{
+  SurfaceState state;
+  Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 30, 0, 0 }, 1) });
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  watch.Label(state, executor);
+  ASSERT_EQ(watch.NumberOfComponents(), 2);
+  EXPECT_FALSE(watch.DeleteDoomed(state)) << "no reason yet";
+  // Wholly in the background, and tiny.
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    state.Value[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
+  }
+  const bool deleted = watch.DeleteDoomed(state);
+  EXPECT_TRUE(deleted);
+  EXPECT_EQ(watch.NumberOfComponents(), 1);
+  watch.Label(state, executor);
+  EXPECT_EQ(watch.NumberOfComponents(), 1) << "counted afresh";
+  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
+}

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "LostParts.h"
+#include "SurfaceCheck.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+using namespace volumic;
+
+namespace
+{
+constexpr float Delta = 0.85f;
+SequentialExecutor Threads;
+
+/** A ball that the surface knows, holding a bubble that it does not know, and a lost ball. */
+TestVolume Scene()
+{
+  return MakeVolume(48,
+    [](double x, double y, double z)
+    {
+      const double known = Distance(x, y, z, 18, 24, 24) - 13.;
+      const double bubble = 6. - Distance(x, y, z, 17, 24, 24);
+      const double lost = Distance(x, y, z, 40, 24, 24) - 4.;
+      return Soft(std::min(std::max(known, bubble), lost));
+    });
+}
+
+SurfaceOptions Half()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  return options;
+}
+
+void Fill(SurfaceState& state)
+{
+  state.Mesh = MakeSphere({ 18, 24, 24 }, 13., 1.4 * Delta);
+  state.Delta = Delta;
+  state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
+}
+
+double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
+{
+  double nearest = std::numeric_limits<double>::max();
+  for (const Vector& p : state.Mesh.Position)
+  {
+    for (const Point& q : surface.Points)
+    {
+      nearest = std::min(nearest, Distance(p.X, p.Y, p.Z, q[0], q[1], q[2]));
+    }
+  }
+  return nearest;
+}
+}
+
+TEST(LostParts, EnclosesObjectOutsideTheSurface)
+{
+  const TestVolume volume = Scene();
+  const Field field(volume.Image, Half(), Threads);
+  SurfaceState state;
+  Fill(state);
+  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
+  EXPECT_EQ(cover.Found, 1);
+  EXPECT_EQ(cover.Covered, 1);
+  EXPECT_NO_THROW(CheckInitialSurface(cover.Surface));
+  const SurfaceFeatures features = ComputeFeatures(cover.Surface);
+  ASSERT_EQ(features.Components.size(), 1u);
+  EXPECT_EQ(features.Genus, 0);
+  EXPECT_GT(features.Volume, 4. / 3. * 3.14159 * 64.) << "around the lost ball";
+  EXPECT_LT(Distance(features.Components[0].Centroid[0], features.Components[0].Centroid[1],
+              features.Components[0].Centroid[2], 40, 24, 24),
+    1.);
+  EXPECT_GE(NearestVertex(state, cover.Surface), constraint::NearestOthers * Delta);
+}
+
+TEST(LostParts, EnclosesBackgroundInsideTheSurface)
+{
+  const TestVolume volume = Scene();
+  const Field field(volume.Image, Half(), Threads);
+  SurfaceState state;
+  Fill(state);
+  const LostPartCover cover = FindLostParts(state, field, PartKind::Cavity, 20, Threads);
+  EXPECT_EQ(cover.Found, 1);
+  EXPECT_EQ(cover.Covered, 1);
+  const SurfaceFeatures features = ComputeFeatures(cover.Surface);
+  ASSERT_EQ(features.Components.size(), 1u);
+  EXPECT_LT(features.Volume, -4. / 3. * 3.14159 * 216.) << "a cavity is turned inside out";
+  EXPECT_LT(Distance(features.Components[0].Centroid[0], features.Components[0].Centroid[1],
+              features.Components[0].Centroid[2], 17, 24, 24),
+    1.);
+  EXPECT_GE(NearestVertex(state, cover.Surface), constraint::NearestOthers * Delta);
+}
+
+TEST(LostParts, LeavesPartsUnderTheMinimumSize)
+{
+  const TestVolume volume = Scene();
+  const Field field(volume.Image, Half(), Threads);
+  SurfaceState state;
+  Fill(state);
+  // A ball of radius 4 has 257 voxels.
+  EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 250, Threads).Found, 1);
+  const LostPartCover none = FindLostParts(state, field, PartKind::Object, 265, Threads);
+  EXPECT_EQ(none.Found, 0);
+  EXPECT_EQ(none.Covered, 0);
+  EXPECT_TRUE(none.Surface.Triangles.empty());
+}
+
+TEST(LostParts, FindsNothingWhereTheSurfaceHasAll)
+{
+  const TestVolume volume = MakeVolume(48, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 18, 24, 24) - 13.); });
+  const Field field(volume.Image, Half(), Threads);
+  SurfaceState state;
+  Fill(state);
+  EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 1, Threads).Found, 0);
+  EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 1, Threads).Found, 0);
+}
+
+TEST(LostParts, FindsAllWithoutAnySurface)
+{
+  const TestVolume volume = Scene();
+  const Field field(volume.Image, Half(), Threads);
+  SurfaceState state;
+  state.Delta = Delta;
+  state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
+  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
+  EXPECT_EQ(cover.Found, 2);
+  EXPECT_EQ(cover.Covered, 2);
+  EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 20, Threads).Found, 0);
+}
