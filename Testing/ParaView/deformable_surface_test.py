@@ -17,9 +17,9 @@ import plugin_testing as testing
 POINT_ARRAYS = {"Normals": "vtkFloatArray", "Residual": "vtkFloatArray",
                 "Motionless": "vtkUnsignedCharArray", "Contact": "vtkUnsignedCharArray"}
 FIELDS = {"Level", "Delta", "Unit", "Iterations", "StopReason", "NumberOfComponents",
-          "EulerCharacteristic", "Genus", "Area", "Volume", "LostParts", "RecoveredParts",
-          "ComponentArea", "ComponentVolume", "ComponentGenus", "ComponentCentroid",
-          "ComponentInertia"}
+          "EulerCharacteristic", "Genus", "Area", "Volume", "ContactVertices", "RemainingContacts",
+          "LostParts", "RecoveredParts", "LostCavities", "RecoveredCavities", "ComponentArea",
+          "ComponentVolume", "ComponentGenus", "ComponentCentroid", "ComponentInertia"}
 COLUMNS = ["Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds",
            "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
            "EulerCharacteristic", "Components", "RecoveredParts"]
@@ -29,13 +29,20 @@ SURFACE, LEVELS, HISTORY = range(3)
 CENTRE, RADIUS = (6.0, -2.0, 10.0), 11.0
 
 
+def distances(place=(0.0, 0.0, 0.0)):
+    """Distances of 37^3 voxels to a place, relative to the middle one."""
+    x, y, z = (numpy.arange(37.0) - 18.0 - c for c in place)
+    return numpy.sqrt(x[None, None, :]**2 + y[None, :, None]**2 + z[:, None, None]**2)
+
+
+def image_of(values):
+    """An image whose middle voxel is at CENTRE."""
+    return testing.make_image(values.astype(numpy.float32), origin=CENTRE, start=(-18,) * 3)
+
+
 def ball_image():
-    """An image of 37^3 voxels, 0 on the sphere about CENTRE and more inside."""
-    start = -18
-    x = start + numpy.arange(37.0)
-    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
-    return testing.make_image((RADIUS - distance).astype(numpy.float32), origin=CENTRE,
-                              start=(start,) * 3)
+    """0 on the sphere about CENTRE and more inside."""
+    return image_of(RADIUS - distances())
 
 
 def surface_of(source, **properties):
@@ -181,6 +188,44 @@ class DeformableSurfaceTest(unittest.TestCase):
         plane = simple.Plane(XResolution=4, YResolution=4)
         self.check_error(["port 1"], self.ball, IsoValue=0.0, InitialSurface=plane,
                          Initialization="Input Surface")
+
+    def test_attracting_points(self):
+        place = (CENTRE[0] + RADIUS + 3.0, CENTRE[1], CENTRE[2])
+        known = simple.PointSource(Center=place, NumberOfPoints=1, Radius=0.0)
+        for weight, passed in ((1.0, True), (0.0, False)):
+            surface = output(surface_of(self.ball, IsoValue=0.0, AttractingPoints=known,
+                                        PointAttractionWeight=weight))
+            self.check_valid(surface)
+            self.assertEqual(surface.GetBounds()[1] > place[0], passed)
+
+    def test_edge_map(self):
+        image = ball_image()
+        testing.add_array(image, numpy.exp(-(distances() - 9.0)**2).astype(numpy.float32), "edges")
+        source = testing.produce(image)
+        # Alone, the value would lead the surface over the edges to the radius 5.
+        for weight, radius in ((0.0, 5.0), (2.0, 9.0)):
+            filter_ = surface_of(source, IsoValue=RADIUS - 5.0, EdgeAttractionWeight=weight)
+            filter_.Voxels, filter_.EdgeMap = ["POINTS", "v"], ["POINTS", "edges"]
+            surface = output(filter_)
+            self.check_valid(surface)
+            away = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
+            self.assertAlmostEqual(away.mean(), radius, delta=0.3)
+
+    def test_kept_components(self):
+        small, large = 3.0 - distances((-12.0, 0.0, 0.0)), 7.0 - distances((8.0, 0.0, 0.0))
+        source = testing.produce(image_of(numpy.maximum(small, large)))
+        for keep, count in (("All", 2), ("Largest", 1)):
+            surface = output(surface_of(source, IsoValue=0.0, FinestLevel=1, CoarsestLevel=1,
+                                        KeepComponents=keep))
+            self.check_valid(surface)
+            self.assertEqual(field(surface, "NumberOfComponents"), count)
+
+    def test_recovery_of_a_cavity(self):
+        source = testing.produce(image_of(numpy.minimum(RADIUS - distances(), distances() - 3.0)))
+        for recovery, characteristic in (("Objects", 2), ("Objects and Cavities", 4)):
+            surface = output(surface_of(source, IsoValue=0.0, Recovery=recovery))
+            self.check_valid(surface)
+            self.assertEqual(field(surface, "EulerCharacteristic"), characteristic)
 
     def check_error(self, expected, source, **properties):
         """The message that a bad input gives, and that there is no output afterwards."""

@@ -89,7 +89,9 @@ class ProxyDefaultsTest(unittest.TestCase):
                     self.assertEqual(held.GetElement(0), expected)
                     compared.add((element.get("name"), name))
         # Inherited ones too.
-        for name in ("Friction", "SnapshotInterval", "FinestLevel", "ReductionFactor"):
+        for name in ("Friction", "SnapshotInterval", "FinestLevel", "ReductionFactor", "Recovery",
+                     "MinimumPartSize", "KeepComponents", "MinimumComponentVolume",
+                     "PointAttractionWeight", "EdgeAttractionWeight"):
             self.assertIn(("VolumeToSurface", name), compared)
         self.assertGreater(len(compared), 50)
 
@@ -127,6 +129,25 @@ class ProxyDefaultsTest(unittest.TestCase):
         if property_.IsA("vtkSMIntVectorProperty"):
             return value + 1
         return value * 0.9 if value else 0.5
+
+    def test_every_choice_of_the_class_is_offered(self):
+        chosen = set()
+        for group, element in self.elements:
+            proxy = self.new_proxy(group, element.get("name"))
+            class_ = type(proxy.GetClientSideObject())
+            for name, held, command in values_of(proxy):
+                kind = getattr(class_, command[3:] + "Type", None)
+                if kind is None:
+                    continue
+                with self.subTest(proxy=element.get("name"), property=name):
+                    constants = [getattr(class_, constant) for constant in dir(class_)]
+                    choices = {int(value) for value in constants if type(value) is kind}
+                    domain = held.FindDomain("vtkSMEnumerationDomain")
+                    entries = range(domain.GetNumberOfEntries())
+                    self.assertEqual({domain.GetEntryValue(i) for i in entries}, choices)
+                    self.assertGreater(len(choices), 1)
+                    chosen.add(name)
+        self.assertEqual(chosen, {"BorderValue", "Initialization", "KeepComponents", "Recovery"})
 
     def test_every_property_is_documented(self):
         for group, element in self.elements:

@@ -18,7 +18,8 @@ ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright")
 ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "Recovery", "MinimumPartSize",
             "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
-            "GradientWeight", "Friction", "BorderValue", "TopologyChanges", "SnapToIsoValue",
+            "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
+            "BorderValue", "TopologyChanges", "SnapToIsoValue", "KeepComponents",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
             "NumberOfThreads", "SnapshotInterval", "Profile")
 
@@ -73,7 +74,16 @@ class SurfaceWindowTest(window.WindowTestCase):
             window.shown("EdgeMap", False),
             gui.event(f"{PROPERTIES}/EdgeAttractionWeight/DoubleRangeWidget/DoubleLineEdit",
                       "set_string", "2"), gui.pause(300),
-            window.shown("EdgeMap", True)], "surface-advanced")
+            window.shown("EdgeMap", True),
+            gui.check(f"{PROPERTIES}/Recovery/ComboBox", "currentText", "Objects"),
+            gui.event(f"{PROPERTIES}/Recovery/ComboBox", "set_string", "Objects and Cavities"),
+            # Only of use for parts that are looked for, for components of that volume.
+            window.shown("MinimumPartSize", True),
+            gui.event(f"{PROPERTIES}/Recovery/ComboBox", "set_string", "Off"), gui.pause(300),
+            window.shown("MinimumPartSize", False),
+            window.shown("MinimumComponentVolume", False),
+            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
+            gui.pause(300), window.shown("MinimumComponentVolume", True)], "surface-advanced")
 
     def test_after_image_pyramid(self):
         path, save = self.saved_state("pyramid-and-surface.pvsm")
