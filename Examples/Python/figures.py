@@ -14,8 +14,9 @@
     vessels    the paper's figure 6, with recovery and without               --vessels
 
 Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any
-scan of vessels, brighter than what is around them, and its iso-value; without it that picture is
-left as it is. Each picture is less than 300 kB.
+scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the first
+is drawn as vessels.png, any other as vessels-NAME.png after its file; without it there is no such
+picture. Each picture is less than 300 kB.
 """
 
 import argparse
@@ -75,6 +76,15 @@ class Scan:
         return max(h for h in range(levels.GetNumberOfBlocks())
                    if levels.GetBlock(h).GetScalarRange()[1] > self.iso)
 
+    def run_without_recovery(self):
+        """From the coarsest level at which something is left of the surface, and that level."""
+        for level in range(self.coarsest(), 0, -1):
+            try:
+                return self.run(Recovery=0, CoarsestLevel=level), level
+            except FilterError as error:
+                print(f"  from level {level}: {error}")
+        return self.run(Recovery=0, CoarsestLevel=0), 0
+
 
 def panel_width(columns):
     return (ROW_WIDTH - GAP) // columns - GAP
@@ -86,10 +96,10 @@ def pyramid(skull):
                            panel_width(levels.GetNumberOfBlocks()))
 
 
-def level_row(surface, frame, columns, bounds):
+def level_row(surface, frame, columns, bounds, **options):
     """Panels and captions of the surfaces of the visited levels."""
     surfaces = [(f"Level {number}", block) for number, block in visited_levels(surface.GetLevels())]
-    return surface_row(surfaces, frame, bounds, panel_width(columns))
+    return surface_row(surfaces, frame, bounds, panel_width(columns), **options)
 
 
 def levels(skull):
@@ -156,13 +166,25 @@ def evolution(skull):
 
 
 def vessels(scan):
-    coarsest = scan.coarsest()
-    runs = [scan.run(CoarsestLevel=coarsest, Recovery=recovery) for recovery in (0, 1)]
-    columns = max(len(visited_levels(surface.GetLevels())) for surface in runs)
-    rows, captions = zip(*(level_row(surface, scan.frame, columns, runs[1].GetOutput().GetBounds())
-                           for surface in runs))
-    return render.compose(rows, captions, None,
-                          ["Recovery off, as in the paper", "Recovery on, the default"])
+    without, start = scan.run_without_recovery()
+    coarsest, recovered = scan.coarsest(), scan.run(Recovery=2)
+    rows, captions = zip(*(all_levels_row(surface, coarsest, scan.frame,
+                                          recovered.GetOutput().GetBounds())
+                           for surface in (without, recovered)))
+    origin = f" (from level {start}: begun coarser, nothing is left)" if start < coarsest else ""
+    return render.compose(rows, captions, None, [f"Recovery off, as in the paper{origin}",
+                                                 "With recovery of parts and cavities"])
+
+
+def all_levels_row(surface, coarsest, frame, bounds):
+    """Panels and captions of all levels from the coarsest, empty where there is no surface."""
+    row, captions = level_row(surface, frame, coarsest + 1, bounds, zoom=1)
+    there = [number for number, _ in visited_levels(surface.GetLevels())]
+    for column, number in enumerate(range(coarsest, -1, -1)):
+        if number not in there:
+            row.insert(column, render.blank(*row[0].shape[:2]))
+            captions.insert(column, (f"Level {number}", "no surface"))
+    return row, captions
 
 
 def field(surface, name):
@@ -181,9 +203,9 @@ def compact(picture):
 SKULL_PICTURES = (pyramid, levels, views, triangles, history, evolution)
 
 
-def write_picture(draw, scan, folder):
+def write_picture(draw, scan, folder, name=None):
     """Write the picture; its size must fit a repository."""
-    path = os.path.join(folder, draw.__name__ + ".png")
+    path = os.path.join(folder, (name or draw.__name__) + ".png")
     print(f"Drawing {path}", flush=True)
     render.write_png(compact(draw(scan)), path)
     size = os.path.getsize(path)
@@ -199,7 +221,8 @@ def main():
     parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
     parser.add_argument("--only", nargs="+", choices=known, default=known, metavar="PICTURE",
                         help=", ".join(known))
-    parser.add_argument("--vessels", nargs=2, metavar=("VOLUME", "ISO"))
+    parser.add_argument("--vessels", nargs=2, metavar=("VOLUME", "ISO"), action="append",
+                        default=[], help="may be repeated: vessels.png, then vessels-NAME.png")
     parser.add_argument("--skull", nargs=2, metavar=("VOLUME", "ISO"), default=(SKULL, SKULL_ISO),
                         help="another volume in the place of the skull")
     arguments = parser.parse_args()
@@ -209,11 +232,13 @@ def main():
         for draw in SKULL_PICTURES:
             if draw.__name__ in arguments.only:
                 write_picture(draw, skull, arguments.output)
-        if arguments.vessels and "vessels" in arguments.only:
-            scan = Scan(arguments.vessels[0], float(arguments.vessels[1]))
-            write_picture(vessels, scan, arguments.output)
-        elif "vessels" in arguments.only:
-            print("No --vessels: vessels.png stays as it is")
+        wanted = arguments.vessels if "vessels" in arguments.only else []
+        for number, (path, iso) in enumerate(wanted):
+            stem = os.path.basename(path).partition(".")[0]
+            write_picture(vessels, Scan(path, float(iso)), arguments.output,
+                          f"vessels-{stem}" if number else "vessels")
+        if "vessels" in arguments.only and not wanted:
+            print("No --vessels: their pictures stay as they are")
     except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:
         sys.exit(f"figures.py: {error}")
 

@@ -53,13 +53,16 @@ def levels_picture(levels, frame, title):
     return render.compose([row], [captions], title)
 
 
-def surface_row(surfaces, frame, bounds, width=LEVEL_WIDTH):
-    """Panels and captions, for render.compose, of (name, surface) from one camera."""
+def surface_row(surfaces, frame, bounds, width=LEVEL_WIDTH, zoom=1.1):
+    """Panels and captions, for render.compose, of (name, surface) from one camera.
+
+    With a zoom of 1 the corners of the bounds are in the picture; bodies don't reach them.
+    """
     height = render.fitting_height(width, frame, *THREE_QUARTERS, bounds)
     row, captions = [], []
     for name, surface in surfaces:
         row.append(render.draw([render.surface_actor(surface)], (width, height), frame,
-                               *THREE_QUARTERS, bounds, zoom=1.1))
+                               *THREE_QUARTERS, bounds, zoom=zoom))
         captions.append((name, f"{surface.GetNumberOfPoints():,} vertices",
                          f"{plural(field_value(surface, 'NumberOfComponents'), 'component')},"
                          f" genus {field_value(surface, 'Genus'):.0f}"))

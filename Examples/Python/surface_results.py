@@ -18,7 +18,9 @@ FACTS = {
     "euler_characteristic": "EulerCharacteristic", "area": "Area", "volume": "Volume",
     "delta": "Delta", "unit": "Unit",
     "level": "Level", "iterations": "Iterations", "lost_parts": "LostParts",
-    "recovered_parts": "RecoveredParts", "remaining_contacts": "RemainingContacts",
+    "recovered_parts": "RecoveredParts", "lost_cavities": "LostCavities",
+    "recovered_cavities": "RecoveredCavities", "remaining_contacts": "RemainingContacts",
+    "contact_vertices": "ContactVertices",
 }
 COMPONENT_FACTS = {
     "area": "ComponentArea", "volume": "ComponentVolume", "genus": "ComponentGenus",

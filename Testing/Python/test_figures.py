@@ -40,9 +40,11 @@ class FiguresTest(unittest.TestCase):
                           str(RING_ISO), *arguments)
 
     def test_every_picture(self):
-        run = self.figures("--vessels", self.ring, str(RING_ISO))
+        run = self.figures("--vessels", self.ring, str(RING_ISO),
+                           "--vessels", self.ring, str(RING_ISO))
         self.assertEqual((run.returncode, run.stderr), (0, ""))
-        names = sorted([draw.__name__ + ".png" for draw in SKULL_PICTURES] + ["vessels.png"])
+        names = sorted([draw.__name__ + ".png" for draw in SKULL_PICTURES]
+                       + ["vessels.png", "vessels-r.png"])
         self.assertEqual(sorted(os.listdir(self.output)), names)
         for name in names:
             pixels = pixels_of(os.path.join(self.output, name))
