@@ -95,6 +95,23 @@ TEST(LostParts, EnclosesBackgroundInsideTheSurface)
   EXPECT_GE(NearestVertex(state, cover.Surface), constraint::NearestOthers * Delta);
 }
 
+TEST(LostParts, KeepsClearOfTheSurface)
+{
+  // The lost ball begins two and a half voxels from the known one.
+  const TestVolume volume = MakeVolume(48,
+    [](double x, double y, double z)
+    {
+      const double known = Distance(x, y, z, 18, 24, 24) - 13.;
+      return Soft(std::min(known, Distance(x, y, z, 39, 24, 24) - 5.5));
+    });
+  const Field field(volume.Image, Half(), Threads);
+  SurfaceState state;
+  Fill(state);
+  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
+  ASSERT_EQ(cover.Covered, 1);
+  EXPECT_GE(NearestVertex(state, cover.Surface), constraint::NearestOthers * Delta);
+}
+
 TEST(LostParts, LeavesPartsUnderTheMinimumSize)
 {
   const TestVolume volume = Scene();
