@@ -18,36 +18,6 @@ constexpr float HoldingReach = 1.15f;
 constexpr float FarFromIso = 0.1f;
 /** Floor of the gradient, in TypicalSlope. */
 constexpr float GradientFloor = 0.15f;
-
-/** Whether two different vertices are at least four edges apart. */
-bool AreFarAlongTheSurface(const SurfaceMesh& mesh, int v, int w)
-{
-  const Ring& first = mesh.Rings[v];
-  const Ring& second = mesh.Rings[w];
-  if (first.Contains(w))
-  {
-    return false;
-  }
-  for (int i = 0; i < first.Count; ++i)
-  {
-    if (second.Contains(first.Item[i]))
-    {
-      return false; // Two edges: nearly all that are near and no neighbours.
-    }
-  }
-  for (int i = 0; i < first.Count; ++i)
-  {
-    const Ring& between = mesh.Rings[first.Item[i]];
-    for (int j = 0; j < second.Count; ++j)
-    {
-      if (between.Contains(second.Item[j]))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
 }
 
 RemainingContacts FindRemainingContacts(
@@ -85,7 +55,7 @@ RemainingContacts FindRemainingContacts(
             const bool mayHold = !hasOther && squared < static_cast<double>(reach) * reach &&
               Dot(state.Normal[v], state.Normal[w]) < 0;
             if (w != v && ((isForbidden && w > v) || mayHold) &&
-              AreFarAlongTheSurface(mesh, v, w))
+              mesh.AreStrangers(v, w))
             {
               hasOther = hasOther || mayHold;
               if (isForbidden && w > v)

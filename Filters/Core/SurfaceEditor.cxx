@@ -311,7 +311,7 @@ bool SurfaceEditor::Merge(int u, int v)
   StarMerge merge;
   merge.U = u;
   merge.V = v;
-  // Between sharp rims rungs are long; the next iteration splits them before anything moves.
+  // Between sharp rims rungs are long; the remesher splits them at once.
   const float longest = LongestRung * s.Delta;
   if (!merge.Plan(s.Mesh) || merge.SquaredLongestRung() > longest * longest)
   {

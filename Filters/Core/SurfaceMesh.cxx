@@ -11,6 +11,35 @@
 
 namespace volumic
 {
+bool SurfaceMesh::AreStrangers(int v, int w) const
+{
+  const Ring& first = this->Rings[v];
+  const Ring& second = this->Rings[w];
+  if (first.Contains(w))
+  {
+    return false;
+  }
+  for (int i = 0; i < first.Count; ++i)
+  {
+    if (second.Contains(first.Item[i]))
+    {
+      return false; // Two edges: nearly all that are near and no neighbours.
+    }
+  }
+  for (int i = 0; i < first.Count; ++i)
+  {
+    const Ring& between = this->Rings[first.Item[i]];
+    for (int j = 0; j < second.Count; ++j)
+    {
+      if (between.Contains(second.Item[j]))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 int SurfaceMesh::AddVertex(const Vector& position)
 {
   if (!this->Free.empty())

@@ -288,30 +288,6 @@ bool SurfacePolish::Improve(int v)
   return this->CollapseEdges(v) || this->FlipEdges(v) || this->Slide(v);
 }
 
-bool SurfacePolish::AreStrangers(int v, int w) const
-{
-  // From four edges apart on.
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const Ring& first = mesh.Rings[v];
-  const Ring& second = mesh.Rings[w];
-  if (first.Contains(w))
-  {
-    return false;
-  }
-  for (int i = 0; i < first.Count; ++i)
-  {
-    const Ring& between = mesh.Rings[first.Item[i]];
-    for (int j = 0; j < second.Count; ++j)
-    {
-      if (first.Item[i] == second.Item[j] || between.Contains(second.Item[j]))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
 bool SurfacePolish::Approaches(int v, const Vector& position) const
 {
   const SurfaceState& s = this->State;
@@ -328,7 +304,7 @@ bool SurfacePolish::Approaches(int v, const Vector& position) const
       approaches = approaches ||
         (w != v && squared < near * near &&
           squared < SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) &&
-          this->AreStrangers(v, w));
+          s.Mesh.AreStrangers(v, w));
     });
   return approaches;
 }
@@ -343,7 +319,7 @@ Vector SurfacePolish::PushAt(int v) const
     [&](int w)
     {
       const float squared = SquaredDistance(p, s.Mesh.Position[w]);
-      if (w != v && squared < near * near && squared > 0 && this->AreStrangers(v, w))
+      if (w != v && squared < near * near && squared > 0 && s.Mesh.AreStrangers(v, w))
       {
         const float distance = std::sqrt(squared);
         push += (p - s.Mesh.Position[w]) * (0.5f * (near - distance) / distance);

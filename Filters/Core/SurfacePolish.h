@@ -50,7 +50,6 @@ private:
   bool CollapseEdge(int u, int v, float before);
   bool FlipEdges(int v);
   bool Strays(int v, const Vector& position) const;
-  bool AreStrangers(int v, int w) const;
   bool Approaches(int v, const Vector& position) const;
   bool Slide(int v);
   Vector PushAt(int v) const;
