@@ -112,7 +112,8 @@ std::vector<AttractingPoint> AttractingPointsOf(
     for (int axis = 0; axis < 3; ++axis)
     {
       // A voxel of tolerance: there the field still ramps down to the background.
-      if (!(point.Place[axis] >= -1.0 && point.Place[axis] <= size[axis]))
+      const double step = space.Step()[axis];
+      if (!(point.Place[axis] >= -step && point.Place[axis] <= step * size[axis]))
       {
         Refuse("point ", id, " (", world[0], ", ", world[1], ", ", world[2],
           ") lies outside the image. Points are in world coordinates; leave it out.");
@@ -155,7 +156,7 @@ EdgeLevels::EdgeLevels(
       pyramid->SetNumberOfThreads(numberOfThreads);
       this->Blocks = BuildPyramid(pyramid, image, selection);
     }
-    this->Levels = std::make_unique<PyramidLevels>(this->Blocks, selection);
+    this->Levels = std::make_unique<PyramidLevels>(this->Blocks, selection, Metric::Voxels);
   }
   catch (const std::invalid_argument& error)
   {

@@ -12,6 +12,22 @@
 
 namespace volumic
 {
+EdgeLengthPlan PlanEdgeLength(
+  double edgeLength, double samplingRatio, vtkImageData* image, vtkImagePyramid* pyramid)
+{
+  EdgeLengthPreferences preferences;
+  preferences.Pyramid.ReductionFactor = pyramid->GetReductionFactor();
+  preferences.Pyramid.NumberOfLevels = pyramid->GetNumberOfLevels();
+  preferences.Pyramid.MinimumLevelSize = pyramid->GetMinimumLevelSize();
+  preferences.SamplingRatio = samplingRatio;
+  const int* size = image->GetDimensions();
+  const double* spacing = image->GetSpacing();
+  const EdgeLengthPlan plan = PlanEdgeLength(edgeLength, { size[0], size[1], size[2] },
+    { spacing[0], spacing[1], spacing[2] }, preferences);
+  pyramid->SetReductionFactor(plan.ReductionFactor);
+  return plan;
+}
+
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection)
 {

@@ -3,6 +3,8 @@
 #ifndef BuildPyramid_h
 #define BuildPyramid_h
 
+#include "Core/EdgeLengthPlan.h"
+
 #include <vtkSmartPointer.h>
 
 class vtkImageData;
@@ -12,6 +14,14 @@ class vtkMultiBlockDataSet;
 
 namespace volumic
 {
+/**
+ * What gives edges of a mean length (world units) at the finest level; sets the factor of the
+ * pyramid, which is not made yet, to the plan's.
+ * @throws std::invalid_argument naming the lengths that are possible.
+ */
+EdgeLengthPlan PlanEdgeLength(
+  double edgeLength, double samplingRatio, vtkImageData* image, vtkImagePyramid* pyramid);
+
 /**
  * The levels of an image, by a pyramid with the settings wanted.
  * @param selection of the voxels, as GetInputArrayInformation()

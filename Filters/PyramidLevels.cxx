@@ -116,7 +116,8 @@ void Convert(const T* values, std::vector<float>& converted, Executor& executor)
 }
 }
 
-PyramidLevels::PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection)
+PyramidLevels::PyramidLevels(
+  vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric)
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
@@ -142,7 +143,7 @@ PyramidLevels::PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selec
     if (h == 0)
     {
       CheckSize(image, "the image", "Resample it more finely.");
-      this->Space = Workspace(image);
+      this->Space = Workspace(image, metric);
     }
     else
     {
@@ -167,7 +168,7 @@ double PyramidLevels::UnitInWorld(int level) const
 
 double PyramidLevels::UnitOf(int level) const
 {
-  return level < 0 ? this->Units[0] / std::sqrt(3.0) : this->Units[level];
+  return level < 0 ? this->Units[0] / this->FactorBelowLevel0 : this->Units[level];
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const
@@ -223,7 +224,7 @@ LevelImage PyramidLevels::Load(int wanted, Executor& executor)
   for (int axis = 0; axis < 3; ++axis)
   {
     loaded.Size[axis] = image->GetDimensions()[axis];
-    loaded.Step[axis] =
+    loaded.Step[axis] = this->Space.Step()[axis] *
       static_cast<double>(this->Images[0]->GetDimensions()[axis]) / loaded.Size[axis];
   }
   loaded.Unit = this->UnitOf(wanted);

@@ -35,10 +35,11 @@ public:
   /**
    * @param blocks    block h is the vtkImageData of level h
    * @param selection says which array holds the voxels (GetInputArrayInformation)
+   * @param metric    which lengths the workspace has
    * @throws if a block is not an image, has no such array, or its size or place are not those of a
    *         level of a pyramid; if the image is 2D or under MinimumSize along an axis.
    */
-  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection);
+  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric);
 
   int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }
@@ -46,8 +47,9 @@ public:
   /// Voxels of the finest level along each axis.
   std::array<int, 3> SizeOfLevel0() const;
 
-  /// U_h in world units. Level -1, finer than the image, has U_0 / sqrt 3.
+  /// U_h in world units. Level -1, finer than the image, has U_0 / T, with sqrt 3 for T unless told.
   double UnitInWorld(int level) const;
+  void SetFactorBelowLevel0(double t) { this->FactorBelowLevel0 = t; }
 
   /// Smallest and largest voxel of a level.
   std::array<double, 2> Range(int level) const;
@@ -66,6 +68,7 @@ private:
   std::vector<vtkImageData*> Images;
   std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
   std::vector<double> Units; ///< workspace
+  double FactorBelowLevel0 = 1.7320508075688772;
   Workspace Space;
   std::vector<float> Converted;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceSegmentation.h"
 
+#include "Core/EdgeLengthPlan.h"
 #include "Core/Refuse.h"
 #include "HostThreads.h"
 #include "InitialSurfaces.h"
@@ -34,11 +35,12 @@ void CheckEnumeration(const char* name, int value, int last)
 }
 
 /// The levels, with errors that name the port.
-PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection)
+PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int metric)
 {
+  CheckEnumeration("Metric", metric, vtkDeformableSurface::World);
   try
   {
-    return PyramidLevels(blocks, selection);
+    return PyramidLevels(blocks, selection, static_cast<Metric>(metric));
   }
   catch (const std::invalid_argument& error)
   {
@@ -84,7 +86,7 @@ private:
 
 SurfaceSegmentation::SurfaceSegmentation(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), Pyramid(ReadLevels(blocks, selection)),
+  : Settings(settings), Pyramid(ReadLevels(blocks, selection, settings.Metric)),
     Finest(vtkSmartPointer<vtkPolyData>::New()),
     Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New()),
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
@@ -112,6 +114,7 @@ SurfaceSegmentation::SurfaceSegmentation(
   this->Settings.Options.RecoverCavities =
     settings.Recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
   this->Settings.Options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
+  this->ChooseEdgeLength();
   this->ReadAttraction(blocks);
   this->ReadComponentChoice();
 }
@@ -187,6 +190,25 @@ LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
   return image;
 }
 
+void SurfaceSegmentation::ChooseEdgeLength()
+{
+  if (this->Settings.EdgeLength != 0.0 && !this->Settings.EdgeLengthIsPlanned)
+  {
+    std::vector<double> units;
+    for (int level = 0; level < this->Pyramid.NumberOfLevels(); ++level)
+    {
+      units.push_back(this->Pyramid.UnitInWorld(level));
+    }
+    EdgeLengthPreferences preferences;
+    preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
+    const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
+    this->Settings.FinestLevel = plan.FinestLevel;
+    this->Settings.Options.SamplingRatio = plan.SamplingRatio;
+    this->Settings.FactorBelowLevel0 = plan.ReductionFactor;
+  }
+  this->Pyramid.SetFactorBelowLevel0(this->Settings.FactorBelowLevel0);
+}
+
 void SurfaceSegmentation::ChooseLevels()
 {
   const int last = this->Pyramid.NumberOfLevels() - 1;
@@ -196,6 +218,12 @@ void SurfaceSegmentation::ChooseLevels()
   {
     Refuse("CoarsestLevel is ", this->Settings.CoarsestLevel,
       ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
+  }
+  if (this->Settings.EdgeLength != 0.0 && this->LastLevel > this->Coarsest)
+  {
+    Refuse("EdgeLength is ", this->Settings.EdgeLength, ", for which the finest level is ",
+      this->LastLevel, ", but CoarsestLevel is ", this->Settings.CoarsestLevel,
+      "; set it to that level, a coarser one, or -1 for the last.");
   }
   if (this->LastLevel < -1 || this->LastLevel > this->Coarsest)
   {
@@ -258,6 +286,13 @@ void SurfaceSegmentation::CheckObjectIsThere()
   {
     this->Coarsest = level;
     return;
+  }
+  if (this->Settings.EdgeLength != 0.0 && this->Coarsest == this->LastLevel)
+  {
+    Refuse("EdgeLength is ", this->Settings.EdgeLength, ", for which the finest level is ",
+      this->LastLevel, ", but the object is too thin for it: no voxel is ",
+      this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",
+      this->Settings.Options.IsoValue, " there. Give a shorter EdgeLength.");
   }
   Refuse("the object has vanished at level ", this->Coarsest, ", the coarsest: no voxel is ",
     this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",

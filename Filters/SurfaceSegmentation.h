@@ -36,8 +36,12 @@ struct SegmentationSettings
   int Recovery = 0;       ///< vtkDeformableSurface::RecoveryType, if it is one
   int KeepComponents = 0; ///< vtkDeformableSurface::KeepComponentsType, if it is one
   double MinimumComponentVolume = 0.0; ///< world units cubed
+  int Metric = 0;         ///< vtkDeformableSurface::MetricType, if it is one
+  double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
+  bool EdgeLengthIsPlanned = false; ///< the levels were made for it, and what follows is set
   int CoarsestLevel = -1;
   int FinestLevel = 0;
+  double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
   int NumberOfThreads = 0;
   bool Profile = false;                  ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
@@ -72,6 +76,7 @@ public:
   vtkMultiBlockDataSet* Snapshots() const { return this->Film.Blocks(); }
 
 private:
+  void ChooseEdgeLength();
   void ChooseLevels();
   unsigned int BlockOf(int level) const;
   void ReadComponentChoice();

@@ -12,15 +12,21 @@
 
 namespace volumic
 {
-Workspace::Workspace(vtkImageData* level0)
+Workspace::Workspace(vtkImageData* level0, Metric metric)
 {
   const double* spacing = level0->GetSpacing();
   const double* direction = level0->GetDirectionMatrix()->GetData();
+  this->Unit = std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
+  for (int axis = 0; axis < 3 && metric == Metric::World && this->Unit > 0.0; ++axis)
+  {
+    this->Steps[axis] = std::abs(spacing[axis]) / this->Unit;
+  }
   for (int row = 0; row < 3; ++row)
   {
     for (int column = 0; column < 3; ++column)
     {
-      this->Forward[3 * row + column] = direction[3 * row + column] * spacing[column];
+      this->Forward[3 * row + column] =
+        direction[3 * row + column] * spacing[column] / this->Steps[column];
     }
   }
   const double determinant = vtkMatrix3x3::Determinant(this->Forward.data());
@@ -33,7 +39,6 @@ Workspace::Workspace(vtkImageData* level0)
   this->Mirrored = determinant < 0.0;
   const int* extent = level0->GetExtent();
   level0->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], this->Origin.data());
-  this->Unit = std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
 }
 
 Point Workspace::ToWorld(const Point& place) const

@@ -21,6 +21,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
+#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -37,6 +38,8 @@ constexpr double PyramidShare = 0.02;
 vtkDeformableSurface::vtkDeformableSurface()
 {
   const volumic::SurfaceOptions defaults;
+  this->Metric = World;
+  this->EdgeLength = 0.0;
   this->IsoValue = vtkMath::Nan();
   this->ObjectIsBright = defaults.ObjectIsBright;
   this->Initialization = EnclosingIcosahedron;
@@ -142,17 +145,44 @@ int vtkDeformableSurface::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* input)
+vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
 {
   Volume volume;
-  volume.IsoValue = this->IsoValue;
   volume.Selection = this->GetInputArrayInformation(0);
+  volume.IsoValue = this->IsoValue;
+  volume.FinestLevel = this->FinestLevel;
+  volume.SamplingRatio = this->SamplingRatio;
+  volume.FactorBelowLevel0 = std::sqrt(3.0);
+  volume.EdgeLengthIsPlanned = false;
+  return volume;
+}
+
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::MakeLevels(
+  vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume)
+{
+  pyramid->SetNumberOfThreads(this->NumberOfThreads);
+  if (this->EdgeLength != 0.0)
+  {
+    const volumic::EdgeLengthPlan plan =
+      volumic::PlanEdgeLength(this->EdgeLength, this->SamplingRatio, image, pyramid);
+    volume.FinestLevel = plan.FinestLevel;
+    volume.SamplingRatio = plan.SamplingRatio;
+    volume.FactorBelowLevel0 = plan.ReductionFactor;
+    volume.EdgeLengthIsPlanned = true;
+  }
+  volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection);
+}
+
+//------------------------------------------------------------------------------
+vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* input)
+{
+  Volume volume = this->VolumeAsSet();
   volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
   if (auto* image = vtkImageData::SafeDownCast(input))
   {
     vtkNew<vtkImagePyramid> pyramid;
-    pyramid->SetNumberOfThreads(this->NumberOfThreads);
-    volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection);
+    this->MakeLevels(pyramid, image, volume);
   }
   if (!volume.Levels)
   {
@@ -186,7 +216,7 @@ int vtkDeformableSurface::RequestData(
     settings.Options.IsoValue = volume.IsoValue;
     settings.Options.ObjectIsBright = this->ObjectIsBright;
     settings.Options.SeedRadius = this->SeedRadius; // still in world units
-    settings.Options.SamplingRatio = this->SamplingRatio;
+    settings.Options.SamplingRatio = volume.SamplingRatio;
     settings.Options.TensionWeight = this->TensionWeight;
     settings.Options.ElasticityWeight = this->ElasticityWeight;
     settings.Options.IsopotentialWeight = this->IsopotentialWeight;
@@ -206,7 +236,11 @@ int vtkDeformableSurface::RequestData(
     settings.KeepComponents = this->KeepComponents;
     settings.MinimumComponentVolume = this->MinimumComponentVolume;
     settings.CoarsestLevel = this->CoarsestLevel;
-    settings.FinestLevel = this->FinestLevel;
+    settings.Metric = this->Metric;
+    settings.EdgeLength = this->EdgeLength;
+    settings.EdgeLengthIsPlanned = volume.EdgeLengthIsPlanned;
+    settings.FinestLevel = volume.FinestLevel;
+    settings.FactorBelowLevel0 = volume.FactorBelowLevel0;
     settings.NumberOfThreads = this->NumberOfThreads;
     settings.Profile = this->Profile;
     settings.SnapshotInterval = this->SnapshotInterval;
@@ -247,6 +281,8 @@ int vtkDeformableSurface::RequestData(
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Metric: " << this->Metric << endl;
+  os << indent << "EdgeLength: " << this->EdgeLength << endl;
   os << indent << "IsoValue: " << this->IsoValue << endl;
   os << indent << "ObjectIsBright: " << this->ObjectIsBright << endl;
   os << indent << "Initialization: " << this->Initialization << endl;

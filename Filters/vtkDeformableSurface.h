@@ -96,6 +96,8 @@
 #include "vtkSmartPointer.h" // For the levels
 
 class vtkAlgorithmOutput;
+class vtkImageData;
+class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkTable;
@@ -114,6 +116,12 @@ public:
     Seeds = 1,
     IsoSurface = 2,
     InputSurface = 3
+  };
+  /// Which lengths the constraints on edges and distances speak of.
+  enum MetricType
+  {
+    Voxels = 0,
+    World = 1
   };
   /// What the field is outside the image.
   enum BorderValueType
@@ -136,6 +144,19 @@ public:
     ComponentsAtPoints = 2,
     LargeComponents = 3
   };
+
+  ///@{
+  /**
+   * Which lengths are even where voxels are not cubes, the two ways of section 5.2 of the paper:
+   * World (default): world lengths, so that triangles are well-shaped in millimetres, whatever the
+   * slices' distance; Voxels: those of an affine space in which voxels are cubes, so that triangles
+   * are stretched as the voxels are, and fewer. No difference where voxels are cubes.
+   */
+  vtkSetMacro(Metric, int);
+  vtkGetMacro(Metric, int);
+  void SetMetricToVoxels() { this->SetMetric(Voxels); }
+  void SetMetricToWorld() { this->SetMetric(World); }
+  ///@}
 
   ///@{
   /**
@@ -224,6 +245,20 @@ public:
    */
   vtkSetMacro(FinestLevel, int);
   vtkGetMacro(FinestLevel, int);
+  ///@}
+
+  ///@{
+  /**
+   * Mean length of the edges that is wanted at the finest level, in world units; 0, the default:
+   * what FinestLevel and SamplingRatio give, which are not looked at otherwise. Where port 0 has an
+   * image, the finest level, the pyramid's reduction factor and the sampling ratio are chosen to
+   * fit, the latter two as near as possible to sqrt(3) (vtkVolumeToSurface: its ReductionFactor)
+   * and SamplingRatio; where it has a pyramid, the level and the ratio. An error tells the lengths
+   * that are possible. The mean of a surface at rest is 1.6 delta, within some percent; with Metric
+   * Voxels it is that of the workspace, as Delta.
+   */
+  vtkSetMacro(EdgeLength, double);
+  vtkGetMacro(EdgeLength, double);
   ///@}
 
   ///@{
@@ -454,10 +489,20 @@ protected:
     vtkSmartPointer<vtkMultiBlockDataSet> Levels;
     vtkSmartPointer<vtkInformation> Selection; ///< of the array, as GetInputArrayInformation()
     double IsoValue;
+    int FinestLevel;
+    double SamplingRatio;
+    double FactorBelowLevel0;  ///< unit of level 0 over that of level -1
+    bool EdgeLengthIsPlanned;  ///< the levels were made for EdgeLength
   };
+  /// Without levels, the rest as the properties have it.
+  Volume VolumeAsSet();
+  /// Makes the pyramid of an image, for EdgeLength if there is one.
+  void MakeLevels(vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume);
   /// Makes the volume of the data of input port 0. Errors are thrown as std::invalid_argument.
   virtual Volume PrepareVolume(vtkDataObject* input);
 
+  int Metric;
+  double EdgeLength;
   double IsoValue;
   bool ObjectIsBright;
   int Initialization;

@@ -3,7 +3,6 @@
 #include "vtkVolumeToSurface.h"
 
 #include "AlgorithmErrors.h"
-#include "BuildPyramid.h"
 #include "CellVoxels.h"
 #include "Core/Refuse.h"
 #include "vtkImagePyramid.h"
@@ -47,9 +46,8 @@ vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* in
 {
   const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
     vtkImageData::SafeDownCast(input), this->GetInputArrayInformation(0));
-  Volume volume;
+  Volume volume = this->VolumeAsSet();
   volume.Selection = voxels.Selection;
-  volume.IsoValue = this->IsoValue;
   if (std::isnan(volume.IsoValue))
   {
     vtkNew<vtkOtsuThreshold> otsu;
@@ -66,8 +64,7 @@ vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* in
   pyramid->SetNumberOfLevels(this->NumberOfLevels);
   pyramid->SetMinimumLevelSize(this->MinimumLevelSize);
   pyramid->SetReductionFactor(this->ReductionFactor);
-  pyramid->SetNumberOfThreads(this->NumberOfThreads);
-  volume.Levels = volumic::BuildPyramid(pyramid, voxels.Image, voxels.Selection);
+  this->MakeLevels(pyramid, voxels.Image, volume);
   return volume;
 }
 

@@ -13,6 +13,7 @@ set(volumic_core_sources
   EdgeAttraction.cxx
   EdgeCollapse.cxx
   EdgeFlip.cxx
+  EdgeLengthPlan.cxx
   EdgeSplit.cxx
   EvolutionIteration.cxx
   EvolutionRun.cxx
@@ -48,6 +49,7 @@ set(volumic_core_headers
   EdgeAttraction.h
   EdgeCollapse.h
   EdgeFlip.h
+  EdgeLengthPlan.h
   EdgeSplit.h
   EvolutionImplementation.h
   Executor.h

@@ -10,10 +10,12 @@ namespace volumic
 /**
  * One level of the image pyramid as the surface sees it, in the workspace.
  *
- * The workspace is the space in which the voxels of level 0 are cubes of side 1: the index
- * coordinates of level 0, with the first voxel at the origin (method.md section 6). All levels
- * share origin and extent [0, M_0) x [0, N_0) x [0, P_0) (eq. 3), so voxel (i, j, k) lies at
- * (i Step[0], j Step[1], k Step[2]) with Step = M_0 / M_h along each axis. All lengths inside the
+ * The workspace is the space that the surface lives in: its axes are those of the image, the first
+ * voxel is the origin, and 1 is the smallest distance of two voxels of level 0. Section 5.2 of the
+ * paper offers two: the index coordinates of level 0, in which voxels are cubes, or a metric, in
+ * which the distances along the axes keep their ratio s. All levels share origin and extent
+ * [0, s_x M_0) x [0, s_y N_0) x [0, s_z P_0) (eq. 3), so voxel (i, j, k) lies at
+ * (i Step[0], j Step[1], k Step[2]) with Step = s M_0 / M_h along each axis. All lengths inside the
  * core are lengths of the workspace.
  *
  * Values and Edges are not owned and must outlive every call they are given to.

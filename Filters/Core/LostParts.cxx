@@ -34,6 +34,8 @@ public:
     for (int k = 0; k < 3; ++k)
     {
       this->Inverse[k] = 1. / field.Image().Step[k];
+      this->Pieces[k] =
+        std::max(1, static_cast<int>(std::ceil(field.Image().Step[k] / field.Image().Unit / 1.5)));
     }
   }
 
@@ -43,13 +45,26 @@ public:
   /** Connected sets of lost voxels. */
   std::vector<std::vector<int>> Parts(Executor& executor);
 
-  Point Place(int voxel) const
+  /** Calls visit(point) for the middle of a voxel, or, where it is longer than 1.5 units along an
+      axis, for the middles of equal pieces of it that are not. */
+  template <typename Visit>
+  void VisitPieces(int voxel, Visit&& visit) const
   {
     const auto& step = this->TheField.Image().Step;
-    const int i = voxel % this->Size[0];
-    const int j = voxel / this->Size[0] % this->Size[1];
-    const int k = voxel / this->Size[0] / this->Size[1];
-    return { i * step[0], j * step[1], k * step[2] };
+    const int index[3] = { voxel % this->Size[0], voxel / this->Size[0] % this->Size[1],
+      voxel / this->Size[0] / this->Size[1] };
+    const auto place = [&](int axis, int piece)
+    { return step[axis] * (index[axis] + (piece + 0.5) / this->Pieces[axis] - 0.5); };
+    for (int c = 0; c < this->Pieces[2]; ++c)
+    {
+      for (int b = 0; b < this->Pieces[1]; ++b)
+      {
+        for (int a = 0; a < this->Pieces[0]; ++a)
+        {
+          visit(Point{ place(0, a), place(1, b), place(2, c) });
+        }
+      }
+    }
   }
 
 private:
@@ -60,6 +75,7 @@ private:
   PartKind Kind;
   std::array<int, 3> Size;
   double Inverse[3];
+  int Pieces[3]; ///< Of a voxel along each axis, see VisitPieces.
   std::vector<std::uint8_t> Mark;
   std::vector<std::pair<int, float>> Crossings; ///< Row of voxels and place along it.
 };
@@ -146,7 +162,9 @@ void Search::MarkInside()
 
 void Search::CoverNear()
 {
-  constexpr double width = 2.;
+  // Two units of the level, whatever the distances of its voxels.
+  const double width = 2. * this->TheField.Image().Unit;
+  const auto& step = this->TheField.Image().Step;
   for (int v = 0; v < this->State.Mesh.Size(); ++v)
   {
     if (!this->State.Mesh.IsAlive(v))
@@ -160,18 +178,21 @@ void Search::CoverNear()
     int high[3];
     for (int k = 0; k < 3; ++k)
     {
-      low[k] = std::max(0, static_cast<int>(std::ceil(place[k] - width)));
-      high[k] = std::min(this->Size[k] - 1, static_cast<int>(std::floor(place[k] + width)));
+      const double reach = width * this->Inverse[k];
+      low[k] = std::max(0, static_cast<int>(std::ceil(place[k] - reach)));
+      high[k] = std::min(this->Size[k] - 1, static_cast<int>(std::floor(place[k] + reach)));
     }
     for (int k = low[2]; k <= high[2]; ++k)
     {
       for (int j = low[1]; j <= high[1]; ++j)
       {
         const std::size_t row = static_cast<std::size_t>(k * this->Size[1] + j) * this->Size[0];
-        const double across = (j - place[1]) * (j - place[1]) + (k - place[2]) * (k - place[2]);
+        const double y = (j - place[1]) * step[1];
+        const double z = (k - place[2]) * step[2];
         for (int i = low[0]; i <= high[0]; ++i)
         {
-          if (across + (i - place[0]) * (i - place[0]) <= width * width)
+          const double x = (i - place[0]) * step[0];
+          if (x * x + y * y + z * z <= width * width)
           {
             this->Mark[row + i] = Covered;
           }
@@ -301,7 +322,8 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     own.clear();
     for (int voxel : part)
     {
-      own.push_back(lattice.CellAt(search.Place(voxel)));
+      search.VisitPieces(
+        voxel, [&](const Point& place) { own.push_back(lattice.CellAt(place)); });
     }
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
