@@ -123,6 +123,14 @@ struct OptionTable
     this->Flags["--growth"] = [&o]() { o.Growth = true; };
     this->Flags["--no-judge"] = [&o]() { o.Judge = false; };
 
+    this->Values["--metric"] = [&o](const std::string& text)
+    {
+      if (text != "voxels" && text != "world")
+      {
+        throw UsageError("--metric needs voxels or world, not \"" + text + "\"");
+      }
+      o.Metric = text == "world" ? LengthMetric::World : LengthMetric::Voxels;
+    };
     this->Text("--volume", o.Volume);
     this->Text("--scene", o.Scene);
     this->Text("--csv", o.Csv);
@@ -260,6 +268,7 @@ std::vector<std::string> ArgumentsOfRun(const SurfaceBenchmarkOptions& options)
   {
     add("--coarsest", std::to_string(options.CoarsestLevel));
   }
+  add("--metric", options.Metric == LengthMetric::World ? "world" : "voxels");
   add("--initialization", std::to_string(options.Initialization));
   addNumber("--delta", options.Delta);
   addNumber("--edge-length", options.EdgeLength);
@@ -297,6 +306,8 @@ Runs
   --slow                those marked slow too
   --no-recovery         us-paper too
   --repetitions N       of each run; the one of median processor time is told (default 1)
+  --metric NAME         voxels or world (default): which lengths are even where voxels are no cubes,
+                        for us and for the peers that aim at even triangles
   --initialization N    0 enclosing icosahedron (default), 1 seeds, 2 iso-surface of the coarsest
                         level
   --coarsest LEVEL      where us-N starts; default: the coarsest level at which a voxel of the
@@ -319,9 +330,11 @@ Output
 Internal, of the processes that this program starts: --run NAME, --resample N, --no-judge, --delta,
 --radius.
 
-Peers get the volume with a voxel of air around it and work in voxels; loading it is not measured,
-the pyramid is. Seconds are those of the clock and of the processor, memory is the resident memory
-of the whole process at its peak. Lengths are in voxels, of the level where a level is spoken of.
+Peers get the volume with a voxel of air around it; loading it is not measured, the pyramid is.
+Seconds are those of the clock and of the processor, memory is the resident memory of the whole
+process at its peak. Lengths and shapes are those of the metric, in which the smallest distance of
+two voxels (of the level, where a level is spoken of) is 1; "voxels" and "world" name the other one
+or both. Only what was reached counts in voxels, always.
 Exit code: 0 all was run (targets may be missed), 1 a run failed, 2 the command line is wrong.
 )";
   return text.str();

@@ -23,6 +23,13 @@ public:
   using std::invalid_argument::invalid_argument;
 };
 
+/** Which lengths count where voxels are not cubes; the numbers of vtkDeformableSurface::MetricType. */
+enum class LengthMetric
+{
+  Voxels = 0,
+  World = 1
+};
+
 struct SurfaceBenchmarkOptions
 {
   // What is measured on.
@@ -37,6 +44,7 @@ struct SurfaceBenchmarkOptions
   bool Slow = false;
   bool NoRecovery = false;
   int Repetitions = 1;
+  LengthMetric Metric = LengthMetric::World; ///< in which surfaces are made
   int Initialization = 0; ///< vtkDeformableSurface::InitializationType
   int CoarsestLevel = -1; ///< -1: the coarsest where there is still something of the object
 

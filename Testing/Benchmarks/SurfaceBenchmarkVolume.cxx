@@ -143,10 +143,36 @@ vtkSmartPointer<vtkImageData> InAir(vtkImageData* image, bool objectIsBright)
   return pad->GetOutput();
 }
 
-vtkSmartPointer<vtkImageData> InVoxels(vtkImageData* image)
+std::array<double, 3> StepsOf(vtkImageData* image, LengthMetric metric)
+{
+  std::array<double, 3> steps;
+  image->GetSpacing(steps.data());
+  const double least = std::min({ steps[0], steps[1], steps[2] });
+  for (double& step : steps)
+  {
+    step = metric == LengthMetric::World ? step / least : 1.0;
+  }
+  return steps;
+}
+
+support::TriangleSurface Stretched(
+  support::TriangleSurface surface, const std::array<double, 3>& factors)
+{
+  for (auto& point : surface.Points)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      point[a] *= factors[a];
+    }
+  }
+  return surface;
+}
+
+vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const std::array<double, 3>& steps)
 {
   auto result = vtkSmartPointer<vtkImageData>::New();
   result->SetDimensions(image->GetDimensions());
+  result->SetSpacing(steps.data());
   result->GetPointData()->SetScalars(image->GetPointData()->GetScalars());
   return result;
 }

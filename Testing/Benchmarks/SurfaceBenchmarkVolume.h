@@ -7,9 +7,12 @@
 #define SurfaceBenchmarkVolume_h
 
 #include "SurfaceBenchmarkOptions.h"
+#include "TriangleSurface.h"
 
 #include <vtkImageData.h>
 #include <vtkSmartPointer.h>
+
+#include <array>
 
 namespace volumic
 {
@@ -35,8 +38,16 @@ vtkSmartPointer<vtkImageData> Resampled(vtkImageData* image, int size);
     type and the place in the world. */
 vtkSmartPointer<vtkImageData> InAir(vtkImageData* image, bool objectIsBright);
 
-/** The same voxels, shared, at index coordinates: extent from 0, origin 0, spacing 1. */
-vtkSmartPointer<vtkImageData> InVoxels(vtkImageData* image);
+/** Distances of the voxels along each axis: all 1 in the metric of voxels; in that of the world
+    their ratios to the smallest, so that a length of 1 is the same in both along that axis. */
+std::array<double, 3> StepsOf(vtkImageData* image, LengthMetric metric);
+
+/** The same voxels, shared: extent from 0, origin 0, and this spacing. */
+vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const std::array<double, 3>& steps);
+
+/** Index coordinates, or those of InSteps, times `factors`. */
+support::TriangleSurface Stretched(
+  support::TriangleSurface surface, const std::array<double, 3>& factors);
 
 } // namespace bench
 } // namespace volumic

@@ -6,6 +6,7 @@
 #include "SurfacePeersVtk.h"
 
 #include "SupportVtkConversions.h"
+#include "SurfaceBenchmarkVolume.h"
 
 #include <itkImage.h>
 #include <itkImageRegionIteratorWithIndex.h>
@@ -117,9 +118,12 @@ SurfaceJob LevelSetJob(vtkImageData* image, double isoValue, bool objectIsBright
     *result = ZeroSurface(segmentation->GetOutput(), image->GetDimensions());
   };
   job.Iterations = [iterations]() { return *iterations; };
-  job.Result = [result]()
+  std::array<double, 3> steps;
+  image->GetSpacing(steps.data());
+  job.Result = [result, steps]()
   {
-    support::TriangleSurface surface = support::ToTriangleSurface(*result);
+    // ITK's level sets work in voxels, whatever their distances.
+    support::TriangleSurface surface = Stretched(support::ToTriangleSurface(*result), steps);
     // Inward as it comes: the level set grows toward the outside.
     for (auto& triangle : surface.Triangles)
     {

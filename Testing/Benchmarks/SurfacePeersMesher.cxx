@@ -31,7 +31,7 @@ using Complex = CGAL::Complex_2_in_triangulation_3<Triangulation>;
 using Traits = Triangulation::Geom_traits;
 using Point = Traits::Point_3;
 
-/** How well a vertex is put onto the isopotential, voxels. With CGAL's default, a share of the
+/** How well a vertex is put onto the isopotential, in the smallest distance of two voxels. With CGAL's default, a share of the
     enclosing sphere, vertices would be off by tenths of a voxel. */
 constexpr double Precision = 0.03;
 
@@ -65,6 +65,7 @@ public:
     : Values(image->GetScalarPointer()), IsoValue(isoValue), Sign(objectIsBright ? -1.0 : 1.0)
   {
     image->GetDimensions(this->Size);
+    image->GetSpacing(this->Step);
     switch (image->GetScalarType())
     {
       vtkTemplateMacro(this->Interpolate = &Trilinear<VTK_TT>);
@@ -75,7 +76,8 @@ public:
 
   double operator()(const Point& p) const
   {
-    const double place[3] = { p.x(), p.y(), p.z() };
+    const double place[3] = { p.x() / this->Step[0], p.y() / this->Step[1],
+      p.z() / this->Step[2] };
     Cell cell;
     cell.Row = this->Size[0];
     cell.Plane = cell.Row * this->Size[1];
@@ -116,13 +118,15 @@ public:
     };
     const auto nearest = std::min_element(part.begin(), part.end(),
       [&](const auto& one, const auto& other) { return squared(one) < squared(other); });
-    return Point((*nearest)[0], (*nearest)[1], (*nearest)[2]);
+    return this->PlaceOf(*nearest);
   }
 
   /** Of a sphere around any point in the image that encloses all of it. */
   double EnclosingRadius() const
   {
-    return 1.1 * std::hypot(this->Size[0], this->Size[1], this->Size[2]);
+    return 1.1 *
+      std::hypot(this->Size[0] * this->Step[0], this->Size[1] * this->Step[1],
+        this->Size[2] * this->Step[2]);
   }
 
 private:
@@ -148,7 +152,7 @@ private:
       }
     };
     forEach([&](const std::array<int, 3>& v)
-      { open[index(v)] = (*this)(Point(v[0], v[1], v[2])) < 0.0; });
+      { open[index(v)] = (*this)(this->PlaceOf(v)) < 0.0; });
     std::vector<std::array<int, 3>> largest, part;
     forEach(
       [&](const std::array<int, 3>& start)
@@ -180,8 +184,14 @@ private:
     return largest;
   }
 
+  Point PlaceOf(const std::array<int, 3>& voxel) const
+  {
+    return Point(voxel[0] * this->Step[0], voxel[1] * this->Step[1], voxel[2] * this->Step[2]);
+  }
+
   const void* Values;
   int Size[3];
+  double Step[3];
   double IsoValue;
   double Sign;
   double (*Interpolate)(const void* values, const Cell& cell) = nullptr;

@@ -101,19 +101,22 @@ void SetEfforts(vtkTable* history, int numberOfLevels, RunFigures& figures)
   figures.Set("VertexIterations", vertexIterations);
 }
 
-/** Lengths that the surface promises are in voxels of level 0, the space in which it is made;
-    distances to the isopotential and reach in those of the level. */
+/** Lengths that the surface promises are in units of level 0; distances to the isopotential and
+    reach in those of the level. */
 void JudgeLevel(vtkPolyData* surface, vtkImageData* level0, vtkImageData* level,
-  const BenchmarkedVolume& volume, const std::string& prefix, RunFigures& figures)
+  const BenchmarkedVolume& volume, LengthMetric metric, const std::string& prefix,
+  RunFigures& figures)
 {
   double spacing[3];
   level0->GetSpacing(spacing);
   const double unit = std::min({ spacing[0], spacing[1], spacing[2] });
   const double delta = Field(surface, "Delta") / unit;
-  SetVerdict(support::ToTriangleSurface(surface, level0), delta, prefix, figures);
+  SetVerdict(Stretched(support::ToTriangleSurface(surface, level0), StepsOf(level0, metric)), delta,
+    prefix, figures);
   const vtkSmartPointer<vtkImageData> values = AsFloat(InAir(level, volume.ObjectIsBright));
   SetFit(
-    support::ToTriangleSurface(surface, values), ToJudgedVolume(values, volume), prefix, figures);
+    support::ToTriangleSurface(surface, values), ToJudgedVolume(values, volume), metric,
+    StepsOf(level, LengthMetric::World), prefix, figures);
 }
 
 /** The coarsest level where there is still something of the object: the filter refuses to start
@@ -157,6 +160,7 @@ RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOp
   deformable->SetInputConnection(pyramid->GetOutputPort());
   deformable->SetIsoValue(volume.IsoValue);
   deformable->SetObjectIsBright(volume.ObjectIsBright);
+  deformable->SetMetric(static_cast<int>(options.Metric));
   deformable->SetInitialization(options.Initialization);
   deformable->SetNumberOfThreads(threads);
   int coarsest =
@@ -216,10 +220,10 @@ RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOp
     figures.Set(name("RecoveredParts"), Field(surface, "RecoveredParts"));
     if (options.Judge)
     {
-      JudgeLevel(surface, volume.Image, level, volume, name(""), figures);
+      JudgeLevel(surface, volume.Image, level, volume, options.Metric, name(""), figures);
       if (h == static_cast<int>(Field(finest, "Level")))
       {
-        JudgeLevel(surface, volume.Image, level, volume, "", figures);
+        JudgeLevel(surface, volume.Image, level, volume, options.Metric, "", figures);
       }
     }
   }

@@ -198,18 +198,35 @@ void SetVerdict(const support::TriangleSurface& surface, double delta, const std
     set("EdgesTooLong", static_cast<double>(verdict.Lengths.EdgesTooLong));
     set("NearPairs", static_cast<double>(verdict.Lengths.NearPairs));
   }
-  set("RatioLeast", verdict.Shapes.Least);
-  set("RatioQuantile01", verdict.Shapes.Quantile01);
-  set("RatioMean", verdict.Shapes.Mean);
 }
 
-void SetFit(const support::TriangleSurface& surface, const support::JudgedVolume& volume,
-  const std::string& prefix, RunFigures& figures)
+void SetFit(const support::TriangleSurface& surface, support::JudgedVolume volume,
+  LengthMetric metric, const std::array<double, 3>& world, const std::string& prefix,
+  RunFigures& figures)
 {
-  const support::IsoDistanceVerdict distance = support::JudgeIsoDistance(surface, volume);
-  figures.Set(prefix + "DistanceAtVertices", distance.MeanAtVertices);
-  figures.Set(prefix + "DistanceAtCentroids", distance.MeanAtCentroids);
   figures.Set(prefix + "Reach", support::JudgeReach(surface, volume).Share);
+  const auto set = [&](const char* name, LengthMetric of, double value)
+  {
+    figures.Set(prefix + (of == LengthMetric::World ? "World" : "Voxels") + name, value);
+    if (of == metric)
+    {
+      figures.Set(prefix + name, value);
+    }
+  };
+  for (const LengthMetric of : { LengthMetric::Voxels, LengthMetric::World })
+  {
+    if (of == LengthMetric::World)
+    {
+      volume.Spacing = world;
+    }
+    const support::IsoDistanceVerdict distance = support::JudgeIsoDistance(surface, volume);
+    set("DistanceAtVertices", of, distance.MeanAtVertices);
+    set("DistanceAtCentroids", of, distance.MeanAtCentroids);
+    const support::ShapeVerdict shapes = support::JudgeShapes(Stretched(surface, volume.Spacing));
+    set("RatioLeast", of, shapes.Least);
+    set("RatioQuantile01", of, shapes.Quantile01);
+    set("RatioMean", of, shapes.Mean);
+  }
 }
 
 std::string Fingerprint(const support::TriangleSurface& surface)
@@ -273,7 +290,9 @@ RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options)
     return figures;
   }
   vtkSMPTools::Initialize(1);
-  volume.Image = InVoxels(InAir(volume.Image, volume.ObjectIsBright));
+  const std::array<double, 3> steps = StepsOf(volume.Image, options.Metric);
+  const std::array<double, 3> world = StepsOf(volume.Image, LengthMetric::World);
+  volume.Image = InSteps(InAir(volume.Image, volume.ObjectIsBright), steps);
   const SurfaceJob job = MakePeerJob(options.Run, volume.Image, volume, options);
   RunFigures figures;
   figures.Set("Voxels", voxels);
@@ -299,7 +318,9 @@ RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options)
   {
     const vtkSmartPointer<vtkImageData> values = AsFloat(volume.Image);
     SetVerdict(surface, 0.0, "", figures);
-    SetFit(surface, ToJudgedVolume(values, volume), "", figures);
+    const std::array<double, 3> back = { 1.0 / steps[0], 1.0 / steps[1], 1.0 / steps[2] };
+    const support::TriangleSurface inVoxels = Stretched(surface, back);
+    SetFit(inVoxels, ToJudgedVolume(values, volume), options.Metric, world, "", figures);
   }
   figures.SetText("Fingerprint", Fingerprint(surface));
   return figures;

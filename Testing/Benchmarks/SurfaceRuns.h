@@ -36,7 +36,7 @@ std::vector<SurfaceRunKind> SurfaceRunKinds();
 /** Any of these, or us-N. */
 bool IsSurfaceRun(const std::string& name);
 
-/** The run options.Run. Figures, with lengths in voxels:
+/** The run options.Run. Figures, with lengths in the metric of the run:
    - WallSeconds, ProcessorSeconds, BaseMegabytes (resident before), PeakMegabytes;
    - those of SetVerdict and SetFit, and Fingerprint (text), the same for the same bits;
    - ours: CoarsestLevel, PyramidSeconds, Iterations, VertexIterations (vertices summed over the
@@ -56,9 +56,12 @@ void MeasureCost(const std::function<void()>& work, RunFigures& figures);
 void SetVerdict(const support::TriangleSurface& surface, double delta, const std::string& prefix,
   RunFigures& figures);
 
-/** The same, how the surface fits the volume; it is in the volume's index coordinates. */
-void SetFit(const support::TriangleSurface& surface, const support::JudgedVolume& volume,
-  const std::string& prefix, RunFigures& figures);
+/** The same: how well-shaped the triangles are and how the surface fits the volume, in whose index
+    coordinates it is, in both metrics (names that begin with Voxels and World; without either, that
+    of the run). `world`: the steps of the volume in the metric of the world. */
+void SetFit(const support::TriangleSurface& surface, support::JudgedVolume volume,
+  LengthMetric metric, const std::array<double, 3>& world, const std::string& prefix,
+  RunFigures& figures);
 
 /** A hash of all bits of the points and triangles. */
 std::string Fingerprint(const support::TriangleSurface& surface);

@@ -65,6 +65,16 @@ const std::vector<Figure> QualityFigures = {
   { "DistanceAtVertices", "distance at vertices" },
   { "DistanceAtCentroids", "distance at centroids" },
   { "Reach", "share reached", 4 },
+  { "VoxelsRatioLeast", "voxels: radius ratio min" },
+  { "VoxelsRatioQuantile01", "voxels: radius ratio p01" },
+  { "VoxelsRatioMean", "voxels: radius ratio mean", 4 },
+  { "VoxelsDistanceAtVertices", "voxels: distance at vertices" },
+  { "VoxelsDistanceAtCentroids", "voxels: distance at centroids" },
+  { "WorldRatioLeast", "world: radius ratio min" },
+  { "WorldRatioQuantile01", "world: radius ratio p01" },
+  { "WorldRatioMean", "world: radius ratio mean", 4 },
+  { "WorldDistanceAtVertices", "world: distance at vertices" },
+  { "WorldDistanceAtCentroids", "world: distance at centroids" },
 };
 
 /** In the CSV only. */

@@ -145,9 +145,9 @@ TextRows TargetRows(const std::vector<SurfaceRunResult>& runs)
   table.AddWorst("Q3", "radius ratio 1 % quantile", { "RatioQuantile01" }, Bound::AtLeast, 0.80);
   table.AddWorst("Q3", "radius ratio minimum", { "RatioLeast" }, Bound::AtLeast, 0.50);
   table.AddWorst(
-    "Q4", "distance at vertices, voxels", { "DistanceAtVertices" }, Bound::AtMost, 0.02);
+    "Q4", "distance at vertices", { "DistanceAtVertices" }, Bound::AtMost, 0.02);
   table.AddWorst(
-    "Q4", "distance at centroids, voxels", { "DistanceAtCentroids" }, Bound::AtMost, 0.09);
+    "Q4", "distance at centroids", { "DistanceAtCentroids" }, Bound::AtMost, 0.09);
   table.AddWorst("Q4", "share of boundary reached", { "Reach" }, Bound::AtLeast, 0.98);
   table.Add(
     "Q5", "different surfaces over runs and threads", table.DistinctSurfaces(), Bound::AtMost, 1.0);

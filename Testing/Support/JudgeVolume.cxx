@@ -62,6 +62,10 @@ public:
       gradient[2] += 0.5 * weight *
         (this->Voxel(at[0], at[1], at[2] + 1) - this->Voxel(at[0], at[1], at[2] - 1));
     }
+    for (int a = 0; a < 3; ++a)
+    {
+      gradient[a] /= this->Volume.Spacing[a];
+    }
   }
 
 private:

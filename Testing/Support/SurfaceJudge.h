@@ -119,6 +119,8 @@ struct JudgedVolume
   std::array<int, 3> Size = { 0, 0, 0 };
   double IsoValue = 0.0;
   bool ObjectIsBright = true;
+  /** Distance of the voxels along each axis, in the unit that distances are wanted in. */
+  std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
 };
 
 struct IsoDistanceVerdict
@@ -130,8 +132,9 @@ struct IsoDistanceVerdict
 };
 
 /** Distance to the isopotential, |I - iso| / |grad I|, from the trilinear field and the trilinear
-    interpolation of central differences. No distance counts more than `largest` voxels: where the
-    field is flat the quotient means nothing. Points in index coordinates, result in voxels. */
+    interpolation of central differences. No distance counts more than `largest`: where the field is
+    flat the quotient means nothing. Points in index coordinates, result and `largest` in the unit of
+    the volume's Spacing. */
 IsoDistanceVerdict JudgeIsoDistance(
   const TriangleSurface& surface, const JudgedVolume& volume, double largest = 10.0);
 
