@@ -331,6 +331,15 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   }
 }
 
+void SurfaceSegmentation::FitFinestLevel(SurfaceEvolution& evolution)
+{
+  if (this->Settings.EdgeLength != 0.0 && this->MeanEdgeInDelta > 0.0)
+  {
+    evolution.SetSamplingRatio(RatioForEdgeLength(this->Settings.EdgeLength,
+      this->Pyramid.UnitInWorld(this->LastLevel), this->MeanEdgeInDelta));
+  }
+}
+
 void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
 {
   // The field data tell it of every level; only what stays lost in the end is worth a warning.
@@ -363,6 +372,7 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     description.RecoveredCavities = lost.EnclosedCavities;
   }
   const SurfaceResult surface = evolution.Result();
+  this->MeanEdgeInDelta = MeanEdgeLength(surface) / surface.Delta;
   const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
   if (kept.Points.empty() && !surface.Points.empty())
   {
@@ -415,6 +425,10 @@ void SurfaceSegmentation::Run()
         }
         else
         {
+          if (level == this->LastLevel)
+          {
+            this->FitFinestLevel(evolution);
+          }
           evolution.Divide(image, level);
           this->WarnOfLostParts(level, evolution.Lost());
         }

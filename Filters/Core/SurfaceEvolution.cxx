@@ -26,6 +26,11 @@ void CheckRange(const char* name, double value, double low, double high)
       ", it must lie in [" + std::to_string(low) + ", " + std::to_string(high) + "].");
   }
 }
+
+void CheckSamplingRatio(double ratio)
+{
+  CheckRange("SamplingRatio", ratio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
+}
 }
 
 namespace
@@ -65,7 +70,7 @@ const char* Describe(StopReason reason)
 SurfaceEvolution::SurfaceEvolution(
   const SurfaceOptions& options, Executor& executor, Monitor& monitor)
 {
-  CheckRange("SamplingRatio", options.SamplingRatio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
+  CheckSamplingRatio(options.SamplingRatio);
   CheckRange("TensionWeight", options.TensionWeight, 0., 1e6);
   CheckRange("ElasticityWeight", options.ElasticityWeight, 0., 1e6);
   CheckRange("IsopotentialWeight", options.IsopotentialWeight, 0., 1e6);
@@ -137,6 +142,12 @@ void SurfaceEvolution::StartSurface(
 StopReason SurfaceEvolution::Run()
 {
   return this->Self->Run();
+}
+
+void SurfaceEvolution::SetSamplingRatio(double ratio)
+{
+  CheckSamplingRatio(ratio);
+  this->Self->Options.SamplingRatio = ratio;
 }
 
 void SurfaceEvolution::Divide(const LevelImage& image, int level)

@@ -115,6 +115,9 @@ public:
   /** Evolve on the current level until rest, limit, cancel or nothing is left; then snap. */
   StopReason Run();
 
+  /** For the levels to come: delta_h / U_h, in the range of SurfaceOptions::SamplingRatio. */
+  void SetSamplingRatio(double ratio);
+
   /** Global division down to delta of a finer level; lost parts are enclosed again. */
   void Divide(const LevelImage& image, int level);
 
