@@ -331,15 +331,6 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   }
 }
 
-void SurfaceSegmentation::FitFinestLevel(SurfaceEvolution& evolution)
-{
-  if (this->Settings.EdgeLength != 0.0 && this->MeanEdgeInDelta > 0.0)
-  {
-    evolution.SetSamplingRatio(RatioForEdgeLength(this->Settings.EdgeLength,
-      this->Pyramid.UnitInWorld(this->LastLevel), this->MeanEdgeInDelta));
-  }
-}
-
 void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
 {
   // The field data tell it of every level; only what stays lost in the end is worth a warning.
@@ -372,7 +363,6 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     description.RecoveredCavities = lost.EnclosedCavities;
   }
   const SurfaceResult surface = evolution.Result();
-  this->MeanEdgeInDelta = MeanEdgeLength(surface) / surface.Delta;
   const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
   if (kept.Points.empty() && !surface.Points.empty())
   {
@@ -419,16 +409,17 @@ void SurfaceSegmentation::Run()
       for (int level = this->Coarsest; level >= this->LastLevel; --level)
       {
         const LevelImage image = this->Load(level, threads);
+        if (level == this->LastLevel)
+        {
+          evolution.SetMeanEdgeLength(
+            this->Settings.EdgeLength / this->Pyramid.GetWorkspace().WorldUnit());
+        }
         if (level == this->Coarsest)
         {
           this->Start(evolution, image);
         }
         else
         {
-          if (level == this->LastLevel)
-          {
-            this->FitFinestLevel(evolution);
-          }
           evolution.Divide(image, level);
           this->WarnOfLostParts(level, evolution.Lost());
         }

@@ -88,7 +88,6 @@ private:
   void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   bool RunLevel(SurfaceEvolution& evolution, int level);
-  void FitFinestLevel(SurfaceEvolution& evolution);
   void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);
 
   SegmentationSettings Settings;
@@ -97,7 +96,6 @@ private:
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none
   std::vector<float> Bent;                 ///< the level's voxels as the points bend them
   ComponentChoice Choice;
-  double MeanEdgeInDelta = 0.0; ///< of the last level that rested; 0: nothing was left
   int Coarsest = 0;
   int LastLevel = 0; ///< the finest to visit
   vtkSmartPointer<vtkPolyData> Finest;

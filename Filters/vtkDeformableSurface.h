@@ -254,8 +254,9 @@ public:
    * image, the finest level, the pyramid's reduction factor and the sampling ratio are chosen to
    * fit, the latter two as near as possible to sqrt(3) (vtkVolumeToSurface: its ReductionFactor)
    * and SamplingRatio; where it has a pyramid, the level and the ratio. An error tells the lengths
-   * that are possible. The mean of a surface at rest lies between 1.5 and 1.8 delta, as the object
-   * is smooth or not, so expect the length within about 12 %. With Metric Voxels it is that of the
+   * that are possible. The mean of a surface at rest lies between 1.3 and 1.8 delta, as the object
+   * is smooth or not; so before the final regularisation delta is changed by small steps, as far as
+   * eq. 7 allows, until the mean is right within some percent. With Metric Voxels it is that of the
    * workspace, as Delta is.
    */
   vtkSetMacro(EdgeLength, double);

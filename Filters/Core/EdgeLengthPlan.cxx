@@ -131,14 +131,6 @@ EdgeLengthPlan PlanEdgeLength(double edgeLength, const LevelSize& size,
       : ". Give a shorter one, or allow coarser levels by MinimumLevelSize.");
 }
 
-double RatioForEdgeLength(double edgeLength, double unit, double meanEdgeInDelta)
-{
-  // Smooth surfaces have shorter edges where they have come together than where they have not: one
-  // level that had does not tell that the next will.
-  const double expected = std::clamp(meanEdgeInDelta, MeanEdgeInDelta - 0.1, MeanEdgeInDelta + 0.1);
-  return std::clamp(edgeLength / expected / unit, LeastRatio, MostRatio);
-}
-
 EdgeLengthPlan PlanEdgeLength(
   double edgeLength, const std::vector<double>& units, const EdgeLengthPreferences& preferences)
 {

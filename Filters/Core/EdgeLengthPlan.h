@@ -11,8 +11,8 @@ namespace volumic
 {
 /**
  * Mean length of the edges of a level that rests, in delta. Found by experiment, on nine scans in
- * both metrics: from 1.5 (smooth heads) to 1.8 (skulls), and for one object nearly the same at all
- * levels; so the level before the finest tells it a little better, see RatioForEdgeLength.
+ * both metrics: from 1.5 (smooth heads) to 1.8 (skulls). SurfaceEvolution::SetMeanEdgeLength makes up
+ * for the difference.
  */
 constexpr double MeanEdgeInDelta = 1.7;
 
@@ -51,15 +51,6 @@ EdgeLengthPlan PlanEdgeLength(double edgeLength, const LevelSize& size,
  */
 EdgeLengthPlan PlanEdgeLength(
   double edgeLength, const std::vector<double>& units, const EdgeLengthPreferences& preferences);
-
-/**
- * The sampling ratio for the finest level, as near to what gives the length as eq. (7) allows, once
- * it is known what the mean of the edges has been.
- *
- * @param unit            U_h of the finest level, in the unit of edgeLength
- * @param meanEdgeInDelta that of the level before
- */
-double RatioForEdgeLength(double edgeLength, double unit, double meanEdgeInDelta);
 }
 
 #endif

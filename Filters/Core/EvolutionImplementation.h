@@ -50,6 +50,7 @@ struct SurfaceEvolution::Implementation
   std::vector<int> Suspects;
   std::vector<std::uint8_t> Marked;
   std::vector<double> Partial;
+  double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
   int Shrunk = 0;    ///< Collapses since components were labelled last.
   int Unchecked = 0; ///< Cuts since components were last checked for being inside out.
@@ -81,6 +82,7 @@ struct SurfaceEvolution::Implementation
   void FillRow(HistoryRow& row);
   double MeanEdgeLength();
   void FillCounts(HistoryRow& row) const;
+  void FitMeanEdge(Dynamics& dynamics);
   void Regularise(Dynamics& dynamics);
   StopReason Evolve();
   StopReason Run();

@@ -126,6 +126,38 @@ void SurfaceEvolution::Implementation::SleepUnlessMoving(float least)
   }
 }
 
+void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
+{
+  // Edges anywhere in [delta, 2.5 delta] are left as they are, so their mean depends on where they
+  // come from. With delta changing slowly the worst of them are collapsed or split first.
+  constexpr int steps = 30;
+  constexpr double close = 0.02;
+  constexpr double longestStep = 0.03;
+  SurfaceState& s = this->State;
+  const double unit = this->TheField->Image().Unit;
+  const float least = static_cast<float>(std::sqrt(3.) / 2.5 * unit);
+  const float most = static_cast<float>(unit);
+  Remesher remesher(s, this->TheField.get(), false);
+  double first = 0.;
+  for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0; ++step)
+  {
+    const double missing = this->WantedMeanEdge / this->MeanEdgeLength() - 1.;
+    first = step == 0 ? missing : first;
+    const float delta = std::min(std::max(s.Delta *
+            static_cast<float>(1. + std::min(std::max(0.6 * missing, -longestStep), longestStep)),
+          least), most);
+    if (std::abs(missing) < close || missing * first < 0. || delta == s.Delta)
+    {
+      break;
+    }
+    s.Delta = delta;
+    this->Reset();
+    std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
+    HistoryRow row;
+    this->Iterate(row, dynamics, remesher, Mode::Regularise);
+  }
+}
+
 void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
@@ -175,6 +207,10 @@ StopReason SurfaceEvolution::Implementation::Run()
   if (reason == StopReason::Converged || reason == StopReason::IterationLimit)
   {
     Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+    if (this->WantedMeanEdge > 0.)
+    {
+      this->FitMeanEdge(dynamics);
+    }
     this->Regularise(dynamics);
     if (this->State.Mesh.NumberOfVertices() == 0)
     {

@@ -26,11 +26,6 @@ void CheckRange(const char* name, double value, double low, double high)
       ", it must lie in [" + std::to_string(low) + ", " + std::to_string(high) + "].");
   }
 }
-
-void CheckSamplingRatio(double ratio)
-{
-  CheckRange("SamplingRatio", ratio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
-}
 }
 
 namespace
@@ -70,7 +65,7 @@ const char* Describe(StopReason reason)
 SurfaceEvolution::SurfaceEvolution(
   const SurfaceOptions& options, Executor& executor, Monitor& monitor)
 {
-  CheckSamplingRatio(options.SamplingRatio);
+  CheckRange("SamplingRatio", options.SamplingRatio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
   CheckRange("TensionWeight", options.TensionWeight, 0., 1e6);
   CheckRange("ElasticityWeight", options.ElasticityWeight, 0., 1e6);
   CheckRange("IsopotentialWeight", options.IsopotentialWeight, 0., 1e6);
@@ -144,10 +139,9 @@ StopReason SurfaceEvolution::Run()
   return this->Self->Run();
 }
 
-void SurfaceEvolution::SetSamplingRatio(double ratio)
+void SurfaceEvolution::SetMeanEdgeLength(double length)
 {
-  CheckSamplingRatio(ratio);
-  this->Self->Options.SamplingRatio = ratio;
+  this->Self->WantedMeanEdge = length;
 }
 
 void SurfaceEvolution::Divide(const LevelImage& image, int level)

@@ -115,8 +115,12 @@ public:
   /** Evolve on the current level until rest, limit, cancel or nothing is left; then snap. */
   StopReason Run();
 
-  /** For the levels to come: delta_h / U_h, in the range of SurfaceOptions::SamplingRatio. */
-  void SetSamplingRatio(double ratio);
+  /**
+   * For the levels to come: before its final regularisation, delta is changed by small steps, as
+   * far as eq. (7) allows, until the mean of the edges is this long (workspace; 0, the default: no
+   * change). Within 3 % where eq. (7) does not end it.
+   */
+  void SetMeanEdgeLength(double length);
 
   /** Global division down to delta of a finer level; lost parts are enclosed again. */
   void Divide(const LevelImage& image, int level);

@@ -176,20 +176,4 @@ SurfaceFeatures ComputeFeatures(const IndexedSurface& surface)
   }
   return result;
 }
-
-double MeanEdgeLength(const IndexedSurface& surface)
-{
-  // A closed surface has each edge twice.
-  double sum = 0.;
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& p = surface.Points[t[k]];
-      const Point& q = surface.Points[t[(k + 1) % 3]];
-      sum += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
-    }
-  }
-  return surface.Triangles.empty() ? 0. : sum / (3. * static_cast<double>(surface.Triangles.size()));
-}
 }

@@ -49,9 +49,6 @@ struct SurfaceFeatures
  * Sums run over triangles in order, so results do not depend on threads.
  */
 SurfaceFeatures ComputeFeatures(const IndexedSurface& surface);
-
-/** Mean length of the edges of a closed surface; 0 where it has none. */
-double MeanEdgeLength(const IndexedSurface& surface);
 }
 
 #endif

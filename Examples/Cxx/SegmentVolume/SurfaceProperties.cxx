@@ -109,6 +109,12 @@ std::vector<PropertyOption> MakeProperties()
       "what is outside the image: background, so that surfaces close at the border, or the nearest "
       "voxel",
       "background", "replicate"),
+    SURFACE_MENU(Metric, "metric",
+      "which lengths are even where voxels are not cubes: those in which each voxel is one, or those "
+      "of the world",
+      "voxels", "world"),
+    SURFACE_NUMBER(EdgeLength, "edge-length", "LENGTH",
+      "mean edge that is wanted, in world units; 0: as --finest and --sampling-ratio have it"),
     SURFACE_NUMBER(SamplingRatio, "sampling-ratio", "RATIO",
       "shortest edge of the surface in voxels of the level, 0.693 to 1; edges are up to 2.5 times "
       "as long"),

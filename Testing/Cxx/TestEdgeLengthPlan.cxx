@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EdgeLengthPlan.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+const LevelSize Size = { 256, 256, 108 };
+const std::array<double, 3> Spacing = { 0.957, 0.957, 1.5 };
+const double Unit = 0.957;
+const double LeastRatio = std::sqrt(3.) / 2.5;
+
+std::string ErrorOf(double length)
+{
+  try
+  {
+    PlanEdgeLength(length, Size, Spacing, EdgeLengthPreferences());
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+}
+
+TEST(EdgeLengthPlan, IsWhatIsPreferredWhereThatGivesTheLength)
+{
+  for (int level = 0; level < 4; ++level)
+  {
+    const double length = MeanEdgeInDelta * 0.85 * Unit * std::pow(std::sqrt(3.), level);
+    const EdgeLengthPlan plan = PlanEdgeLength(length, Size, Spacing, EdgeLengthPreferences());
+    EXPECT_EQ(plan.FinestLevel, level);
+    EXPECT_NEAR(plan.ReductionFactor, std::sqrt(3.), 1e-9);
+    EXPECT_NEAR(plan.SamplingRatio, 0.85, 1e-9);
+  }
+}
+
+TEST(EdgeLengthPlan, LeavesNoGapBetweenTheLevels)
+{
+  for (double length = 0.6 * Unit; length < 10. * Unit; length *= 1.02)
+  {
+    const EdgeLengthPlan plan = PlanEdgeLength(length, Size, Spacing, EdgeLengthPreferences());
+    const double delta =
+      plan.SamplingRatio * std::pow(plan.ReductionFactor, plan.FinestLevel) * Unit;
+    EXPECT_NEAR(MeanEdgeInDelta * delta, length, 1e-6 * length);
+    EXPECT_GE(plan.SamplingRatio, LeastRatio - 1e-9);
+    EXPECT_LE(plan.SamplingRatio, 1. + 1e-9);
+    EXPECT_GT(plan.ReductionFactor, 1.44);
+    EXPECT_LT(plan.ReductionFactor, 2.);
+  }
+}
+
+TEST(EdgeLengthPlan, ChangesTheFactorLittleWhereThereAreManyLevels)
+{
+  const double between = MeanEdgeInDelta * 0.85 * Unit * std::pow(3., 1.2);
+  const EdgeLengthPlan plan = PlanEdgeLength(between, Size, Spacing, EdgeLengthPreferences());
+  EXPECT_NEAR(plan.ReductionFactor, std::sqrt(3.), 0.17);
+  EXPECT_NEAR(plan.SamplingRatio, 0.85, 0.05);
+}
+
+TEST(EdgeLengthPlan, NamesTheLengthsThatArePossible)
+{
+  EXPECT_NE(ErrorOf(0.2).find("EdgeLength is 0.2, but edges of this image can have mean lengths of "
+                              "0.566"),
+    std::string::npos)
+    << ErrorOf(0.2);
+  EXPECT_NE(ErrorOf(0.2).find("Resample the image more finely"), std::string::npos);
+  EXPECT_NE(ErrorOf(100.).find("Give a shorter one"), std::string::npos);
+  EXPECT_NE(ErrorOf(0.).find("it must be 0 (automatic) or a length"), std::string::npos);
+  EXPECT_NE(ErrorOf(std::nan("")).find("it must be 0 (automatic) or a length"), std::string::npos);
+  EXPECT_NE(ErrorOf(INFINITY).find("it must be 0 (automatic) or a length"), std::string::npos);
+}
+
+TEST(EdgeLengthPlan, TakesTheLevelOfAPyramidWhoseRatioIsNearest)
+{
+  const std::vector<double> units = { 1., std::sqrt(3.), 3. };
+  EdgeLengthPreferences preferences;
+  EdgeLengthPlan plan = PlanEdgeLength(MeanEdgeInDelta * 0.9 * std::sqrt(3.), units, preferences);
+  EXPECT_EQ(plan.FinestLevel, 1);
+  EXPECT_NEAR(plan.SamplingRatio, 0.9, 1e-9);
+  plan = PlanEdgeLength(MeanEdgeInDelta * 0.5, units, preferences);
+  EXPECT_EQ(plan.FinestLevel, -1);
+  EXPECT_NEAR(plan.SamplingRatio / plan.ReductionFactor, 0.5, 1e-9);
+  // Levels 0 and 1 leave 1 to 1.2 out.
+  EXPECT_THROW(PlanEdgeLength(MeanEdgeInDelta * 1.1, units, preferences), std::invalid_argument);
+}

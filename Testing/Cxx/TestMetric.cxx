@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Metric and EdgeLength of the surface's filters: which lengths are even, and how long they are.
+#include "SurfaceTestTools.h"
+#include "vtkImagePyramid.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkImageData.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+struct Edges
+{
+  double Shortest = 1e300;
+  double Mean = 0.;
+  double Longest = 0.;
+};
+
+/// Of the surface with its coordinate z divided by `stretch`.
+Edges EdgesOf(vtkPolyData* surface, double stretch = 1.)
+{
+  Edges edges;
+  int count = 0;
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    surface->GetCellPoints(c, size, ids);
+    for (int k = 0; k < 3; ++k, ++count)
+    {
+      double p[3];
+      double q[3];
+      surface->GetPoint(ids[k], p);
+      surface->GetPoint(ids[(k + 1) % 3], q);
+      const double length =
+        std::hypot(p[0] - q[0], p[1] - q[1], (p[2] - q[2]) / stretch);
+      edges.Shortest = std::min(edges.Shortest, length);
+      edges.Longest = std::max(edges.Longest, length);
+      edges.Mean += length;
+    }
+  }
+  edges.Mean /= std::max(count, 1);
+  return edges;
+}
+
+vtkSmartPointer<vtkImageData> FlatBall(double zSpacing)
+{
+  // A ball in the world: an ellipsoid in voxels.
+  const auto image = BallImage(48, 48, 24);
+  image->SetSpacing(1, 1, zSpacing);
+  for (int k = 0; k < 24; ++k)
+  {
+    for (int j = 0; j < 48; ++j)
+    {
+      for (int i = 0; i < 48; ++i)
+      {
+        const double distance =
+          std::hypot(i - 23.5, j - 23.5, zSpacing * (k - 11.5));
+        image->SetScalarComponentFromDouble(
+          i, j, k, 0, std::clamp(50. + 12. * (16. - distance), 0., 100.));
+      }
+    }
+  }
+  return image;
+}
+
+vtkSmartPointer<vtkPolyData> SurfaceIn(int metric, vtkImageData* image)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetMetric(metric);
+  filter->SetInputData(image);
+  filter->SetIsoValue(50.);
+  filter->Update();
+  return filter->GetOutput();
+}
+
+std::string ErrorOf(vtkDeformableSurface* filter)
+{
+  MessagesOf errors(filter);
+  filter->Update();
+  return errors.Get();
+}
+}
+
+TEST(Metric, IsOfTheWorldByDefault)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  EXPECT_EQ(filter->GetMetric(), vtkDeformableSurface::World);
+  filter->SetMetricToVoxels();
+  EXPECT_EQ(filter->GetMetric(), 0);
+  filter->SetMetricToWorld();
+  EXPECT_EQ(filter->GetMetric(), 1);
+}
+
+TEST(Metric, WorldEdgesKeepTheConstraintsInTheWorld)
+{
+  const auto image = FlatBall(2.);
+  const auto surface = SurfaceIn(vtkDeformableSurface::World, image);
+  const double centre[3] = { 23.5, 23.5, 23. };
+  ExpectSphere(surface, centre, 16., 0.4);
+  const double delta = FieldOf(surface, "Delta");
+  EXPECT_NEAR(delta, 0.85, 1e-6);
+  const Edges edges = EdgesOf(surface);
+  EXPECT_GE(edges.Shortest, 0.999 * delta);
+  EXPECT_LE(edges.Longest, 2.501 * delta);
+}
+
+TEST(Metric, VoxelEdgesKeepThemInVoxels)
+{
+  const auto surface = SurfaceIn(vtkDeformableSurface::Voxels, FlatBall(2.));
+  const Edges inVoxels = EdgesOf(surface, 2.);
+  EXPECT_GE(inVoxels.Shortest, 0.999 * 0.85);
+  EXPECT_LE(inVoxels.Longest, 2.501 * 0.85);
+  EXPECT_GT(EdgesOf(surface).Longest, 2.6 * 0.85) << "in the world they are stretched";
+}
+
+TEST(Metric, MakesNoDifferenceWhereVoxelsAreCubes)
+{
+  const auto image = BallImage(40, 40, 40);
+  image->SetSpacing(0.3, 0.3, 0.3);
+  EXPECT_TRUE(AreSameSurfaces(SurfaceIn(vtkDeformableSurface::World, image),
+    SurfaceIn(vtkDeformableSurface::Voxels, image)));
+}
+
+TEST(Metric, DoesNotDependOnTheUnitOfTheSpacing)
+{
+  const auto millimetres = FlatBall(2.);
+  const auto metres = FlatBall(2.);
+  metres->SetSpacing(0.0009765625, 0.0009765625, 0.001953125); // by a power of 2: the same rounding
+  const auto one = SurfaceIn(vtkDeformableSurface::World, millimetres);
+  const auto other = SurfaceIn(vtkDeformableSurface::World, metres);
+  ASSERT_EQ(one->GetNumberOfPoints(), other->GetNumberOfPoints());
+  EXPECT_NEAR(FieldOf(other, "Area"), FieldOf(one, "Area") / 1048576., 1e-9);
+}
+
+TEST(Metric, HoldsForTurnedAndMirroredImages)
+{
+  const auto image = FlatBall(2.);
+  const double direction[9] = { 0, 0, -1, 1, 0, 0, 0, 1, 0 };
+  image->SetDirectionMatrix(direction);
+  const auto surface = SurfaceIn(vtkDeformableSurface::World, image);
+  const double index[3] = { 23.5, 23.5, 11.5 };
+  double centre[3];
+  image->TransformContinuousIndexToPhysicalPoint(index, centre);
+  ExpectSphere(surface, centre, 16., 0.4);
+  const Edges edges = EdgesOf(surface);
+  EXPECT_GE(edges.Shortest, 0.999 * 0.85);
+  EXPECT_LE(edges.Longest, 2.501 * 0.85);
+}
+
+TEST(Metric, RecoversWhatLiesAcrossSlicesFarApart)
+{
+  // A needle along z that no coarse level shows, beside a ball that they do.
+  const double stretch = 4.;
+  const auto image = FlatBall(stretch);
+  for (int k = 2; k < 22; ++k)
+  {
+    for (int j = 4; j < 7; ++j)
+    {
+      for (int i = 4; i < 7; ++i)
+      {
+        image->SetScalarComponentFromDouble(i, j, k, 0, 90.);
+      }
+    }
+  }
+  const auto surface = SurfaceIn(vtkDeformableSurface::World, image);
+  EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 2) << "the needle in one piece";
+  EXPECT_EQ(FieldOf(surface, "Genus"), 0);
+  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+  double bounds[6];
+  surface->GetBounds(bounds);
+  EXPECT_NEAR(bounds[0], 3.5, 0.6);
+  EXPECT_NEAR(bounds[4], 1.5 * stretch, 0.6 * stretch);
+}
+
+TEST(Metric, MustBeOneThatThereIs)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.);
+  filter->SetMetric(2);
+  EXPECT_NE(ErrorOf(filter).find("Metric is 2; it must be 0 to 1"), std::string::npos);
+}
+
+TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
+{
+  const auto image = BallImage(64, 64, 64);
+  image->SetSpacing(0.5, 0.5, 0.5);
+  for (const double length : { 0.4, 0.6, 0.75, 0.9, 1.2, 1.6, 2.3, 3.2 })
+  {
+    vtkNew<vtkVolumeToSurface> filter;
+    filter->SetInputData(image);
+    filter->SetIsoValue(50.);
+    filter->SetEdgeLength(length);
+    filter->SetFinestLevel(7); // not looked at
+    filter->Update();
+    vtkPolyData* surface = filter->GetOutput();
+    ASSERT_GT(surface->GetNumberOfPoints(), 30) << length;
+    EXPECT_NEAR(EdgesOf(surface).Mean, length, 0.15 * length) << length;
+    const double ratio = FieldOf(surface, "Delta") / FieldOf(surface, "Unit");
+    EXPECT_GE(ratio, std::sqrt(3.) / 2.5 - 1e-6) << "eq. (7)";
+    EXPECT_LE(ratio, 1. + 1e-6);
+  }
+}
+
+TEST(EdgeLength, IsInTheUnitOfTheWorld)
+{
+  const auto image = BallImage(64, 64, 64);
+  image->SetSpacing(25., 25., 25.); // micrometres
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(image);
+  filter->SetIsoValue(50.);
+  filter->SetEdgeLength(60.);
+  filter->Update();
+  EXPECT_NEAR(EdgesOf(filter->GetOutput()).Mean, 60., 9.);
+}
+
+TEST(EdgeLength, ChoosesOfThePyramidThatIsGiven)
+{
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(BallImage(64, 64, 64));
+  pyramid->Update();
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputDataObject(pyramid->GetOutput());
+  filter->SetIsoValue(50.);
+  filter->SetEdgeLength(2.6);
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
+  EXPECT_NEAR(EdgesOf(filter->GetOutput()).Mean, 2.6, 0.4);
+  // Between what levels 0 and 1 can give.
+  filter->SetEdgeLength(1.85);
+  const std::string error = ErrorOf(filter);
+  EXPECT_NE(error.find("EdgeLength is 1.85"), std::string::npos) << error;
+  EXPECT_NE(error.find("to 1.7, 2.0"), std::string::npos) << error;
+  EXPECT_NE(error.find("the image instead of its pyramid"), std::string::npos) << error;
+}
+
+TEST(EdgeLength, ThatIsNotPossibleIsRefused)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.);
+  filter->SetEdgeLength(0.1);
+  EXPECT_NE(ErrorOf(filter).find("EdgeLength is 0.1, but edges of this image can have mean lengths"),
+    std::string::npos);
+  filter->SetEdgeLength(1000.);
+  EXPECT_NE(ErrorOf(filter).find("Give a shorter one, or allow coarser levels by MinimumLevelSize"),
+    std::string::npos);
+  filter->SetEdgeLength(-2.);
+  EXPECT_NE(ErrorOf(filter).find("EdgeLength is -2; it must be 0 (automatic) or a length"),
+    std::string::npos);
+  filter->SetEdgeLength(3.);
+  filter->SetCoarsestLevel(0);
+  EXPECT_NE(ErrorOf(filter).find("EdgeLength is 3, for which the finest level is 1, but "
+                                 "CoarsestLevel is 0"),
+    std::string::npos);
+  filter->SetCoarsestLevel(-1);
+  EXPECT_EQ(ErrorOf(filter), "");
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 30);
+}
