@@ -29,17 +29,20 @@ struct Candidate
   double Cost = 0.;
 };
 
+/** Of the factor, beside 1 of the ratio, which SurfaceEvolution may still have to change. */
+constexpr double WeightOfFactor = 0.25;
+
 /**
  * The best factor and ratio of a level: ratio * factor^level = delta (in U_0). Without bounds the
- * logarithms move away from what is preferred in proportion to their weight in the product, 1 for
- * the ratio and the level for the factor.
+ * weighted sum of squares of the two logarithms over what is preferred is least where each has the
+ * share of what is missing below.
  */
 std::optional<Candidate> BestOf(
   int level, double delta, double factor, const EdgeLengthPreferences& preferences)
 {
   const double preferredRatio = std::clamp(preferences.SamplingRatio, LeastRatio, MostRatio);
   const double missing = std::log(delta / (preferredRatio * std::pow(factor, level)));
-  const double share = missing / (1. + static_cast<double>(level) * level);
+  const double share = missing / (WeightOfFactor + static_cast<double>(level) * level);
   const auto ratioFor = [&](double t) { return delta / std::pow(t, level); };
   double t = std::clamp(factor * std::exp(level * share), LeastFactor, MostFactor);
   double ratio = ratioFor(t);
@@ -56,7 +59,8 @@ std::optional<Candidate> BestOf(
   }
   Candidate candidate;
   candidate.Plan = { level, level == 0 ? factor : t, std::clamp(ratio, LeastRatio, MostRatio) };
-  candidate.Cost = std::pow(std::log(candidate.Plan.ReductionFactor / factor), 2) +
+  candidate.Cost =
+    WeightOfFactor * std::pow(std::log(candidate.Plan.ReductionFactor / factor), 2) +
     std::pow(std::log(candidate.Plan.SamplingRatio / preferredRatio), 2);
   return candidate;
 }

@@ -33,8 +33,8 @@ struct EdgeLengthPreferences
 
 /**
  * For an image of which the pyramid is still to be made. delta is T^h SamplingRatio U_0; of all
- * levels h, factors T and ratios that give it, those with the least sum of squares of the logarithms
- * of T and the ratio over what is preferred. T stays within what one sqrt 3 division can follow.
+ * levels h, factors T and ratios that give it, those with the least weighted sum of squares of the
+ * logarithms of T and the ratio over what is preferred. T stays within what one sqrt 3 division can follow.
  *
  * @param edgeLength mean length of the edges, in the unit of `spacing`, more than 0
  * @throws std::invalid_argument naming the lengths that are possible, if this one is not.
