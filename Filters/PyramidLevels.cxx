@@ -120,7 +120,7 @@ PyramidLevels::PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selec
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
-    Refuse("there is no level: the input has no blocks.", WayOut);
+    Refuse("there is no level: the input has no blocks, as after an error of Image Pyramid.", WayOut);
   }
   for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
   {

@@ -78,8 +78,19 @@
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. A
  * warning tells when parts of the object were lost at a level, or when nothing is left.
+ * @par
+ * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
+ * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
+ * one that was cancelled, vtkErrorCode::UserError where something given is wrong,
+ * vtkErrorCode::UnknownError where the memory does not suffice. Each run sets it anew. The message
+ * comes with ErrorEvent; without an observer VTK prints it. Inputs that are missing or of another
+ * type are refused by the pipeline before a run: by ErrorEvent of GetExecutive() only.
+ *
+ * @par Cancelling:
  * AbortExecute stops after the current iteration: the surface as it is then is handed over, valid,
- * with `StopReason` `cancelled`.
+ * with `StopReason` `cancelled`. It counts as up to date, so that what follows in the pipeline can
+ * show or write it: another Update() gives it again. To run anew call Modified() first, or change
+ * an input or a property; the request to stop is forgotten then.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImagePyramid.h"
 
+#include "AlgorithmErrors.h"
 #include "Core/LevelReduction.h"
 #include "Core/PyramidGeometry.h"
 #include "HostThreads.h"
@@ -17,6 +18,7 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkDemandDrivenPipeline.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -302,6 +304,7 @@ int vtkImagePyramid::RequestUpdateExtent(
 int vtkImagePyramid::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   // In a parallel run the first process holds the pyramid; the others would only repeat it.
@@ -313,8 +316,10 @@ int vtkImagePyramid::RequestData(
   }
   if (!input || !output)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(vtkErrorCode::UserError);
     vtkErrorMacro("Input port 0: there is no image.");
-    return 0;
+    return 1;
   }
   try
   {
@@ -336,16 +341,18 @@ int vtkImagePyramid::RequestData(
     AddStopReason(pyramid, isComplete);
     output->ShallowCopy(pyramid);
   }
-  catch (const std::bad_alloc&)
+  catch (const std::bad_alloc& error)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: the memory does not suffice for the pyramid of an image of "
       << volumic::SizeOf(input) << " voxels.");
-    return 0;
   }
   catch (const std::exception& error)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: " << error.what());
-    return 0;
   }
   return 1;
 }

@@ -39,6 +39,13 @@
  * empty; there is no such array, or it is cell data, not numeric or has several components; it has
  * voxels that are NaN or infinite; ReductionFactor is not between 1 and 2; more levels are asked
  * for than the image can give; the memory does not suffice.
+ * @par
+ * Update() goes on after an error, so that whatever follows in the pipeline gets the empty output.
+ * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run,
+ * vtkErrorCode::UserError where something given is wrong, vtkErrorCode::UnknownError where the
+ * memory does not suffice. Each run sets it anew. The message comes with ErrorEvent; without an
+ * observer VTK prints it. Inputs that are missing or of another type are refused by the pipeline
+ * before a run: by ErrorEvent of GetExecutive() only.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
