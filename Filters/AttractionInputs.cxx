@@ -167,8 +167,10 @@ const float* EdgeLevels::Load(int level, const std::array<int, 3>& size, Executo
 {
   try
   {
-    const LevelImage loaded =
-      level < this->Levels->NumberOfLevels() ? this->Levels->Load(level, executor) : LevelImage();
+    // The force knows differences only.
+    const LevelImage loaded = level < this->Levels->NumberOfLevels()
+      ? this->Levels->Load(level, this->Levels->Range(0)[0], executor)
+      : LevelImage();
     if (loaded.Size != size)
     {
       Refuse("its level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1], " x ",

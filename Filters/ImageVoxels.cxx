@@ -14,6 +14,9 @@
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -86,6 +89,13 @@ vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
   }
   return array;
 }
+}
+
+bool FloatHolds(double smallest, double largest)
+{
+  const double size = std::max(std::abs(smallest), std::abs(largest));
+  constexpr double rounding = 0.5 * std::numeric_limits<float>::epsilon();
+  return largest == smallest || size * rounding <= 1e-5 * (largest - smallest);
 }
 
 std::string NameOf(vtkDataArray* array)

@@ -77,7 +77,7 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   std::fill(values, values + padded->GetNumberOfPoints(), background);
   // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are moved
   // a little to the side of the background. The surface finds its place anyway.
-  const float iso = static_cast<float>(options.IsoValue);
+  const float iso = static_cast<float>(options.IsoValue - image.Base);
   const float room = 0.01f * std::max(*range.second - iso, iso - *range.first);
   const float beside = options.ObjectIsBright ? iso - room : iso + room;
   const auto clear = [&](float value) { return std::abs(value - iso) < room ? beside : value; };
@@ -161,7 +161,7 @@ IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& o
 {
   vtkNew<vtkFlyingEdges3D> contour;
   contour->SetInputData(PadByBackground(image, options));
-  contour->SetValue(0, options.IsoValue);
+  contour->SetValue(0, options.IsoValue - image.Base);
   contour->ComputeNormalsOff();
   contour->ComputeGradientsOff();
   contour->ComputeScalarsOff();

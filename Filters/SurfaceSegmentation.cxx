@@ -169,7 +169,7 @@ LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
   LevelImage image;
   try
   {
-    image = this->Pyramid.Load(level, threads);
+    image = this->Pyramid.Load(level, this->Settings.Options.IsoValue, threads);
   }
   catch (const std::invalid_argument& error)
   {
@@ -235,7 +235,7 @@ int SurfaceSegmentation::CoarsestLevelWithObject(int from)
   for (; level > 0; --level)
   {
     const std::array<double, 2> range = this->Pyramid.Range(level);
-    if (bright ? static_cast<float>(range[1]) > iso : static_cast<float>(range[0]) < iso)
+    if (bright ? range[1] > iso : range[0] < iso)
     {
       break;
     }

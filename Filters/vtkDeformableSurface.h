@@ -16,8 +16,8 @@
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
  *   is built here with default settings. Of each level the array chosen by SetInputArrayToProcess()
  *   is used, by default the active point scalars: one component, any numeric type, finite values of
- *   at most 1e37 in size (the surface computes in single precision). At least 8 voxels along each
- *   axis.
+ *   at most 1e37 in size (the surface computes in single precision, after IsoValue was subtracted
+ *   where that matters: 10^9 to 10^9 + 50 are fine). At least 8 voxels along each axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
  *   polygons are triangulated). With Initialization Seeds, its vertices are the centres of the

@@ -32,6 +32,9 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <new>
@@ -74,6 +77,39 @@ vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int leve
     vtkDataArray::CreateDataArray(vtkTypeTraits<Real>::VTK_TYPE_ID)));
   array->SetArray(values, n, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
   return array;
+}
+
+/// The voxels that level 1 is made of: as double where they are integers that single precision would
+/// not keep apart.
+vtkSmartPointer<vtkDataArray> SourceVoxels(vtkDataArray* voxels, volumic::Executor& executor)
+{
+  const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
+  const int type = contiguous->GetDataType();
+  if (type == VTK_FLOAT || type == VTK_DOUBLE || contiguous->GetDataTypeSize() < 4)
+  {
+    return contiguous;
+  }
+  double range[2];
+  contiguous->GetRange(range);
+  if (volumic::FloatHolds(range[0], range[1]))
+  {
+    return contiguous;
+  }
+  const auto wide = NewArray<double>(contiguous->GetNumberOfTuples(), 0);
+  const auto copy = [&](const auto* values)
+  {
+    executor.For(static_cast<std::size_t>(wide->GetNumberOfTuples()), 1 << 16,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::transform(values + begin, values + end, wide->GetPointer(0) + begin,
+          [](auto value) { return static_cast<double>(value); });
+      });
+  };
+  switch (type)
+  {
+    vtkTemplateMacro(copy(static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0))));
+  }
+  return wide;
 }
 
 /// Input voxels of each level that are looked at: what progress is measured by.
@@ -185,13 +221,13 @@ bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const volumic::Pyra
   int numberOfThreads, const Progress& progress, vtkMultiBlockDataSet* pyramid)
 {
   const std::vector<volumic::LevelGeometry> levels = Plan(input, options);
-  const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
 
   volumic::HostThreads threads(numberOfThreads);
   threads.Run(
     [&]
     {
+      const vtkSmartPointer<vtkDataArray> contiguous = SourceVoxels(voxels, threads);
       const std::string notFinite =
         volumic::DescribeNotFiniteVoxels(voxels, contiguous, input, threads);
       if (!notFinite.empty())

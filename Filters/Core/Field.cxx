@@ -12,7 +12,7 @@ namespace volumic
 {
 Field::Field(const LevelImage& image, const SurfaceOptions& options, Executor& executor)
   : Level(image)
-  , Iso(static_cast<float>(options.IsoValue))
+  , Iso(static_cast<float>(options.IsoValue - image.Base))
   , Sign(options.ObjectIsBright ? 1.f : -1.f)
   , Replicate(options.BorderValue == Border::Replicate)
 {
