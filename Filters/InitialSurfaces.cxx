@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialSurfaces.h"
 
+#include "PolyDataPoints.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkFloatArray.h>
@@ -122,37 +124,21 @@ IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
 std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space)
 {
   std::vector<Point> seeds;
-  const auto add = [&](vtkIdType id)
-  {
-    Point point;
-    polyData->GetPoint(id, point.data());
-    seeds.push_back(space.ToWorkspace(point));
-  };
   if (!polyData)
   {
     return seeds;
   }
-  if (polyData->GetNumberOfCells() == 0)
+  if (IsSurfaceOnly(polyData))
   {
-    for (vtkIdType p = 0; p < polyData->GetNumberOfPoints(); ++p)
-    {
-      add(p);
-    }
-    return seeds;
+    throw std::invalid_argument("The seeds must be vertices or mere points, but the data is a "
+                                "surface. Give the centres of the seeds, or set Initialization to "
+                                "InputSurface.");
   }
-  if (polyData->GetNumberOfVerts() == 0)
+  for (const vtkIdType id : PointsMeantBy(polyData))
   {
-    throw std::invalid_argument("The seeds must be vertices or mere points, but the "
-                                "data has other cells. Give the centres of the seeds, or set "
-                                "Initialization to InputSurface.");
-  }
-  auto cells = vtk::TakeSmartPointer(polyData->GetVerts()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    cells->GetCurrentCell(size, ids);
-    std::for_each(ids, ids + size, add);
+    Point point;
+    polyData->GetPoint(id, point.data());
+    seeds.push_back(space.ToWorkspace(point));
   }
   return seeds;
 }

@@ -20,12 +20,14 @@
  *   where that matters: 10^9 to 10^9 + 50 are fine). At least 8 voxels along each axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
- *   polygons are triangulated). With Initialization Seeds, its vertices are the centres of the
- *   seeds (all its points if it has no cells). World coordinates.
+ *   polygons are triangulated). With Initialization Seeds, the centres of the seeds. World
+ *   coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
- *   PointAttractionWeight: its vertices, or all its points if it has none. Point arrays, optional:
- *   `Weight` (any numeric type, at least 0, default 1) and `Radius` (world units, default 0:
- *   automatic).
+ *   PointAttractionWeight. Point arrays, optional: `Weight` (any numeric type, at least 0, default
+ *   1) and `Radius` (world units, default 0: automatic).
+ * - Where points are meant, at both ports and for all purposes: the points of the vertices (vertex
+ *   and polyvertex cells), each once; all points where there are no cells at all. Lines and
+ *   polygons without vertices are refused, as nothing says that their points are meant.
  * - A map of edges, optional, see EdgeAttractionWeight: a second point array of the image of port
  *   0, chosen by SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name).
  *
