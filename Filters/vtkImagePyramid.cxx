@@ -3,6 +3,7 @@
 #include "vtkImagePyramid.h"
 
 #include "AlgorithmErrors.h"
+#include "Core/Join.h"
 #include "Core/LevelReduction.h"
 #include "Core/PyramidGeometry.h"
 #include "HostThreads.h"
@@ -38,7 +39,6 @@
 #include <cstdlib>
 #include <functional>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -66,11 +66,9 @@ vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int leve
   auto* values = static_cast<Real*>(std::malloc(static_cast<std::size_t>(n) * sizeof(Real)));
   if (!values)
   {
-    std::ostringstream message;
-    message << "the memory does not suffice for level " << level << ", which takes "
-            << static_cast<double>(n) * sizeof(Real) / (1024. * 1024.)
-            << " MB. Ask for fewer levels, or crop the image.";
-    throw std::runtime_error(message.str());
+    throw std::runtime_error(volumic::Join("the memory does not suffice for level ", level,
+      ", which takes ", static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
+      " MB. Ask for fewer levels, or crop the image."));
   }
   vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> array;
   array.TakeReference(vtkAOSDataArrayTemplate<Real>::FastDownCast(
@@ -143,10 +141,9 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevels(const T* level0,
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
     const auto array = NewArray<Real>(levels[h].NumberOfVoxels(), static_cast<int>(h));
-    std::ostringstream text;
-    text << "Level " << h << " of " << levels.size() - 1;
+    const std::string text = volumic::Join("Level ", h, " of ", levels.size() - 1);
     const auto levelProgress = [&](double share)
-    { return progress(before[h - 1] + share * (before[h] - before[h - 1]), text.str()); };
+    { return progress(before[h - 1] + share * (before[h] - before[h - 1]), text); };
     const bool isFinished = levelProgress(0.0) &&
       (h == 1 ? volumic::ReduceLevel(
                   level0, levels[0], array->GetPointer(0), levels[1], executor, levelProgress)

@@ -53,6 +53,7 @@ set(volumic_core_headers
   Executor.h
   Field.h
   InitialSurface.h
+  Join.h
   LevelImage.h
   LevelReduction.h
   LostParts.h
