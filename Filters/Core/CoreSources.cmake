@@ -27,6 +27,7 @@ set(volumic_core_sources
   RemainingContacts.cxx
   Remesher.cxx
   RowKernels.cxx
+  StandardThreads.cxx
   StarMerge.cxx
   SurfaceCheck.cxx
   SurfaceEditor.cxx
@@ -66,6 +67,7 @@ set(volumic_core_headers
   RestCriterion.h
   Refuse.h
   RowKernels.h
+  StandardThreads.h
   StarMerge.h
   SurfaceCheck.h
   SurfaceEditor.h
