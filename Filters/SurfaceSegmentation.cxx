@@ -342,7 +342,10 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     (level == this->LastLevel || !this->Settings.Options.RecoverLostParts))
   {
     this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
-      ": the object is too thin for it. Set CoarsestLevel to a finer level."));
+      ": the object is too thin for it. ",
+      this->Coarsest > 0
+        ? "Set CoarsestLevel to a finer level."
+        : "No level is finer: check IsoValue and ObjectIsBright, or resample the image."));
   }
   return reason == StopReason::Converged || reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);

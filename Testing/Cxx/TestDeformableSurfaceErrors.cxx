@@ -143,6 +143,23 @@ TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
   this->ExpectError({ "vanished at level 2", "above IsoValue 50", "set CoarsestLevel to 0" });
 }
 
+TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
+{
+  // Thin enough to slip through the surface, even at level 0.
+  const auto image = BallImage(40, 40, 40);
+  image->GetPointData()->GetScalars()->FillComponent(0, 0.0);
+  image->SetScalarComponentFromDouble(20, 20, 20, 0, 51.0);
+  this->Filter->SetInputDataObject(image);
+  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  this->Filter->SetCoarsestLevel(0);
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  this->Filter->Update();
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
+  EXPECT_TRUE(warnings.Has("No level is finer: check IsoValue")) << warnings.Get();
+  EXPECT_FALSE(warnings.Has("Set CoarsestLevel")) << warnings.Get();
+}
+
 TEST_F(DeformableSurfaceErrors, Image2D)
 {
   this->Filter->SetInputDataObject(RandomImage(64, 64, 1));
