@@ -210,8 +210,9 @@ public:
 
   ///@{
   /**
-   * Radius of the seeds in world units; 0, the default: three delta of the coarsest level. Lengths
-   * are those of the workspace, scaled so that the smallest voxel distance is right.
+   * Radius of the seeds in world units; 0, the default: 1.2 delta of the coarsest level. Less than
+   * 0.96 delta is taken as that, below which the edges of an icosahedron are too short. Lengths are
+   * those of the workspace, scaled so that the smallest voxel distance is right.
    */
   vtkSetMacro(SeedRadius, double);
   vtkGetMacro(SeedRadius, double);
@@ -230,7 +231,8 @@ public:
   /**
    * The level to end at; 0, the default: the input. The same as CoarsestLevel: one level alone.
    * FinestLevel -1 goes one level finer than the image: the surface is divided once more, so that
-   * delta is that of level 0 over sqrt(3), and evolves on the field of level 0. It resolves walls
+   * delta is that of level 0 over sqrt(3), and evolves on the field of level 0. That leaves eq. 7,
+   * which holds at all other levels: the image is sampled more finely than it is. It resolves walls
    * and gaps that are thinner than the triangles of level 0, at about three times their number.
    * What belongs to this level is called level -1: in the field data, in the history, and as
    * `Level -1`, the last block of the output Levels, after those of the pyramid.
@@ -242,7 +244,7 @@ public:
   ///@{
   /**
    * delta_h / U_h (eq. 7): the smallest edge of the surface in units of the level, between
-   * sqrt(3)/2.5 = 0.693 and 1. Default: 0.85.
+   * sqrt(3)/2.5 = 0.693 and 1. Level -1 has its share of it, see FinestLevel. Default: 0.85.
    */
   vtkSetMacro(SamplingRatio, double);
   vtkGetMacro(SamplingRatio, double);
@@ -340,8 +342,10 @@ public:
    * comes to a level. RecoverObjects (default) encloses each part of at least MinimumPartSize
    * voxels of that level with a new component, which shrinks onto it and merges with the rest where
    * they touch; RecoverObjectsAndCavities does the same for background that the object encloses,
-   * with cavities; NoRecovery is the paper's behaviour, where only what is connected to the surface
-   * is found again. Field data and History tell how many parts were found.
+   * with cavities, which a surface that comes from outside cannot reach otherwise (seeds in the
+   * object and the start from the iso-surface can); NoRecovery is the paper's behaviour, where only
+   * what is connected to the surface is found again. Field data and History tell how many parts
+   * were found.
    */
   vtkSetMacro(Recovery, int);
   vtkGetMacro(Recovery, int);
@@ -374,9 +378,10 @@ public:
 
   ///@{
   /**
-   * A level rests when the enclosed volume changes by less than this share of it over 10 and over
-   * 20 iterations. Differs from the paper, which waits for the kinetic energy: that either stops
-   * while tips still grow, or never. Default: 0.0005.
+   * A level rests when the enclosed volume changes by less than this share of it, or than delta^3,
+   * over 10 and over 20 iterations. The paper lets each level converge completely, and shows the
+   * kinetic energy: but that is small while tips still grow, and some vertices always stir.
+   * Default: 0.0005.
    */
   vtkSetMacro(ConvergenceTolerance, double);
   vtkGetMacro(ConvergenceTolerance, double);

@@ -131,6 +131,20 @@ TEST_F(DeformableSurfaceComponents, AllAreThereByDefault)
     this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
 }
 
+TEST_F(DeformableSurfaceComponents, SeedsFindCavitiesToo)
+{
+  // As the documents say: not only Recovery does.
+  this->Filter->SetInitializationToSeeds();
+  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  this->SetSeed(6, 16, 16);
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
+  this->Filter->SetInitializationToEnclosingIcosahedron();
+  for (const double volume : this->Volumes())
+  {
+    EXPECT_GT(volume, 0) << "from outside no cavity is found";
+  }
+}
+
 TEST_F(DeformableSurfaceComponents, TheLargestComesWithItsCavity)
 {
   this->Filter->SetKeepComponentsToLargestComponent();
