@@ -5,8 +5,13 @@
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkDataObject.h>
+#include <vtkErrorCode.h>
 #include <vtkExecutive.h>
+#include <vtkInformationVector.h>
 #include <vtkNew.h>
+
+#include <stdexcept>
 
 namespace volumic
 {
@@ -25,16 +30,30 @@ std::string UpdateAndCollectErrors(vtkAlgorithm* algorithm)
       text.erase(text.find_last_not_of('\n') + 1);
       *static_cast<std::string*>(client) += text;
     });
-  // The executive says only that the algorithm has failed.
-  vtkNew<vtkCallbackCommand> ignore;
-  ignore->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
 
-  const unsigned long collecting = algorithm->AddObserver(vtkCommand::ErrorEvent, collect);
-  const unsigned long ignoring =
-    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, ignore);
+  const unsigned long ofAlgorithm = algorithm->AddObserver(vtkCommand::ErrorEvent, collect);
+  const unsigned long ofExecutive =
+    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, collect);
   algorithm->Update();
-  algorithm->RemoveObserver(collecting);
-  algorithm->GetExecutive()->RemoveObserver(ignoring);
+  algorithm->RemoveObserver(ofAlgorithm);
+  algorithm->GetExecutive()->RemoveObserver(ofExecutive);
   return errors;
+}
+
+unsigned long ErrorCodeOf(const std::exception& error)
+{
+  const bool isGivenWrong = dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
+  return isGivenWrong ? vtkErrorCode::UserError : vtkErrorCode::UnknownError;
+}
+
+void InitializeOutputs(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
+    {
+      output->Initialize();
+    }
+  }
 }
 }

@@ -3,15 +3,28 @@
 #ifndef AlgorithmErrors_h
 #define AlgorithmErrors_h
 
+#include <exception>
 #include <string>
 
 class vtkAlgorithm;
+class vtkInformationVector;
 
 namespace volumic
 {
-/// Updates an algorithm that works within another one; what it reports as an error is not printed
-/// but returned, without the place in the source. Empty if all went well.
+/// Updates an algorithm that works within another one; what it, or its executive, reports as an
+/// error is not printed but returned, without the place in the source. Empty if all went well.
 std::string UpdateAndCollectErrors(vtkAlgorithm* algorithm);
+
+/// What a filter's SetErrorCode gets for what ended its run: vtkErrorCode::UserError for
+/// std::invalid_argument (what was given is wrong), else vtkErrorCode::UnknownError (memory).
+unsigned long ErrorCodeOf(const std::exception& error);
+
+/**
+ * Leaves all outputs initialised, after an error: no data half made, and none of the field data
+ * that the pipeline has passed from the input. RequestData then returns 1 all the same: after 0 the
+ * pipeline would print a second error, and ParaView's clients would keep what they had before.
+ */
+void InitializeOutputs(vtkInformationVector* outputs);
 }
 
 #endif

@@ -5,10 +5,9 @@
 #include "BuildPyramid.h"
 #include "Core/Refuse.h"
 #include "ImageVoxels.h"
+#include "PolyDataPoints.h"
 #include "vtkImagePyramid.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
@@ -21,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -29,26 +27,6 @@ namespace volumic
 {
 namespace
 {
-std::vector<vtkIdType> PointIdsOf(vtkPolyData* polyData)
-{
-  std::vector<vtkIdType> ids;
-  if (polyData->GetNumberOfVerts() == 0)
-  {
-    ids.resize(static_cast<std::size_t>(polyData->GetNumberOfPoints()));
-    std::iota(ids.begin(), ids.end(), vtkIdType(0));
-    return ids;
-  }
-  auto cells = vtk::TakeSmartPointer(polyData->GetVerts()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType size;
-    const vtkIdType* points;
-    cells->GetCurrentCell(size, points);
-    ids.insert(ids.end(), points, points + size);
-  }
-  return ids;
-}
-
 /// The array of that name, null if there is none.
 vtkDataArray* NumbersOf(vtkPolyData* polyData, const char* name)
 {
@@ -103,7 +81,7 @@ std::vector<AttractingPoint> AttractingPointsOf(
   }
   vtkDataArray* weights = NumbersOf(polyData, "Weight");
   vtkDataArray* radii = NumbersOf(polyData, "Radius");
-  for (const vtkIdType id : PointIdsOf(polyData))
+  for (const vtkIdType id : PointsMeantBy(polyData))
   {
     AttractingPoint point;
     Point world;
@@ -168,8 +146,10 @@ const float* EdgeLevels::Load(int level, const std::array<int, 3>& size, Executo
 {
   try
   {
-    const LevelImage loaded =
-      level < this->Levels->NumberOfLevels() ? this->Levels->Load(level, executor) : LevelImage();
+    // The force knows differences only.
+    const LevelImage loaded = level < this->Levels->NumberOfLevels()
+      ? this->Levels->Load(level, this->Levels->Range(0)[0], executor)
+      : LevelImage();
     if (loaded.Size != size)
     {
       Refuse("its level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1], " x ",

@@ -20,10 +20,10 @@ class vtkPolyData;
 namespace volumic
 {
 /**
- * The points of input port 2 of vtkDeformableSurface: those of its vertices, or all where it has no
- * vertices; point arrays `Weight` and `Radius` (world units), both optional.
+ * The points of input port 2 of vtkDeformableSurface (PointsMeantBy); point arrays `Weight` and
+ * `Radius` (world units), both optional.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument for a point outside the image, an array that is not numbers of one
+ * @throws std::invalid_argument for cells without vertices, a point outside the image, an array that is not numbers of one
  *         component, a negative or infinite weight or radius.
  */
 std::vector<AttractingPoint> AttractingPointsOf(

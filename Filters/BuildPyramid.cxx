@@ -6,9 +6,12 @@
 #include "Core/Refuse.h"
 #include "vtkImagePyramid.h"
 
+#include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
+
+#include <stdexcept>
 
 namespace volumic
 {
@@ -34,6 +37,10 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   pyramid->SetInputData(image);
   pyramid->SetInputArrayToProcess(0, selection);
   const std::string errors = UpdateAndCollectErrors(pyramid);
+  if (!errors.empty() && pyramid->GetErrorCode() == vtkErrorCode::UnknownError)
+  {
+    throw std::runtime_error(errors);
+  }
   if (!errors.empty())
   {
     Refuse(errors);

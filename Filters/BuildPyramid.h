@@ -25,7 +25,8 @@ EdgeLengthPlan PlanEdgeLength(
 /**
  * The levels of an image, by a pyramid with the settings wanted.
  * @param selection of the voxels, as GetInputArrayInformation()
- * @throws std::invalid_argument with the pyramid's message.
+ * @throws std::invalid_argument with the pyramid's message; std::runtime_error if it is not the
+ *         user's fault (memory).
  */
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HostThreads.h"
 
+#include "Core/StandardThreads.h"
+
 #include <vtkSMPTools.h>
 
 #include <algorithm>
@@ -14,6 +16,8 @@ namespace volumic
 {
 namespace
 {
+constexpr const char* StandardBackend = "STDThread";
+
 /// More threads than processors gain nothing, and TBB complains.
 int LimitToProcessors(int numberOfThreads)
 {
@@ -27,7 +31,7 @@ std::string ChooseBackend(int numberOfThreads)
   const bool isChosenByUser = std::getenv("VTK_SMP_BACKEND_IN_USE") != nullptr;
   if (host == "Sequential" && !isChosenByUser && numberOfThreads != 1)
   {
-    return "STDThread";
+    return StandardBackend;
   }
   return host;
 }
@@ -76,19 +80,14 @@ HostThreads::HostThreads(int numberOfThreads)
 {
 }
 
-void HostThreads::Run(const std::function<void()>& work)
+void HostThreads::RunWithin(
+  const std::string& backend, int numberOfThreads, const std::function<void()>& work)
 {
-  if (this->NumberOfThreads == 1)
-  {
-    work();
-    return;
-  }
   // What is thrown must not pass through VTK's scope, which would not restore the backend.
   std::exception_ptr exception;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config{ this->NumberOfThreads, this->Backend, false },
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ numberOfThreads, backend, false },
     [&]
     {
-      this->Running = true;
       try
       {
         work();
@@ -97,12 +96,45 @@ void HostThreads::Run(const std::function<void()>& work)
       {
         exception = std::current_exception();
       }
-      this->Running = false;
     });
   if (exception)
   {
     std::rethrow_exception(exception);
   }
+}
+
+void HostThreads::Run(const std::function<void()>& work)
+{
+  if (this->NumberOfThreads == 1)
+  {
+    work();
+    return;
+  }
+  const auto run = [&]
+  {
+    this->Running = true;
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+      this->Running = false;
+      throw;
+    }
+    this->Running = false;
+  };
+  if (this->Backend != StandardBackend)
+  {
+    this->RunWithin(this->Backend, this->NumberOfThreads, run);
+    return;
+  }
+  int number = 1;
+  this->RunWithin(this->Backend, this->NumberOfThreads,
+    [&] { number = vtkSMPTools::GetEstimatedNumberOfThreads(); });
+  this->Own = std::make_unique<StandardThreads>(number);
+  this->RunWithin("Sequential", 1, run);
+  this->Own.reset();
 }
 
 void HostThreads::For(
@@ -115,6 +147,11 @@ void HostThreads::For(
   if (!this->Running || n <= grain)
   {
     body(0, n);
+    return;
+  }
+  if (this->Own)
+  {
+    this->Own->For(n, grain, body);
     return;
   }
   Body guarded(body);

@@ -6,6 +6,7 @@
 #include "Core/Executor.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace volumic
@@ -16,6 +17,8 @@ namespace volumic
  * The host's backend is used as it is (TBB in Debian's VTK). Only where that is sequential by
  * default, as in Debian's ParaView, threads of the standard library are used instead; a user who
  * wants it sequential all the same sets VTK_SMP_BACKEND_IN_USE=Sequential or asks for one thread.
+ * Instead of VTK's backend STDThread, which ends the program where the system denies it a thread,
+ * our own StandardThreads serve; VTK itself is sequential meanwhile.
  */
 class HostThreads final : public Executor
 {
@@ -32,8 +35,11 @@ public:
     const std::function<void(std::size_t, std::size_t)>& body) override;
 
 private:
+  void RunWithin(const std::string& backend, int numberOfThreads, const std::function<void()>& work);
+
   int NumberOfThreads;
   std::string Backend;
+  std::unique_ptr<Executor> Own; ///< instead of the backend, within Run()
   bool Running = false;
 };
 }

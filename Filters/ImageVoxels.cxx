@@ -14,7 +14,9 @@
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <sstream>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace volumic
@@ -29,22 +31,22 @@ std::string Quote(const char* name)
 /// `it has 'a' and 'b'`, so that a user sees what could have been chosen.
 std::string ArraysOf(vtkImageData* image)
 {
-  std::ostringstream text;
+  std::string text;
   vtkPointData* points = image->GetPointData();
   vtkCellData* cells = image->GetCellData();
   if (points->GetNumberOfArrays() == 0)
   {
-    text << "it has no point data";
+    text = "it has no point data";
   }
   for (int i = 0; i < points->GetNumberOfArrays(); ++i)
   {
-    text << (i == 0 ? "its point arrays are " : ", ") << Quote(points->GetArrayName(i));
+    text += (i == 0 ? "its point arrays are " : ", ") + Quote(points->GetArrayName(i));
   }
   if (cells->GetNumberOfArrays() > 0)
   {
-    text << "; it has cell data, which the filter Cell Data to Point Data turns into point data";
+    text += "; it has cell data, which the filter Cell Data to Point Data turns into point data";
   }
-  return text.str();
+  return text;
 }
 
 /// The array that the selection names, whatever its type; the reason in a message if there is none.
@@ -88,6 +90,13 @@ vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
 }
 }
 
+bool FloatHolds(double smallest, double largest)
+{
+  const double size = std::max(std::abs(smallest), std::abs(largest));
+  constexpr double rounding = 0.5 * std::numeric_limits<float>::epsilon();
+  return largest == smallest || size * rounding <= 1e-5 * (largest - smallest);
+}
+
 std::string NameOf(vtkDataArray* array)
 {
   return "array " + Quote(array->GetName());
@@ -96,9 +105,7 @@ std::string NameOf(vtkDataArray* array)
 std::string SizeOf(vtkImageData* image)
 {
   const int* size = image->GetDimensions();
-  std::ostringstream text;
-  text << size[0] << " x " << size[1] << " x " << size[2];
-  return text.str();
+  return Join(size[0], " x ", size[1], " x ", size[2]);
 }
 
 vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image)

@@ -25,6 +25,10 @@ vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
 /// The same values in one plain block of memory: the array itself where it is one already.
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
 
+/// Whether single precision keeps the differences of voxels of this range: rounding changes them by
+/// less than 1e-5 of the range.
+bool FloatHolds(double smallest, double largest);
+
 /// `array 'name'`, for messages.
 std::string NameOf(vtkDataArray* array);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialSurfaces.h"
 
+#include "PolyDataPoints.h"
+
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkFloatArray.h>
@@ -77,7 +79,7 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   std::fill(values, values + padded->GetNumberOfPoints(), background);
   // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are moved
   // a little to the side of the background. The surface finds its place anyway.
-  const float iso = static_cast<float>(options.IsoValue);
+  const float iso = static_cast<float>(options.IsoValue - image.Base);
   const float room = 0.01f * std::max(*range.second - iso, iso - *range.first);
   const float beside = options.ObjectIsBright ? iso - room : iso + room;
   const auto clear = [&](float value) { return std::abs(value - iso) < room ? beside : value; };
@@ -122,37 +124,21 @@ IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
 std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space)
 {
   std::vector<Point> seeds;
-  const auto add = [&](vtkIdType id)
-  {
-    Point point;
-    polyData->GetPoint(id, point.data());
-    seeds.push_back(space.ToWorkspace(point));
-  };
   if (!polyData)
   {
     return seeds;
   }
-  if (polyData->GetNumberOfCells() == 0)
+  if (IsSurfaceOnly(polyData))
   {
-    for (vtkIdType p = 0; p < polyData->GetNumberOfPoints(); ++p)
-    {
-      add(p);
-    }
-    return seeds;
+    throw std::invalid_argument("The seeds must be vertices or mere points, but the data is a "
+                                "surface. Give the centres of the seeds, or set Initialization to "
+                                "InputSurface.");
   }
-  if (polyData->GetNumberOfVerts() == 0)
+  for (const vtkIdType id : PointsMeantBy(polyData))
   {
-    throw std::invalid_argument("The seeds must be vertices or mere points, but the "
-                                "data has other cells. Give the centres of the seeds, or set "
-                                "Initialization to InputSurface.");
-  }
-  auto cells = vtk::TakeSmartPointer(polyData->GetVerts()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    cells->GetCurrentCell(size, ids);
-    std::for_each(ids, ids + size, add);
+    Point point;
+    polyData->GetPoint(id, point.data());
+    seeds.push_back(space.ToWorkspace(point));
   }
   return seeds;
 }
@@ -161,7 +147,7 @@ IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& o
 {
   vtkNew<vtkFlyingEdges3D> contour;
   contour->SetInputData(PadByBackground(image, options));
-  contour->SetValue(0, options.IsoValue);
+  contour->SetValue(0, options.IsoValue - image.Base);
   contour->ComputeNormalsOff();
   contour->ComputeGradientsOff();
   contour->ComputeScalarsOff();

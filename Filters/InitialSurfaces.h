@@ -18,7 +18,7 @@ namespace volumic
 /// @throws std::invalid_argument if there is none.
 IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space);
 
-/// The points of its vertices, or all points where it has no cells, in the workspace.
+/// The points that it means (PointsMeantBy), in the workspace; none if it is null.
 /// @throws std::invalid_argument if it has polygons or lines only.
 std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KeepComponents.h"
 
+#include "Core/Refuse.h"
+#include "PolyDataPoints.h"
 #include "SurfaceOutput.h"
 #include "vtkDeformableSurface.h"
 
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <stdexcept>
 
 namespace volumic
 {
@@ -227,16 +230,29 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
 std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space)
 {
   std::vector<Point> places;
-  for (vtkPolyData* points : { port1, port2 })
+  const auto add = [&](vtkPolyData* points, int port)
   {
-    const bool arePoints =
-      points && (points == port2 || points->GetNumberOfPolys() + points->GetNumberOfStrips() == 0);
-    for (vtkIdType i = 0; arePoints && i < points->GetNumberOfPoints(); ++i)
+    try
     {
-      Point world;
-      points->GetPoint(i, world.data());
-      places.push_back(space.ToWorkspace(world));
+      for (const vtkIdType id : PointsMeantBy(points))
+      {
+        Point world;
+        points->GetPoint(id, world.data());
+        places.push_back(space.ToWorkspace(world));
+      }
     }
+    catch (const std::invalid_argument& error)
+    {
+      Refuse("Input port ", port, ": ", error.what());
+    }
+  };
+  if (port1 && !IsSurfaceOnly(port1))
+  {
+    add(port1, 1);
+  }
+  if (port2)
+  {
+    add(port2, 2);
   }
   return places;
 }

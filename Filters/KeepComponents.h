@@ -20,8 +20,9 @@ struct ComponentChoice
   std::vector<Point> Places;  ///< workspace
 };
 
-/// The places for a choice by points: the points of port 1, if it has no polygons, and of port 2.
-/// Both may be missing. Workspace.
+/// The places for a choice by points: those that port 1 and port 2 mean (PointsMeantBy). Both may be
+/// missing; a surface at port 1 has no seeds. Workspace.
+/// @throws std::invalid_argument for other cells without vertices.
 std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space);
 
 /**

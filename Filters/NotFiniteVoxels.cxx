@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NotFiniteVoxels.h"
 
+#include "Core/Join.h"
 #include "Core/LevelReduction.h"
 #include "ImageVoxels.h"
 
@@ -9,7 +10,6 @@
 #include <vtkImageData.h>
 
 #include <cstdint>
-#include <sstream>
 
 namespace volumic
 {
@@ -32,13 +32,10 @@ std::string DescribeNotFiniteVoxels(
   const int* extent = image->GetExtent();
   const int* size = image->GetDimensions();
   const std::int64_t row = found.First / size[0];
-  std::ostringstream message;
-  message << NameOf(original) << " has " << found.Count << " NaN or infinite voxel"
-          << (found.Count == 1 ? "" : "s") << ", the first at ("
-          << extent[0] + found.First % size[0] << ", " << extent[2] + row % size[1] << ", "
-          << extent[4] + row / size[1]
-          << "). Replace them by numbers, for instance by the value of the background.";
-  return message.str();
+  return Join(NameOf(original), " has ", found.Count, " NaN or infinite voxel",
+    found.Count == 1 ? "" : "s", ", the first at (", extent[0] + found.First % size[0], ", ",
+    extent[2] + row % size[1], ", ", extent[4] + row / size[1],
+    "). Replace them by numbers, for instance by the value of the background.");
 }
 
 }

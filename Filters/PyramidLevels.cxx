@@ -105,13 +105,13 @@ double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
 }
 
 template <typename T>
-void Convert(const T* values, std::vector<float>& converted, Executor& executor)
+void Convert(const T* values, double base, std::vector<float>& converted, Executor& executor)
 {
   executor.For(converted.size(), 1 << 16,
     [&](std::size_t begin, std::size_t end)
     {
       std::transform(values + begin, values + end, converted.begin() + begin,
-        [](T value) { return static_cast<float>(value); });
+        [base](T value) { return static_cast<float>(static_cast<double>(value) - base); });
     });
 }
 }
@@ -121,7 +121,7 @@ PyramidLevels::PyramidLevels(
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
-    Refuse("there is no level: the input has no blocks.", WayOut);
+    Refuse("there is no level: the input has no blocks, as after an error of Image Pyramid.", WayOut);
   }
   for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
   {
@@ -178,7 +178,7 @@ std::array<double, 2> PyramidLevels::Range(int level) const
   return range;
 }
 
-LevelImage PyramidLevels::Load(int wanted, Executor& executor)
+LevelImage PyramidLevels::Load(int wanted, double base, Executor& executor)
 {
   const int level = std::max(wanted, 0);
   vtkImageData* image = this->Images[level];
@@ -202,7 +202,8 @@ LevelImage PyramidLevels::Load(int wanted, Executor& executor)
   }
 
   LevelImage loaded;
-  if (voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level])
+  const bool isFine = FloatHolds(range[0], range[1]);
+  if (voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level] && isFine)
   {
     this->Converted = std::vector<float>();
     loaded.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
@@ -214,12 +215,14 @@ LevelImage PyramidLevels::Load(int wanted, Executor& executor)
     switch (voxels->GetDataType())
     {
       vtkTemplateMacro(
-        Convert(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), this->Converted, executor));
+        Convert(
+          static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), base, this->Converted, executor));
       default:
         Refuse(name, ": ", NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
           ", which is not supported.");
     }
     loaded.Values = this->Converted.data();
+    loaded.Base = base;
   }
   for (int axis = 0; axis < 3; ++axis)
   {

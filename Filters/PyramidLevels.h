@@ -56,11 +56,13 @@ public:
 
   /**
    * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call.
-   * Float voxels are shared, others converted.
+   * Float voxels are shared, unless their differences are small beside their size; others are
+   * converted. Of what is converted `base` is subtracted first, in double: it is the Base of the result.
+   * @param base a value of the field that matters, such as the iso-value
    * @throws if the level is under MinimumSize along an axis, or has voxels that are not finite
    *         or too large for single precision.
    */
-  LevelImage Load(int level, Executor& executor);
+  LevelImage Load(int level, double base, Executor& executor);
 
 private:
   double UnitOf(int level) const;

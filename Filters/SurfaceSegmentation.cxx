@@ -172,7 +172,7 @@ LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
   LevelImage image;
   try
   {
-    image = this->Pyramid.Load(level, threads);
+    image = this->Pyramid.Load(level, this->Settings.Options.IsoValue, threads);
   }
   catch (const std::invalid_argument& error)
   {
@@ -263,7 +263,7 @@ int SurfaceSegmentation::CoarsestLevelWithObject(int from)
   for (; level > 0; --level)
   {
     const std::array<double, 2> range = this->Pyramid.Range(level);
-    if (bright ? static_cast<float>(range[1]) > iso : static_cast<float>(range[0]) < iso)
+    if (bright ? range[1] > iso : range[0] < iso)
     {
       break;
     }
@@ -377,7 +377,10 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     (level == this->LastLevel || !this->Settings.Options.RecoverLostParts))
   {
     this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
-      ": the object is too thin for it. Set CoarsestLevel to a finer level."));
+      ": the object is too thin for it. ",
+      this->Coarsest > 0
+        ? "Set CoarsestLevel to a finer level."
+        : "No level is finer: check IsoValue and ObjectIsBright, or resample the image."));
   }
   return reason == StopReason::Converged || reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
+#include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
@@ -10,6 +11,7 @@
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -195,6 +197,7 @@ vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* 
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
@@ -263,16 +266,18 @@ int vtkDeformableSurface::RequestData(
     vtkTable::GetData(outputVector, 2)->ShallowCopy(segmentation.History());
     vtkMultiBlockDataSet::GetData(outputVector, 3)->ShallowCopy(segmentation.Snapshots());
   }
-  catch (const std::bad_alloc&)
+  catch (const std::bad_alloc& error)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set FinestLevel to a "
                   "coarser level, or crop the image.");
-    return 0;
   }
   catch (const std::exception& error)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro(<< error.what());
-    return 0;
   }
   return 1;
 }

@@ -16,16 +16,18 @@
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
  *   is built here with default settings. Of each level the array chosen by SetInputArrayToProcess()
  *   is used, by default the active point scalars: one component, any numeric type, finite values of
- *   at most 1e37 in size (the surface computes in single precision). At least 8 voxels along each
- *   axis.
+ *   at most 1e37 in size (the surface computes in single precision, after IsoValue was subtracted
+ *   where that matters: 10^9 to 10^9 + 50 are fine). At least 8 voxels along each axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
- *   polygons are triangulated). With Initialization Seeds, its vertices are the centres of the
- *   seeds (all its points if it has no cells). World coordinates.
+ *   polygons are triangulated). With Initialization Seeds, the centres of the seeds. World
+ *   coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
- *   PointAttractionWeight: its vertices, or all its points if it has none. Point arrays, optional:
- *   `Weight` (any numeric type, at least 0, default 1) and `Radius` (world units, default 0:
- *   automatic).
+ *   PointAttractionWeight. Point arrays, optional: `Weight` (any numeric type, at least 0, default
+ *   1) and `Radius` (world units, default 0: automatic).
+ * - Where points are meant, at both ports and for all purposes: the points of the vertices (vertex
+ *   and polyvertex cells), each once; all points where there are no cells at all. Lines and
+ *   polygons without vertices are refused, as nothing says that their points are meant.
  * - A map of edges, optional, see EdgeAttractionWeight: a second point array of the image of port
  *   0, chosen by SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name).
  *
@@ -78,8 +80,19 @@
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. A
  * warning tells when parts of the object were lost at a level, or when nothing is left.
+ * @par
+ * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
+ * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
+ * one that was cancelled, vtkErrorCode::UserError where something given is wrong,
+ * vtkErrorCode::UnknownError where the memory does not suffice. Each run sets it anew. The message
+ * comes with ErrorEvent; without an observer VTK prints it. Inputs that are missing or of another
+ * type are refused by the pipeline before a run: by ErrorEvent of GetExecutive() only.
+ *
+ * @par Cancelling:
  * AbortExecute stops after the current iteration: the surface as it is then is handed over, valid,
- * with `StopReason` `cancelled`.
+ * with `StopReason` `cancelled`. It counts as up to date, so that what follows in the pipeline can
+ * show or write it: another Update() gives it again. To run anew call Modified() first, or change
+ * an input or a property; the request to stop is forgotten then.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -218,8 +231,9 @@ public:
 
   ///@{
   /**
-   * Radius of the seeds in world units; 0, the default: three delta of the coarsest level. Lengths
-   * are those of the workspace, scaled so that the smallest voxel distance is right.
+   * Radius of the seeds in world units; 0, the default: 1.2 delta of the coarsest level. Less than
+   * 0.96 delta is taken as that, below which the edges of an icosahedron are too short. Lengths are
+   * those of the workspace, scaled so that the smallest voxel distance is right.
    */
   vtkSetMacro(SeedRadius, double);
   vtkGetMacro(SeedRadius, double);
@@ -238,7 +252,8 @@ public:
   /**
    * The level to end at; 0, the default: the input. The same as CoarsestLevel: one level alone.
    * FinestLevel -1 goes one level finer than the image: the surface is divided once more, so that
-   * delta is that of level 0 over sqrt(3), and evolves on the field of level 0. It resolves walls
+   * delta is that of level 0 over sqrt(3), and evolves on the field of level 0. That leaves eq. 7,
+   * which holds at all other levels: the image is sampled more finely than it is. It resolves walls
    * and gaps that are thinner than the triangles of level 0, at about three times their number.
    * What belongs to this level is called level -1: in the field data, in the history, and as
    * `Level -1`, the last block of the output Levels, after those of the pyramid.
@@ -266,7 +281,7 @@ public:
   ///@{
   /**
    * delta_h / U_h (eq. 7): the smallest edge of the surface in units of the level, between
-   * sqrt(3)/2.5 = 0.693 and 1. Default: 0.85.
+   * sqrt(3)/2.5 = 0.693 and 1. Level -1 has its share of it, see FinestLevel. Default: 0.85.
    */
   vtkSetMacro(SamplingRatio, double);
   vtkGetMacro(SamplingRatio, double);
@@ -364,8 +379,10 @@ public:
    * comes to a level. RecoverObjects (default) encloses each part of at least MinimumPartSize
    * voxels of that level with a new component, which shrinks onto it and merges with the rest where
    * they touch; RecoverObjectsAndCavities does the same for background that the object encloses,
-   * with cavities; NoRecovery is the paper's behaviour, where only what is connected to the surface
-   * is found again. Field data and History tell how many parts were found.
+   * with cavities, which a surface that comes from outside cannot reach otherwise (seeds in the
+   * object and the start from the iso-surface can); NoRecovery is the paper's behaviour, where only
+   * what is connected to the surface is found again. Field data and History tell how many parts
+   * were found.
    */
   vtkSetMacro(Recovery, int);
   vtkGetMacro(Recovery, int);
@@ -398,9 +415,10 @@ public:
 
   ///@{
   /**
-   * A level rests when the enclosed volume changes by less than this share of it over 10 and over
-   * 20 iterations. Differs from the paper, which waits for the kinetic energy: that either stops
-   * while tips still grow, or never. Default: 0.0005.
+   * A level rests when the enclosed volume changes by less than this share of it, or than delta^3,
+   * over 10 and over 20 iterations. The paper lets each level converge completely, and shows the
+   * kinetic energy: but that is small while tips still grow, and some vertices always stir.
+   * Default: 0.0005.
    */
   vtkSetMacro(ConvergenceTolerance, double);
   vtkGetMacro(ConvergenceTolerance, double);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImagePyramid.h"
 
+#include "AlgorithmErrors.h"
+#include "Core/Join.h"
 #include "Core/LevelReduction.h"
 #include "Core/PyramidGeometry.h"
 #include "HostThreads.h"
@@ -17,6 +19,7 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkDemandDrivenPipeline.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -30,10 +33,12 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -61,17 +66,48 @@ vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int leve
   auto* values = static_cast<Real*>(std::malloc(static_cast<std::size_t>(n) * sizeof(Real)));
   if (!values)
   {
-    std::ostringstream message;
-    message << "the memory does not suffice for level " << level << ", which takes "
-            << static_cast<double>(n) * sizeof(Real) / (1024. * 1024.)
-            << " MB. Ask for fewer levels, or crop the image.";
-    throw std::runtime_error(message.str());
+    throw std::runtime_error(volumic::Join("the memory does not suffice for level ", level,
+      ", which takes ", static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
+      " MB. Ask for fewer levels, or crop the image."));
   }
   vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> array;
   array.TakeReference(vtkAOSDataArrayTemplate<Real>::FastDownCast(
     vtkDataArray::CreateDataArray(vtkTypeTraits<Real>::VTK_TYPE_ID)));
   array->SetArray(values, n, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
   return array;
+}
+
+/// The voxels that level 1 is made of: as double where they are integers that single precision would
+/// not keep apart.
+vtkSmartPointer<vtkDataArray> SourceVoxels(vtkDataArray* voxels, volumic::Executor& executor)
+{
+  const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
+  const int type = contiguous->GetDataType();
+  if (type == VTK_FLOAT || type == VTK_DOUBLE || contiguous->GetDataTypeSize() < 4)
+  {
+    return contiguous;
+  }
+  double range[2];
+  contiguous->GetRange(range);
+  if (volumic::FloatHolds(range[0], range[1]))
+  {
+    return contiguous;
+  }
+  const auto wide = NewArray<double>(contiguous->GetNumberOfTuples(), 0);
+  const auto copy = [&](const auto* values)
+  {
+    executor.For(static_cast<std::size_t>(wide->GetNumberOfTuples()), 1 << 16,
+      [&](std::size_t begin, std::size_t end)
+      {
+        std::transform(values + begin, values + end, wide->GetPointer(0) + begin,
+          [](auto value) { return static_cast<double>(value); });
+      });
+  };
+  switch (type)
+  {
+    vtkTemplateMacro(copy(static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0))));
+  }
+  return wide;
 }
 
 /// Input voxels of each level that are looked at: what progress is measured by.
@@ -105,10 +141,9 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevels(const T* level0,
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
     const auto array = NewArray<Real>(levels[h].NumberOfVoxels(), static_cast<int>(h));
-    std::ostringstream text;
-    text << "Level " << h << " of " << levels.size() - 1;
+    const std::string text = volumic::Join("Level ", h, " of ", levels.size() - 1);
     const auto levelProgress = [&](double share)
-    { return progress(before[h - 1] + share * (before[h] - before[h - 1]), text.str()); };
+    { return progress(before[h - 1] + share * (before[h] - before[h - 1]), text); };
     const bool isFinished = levelProgress(0.0) &&
       (h == 1 ? volumic::ReduceLevel(
                   level0, levels[0], array->GetPointer(0), levels[1], executor, levelProgress)
@@ -183,13 +218,13 @@ bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const volumic::Pyra
   int numberOfThreads, const Progress& progress, vtkMultiBlockDataSet* pyramid)
 {
   const std::vector<volumic::LevelGeometry> levels = Plan(input, options);
-  const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
 
   volumic::HostThreads threads(numberOfThreads);
   threads.Run(
     [&]
     {
+      const vtkSmartPointer<vtkDataArray> contiguous = SourceVoxels(voxels, threads);
       const std::string notFinite =
         volumic::DescribeNotFiniteVoxels(voxels, contiguous, input, threads);
       if (!notFinite.empty())
@@ -302,6 +337,7 @@ int vtkImagePyramid::RequestUpdateExtent(
 int vtkImagePyramid::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   // In a parallel run the first process holds the pyramid; the others would only repeat it.
@@ -313,8 +349,10 @@ int vtkImagePyramid::RequestData(
   }
   if (!input || !output)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(vtkErrorCode::UserError);
     vtkErrorMacro("Input port 0: there is no image.");
-    return 0;
+    return 1;
   }
   try
   {
@@ -336,16 +374,18 @@ int vtkImagePyramid::RequestData(
     AddStopReason(pyramid, isComplete);
     output->ShallowCopy(pyramid);
   }
-  catch (const std::bad_alloc&)
+  catch (const std::bad_alloc& error)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: the memory does not suffice for the pyramid of an image of "
       << volumic::SizeOf(input) << " voxels.");
-    return 0;
   }
   catch (const std::exception& error)
   {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: " << error.what());
-    return 0;
   }
   return 1;
 }

@@ -19,7 +19,9 @@
  * is the input itself, whose arrays are shared, not copied. All levels have the origin (the place
  * of the first voxel), the direction and the real size of the input; the spacing of level h is
  * spacing * size / size of level h, in world units, and its extent starts at 0. Each level from 1
- * on has one array, under the name that it has on the input: double if that is double, else float.
+ * on has one array, under the name that it has on the input: double if that is double, or integers
+ * of 32 or 64 bits whose differences single precision would lose (their size is over 168 times
+ * their range: 10^9 to 10^9 + 50), else float.
  * Field data of every level: `Level` (int) and `Unit` (double, the U_h of the paper: the distance
  * that stands for one voxel at that level, world units). Field data of the whole: `StopReason`
  * (string), `complete` or, after AbortExecute, `cancelled`: then the levels that were finished are
@@ -39,6 +41,13 @@
  * empty; there is no such array, or it is cell data, not numeric or has several components; it has
  * voxels that are NaN or infinite; ReductionFactor is not between 1 and 2; more levels are asked
  * for than the image can give; the memory does not suffice.
+ * @par
+ * Update() goes on after an error, so that whatever follows in the pipeline gets the empty output.
+ * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run,
+ * vtkErrorCode::UserError where something given is wrong, vtkErrorCode::UnknownError where the
+ * memory does not suffice. Each run sets it anew. The message comes with ErrorEvent; without an
+ * observer VTK prints it. Inputs that are missing or of another type are refused by the pipeline
+ * before a run: by ErrorEvent of GetExecutive() only.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and

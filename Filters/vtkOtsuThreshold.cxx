@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOtsuThreshold.h"
 
+#include "AlgorithmErrors.h"
 #include "CellVoxels.h"
 #include "Core/Refuse.h"
 #include "HostThreads.h"
@@ -12,6 +13,7 @@
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
@@ -183,6 +185,7 @@ int vtkOtsuThreshold::RequestData(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   this->Threshold = vtkMath::Nan();
+  this->SetErrorCode(vtkErrorCode::NoError);
   if (!volumic::IsFirstProcess(request, output))
   {
     return 1;
@@ -192,16 +195,17 @@ int vtkOtsuThreshold::RequestData(
     const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
       vtkImageData::GetData(input[0]), this->GetInputArrayInformation(0));
     this->Threshold = OtsuThreshold(voxels.Image, voxels.Selection);
+    vtkNew<vtkDoubleArray> column;
+    column->SetName("Threshold");
+    column->InsertNextValue(this->Threshold);
+    vtkTable::GetData(output)->AddColumn(column);
   }
   catch (const std::exception& error)
   {
+    volumic::InitializeOutputs(output);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: " << error.what());
-    return 0;
   }
-  vtkNew<vtkDoubleArray> column;
-  column->SetName("Threshold");
-  column->InsertNextValue(this->Threshold);
-  vtkTable::GetData(output)->AddColumn(column);
   return 1;
 }
 

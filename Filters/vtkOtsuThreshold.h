@@ -22,7 +22,9 @@
  * filter, and ParaView none of VTK's histograms.)
  *
  * @par Errors:
- * Voxels that are all equal, NaN or infinite, and images without such an array.
+ * Voxels that are all equal, NaN or infinite, and images without such an array: a message by
+ * ErrorEvent, an empty table, and GetErrorCode() is vtkErrorCode::UserError (0 after a good run);
+ * Update() goes on, as vtkImagePyramid says.
  *
  * @par Thanks:
  * N. Otsu, "A threshold selection method from gray-level histograms", IEEE Trans. SMC 9, 1979.

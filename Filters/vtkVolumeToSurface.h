@@ -14,6 +14,9 @@
  * @par Output:
  * As vtkDeformableSurface.
  *
+ * @par Errors:
+ * As vtkDeformableSurface: ask GetErrorCode() after Update().
+ *
  * @sa
  * vtkDeformableSurface vtkImagePyramid vtkOtsuThreshold
  */

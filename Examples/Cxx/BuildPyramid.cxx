@@ -5,6 +5,7 @@
 //   BuildPyramid IN.vti OUT.vtm [NUMBER_OF_LEVELS]
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkImagePyramid.h>
@@ -33,7 +34,7 @@ int main(int argc, char* argv[])
   pyramid->Update();
 
   vtkMultiBlockDataSet* levels = pyramid->GetOutput();
-  if (levels->GetNumberOfBlocks() == 0)
+  if (pyramid->GetErrorCode() != vtkErrorCode::NoError || levels->GetNumberOfBlocks() == 0)
   {
     return EXIT_FAILURE; // the reason was printed by VTK
   }

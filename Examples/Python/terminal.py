@@ -81,7 +81,7 @@ def run_filter(algorithm, title=None):
     tags = [algorithm.AddObserver("ErrorEvent", keep_error),
             algorithm.AddObserver("WarningEvent", keep_warning),
             algorithm.AddObserver("ProgressEvent", observe)]
-    # The executive reports a second time that its algorithm failed, or alone what it found wrong.
+    # The executive reports what it finds wrong before the algorithm runs.
     executive_tag = algorithm.GetExecutive().AddObserver("ErrorEvent", keep_echo)
     interrupts = AbortAtInterrupt(algorithm)
     started = time.monotonic()

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AxisOperator.h"
 
+#include "Join.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,9 +69,9 @@ AxisOperator::AxisOperator(std::int64_t inputSize, std::int64_t outputSize, doub
 {
   if (inputSize < 1 || outputSize < 1 || !(offset >= 0.0 && offset <= 1.0))
   {
-    throw std::invalid_argument("AxisOperator: " + std::to_string(inputSize) + " to " +
-      std::to_string(outputSize) + " voxels with an offset of " + std::to_string(offset) +
-      " voxels; sizes must be at least 1, the offset in [0, 1].");
+    throw std::invalid_argument(Join("AxisOperator: ", inputSize, " to ", outputSize,
+      " voxels with an offset of ", offset,
+      " voxels; sizes must be at least 1, the offset in [0, 1]."));
   }
   std::vector<Band> bands(outputSize);
   const double step = static_cast<double>(inputSize) / static_cast<double>(outputSize);

@@ -28,6 +28,7 @@ set(volumic_core_sources
   RemainingContacts.cxx
   Remesher.cxx
   RowKernels.cxx
+  StandardThreads.cxx
   StarMerge.cxx
   SurfaceCheck.cxx
   SurfaceEditor.cxx
@@ -55,6 +56,7 @@ set(volumic_core_headers
   Executor.h
   Field.h
   InitialSurface.h
+  Join.h
   LevelImage.h
   LevelReduction.h
   LostParts.h
@@ -67,6 +69,7 @@ set(volumic_core_headers
   RestCriterion.h
   Refuse.h
   RowKernels.h
+  StandardThreads.h
   StarMerge.h
   SurfaceCheck.h
   SurfaceEditor.h

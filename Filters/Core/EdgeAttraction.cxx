@@ -15,6 +15,7 @@ LevelImage MapOf(const LevelImage& image)
   LevelImage map = image;
   map.Values = image.Edges;
   map.Edges = nullptr;
+  map.Base = 0.; // Only differences count.
   return map;
 }
 

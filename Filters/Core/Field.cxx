@@ -12,7 +12,7 @@ namespace volumic
 {
 Field::Field(const LevelImage& image, const SurfaceOptions& options, Executor& executor)
   : Level(image)
-  , Iso(static_cast<float>(options.IsoValue))
+  , Iso(static_cast<float>(options.IsoValue - image.Base))
   , Sign(options.ObjectIsBright ? 1.f : -1.f)
   , Replicate(options.BorderValue == Border::Replicate)
 {
@@ -63,7 +63,7 @@ void Field::MeasureRange(Executor& executor)
 
 void Field::MeasureSlope()
 {
-  // Along x and y, on a subset of the rows: enough for a mean.
+  // On a subset of the rows along x: enough for a mean.
   const auto& size = this->Level.Size;
   const long rows = static_cast<long>(size[1]) * size[2];
   const long stride = std::max(1L, rows / 4096) | 1L;
@@ -75,6 +75,8 @@ void Field::MeasureSlope()
     const int k = static_cast<int>(row / size[1]);
     const float* values = this->Level.Values + this->Offset(0, j, k);
     const float* below = j + 1 < size[1] ? values + size[0] : values;
+    const float* behind =
+      k + 1 < size[2] ? values + static_cast<std::ptrdiff_t>(size[0]) * size[1] : values;
     for (int i = 0; i + 1 < size[0]; ++i)
     {
       const bool here = values[i] > this->Iso;
@@ -86,6 +88,11 @@ void Field::MeasureSlope()
       if (here != (below[i] > this->Iso))
       {
         sum += std::abs(below[i] - values[i]) * this->Inverse[1];
+        ++crossings;
+      }
+      if (here != (behind[i] > this->Iso))
+      {
+        sum += std::abs(behind[i] - values[i]) * this->Inverse[2];
         ++crossings;
       }
     }

@@ -69,10 +69,10 @@ private:
   void MeasureSlope();
 
   LevelImage Level;
-  float Iso = 0;
+  float Iso = 0; ///< The iso-value less the image's Base, as Level.Values are.
   float Sign = 1;
   float Inverse[3] = { 1, 1, 1 };
-  float Outside = 0; ///< Image value of the background.
+  float Outside = 0; ///< Of the background, as Level.Values.
   float Best = 0;
   float Worst = 0;
   float Slope = 1;

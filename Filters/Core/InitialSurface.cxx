@@ -3,6 +3,7 @@
 #include "InitialSurface.h"
 
 #include "Division.h"
+#include "Join.h"
 
 #include <algorithm>
 #include <cmath>
@@ -224,9 +225,8 @@ std::vector<Point> ChooseSeeds(
     {
       if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
       {
-        throw std::invalid_argument("Seed " + std::to_string(i) + " lies outside the image: " +
-          std::to_string(p[k]) + " voxels along axis " + std::to_string(k) + ", the image has " +
-          std::to_string(image.Size[k] * image.Step[k]) + ".");
+        throw std::invalid_argument(Join("Seed ", i, " lies outside the image: ", p[k],
+          " voxels along axis ", k, ", the image has ", image.Size[k] * image.Step[k], "."));
       }
     }
     bool free = IsInside(field, p);

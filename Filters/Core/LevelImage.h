@@ -23,6 +23,11 @@ namespace volumic
 struct LevelImage
 {
   const float* Values = nullptr;               ///< x fastest, Size[0] * Size[1] * Size[2] of them.
+  /**
+   * What the values of the image are more than Values, so that those keep their differences in
+   * single precision where the image lies far from 0 (10^9 to 10^9 + 50).
+   */
+  double Base = 0.;
   std::array<int, 3> Size = { 0, 0, 0 };       ///< Number of voxels along each axis.
   std::array<double, 3> Step = { 1., 1., 1. }; ///< Distance of neighbouring voxels, workspace.
   double Unit = 1.;                            ///< U_h = T^h, workspace (U_0 = 1).

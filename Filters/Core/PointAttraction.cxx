@@ -69,6 +69,7 @@ std::vector<float> PointAttraction::Bend(
   const Field field(image, options, executor);
   const float contrast = 0.25f * field.TypicalSlope() * static_cast<float>(image.Unit);
   const float sign = options.ObjectIsBright ? 1.f : -1.f;
+  const float iso = static_cast<float>(options.IsoValue - image.Base);
   std::vector<std::vector<int>> pointsOf(static_cast<std::size_t>(image.Size[2]));
   for (std::size_t p = 0; p < this->Points.size(); ++p)
   {
@@ -99,7 +100,7 @@ std::vector<float> PointAttraction::Bend(
         {
           if (evidence[i] > 0.f)
           {
-            const float value = sign * (values[i] - static_cast<float>(options.IsoValue));
+            const float value = sign * (values[i] - iso);
             const float share = 1.f - std::exp(-Sharpness * evidence[i]);
             values[i] += sign * share * (2.f * std::max(-value, 0.f) + contrast);
           }

@@ -52,7 +52,7 @@ public:
   bool IsOn() const { return this->Weight > 0. && !this->Points.empty(); }
 
   /**
-   * The voxels of a level with the field bent, x fastest. Sums over the points are in their order,
+   * LevelImage::Values of a level with the field bent, for the same Base. Sums over the points are in their order,
    * slice by slice: the same for any executor. Cost: O(voxels + those near points).
    */
   std::vector<float> Bend(

@@ -24,6 +24,15 @@
 #define VOLUMIC_HAS_VECTORS 0
 #endif
 
+// GCC knows __builtin_shufflevector from version 12 on only.
+#define VOLUMIC_HAS_SHUFFLE 0
+#if VOLUMIC_HAS_VECTORS && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#undef VOLUMIC_HAS_SHUFFLE
+#define VOLUMIC_HAS_SHUFFLE 1
+#endif
+#endif
+
 namespace volumic
 {
 namespace
@@ -100,7 +109,9 @@ struct VectorOf
   typedef Real Unaligned
     __attribute__((vector_size(RowsPerBlock * sizeof(Real)), aligned(alignof(Real)), may_alias));
 };
+#endif
 
+#if VOLUMIC_HAS_SHUFFLE
 /// out[c][r] = in[r][c] for an 8 x 8 block, by three rounds of exchanging halves.
 template <typename Real>
 VOLUMIC_INLINE void TransposeBlock(

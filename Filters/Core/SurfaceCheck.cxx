@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceCheck.h"
 
+#include "Join.h"
 #include "SurfaceMesh.h"
 #include "TriangleTests.h"
 
@@ -143,7 +144,7 @@ void CheckOrientation(const IndexedSurface& surface)
   }
   if (largest < 0.)
   {
-    Refuse("is inside out: it encloses a volume of " + std::to_string(largest) +
+    Refuse(Join("is inside out: it encloses a volume of ", largest) +
       ". Reverse it, for example with vtkReverseSense.");
   }
   if (largest == 0.)
@@ -181,9 +182,9 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
     }
     if (high < 0. || low > image.Size[k] * image.Step[k])
     {
-      Refuse("lies wholly outside the image: along axis " + std::to_string(k) + " it runs from " +
-        std::to_string(low) + " to " + std::to_string(high) + " voxels, the image from 0 to " +
-        std::to_string(image.Size[k] * image.Step[k]) + ". Check that both use the same space.");
+      Refuse(Join("lies wholly outside the image: along axis ", k, " it runs from ", low, " to ",
+        high, " voxels, the image from 0 to ", image.Size[k] * image.Step[k],
+        ". Check that both use the same space."));
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include "EvolutionImplementation.h"
 #include "InitialSurface.h"
+#include "Join.h"
 #include "RemainingContacts.h"
 #include "SurfaceCheck.h"
 
@@ -22,8 +23,8 @@ void CheckRange(const char* name, double value, double low, double high)
 {
   if (!(value >= low && value <= high))
   {
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-      ", it must lie in [" + std::to_string(low) + ", " + std::to_string(high) + "].");
+    throw std::invalid_argument(
+      Join(name, " is ", value, ", it must lie in [", low, ", ", high, "]."));
   }
 }
 }

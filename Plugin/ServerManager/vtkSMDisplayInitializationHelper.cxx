@@ -9,6 +9,7 @@
 #include <vtkSMProxy.h>
 
 #include <iterator>
+#include <locale>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,6 +24,16 @@ std::vector<std::string> Words(const char* text)
   return { std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>() };
 }
 
+/// As in XML, whatever the locale of the program: a point, not a comma.
+double Number(const std::string& text)
+{
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double number = 0.0;
+  stream >> number;
+  return number;
+}
+
 void SetValues(vtkSMProperty* property, const std::vector<std::string>& values)
 {
   vtkSMPropertyHelper helper(property);
@@ -34,7 +45,7 @@ void SetValues(vtkSMProperty* property, const std::vector<std::string>& values)
     }
     else
     {
-      helper.Set(i, std::stod(values[i]));
+      helper.Set(i, Number(values[i]));
     }
   }
 }

@@ -197,6 +197,13 @@ class RunTest(ToolTestCase):
         self.refused("bad.txt, line 3: not three numbers", self.ball_file(), self.path("a.stl"),
                      "--seeds", self.path("bad.txt"))
 
+    def test_a_first_line_of_seeds_that_is_no_header_is_not_dropped(self):
+        for first in (b"1O 2 3", b"1o,2o,3o", b"1 2", b"nan nan nan", b"-x 2 3"):
+            with self.subTest(first):
+                self.write_bytes("bad.txt", b"# seeds\n" + first + b"\n5 5 5\n")
+                self.refused("bad.txt, line 2: (not three numbers|'.*' is not a number)",
+                             self.ball_file(), self.path("a.stl"), "--seeds", self.path("bad.txt"))
+
     def test_attracting_points(self):
         """A point of weight 1 makes a ball of its radius part of the object."""
         point, radius = ORIGIN + SPACING * [20, 5, 13], 2.0

@@ -9,7 +9,6 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
-#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -39,13 +38,6 @@ public:
     this->Command->SetCallback([](vtkObject*, unsigned long, void* client, void* message)
       { *static_cast<std::string*>(client) += static_cast<const char*>(message); });
     this->Observe(speaker, event, this->Command);
-    auto* algorithm = vtkAlgorithm::SafeDownCast(speaker);
-    if (algorithm && event == vtkCommand::ErrorEvent)
-    {
-      // The executive reports each failure again, without the reason.
-      this->Silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-      this->Observe(algorithm->GetExecutive(), event, this->Silent);
-    }
   }
   ~MessagesOf()
   {
@@ -71,7 +63,6 @@ private:
 
   std::string Text;
   vtkNew<vtkCallbackCommand> Command;
-  vtkNew<vtkCallbackCommand> Silent;
   std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
 };
 

@@ -4,6 +4,7 @@
 #include "SurfaceTestTools.h"
 #include "vtkDeformableSurface.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
@@ -11,6 +12,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSphereSource.h>
 
 #include <gtest/gtest.h>
 
@@ -129,6 +131,20 @@ TEST_F(DeformableSurfaceComponents, AllAreThereByDefault)
     this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
 }
 
+TEST_F(DeformableSurfaceComponents, SeedsFindCavitiesToo)
+{
+  // As the documents say: not only Recovery does.
+  this->Filter->SetInitializationToSeeds();
+  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  this->SetSeed(6, 16, 16);
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
+  this->Filter->SetInitializationToEnclosingIcosahedron();
+  for (const double volume : this->Volumes())
+  {
+    EXPECT_GT(volume, 0) << "from outside no cavity is found";
+  }
+}
+
 TEST_F(DeformableSurfaceComponents, TheLargestComesWithItsCavity)
 {
   this->Filter->SetKeepComponentsToLargestComponent();
@@ -170,6 +186,61 @@ TEST_F(DeformableSurfaceComponents, PointsKnownToBelongToTheObjectChooseToo)
   known->SetPoints(points);
   this->Filter->SetAttractingPointsData(known);
   ExpectVolumes(this->Volumes(), { this->Beside, this->Inner });
+}
+
+TEST_F(DeformableSurfaceComponents, OfPointsWithVerticesOnlyThoseChoose)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(38, 16, 16);
+  points->InsertNextPoint(16, 16, 17);
+  vtkNew<vtkPolyData> known;
+  known->SetPoints(points);
+  known->SetVerts(vtkNew<vtkCellArray>());
+  const vtkIdType id = 1;
+  known->GetVerts()->InsertNextCell(1, &id);
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  this->Filter->SetPointAttractionWeight(0.0);
+  this->Filter->SetAttractingPointsData(known);
+  ExpectVolumes(this->Volumes(), { this->Inner });
+  this->Filter->SetAttractingPointsData(nullptr);
+  this->Filter->SetInitialSurfaceData(known);
+  ExpectVolumes(this->Volumes(), { this->Inner });
+}
+
+TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(38, 16, 16);
+  points->InsertNextPoint(16, 16, 17);
+  vtkNew<vtkPolyData> line;
+  line->SetPoints(points);
+  line->SetLines(vtkNew<vtkCellArray>());
+  const vtkIdType ids[2] = { 0, 1 };
+  line->GetLines()->InsertNextCell(2, ids);
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  this->Filter->SetInitialSurfaceData(line);
+  for (const bool startsFromSeeds : { false, true })
+  {
+    this->Filter->SetInitialization(startsFromSeeds ? vtkDeformableSurface::Seeds : 0);
+    this->Filter->SetKeepComponents(startsFromSeeds ? 0 : 2);
+    MessagesOf errors(this->Filter);
+    this->Filter->Update();
+    EXPECT_TRUE(errors.Has("Input port 1: ")) << errors.Get();
+    EXPECT_TRUE(errors.Has("no vertices")) << errors.Get();
+  }
+}
+
+TEST_F(DeformableSurfaceComponents, ASurfaceToStartFromHasNoSeeds)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetCenter(16, 16, 16);
+  sphere->SetRadius(5);
+  sphere->Update();
+  this->Filter->SetInitialSurfaceData(sphere->GetOutput());
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  MessagesOf errors(this->Filter);
+  this->Filter->Update();
+  EXPECT_TRUE(errors.Has("KeepComponents is 2, those at points, but there are none")) << errors.Get();
 }
 
 TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)

@@ -8,7 +8,9 @@
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
 #include <vtkCubeSource.h>
+#include <vtkErrorCode.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkImageCast.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -54,6 +56,7 @@ protected:
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0) << "no output half made";
     EXPECT_EQ(this->Filter->GetLevels()->GetNumberOfBlocks(), 0u);
     EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfRows(), 0);
+    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UserError);
   }
 
   void ExpectSurfaceError(vtkPolyData* surface, const std::vector<std::string>& parts)
@@ -138,6 +141,23 @@ TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
   this->Filter->SetInputDataObject(image);
   this->Filter->SetCoarsestLevel(2);
   this->ExpectError({ "vanished at level 2", "above IsoValue 50", "set CoarsestLevel to 0" });
+}
+
+TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
+{
+  // Thin enough to slip through the surface, even at level 0.
+  const auto image = BallImage(40, 40, 40);
+  image->GetPointData()->GetScalars()->FillComponent(0, 0.0);
+  image->SetScalarComponentFromDouble(20, 20, 20, 0, 51.0);
+  this->Filter->SetInputDataObject(image);
+  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  this->Filter->SetCoarsestLevel(0);
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  this->Filter->Update();
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
+  EXPECT_TRUE(warnings.Has("No level is finer: check IsoValue")) << warnings.Get();
+  EXPECT_FALSE(warnings.Has("Set CoarsestLevel")) << warnings.Get();
 }
 
 TEST_F(DeformableSurfaceErrors, Image2D)
@@ -363,11 +383,57 @@ TEST_F(DeformableSurfaceErrors, SeedsThatAreASurface)
   this->ExpectError({ "Input port 1", "vertices" });
 }
 
-TEST_F(DeformableSurfaceErrors, WorksAgainAfterAnError)
+TEST_F(DeformableSurfaceErrors, GoodThenBadThenGoodAgain)
 {
+  this->Filter->SetSnapshotInterval(20);
+  const auto expectSurface = [this]
+  {
+    this->Filter->Update();
+    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_GT(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_GT(this->Filter->GetSnapshots()->GetNumberOfBlocks(), 0u);
+  };
+  expectSurface();
   this->Filter->SetIsoValue(200.0);
   this->ExpectError({ "outside the range" });
+  EXPECT_EQ(this->Filter->GetSnapshots()->GetNumberOfBlocks(), 0u);
+  EXPECT_EQ(this->Filter->GetOutput()->GetPointData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(this->Filter->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfColumns(), 0);
   this->Filter->SetIsoValue(50.0);
+  expectSurface();
+}
+
+TEST_F(DeformableSurfaceErrors, AnErrorLeavesNoFieldDataOfThePyramid)
+{
+  const auto blocks = this->Pyramid();
+  ASSERT_GT(blocks->GetFieldData()->GetNumberOfArrays(), 0);
+  this->Filter->SetInputDataObject(blocks);
+  this->Filter->SetIsoValue(200.0);
+  this->ExpectError({ "outside the range" });
+  EXPECT_EQ(this->Filter->GetLevels()->GetFieldData()->GetNumberOfArrays(), 0);
+}
+
+TEST_F(DeformableSurfaceErrors, AnErrorIsToldOnceAndEndsNoPipeline)
+{
+  this->Filter->SetIsoValue(200.0);
+  const MessagesOf errors(this->Filter);
+  const MessagesOf ofPipeline(this->Filter->GetExecutive());
+  EXPECT_TRUE(this->Filter->GetExecutive()->Update());
+  const std::string once = errors.Get();
+  EXPECT_NE(once, "");
   this->Filter->Update();
-  EXPECT_GT(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(errors.Get(), once) << "up to date after an error, too";
+  EXPECT_EQ(ofPipeline.Get(), "");
+}
+
+TEST_F(DeformableSurfaceErrors, AnErrorOfThePyramidIsNamed)
+{
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(BallImage(32, 32, 32));
+  pyramid->SetReductionFactor(3.0);
+  this->Filter->SetInputConnection(pyramid->GetOutputPort());
+  const MessagesOf ofPyramid(pyramid);
+  this->ExpectError({ "Input port 0", "after an error of Image Pyramid" });
+  EXPECT_TRUE(ofPyramid.Has("ReductionFactor"));
 }

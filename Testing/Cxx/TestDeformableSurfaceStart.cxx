@@ -54,6 +54,38 @@ TEST(DeformableSurfaceStart, StartsFromSeeds)
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
 }
 
+TEST(DeformableSurfaceStart, SeedsHaveTheRadiusThatTheHeaderSays)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(20, 20, 20);
+  vtkNew<vtkPolyData> seeds;
+  seeds->SetPoints(points);
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  filter->SetCoarsestLevel(0);
+  filter->SetInitializationToSeeds();
+  filter->SetInitialSurfaceData(seeds);
+  filter->SetMaximumNumberOfIterations(1);
+  filter->SetSnapshotInterval(2); // that of the start only
+  const double delta = 0.85;
+  const double radii[3][2] = { { 0, 1.2 * delta }, { 0.1, 0.96 * delta }, { 3, 3 } };
+  for (const auto& [radius, expected] : radii)
+  {
+    filter->SetSeedRadius(radius);
+    filter->Update();
+    ASSERT_EQ(filter->GetSnapshots()->GetNumberOfBlocks(), 1u);
+    auto* start = vtkPolyData::SafeDownCast(filter->GetSnapshots()->GetBlock(0));
+    for (vtkIdType i = 0; i < start->GetNumberOfPoints(); ++i)
+    {
+      const double centre[3] = { 20, 20, 20 };
+      const double distance =
+        std::sqrt(vtkMath::Distance2BetweenPoints(start->GetPoint(i), centre));
+      ASSERT_NEAR(distance, expected, 0.05 * expected);
+    }
+  }
+}
+
 TEST(DeformableSurfaceStart, StartsFromAGivenSurface)
 {
   vtkNew<vtkSphereSource> sphere;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <stdexcept>
 
 using namespace volumic;
@@ -109,6 +110,22 @@ TEST(Field, KnowsHowSteepTheSurfaceIs)
   const Field field(volume.Image, WithIso(20.), Threads);
   EXPECT_NEAR(field.TypicalSlope(), 3, 1e-4);
   EXPECT_FLOAT_EQ(field.Highest(), 25);
+}
+
+TEST(Field, KnowsHowSteepTheSurfaceIsAlongEveryAxis)
+{
+  const std::function<double(double, double, double)> ramps[3] = {
+    [](double x, double, double) { return 3 * x; },
+    [](double, double y, double) { return 3 * y; },
+    [](double, double, double z) { return 3 * z; },
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    TestVolume volume = MakeVolume(16, ramps[axis]);
+    volume.Image.Step[axis] = 2.;
+    const Field field(volume.Image, WithIso(20.), Threads);
+    EXPECT_NEAR(field.TypicalSlope(), 1.5, 1e-4) << "axis " << axis;
+  }
 }
 
 TEST(FieldInvalid, RefusesAnImageWithoutVoxels)

@@ -4,7 +4,9 @@
 #include "vtkImagePyramid.h"
 
 #include <vtkCellData.h>
+#include <vtkErrorCode.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -36,6 +38,7 @@ protected:
     this->Filter->SetInputDataObject(image);
     this->Filter->Update();
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
+    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UserError);
     return errors.Get();
   }
 
@@ -188,16 +191,36 @@ TEST_F(ImagePyramidErrors, WorksAgainAfterAnError)
   this->Filter->SetNumberOfLevels(2);
   this->Filter->Update();
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
 }
 
-TEST_F(ImagePyramidErrors, AnErrorLeavesNoOldOutput)
+TEST_F(ImagePyramidErrors, AnErrorLeavesNoOldOutputAndNoFieldDataOfTheInput)
 {
-  this->Filter->SetInputDataObject(RandomImage(20, 20, 20));
+  const auto image = RandomImage(20, 20, 20);
+  vtkNew<vtkFloatArray> field;
+  field->SetName("Exposure");
+  image->GetFieldData()->AddArray(field);
+  this->Filter->SetInputDataObject(image);
   this->Filter->SetNumberOfLevels(2);
   this->Filter->Update();
   ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
   this->Filter->SetNumberOfLevels(12);
-  this->ErrorOf(RandomImage(20, 20, 20));
+  this->ErrorOf(image);
+  EXPECT_EQ(this->Filter->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+}
+
+TEST_F(ImagePyramidErrors, AnErrorIsToldOnceAndEndsNoPipeline)
+{
+  this->Filter->SetInputDataObject(RandomImage(20, 20, 20));
+  this->Filter->SetNumberOfLevels(12);
+  const MessagesOf errors(this->Filter);
+  const MessagesOf ofPipeline(this->Filter->GetExecutive());
+  EXPECT_TRUE(this->Filter->GetExecutive()->Update());
+  const std::string once = errors.Get();
+  this->Filter->Update();
+  EXPECT_EQ(errors.Get(), once) << "up to date after an error, too";
+  EXPECT_EQ(ofPipeline.Get(), "");
 }
 
 namespace
@@ -232,7 +255,7 @@ std::size_t AddressSpaceInUse()
   setrlimit(RLIMIT_AS, &limits);
   filter->Update();
   const bool isRight = errors.Has("memory does not suffice") && errors.Has("level 1") &&
-    filter->GetOutput()->GetNumberOfBlocks() == 0;
+    filter->GetErrorCode() == vtkErrorCode::UnknownError && filter->GetOutput()->GetNumberOfBlocks() == 0;
   std::fprintf(stderr, "%s", isRight ? "refused in words" : errors.Get().c_str());
   std::_Exit(isRight ? 0 : 1);
 }

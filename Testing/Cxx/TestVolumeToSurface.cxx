@@ -8,6 +8,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
@@ -120,6 +121,12 @@ TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
     otsu->Update();
     EXPECT_TRUE(errors.Has("array 'Voxels'")) << errors.Get();
     EXPECT_TRUE(std::isnan(otsu->GetThreshold()));
+    EXPECT_EQ(otsu->GetErrorCode(), vtkErrorCode::UserError);
+    EXPECT_EQ(otsu->GetOutput()->GetNumberOfColumns(), 0);
+    otsu->SetInputData(RowOf<vtkDoubleArray>(std::vector<double>{ 1, 2 }));
+    otsu->Update();
+    EXPECT_EQ(otsu->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_EQ(otsu->GetOutput()->GetNumberOfRows(), 1);
   }
 }
 
@@ -188,6 +195,11 @@ TEST(VolumeToSurface, SaysWhyThereIsNoIsoValue)
   EXPECT_TRUE(errors.Has("IsoValue is not set, and can't be found")) << errors.Get();
   EXPECT_TRUE(errors.Has("ranges from 4 to 4")) << errors.Get();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+  filter->SetInputData(BallImage(20, 20, 20));
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
 }
 
 TEST(VolumeToSurface, PrintsItsProperties)

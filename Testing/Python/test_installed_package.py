@@ -16,6 +16,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from volumic import vtkImagePyramid
 
@@ -47,8 +48,7 @@ def collect_errors(algorithm):
 
     algorithm.AddObserver("ErrorEvent", keep)
     if algorithm.IsA("vtkAlgorithm"):
-        # Its own report of the failure would only clutter the log.
-        algorithm.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        algorithm.GetExecutive().AddObserver("ErrorEvent", keep)  # which has nothing to add
     return errors
 
 
@@ -206,6 +206,14 @@ class PyramidTest(unittest.TestCase):
         output = self.output_of(np.zeros((20, 20, 20), "f4"), ReductionFactor=1.5)
         self.assertEqual(len(errors), 1)
         self.assertGreater(output.GetNumberOfBlocks(), 1)
+
+    def test_the_error_code_is_that_of_the_last_run(self):
+        collect_errors(self.pyramid)
+        codes = []
+        for factor in (1.5, 2.5, 1.5):
+            self.output_of(np.zeros((20, 20, 20), "f4"), ReductionFactor=factor)
+            codes.append(self.pyramid.GetErrorCode())
+        self.assertEqual(codes, [0, vtkErrorCode.UserError, 0])
 
     def test_no_input(self):
         # The pipeline itself reports it, through the executive.

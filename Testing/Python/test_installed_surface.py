@@ -13,6 +13,7 @@ from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
+from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from volumic import (
     vtkDeformableSurface, vtkImagePyramid, vtkOtsuThreshold, vtkVolumeToSurface)
@@ -54,8 +55,7 @@ class SurfaceTest(unittest.TestCase):
             self.errors.append(text)
 
         self.surface.AddObserver("ErrorEvent", keep)
-        # Its own report of the failure would only clutter the log.
-        self.surface.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+        self.surface.GetExecutive().AddObserver("ErrorEvent", keep)  # which has nothing to add
 
     def run_on(self, image, iso=ISO):
         self.surface.SetInputData(image)
@@ -205,6 +205,16 @@ class UseTest(SurfaceTest):
         self.assertEqual(len(self.errors), 1, self.errors)
         self.assertRegex(self.errors[0], reason)
         self.assertEqual(self.surface.GetOutput().GetNumberOfPoints(), 0)
+
+    def test_the_error_code_is_that_of_the_last_run(self):
+        image = ball()
+        for iso, code, blocks in ((ISO, 0, 3), (1000, vtkErrorCode.UserError, 0), (ISO, 0, 3)):
+            output = self.run_on(image, iso=iso)
+            self.assertEqual(self.surface.GetErrorCode(), code)
+            self.assertEqual(output.GetNumberOfPoints() > 0, code == 0)
+            self.assertEqual(self.surface.GetLevels().GetNumberOfBlocks(), blocks)
+            self.assertEqual(self.surface.GetHistory().GetNumberOfRows() > 0, code == 0)
+        self.assertEqual(len(self.errors), 1, self.errors)
 
     def test_no_iso_value(self):
         self.run_on(ball(), iso=None)

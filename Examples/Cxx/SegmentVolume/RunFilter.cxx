@@ -132,7 +132,6 @@ FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyl
   run.IsInterrupted = WasInterrupted();
   if (!messages.Errors.empty())
   {
-    // The executive reports a second time that its algorithm failed.
     throw Failure(messages.Errors.front());
   }
   return run;

@@ -92,13 +92,13 @@ std::vector<PropertyOption> MakeProperties()
       "no level whose smallest axis has fewer voxels, unless --levels asks for it"),
     SURFACE_NUMBER(CoarsestLevel, "coarsest", "LEVEL", "level to begin with; -1: the last"),
     SURFACE_NUMBER(FinestLevel, "finest", "LEVEL",
-      "level to end with; 0: the image itself; -1: finer than that"),
+      "level to end with; 0: the image itself; -1: once more divided, finer than the image"),
     SURFACE_MENU(Initialization, "initialization",
       "what to start from: an icosahedron about the image; seeds, at the points of --seeds or on a "
       "grid; the iso-surface of the coarsest level; or --initial-surface",
       "icosahedron", "seeds", "iso-surface", "input-surface"),
     SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",
-      "radius of the seeds in world units; 0: three times the shortest edge of the coarsest level"),
+      "radius of the seeds in world units; 0: 1.2 times the shortest edge of the coarsest level"),
     SURFACE_MENU(Recovery, "recovery",
       "what to find again that a coarser level has lost: nothing; parts of the object; those and the "
       "cavities in it",

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// In programs of countries that write 1.234,5: what the filters write must be read by scripts.
+#include "CommaLocale.h"
+#include "SurfaceTestTools.h"
+#include "vtkOtsuThreshold.h"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkReverseSense.h>
+#include <vtkSphereSource.h>
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+/// The two ways in which a program can have such a locale.
+enum class Way
+{
+  Global,  ///< std::locale::global, for streams
+  Numeric, ///< setlocale, for printf, std::to_string and strtod
+};
+
+/// Makes LC_NUMERIC of Germany for the tests, so that the system need not have it; false without
+/// localedef.
+bool MakeCommaForC()
+{
+  const std::filesystem::path folder =
+    std::filesystem::path(::testing::TempDir()) / "volumic-locales";
+  const std::filesystem::path made = folder / "de_DE.UTF-8";
+  // The C library remembers what it has not found: it is asked only when all is there.
+  setenv("LOCPATH", folder.c_str(), 1);
+  std::filesystem::create_directories(folder);
+  const std::string command =
+    "localedef -i de_DE -f UTF-8 '" + made.string() + "' > /dev/null 2>&1";
+  return std::filesystem::exists(made / "LC_NUMERIC") || std::system(command.c_str()) == 0;
+}
+
+/// Whether printf writes 0,5 from now on.
+bool SetCommaForC()
+{
+  static const bool isMade = MakeCommaForC();
+  char text[8] = "";
+  if (isMade && std::setlocale(LC_NUMERIC, "de_DE.UTF-8"))
+  {
+    std::snprintf(text, sizeof(text), "%.1f", 0.5);
+  }
+  return std::string(text) == "0,5";
+}
+
+class FilterLocale : public ::testing::TestWithParam<Way>
+{
+protected:
+  void SetUp() override
+  {
+    if (GetParam() == Way::Global)
+    {
+      this->Streams = std::make_unique<CommaLocale>();
+    }
+    else if (!SetCommaForC())
+    {
+      GTEST_SKIP() << "there is no locale with a comma, and localedef makes none";
+    }
+    this->Filter->SetInputDataObject(BallImage(40, 40, 40));
+    this->Filter->SetIsoValue(50.0);
+  }
+  void TearDown() override { std::setlocale(LC_NUMERIC, "C"); }
+
+  void ExpectError(const std::string& part)
+  {
+    const MessagesOf errors(this->Filter);
+    this->Filter->Update();
+    EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
+  }
+
+  std::unique_ptr<CommaLocale> Streams;
+  vtkNew<vtkDeformableSurface> Filter;
+};
+}
+
+TEST_P(FilterLocale, SettingsOutOfRange)
+{
+  this->Filter->SetIsoValue(1234.5);
+  this->ExpectError("IsoValue is 1234.5, outside the range of the voxels, 0 to 100");
+  this->Filter->SetIsoValue(50.0);
+  this->Filter->SetSamplingRatio(0.25);
+  this->ExpectError("SamplingRatio is 0.25, it must lie in [0.692819, 1]");
+  this->Filter->SetSamplingRatio(0.85);
+  this->Filter->SetTensionWeight(1e300);
+  this->ExpectError("TensionWeight is 1e+300, it must lie in [0, 1000000]");
+}
+
+TEST_P(FilterLocale, PlacesOutsideTheImage)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(20, 20, 1234.5);
+  vtkNew<vtkPolyData> seeds;
+  seeds->SetPoints(points);
+  this->Filter->SetInitializationToSeeds();
+  this->Filter->SetInitialSurfaceData(seeds);
+  this->ExpectError("Seed 0 lies outside the image: 1234.5 voxels along axis 2, the image has 40");
+  this->Filter->SetAttractingPointsData(seeds);
+  this->ExpectError("point 0 (20, 20, 1234.5) lies outside the image");
+}
+
+TEST_P(FilterLocale, SurfacesThatAreRefused)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetCenter(1234.5, 20, 20);
+  this->Filter->SetInitializationToInputSurface();
+  this->Filter->SetInitialSurfaceConnection(sphere->GetOutputPort());
+  this->ExpectError("along axis 0 it runs from 1234.01 to 1234.99 voxels");
+  sphere->SetCenter(20, 20, 20);
+  sphere->SetRadius(12);
+  vtkNew<vtkReverseSense> reverse;
+  reverse->SetInputConnection(sphere->GetOutputPort());
+  this->Filter->SetInitialSurfaceConnection(reverse->GetOutputPort());
+  this->ExpectError("is inside out: it encloses a volume of -6194.02.");
+}
+
+TEST_P(FilterLocale, VoxelsThatAreRefused)
+{
+  const auto image = BallImage(1100, 8, 8);
+  Voxels(image)->SetComponent(1050, 0, std::nan(""));
+  this->Filter->SetInputDataObject(image);
+  this->ExpectError("the first at (1050, 0, 0)");
+  vtkNew<vtkOtsuThreshold> otsu;
+  const auto flat = BallImage(8, 8, 8);
+  Voxels(flat)->Fill(1234.5);
+  otsu->SetInputData(flat);
+  const MessagesOf errors(otsu);
+  otsu->Update();
+  EXPECT_TRUE(errors.Has("ranges from 1234.5 to 1234.5")) << errors.Get();
+}
+
+TEST_P(FilterLocale, Progress)
+{
+  ProgressListener listener(this->Filter);
+  this->Filter->Update();
+  ASSERT_GT(this->Filter->GetOutput()->GetNumberOfPoints(), 1000) << "too few for a separator";
+  EXPECT_GT(listener.Texts.size(), 10u);
+  for (const std::string& text : listener.Texts)
+  {
+    EXPECT_EQ(text.find('.'), std::string::npos) << text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, FilterLocale, ::testing::Values(Way::Global, Way::Numeric));
