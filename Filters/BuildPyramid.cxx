@@ -6,21 +6,54 @@
 #include "Core/Refuse.h"
 #include "vtkImagePyramid.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 
 namespace volumic
 {
-vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection)
+namespace
 {
+/// What hears the progress of a pyramid, and aborts it.
+struct Follower
+{
+  const Checkpoint& GoesOn;
+  bool Stopped = false;
+
+  static void Hear(vtkObject* pyramid, unsigned long, void* client, void* share)
+  {
+    auto* self = static_cast<Follower*>(client);
+    self->Stopped = self->Stopped || !self->GoesOn(*static_cast<double*>(share));
+    if (self->Stopped)
+    {
+      static_cast<vtkImagePyramid*>(pyramid)->SetAbortExecute(1);
+    }
+  }
+};
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
+  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn)
+{
+  Follower follower{ goOn };
+  vtkNew<vtkCallbackCommand> hear;
+  hear->SetClientData(&follower);
+  hear->SetCallback(&Follower::Hear);
+  const unsigned long hearing = pyramid->AddObserver(vtkCommand::ProgressEvent, hear);
   pyramid->SetInputData(image);
   pyramid->SetInputArrayToProcess(0, selection);
   const std::string errors = UpdateAndCollectErrors(pyramid);
+  pyramid->RemoveObserver(hearing);
   if (!errors.empty())
   {
     Refuse(errors);
+  }
+  if (follower.Stopped)
+  {
+    return nullptr;
   }
   return pyramid->GetOutput();
 }

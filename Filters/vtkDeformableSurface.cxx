@@ -3,6 +3,7 @@
 #include "vtkDeformableSurface.h"
 
 #include "BuildPyramid.h"
+#include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
@@ -21,6 +22,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
+#include <chrono>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -152,13 +154,22 @@ vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* 
   {
     vtkNew<vtkImagePyramid> pyramid;
     pyramid->SetNumberOfThreads(this->NumberOfThreads);
-    volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection);
+    volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection,
+      [this](double share) { return this->ShowPyramidProgress(share); });
   }
-  if (!volume.Levels)
+  else if (!volume.Levels)
   {
     throw std::invalid_argument("Input port 0: there is neither an image nor a pyramid.");
   }
   return volume;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDeformableSurface::ShowPyramidProgress(double share)
+{
+  this->SetProgressText("Building the pyramid");
+  this->UpdateProgress(PyramidShare * share);
+  return !volumic::IsAbortRequested(this);
 }
 
 //------------------------------------------------------------------------------
@@ -171,16 +182,23 @@ int vtkDeformableSurface::RequestData(
   }
   try
   {
+    const auto started = std::chrono::steady_clock::now();
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
     vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
     const double before = vtkImageData::SafeDownCast(input) ? PyramidShare : 0.0;
     if (before > 0.0)
     {
-      this->SetProgressText("Building the pyramid");
-      this->UpdateProgress(0.0);
+      this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
     }
     const Volume volume = this->PrepareVolume(input);
+    if (!volume.Levels)
+    {
+      vtkPolyData::GetData(outputVector, 0)->ShallowCopy(volumic::MakeCancelled(0));
+      vtkTable::GetData(outputVector, 2)
+        ->ShallowCopy(volumic::MakeHistory({}, volumic::Workspace(), this->Profile));
+      return 1;
+    }
 
     volumic::SegmentationSettings settings;
     settings.Options.IsoValue = volume.IsoValue;
@@ -213,6 +231,7 @@ int vtkDeformableSurface::RequestData(
     settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
     settings.AttractingPoints = vtkPolyData::GetData(inputVector[2]);
     settings.EdgeSelection = this->GetInputArrayInformation(1);
+    settings.Started = started;
 
     settings.Progress = [this, before](double share, const std::string& text)
     {

@@ -455,8 +455,11 @@ protected:
     vtkSmartPointer<vtkInformation> Selection; ///< of the array, as GetInputArrayInformation()
     double IsoValue;
   };
-  /// Makes the volume of the data of input port 0. Errors are thrown as std::invalid_argument.
+  /// Makes the volume of the data of input port 0; its levels are null where ShowPyramidProgress()
+  /// said stop. Errors are thrown as std::invalid_argument.
   virtual Volume PrepareVolume(vtkDataObject* input);
+  /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
+  bool ShowPyramidProgress(double share);
 
   double IsoValue;
   bool ObjectIsBright;

@@ -67,7 +67,8 @@ vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* in
   pyramid->SetMinimumLevelSize(this->MinimumLevelSize);
   pyramid->SetReductionFactor(this->ReductionFactor);
   pyramid->SetNumberOfThreads(this->NumberOfThreads);
-  volume.Levels = volumic::BuildPyramid(pyramid, voxels.Image, voxels.Selection);
+  volume.Levels = volumic::BuildPyramid(pyramid, voxels.Image, voxels.Selection,
+    [this](double share) { return this->ShowPyramidProgress(share); });
   return volume;
 }
 
