@@ -357,6 +357,10 @@ bool SurfacePolish::Separate(int v)
 
 void SurfacePolish::SeparateAll()
 {
+  if (this->Stopped)
+  {
+    return;
+  }
   SurfaceState& s = this->State;
   std::vector<int> crowded;
   for (int v = 0; v < s.Mesh.Size(); ++v)
@@ -393,6 +397,10 @@ void SurfacePolish::SeparateAll()
 
 void SurfacePolish::ImproveAll(float good)
 {
+  if (this->Stopped)
+  {
+    return;
+  }
   SurfaceState& s = this->State;
   std::vector<int> list;
   for (int v = 0; v < s.Mesh.Size(); ++v)

@@ -8,6 +8,7 @@
 
 #include <numeric>
 #include <random>
+#include <string>
 
 using namespace volumic;
 
@@ -88,6 +89,27 @@ TEST(SurfacePolish, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
     EXPECT_EQ(state.EulerCharacteristic, 2);
     EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
     EXPECT_FALSE(state.Touched.empty());
+  }
+}
+
+TEST(SurfacePolish, StopsWhenAskedTo)
+{
+  SequentialExecutor executor;
+  int questions = 0;
+  SurfaceState whole = MakeState(ShakenSphere(1));
+  SurfacePolish(whole, nullptr, false, executor, [&](double) { return ++questions > 0; }).Run();
+  ASSERT_GT(questions, 6);
+  for (int last = 1; last <= questions; last += 3)
+  {
+    SCOPED_TRACE("question " + std::to_string(last));
+    SurfaceState state = MakeState(ShakenSphere(1));
+    int asked = 0;
+    SurfacePolish(state, nullptr, false, executor, [&](double) { return ++asked < last; }).Run();
+    EXPECT_EQ(asked, last) << "not asked again";
+    EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
+    EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
+    EXPECT_LE(state.Touched.size(), whole.Touched.size());
+    EXPECT_EQ(state.Touched.empty(), last <= 4) << "no strangers to push apart; edits come next";
   }
 }
 
