@@ -12,9 +12,9 @@ namespace volumic
 {
 namespace
 {
-const char* NameOf(Monitor::Activity doing)
+std::string TextOf(const Monitor::Status& status)
 {
-  switch (doing)
+  switch (status.Doing)
   {
     case Monitor::Activity::Starting:
       return "start";
@@ -22,6 +22,8 @@ const char* NameOf(Monitor::Activity doing)
       return "division";
     case Monitor::Activity::Recovering:
       return "search for lost parts";
+    case Monitor::Activity::Iterating:
+      return Join("iteration ", status.Iteration);
     default:
       return "regularisation";
   }
@@ -36,15 +38,13 @@ ProgressMonitor::ProgressMonitor(Tell tell, int coarsest, int finest)
 bool ProgressMonitor::Continue(const Status& status)
 {
   this->AfterIteration(status);
-  return this->Report(status.Level, status.Fraction,
-    Join("Level ", status.Level, ", iteration ", status.Iteration, ", ", status.Vertices,
-      " vertices"));
+  return this->GoOn(status);
 }
 
 bool ProgressMonitor::GoOn(const Status& status)
 {
   return this->Report(status.Level, status.Fraction,
-    Join("Level ", status.Level, ", ", NameOf(status.Doing), ", ", status.Vertices, " vertices"));
+    Join("Level ", status.Level, ", ", TextOf(status), ", ", status.Vertices, " vertices"));
 }
 
 bool ProgressMonitor::LoadLevel(int level)

@@ -247,6 +247,13 @@ void SurfaceEvolution::Implementation::Iterate(
     dynamics.Freeze(s, this->Awake, this->Working);
   }
   watch.Lap(Phase::Verification);
+  if (mode == Mode::Evolve && !this->GoOn(Monitor::Activity::Iterating, 1.))
+  {
+    // The surface is free of intersections; a run that ends here needs no edits.
+    this->FillRow(row);
+    watch.Stop();
+    return;
+  }
 
   if (!relax)
   {

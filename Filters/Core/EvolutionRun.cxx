@@ -43,6 +43,12 @@ double FractionOf(Monitor::Activity doing, double share, int iterations)
 
 bool SurfaceEvolution::Implementation::GoOn(Monitor::Activity doing, double share)
 {
+  return this->Ask(&Monitor::GoOn, doing, share);
+}
+
+bool SurfaceEvolution::Implementation::Ask(
+  bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share)
+{
   if (this->Stopped)
   {
     return false;
@@ -54,8 +60,7 @@ bool SurfaceEvolution::Implementation::GoOn(Monitor::Activity doing, double shar
   status.Vertices = this->State.Mesh.NumberOfVertices();
   status.ActiveVertices = static_cast<int>(this->Awake.size());
   status.Fraction = FractionOf(doing, std::clamp(share, 0., 1.), this->LastIterations);
-  this->Stopped = !(doing == Monitor::Activity::Iterating ? this->Listener.Continue(status)
-                                                           : this->Listener.GoOn(status));
+  this->Stopped = !(this->Listener.*question)(status);
   return !this->Stopped;
 }
 
@@ -150,7 +155,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     }
     this->Rows.push_back(row);
     ++this->LastIterations;
-    if (!this->GoOn(Monitor::Activity::Iterating, 1.))
+    if (!this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.))
     {
       return StopReason::Cancelled;
     }

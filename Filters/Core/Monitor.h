@@ -57,7 +57,7 @@ public:
   virtual bool Continue(const Status&) { return true; }
 
   /**
-   * Asked before, between and after the iterations, several times a second; the surface is in
+   * Asked within, before and after the iterations, several times a second; the surface is in
    * work. False asks to stop as soon as it is closed, manifold and free of self-intersections.
    * After false from either, neither is asked again.
    */

@@ -172,6 +172,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     self.Recover();
   }
   self.Reset();
+  self.GoOn(Monitor::Activity::Recovering, 1.);
   return true;
 }
 

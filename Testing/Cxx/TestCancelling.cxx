@@ -129,7 +129,8 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
   };
   EXPECT_GE(questions(1, Activity::Starting), 1);
   EXPECT_GE(questions(0, Activity::Dividing), 1);
-  EXPECT_GE(questions(0, Activity::Recovering), 6) << "objects and cavities, three each";
+  EXPECT_GE(questions(0, Activity::Recovering), 7) << "objects and cavities, and the end";
+  EXPECT_EQ(questions(0, Activity::Iterating), 2 * evolution.Iterations()) << "within and after";
   EXPECT_GE(questions(0, Activity::Regularising), 15) << "passes and polish";
 
   // Now stopped at each of these questions, but only at some of the many after iterations.

@@ -99,6 +99,7 @@ TEST(SurfacePolish, StopsWhenAskedTo)
   SurfaceState whole = MakeState(ShakenSphere(1));
   SurfacePolish(whole, nullptr, false, executor, [&](double) { return ++questions > 0; }).Run();
   ASSERT_GT(questions, 6);
+  int edited = 0;
   for (int last = 1; last <= questions; last += 3)
   {
     SCOPED_TRACE("question " + std::to_string(last));
@@ -108,9 +109,10 @@ TEST(SurfacePolish, StopsWhenAskedTo)
     EXPECT_EQ(asked, last) << "not asked again";
     EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
     EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
-    EXPECT_LE(state.Touched.size(), whole.Touched.size());
-    EXPECT_EQ(state.Touched.empty(), last <= 4) << "no strangers to push apart; edits come next";
+    EXPECT_TRUE(last > 1 || state.Touched.empty()) << "nothing done yet";
+    edited += !state.Touched.empty();
   }
+  EXPECT_GT(edited, 0) << "what was done before stays done";
 }
 
 TEST(SurfacePolish, PushesStrangersApart)
