@@ -104,8 +104,8 @@ std::vector<AttractingPoint> AttractingPointsOf(
   return attracting;
 }
 
-EdgeLevels::EdgeLevels(
-  vtkMultiBlockDataSet* blocks, vtkInformation* selection, int numberOfThreads)
+EdgeLevels::EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection,
+  int numberOfThreads, const Checkpoint& goOn)
 {
   const bool isChosen = selection && (selection->Has(vtkDataObject::FIELD_NAME()) ||
                                        selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
@@ -132,7 +132,11 @@ EdgeLevels::EdgeLevels(
       pyramid->SetNumberOfLevels(static_cast<int>(blocks->GetNumberOfBlocks()));
       pyramid->SetReductionFactor(FactorOf(blocks));
       pyramid->SetNumberOfThreads(numberOfThreads);
-      this->Blocks = BuildPyramid(pyramid, image, selection);
+      this->Blocks = BuildPyramid(pyramid, image, selection, goOn);
+    }
+    if (!this->Blocks)
+    {
+      return;
     }
     this->Levels = std::make_unique<PyramidLevels>(this->Blocks, selection, Metric::Voxels);
   }

@@ -3,6 +3,7 @@
 #ifndef AttractionInputs_h
 #define AttractionInputs_h
 
+#include "Core/Monitor.h"
 #include "Core/PointAttraction.h"
 #include "PyramidLevels.h"
 #include "Workspace.h"
@@ -39,9 +40,11 @@ public:
   /**
    * @param blocks    the levels of the voxels
    * @param selection of the map, as GetInputArrayInformation()
+   * @param goOn      asked where the map's pyramid is made; after false there are no levels
    * @throws std::invalid_argument if no array is selected or block 0 has none of that name.
    */
-  EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int numberOfThreads);
+  EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int numberOfThreads,
+    const Checkpoint& goOn);
 
   /// The voxels of the map, for LevelImage::Edges; valid until the next call.
   /// @throws std::invalid_argument if the level has not the size of the voxels'.

@@ -6,15 +6,38 @@
 #include "Core/Refuse.h"
 #include "vtkImagePyramid.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 
 #include <stdexcept>
 
 namespace volumic
 {
+namespace
+{
+/// What hears the progress of a pyramid, and aborts it.
+struct Follower
+{
+  const Checkpoint& GoesOn;
+  bool Stopped = false;
+
+  static void Hear(vtkObject* pyramid, unsigned long, void* client, void* share)
+  {
+    auto* self = static_cast<Follower*>(client);
+    self->Stopped = self->Stopped || !self->GoesOn(*static_cast<double*>(share));
+    if (self->Stopped)
+    {
+      static_cast<vtkImagePyramid*>(pyramid)->SetAbortExecute(1);
+    }
+  }
+};
+}
+
 EdgeLengthPlan PlanEdgeLength(
   double edgeLength, double samplingRatio, vtkImageData* image, vtkImagePyramid* pyramid)
 {
@@ -32,11 +55,17 @@ EdgeLengthPlan PlanEdgeLength(
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection)
+  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn)
 {
+  Follower follower{ goOn };
+  vtkNew<vtkCallbackCommand> hear;
+  hear->SetClientData(&follower);
+  hear->SetCallback(&Follower::Hear);
+  const unsigned long hearing = pyramid->AddObserver(vtkCommand::ProgressEvent, hear);
   pyramid->SetInputData(image);
   pyramid->SetInputArrayToProcess(0, selection);
   const std::string errors = UpdateAndCollectErrors(pyramid);
+  pyramid->RemoveObserver(hearing);
   if (!errors.empty() && pyramid->GetErrorCode() == vtkErrorCode::UnknownError)
   {
     throw std::runtime_error(errors);
@@ -44,6 +73,10 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   if (!errors.empty())
   {
     Refuse(errors);
+  }
+  if (follower.Stopped)
+  {
+    return nullptr;
   }
   return pyramid->GetOutput();
 }

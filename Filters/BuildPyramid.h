@@ -4,6 +4,7 @@
 #define BuildPyramid_h
 
 #include "Core/EdgeLengthPlan.h"
+#include "Core/Monitor.h"
 
 #include <vtkSmartPointer.h>
 
@@ -25,11 +26,14 @@ EdgeLengthPlan PlanEdgeLength(
 /**
  * The levels of an image, by a pyramid with the settings wanted.
  * @param selection of the voxels, as GetInputArrayInformation()
+ * @param goOn      asked as the pyramid's progress goes
+ * @return null if that said stop.
  * @throws std::invalid_argument with the pyramid's message; std::runtime_error if it is not the
  *         user's fault (memory).
  */
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection);
+  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection,
+  const Checkpoint& goOn);
 }
 
 #endif

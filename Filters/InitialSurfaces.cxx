@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialSurfaces.h"
 
+#include "Core/Executor.h"
+#include "Core/Field.h"
 #include "PolyDataPoints.h"
 
 #include <vtkCellArray.h>
@@ -72,15 +74,14 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   padded->SetSpacing(image.Step.data());
   padded->AllocateScalars(VTK_FLOAT, 1);
   auto* values = static_cast<float*>(padded->GetScalarPointer());
-  const std::ptrdiff_t n =
-    static_cast<std::ptrdiff_t>(image.Size[0]) * image.Size[1] * image.Size[2];
-  const auto range = std::minmax_element(image.Values, image.Values + n);
-  const float background = options.ObjectIsBright ? *range.first : *range.second;
-  std::fill(values, values + padded->GetNumberOfPoints(), background);
+  // The background that the field has there: an image may have none within.
+  SequentialExecutor thread;
+  const Field field(image, options, thread);
+  std::fill(values, values + padded->GetNumberOfPoints(), field.Background());
   // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are moved
   // a little to the side of the background. The surface finds its place anyway.
   const float iso = static_cast<float>(options.IsoValue - image.Base);
-  const float room = 0.01f * std::max(*range.second - iso, iso - *range.first);
+  const float room = 0.01f * std::max(field.Highest(), -field.Lowest());
   const float beside = options.ObjectIsBright ? iso - room : iso + room;
   const auto clear = [&](float value) { return std::abs(value - iso) < room ? beside : value; };
   for (int k = 0; k < image.Size[2]; ++k)

@@ -3,6 +3,7 @@
 #include "PyramidLevels.h"
 
 #include "Core/Refuse.h"
+#include "Core/ThickPart.h"
 #include "ImageVoxels.h"
 #include "NotFiniteVoxels.h"
 
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 namespace volumic
@@ -77,7 +79,9 @@ void CheckShrinks(vtkImageData* below, vtkImageData* image, unsigned int h)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (image->GetDimensions()[axis] >= below->GetDimensions()[axis])
+    // An axis of one voxel stays one while others shrink.
+    const bool isDone = below->GetDimensions()[axis] == 1 && image->GetDimensions()[axis] == 1;
+    if (!isDone && image->GetDimensions()[axis] >= below->GetDimensions()[axis])
     {
       Refuse("block ", h, " is not a level of a pyramid: it has ", SizeOf(image),
         " voxels, and block ", h - 1, " below it ", SizeOf(below), ".", WayOut);
@@ -112,6 +116,18 @@ void Convert(const T* values, double base, std::vector<float>& converted, Execut
     {
       std::transform(values + begin, values + end, converted.begin() + begin,
         [base](T value) { return static_cast<float>(static_cast<double>(value) - base); });
+    });
+}
+
+template <typename T>
+void MarkObject(
+  const T* values, double isoValue, bool objectIsBright, std::vector<std::uint8_t>& marks)
+{
+  std::transform(values, values + marks.size(), marks.begin(),
+    [=](T value)
+    {
+      const auto number = static_cast<double>(value);
+      return static_cast<std::uint8_t>(objectIsBright ? number > isoValue : number < isoValue);
     });
 }
 }
@@ -155,6 +171,12 @@ PyramidLevels::PyramidLevels(
   }
 }
 
+bool PyramidLevels::HasRoom(int level) const
+{
+  const int* size = this->Images[level]->GetDimensions();
+  return *std::min_element(size, size + 3) >= MinimumSize;
+}
+
 std::array<int, 3> PyramidLevels::SizeOfLevel0() const
 {
   const int* size = this->Images[0]->GetDimensions();
@@ -169,6 +191,22 @@ double PyramidLevels::UnitInWorld(int level) const
 double PyramidLevels::UnitOf(int level) const
 {
   return level < 0 ? this->Units[0] / this->FactorBelowLevel0 : this->Units[level];
+}
+
+bool PyramidLevels::HoldsObject(int level, double isoValue, bool objectIsBright) const
+{
+  vtkImageData* image = this->Images[level];
+  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
+  std::vector<std::uint8_t> marks(static_cast<std::size_t>(image->GetNumberOfPoints()));
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(MarkObject(
+      static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), isoValue, objectIsBright, marks));
+    default:
+      return true; // Load() will say what is wrong.
+  }
+  const int* size = image->GetDimensions();
+  return HasThickPart(marks, { size[0], size[1], size[2] }, VoxelsThatHold);
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const

@@ -44,12 +44,19 @@ public:
   int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }
 
+  /// Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it.
+  bool HasRoom(int level) const;
+
   /// Voxels of the finest level along each axis.
   std::array<int, 3> SizeOfLevel0() const;
 
   /// U_h in world units. Level -1, finer than the image, has U_0 / T, with sqrt 3 for T unless told.
   double UnitInWorld(int level) const;
   void SetFactorBelowLevel0(double t) { this->FactorBelowLevel0 = t; }
+
+  /// Whether something of the object, which is above the value (bright) or below, is thick enough
+  /// at a level to hold a surface there (ThickPart.h).
+  bool HoldsObject(int level, double isoValue, bool objectIsBright) const;
 
   /// Smallest and largest voxel of a level.
   std::array<double, 2> Range(int level) const;

@@ -215,6 +215,31 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   return polyData;
 }
 
+void AddSeconds(vtkPolyData* surface, double seconds)
+{
+  AddField<vtkDoubleArray>(surface, "Seconds", seconds);
+}
+
+void SetStopReason(vtkPolyData* surface, const std::string& reason)
+{
+  // Not into field data that a shallow copy may share.
+  vtkNew<vtkFieldData> fieldData;
+  fieldData->ShallowCopy(surface->GetFieldData());
+  surface->SetFieldData(fieldData);
+  AddField<vtkStringArray>(surface, "StopReason", reason.c_str());
+}
+
+vtkSmartPointer<vtkPolyData> MakeCancelled(int level)
+{
+  SurfaceDescription description;
+  description.Level = level;
+  description.StopReason = Describe(StopReason::Cancelled);
+  vtkSmartPointer<vtkPolyData> surface =
+    MakePolyData(SurfaceResult(), description, Workspace());
+  AddSeconds(surface, 0.0);
+  return surface;
+}
+
 vtkSmartPointer<vtkTable> MakeHistory(
   const std::vector<HistoryRow>& rows, const Workspace& space, bool withPhases)
 {
@@ -241,6 +266,26 @@ vtkSmartPointer<vtkTable> MakeHistory(
     table, "EulerCharacteristic", rows, [](const Row& r) { return r.EulerCharacteristic; });
   AddColumn<vtkIntArray>(table, "Components", rows, [](const Row& r) { return r.Components; });
   AddColumn<vtkIntArray>(table, "RecoveredParts", rows, [](const Row& r) { return r.Recovered; });
+  AddColumn<vtkIntArray>(table, "Deletions", rows, [](const Row& r) { return r.Deletions; });
+  AddColumn<vtkIntArray>(table, "DeletedGenus", rows, [](const Row& r) { return r.DeletedGenus; });
+  AddColumn<vtkIntArray>(table, "AddedEulerCharacteristic", rows,
+    [](const Row& r) { return r.AddedEulerCharacteristic; });
+  AddColumn<vtkIntArray>(
+    table, "RegularisedVertices", rows, [](const Row& r) { return r.RegularisedVertices; });
+  AddColumn<vtkDoubleArray>(table, "RegularisedMeanEdgeLength", rows,
+    [unit](const Row& r) { return r.RegularisedMeanEdgeLength * unit; });
+  AddColumn<vtkIntArray>(table, "RegularisedEulerCharacteristic", rows,
+    [](const Row& r) { return r.RegularisedEulerCharacteristic; });
+  AddColumn<vtkIntArray>(
+    table, "RegularisedComponents", rows, [](const Row& r) { return r.RegularisedComponents; });
+  AddColumn<vtkIntArray>(
+    table, "RegularisationCuts", rows, [](const Row& r) { return r.RegularisationCuts; });
+  AddColumn<vtkIntArray>(
+    table, "RegularisationDeletions", rows, [](const Row& r) { return r.RegularisationDeletions; });
+  AddColumn<vtkDoubleArray>(
+    table, "SecondsBefore", rows, [](const Row& r) { return r.SecondsBefore; });
+  AddColumn<vtkDoubleArray>(
+    table, "SecondsAfter", rows, [](const Row& r) { return r.SecondsAfter; });
   if (withPhases)
   {
     for (const auto& [phase, name] : PhaseColumns)

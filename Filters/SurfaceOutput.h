@@ -37,6 +37,15 @@ IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space);
 vtkSmartPointer<vtkPolyData> MakePolyData(
   const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space);
 
+/// What a level took, as field data.
+void AddSeconds(vtkPolyData* surface, double seconds);
+
+/// In the place of the one that it has; what it was copied from keeps its own.
+void SetStopReason(vtkPolyData* surface, const std::string& reason);
+
+/// The surface of a run that was cancelled before it had one: empty, with all its arrays.
+vtkSmartPointer<vtkPolyData> MakeCancelled(int level);
+
 /// A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
 /// if asked for.
 vtkSmartPointer<vtkTable> MakeHistory(

@@ -48,40 +48,6 @@ PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection
   }
 }
 
-/// Tells the host of every iteration. A level has about three times the vertices of the one above.
-class ProgressMonitor final : public Monitor
-{
-public:
-  ProgressMonitor(const SegmentationSettings& settings, int coarsest, int finest)
-    : Settings(settings), Coarsest(coarsest), Finest(finest)
-  {
-  }
-
-  std::function<void(const Status&)> AfterIteration;
-
-  bool Continue(const Status& status) override
-  {
-    this->AfterIteration(status);
-    double before = 0.0;
-    double total = 0.0;
-    for (int level = this->Coarsest; level >= this->Finest; --level)
-    {
-      const double weight = std::pow(3.0, this->Coarsest - level);
-      before += level > status.Level ? weight : 0.0;
-      total += weight;
-    }
-    const double own = std::pow(3.0, this->Coarsest - status.Level);
-    const double share = (before + own * std::clamp(status.Fraction, 0.0, 1.0)) / total;
-    return this->Settings.Progress(share,
-      Join("Level ", status.Level, ", iteration ", status.Iteration, ", ", status.Vertices,
-        " vertices"));
-  }
-
-private:
-  const SegmentationSettings& Settings;
-  int Coarsest;
-  int Finest;
-};
 }
 
 SurfaceSegmentation::SurfaceSegmentation(
@@ -162,8 +128,9 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   }
   if (this->Settings.Options.EdgeAttractionWeight > 0.0)
   {
-    this->Edges = std::make_unique<EdgeLevels>(
-      blocks, this->Settings.EdgeSelection, this->Settings.NumberOfThreads);
+    this->Edges = std::make_unique<EdgeLevels>(blocks, this->Settings.EdgeSelection,
+      this->Settings.NumberOfThreads,
+      [this](double) { return this->Settings.Progress(0.0, "Pyramid of the map of edges"); });
   }
 }
 
@@ -212,7 +179,15 @@ void SurfaceSegmentation::ChooseEdgeLength()
 void SurfaceSegmentation::ChooseLevels()
 {
   const int last = this->Pyramid.NumberOfLevels() - 1;
-  this->Coarsest = this->Settings.CoarsestLevel == -1 ? last : this->Settings.CoarsestLevel;
+  this->Coarsest = this->Settings.CoarsestLevel;
+  if (this->Settings.CoarsestLevel == -1)
+  {
+    // A pyramid may go on to levels of a single voxel.
+    for (this->Coarsest = last; !this->Pyramid.HasRoom(this->Coarsest);)
+    {
+      --this->Coarsest;
+    }
+  }
   this->LastLevel = this->Settings.FinestLevel;
   if (this->Coarsest < 0 || this->Coarsest > last)
   {
@@ -271,6 +246,25 @@ int SurfaceSegmentation::CoarsestLevelWithObject(int from)
   return level;
 }
 
+int SurfaceSegmentation::CoarsestLevelThatHolds(int from)
+{
+  const SurfaceOptions& options = this->Settings.Options;
+  // With recovery a surface that has vanished comes again, sooner than one that starts on a finer
+  // level. Where other forces stop the surface, the object is not what its voxels' values tell.
+  if (options.RecoverLostParts || !(options.IsopotentialWeight > 0.0) ||
+    options.GradientWeight > 0.0 || this->Edges)
+  {
+    return from;
+  }
+  int level = from;
+  while (level > std::max(this->LastLevel, 0) &&
+    !this->Pyramid.HoldsObject(level, options.IsoValue, options.ObjectIsBright))
+  {
+    --level;
+  }
+  return level;
+}
+
 void SurfaceSegmentation::CheckObjectIsThere()
 {
   if (this->Points)
@@ -278,13 +272,13 @@ void SurfaceSegmentation::CheckObjectIsThere()
     return; // Every level shows what points mark.
   }
   const int level = this->CoarsestLevelWithObject(this->Coarsest);
-  if (level == this->Coarsest)
-  {
-    return;
-  }
   if (this->Settings.CoarsestLevel == -1 && level >= this->LastLevel)
   {
-    this->Coarsest = level;
+    this->Coarsest = this->CoarsestLevelThatHolds(level);
+    return;
+  }
+  if (level == this->Coarsest)
+  {
     return;
   }
   if (this->Settings.EdgeLength != 0.0 && this->Coarsest == this->LastLevel)
@@ -370,8 +364,7 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
   }
   this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
   this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
-  this->Table =
-    MakeHistory(evolution.History(), this->Pyramid.GetWorkspace(), this->Settings.Profile);
+  AddSeconds(this->Finest, evolution.EndLevel());
   // With recovery a finer level may find again what has vanished.
   if (reason == StopReason::Vanished &&
     (level == this->LastLevel || !this->Settings.Options.RecoverLostParts))
@@ -399,39 +392,66 @@ void SurfaceSegmentation::Run()
   }
 
   HostThreads threads(this->Settings.NumberOfThreads);
-  ProgressMonitor monitor(this->Settings, this->Coarsest, this->LastLevel);
-  threads.Run(
-    [&]
+  ProgressMonitor monitor(this->Settings.Progress, this->Coarsest, this->LastLevel);
+  threads.Run([&] { this->RunLevels(threads, monitor); });
+}
+
+void SurfaceSegmentation::RunLevels(HostThreads& threads, ProgressMonitor& monitor)
+{
+  SurfaceEvolution evolution(this->Settings.Options, threads, monitor);
+  evolution.StartClock(this->Settings.Started);
+  monitor.AfterIteration = [&](const Monitor::Status& status)
+  {
+    this->Film.Offer(
+      evolution, status.Level, this->Pyramid.UnitInWorld(status.Level), status.Iteration);
+  };
+  for (int level = this->Coarsest; level >= this->LastLevel; --level)
+  {
+    if (!monitor.LoadLevel(level))
     {
-      SurfaceEvolution evolution(this->Settings.Options, threads, monitor);
-      monitor.AfterIteration = [&](const Monitor::Status& status)
-      {
-        this->Film.Offer(
-          evolution, status.Level, this->Pyramid.UnitInWorld(status.Level), status.Iteration);
-      };
-      for (int level = this->Coarsest; level >= this->LastLevel; --level)
-      {
-        const LevelImage image = this->Load(level, threads);
-        if (level == this->LastLevel)
-        {
-          evolution.SetMeanEdgeLength(
-            this->Settings.EdgeLength / this->Pyramid.GetWorkspace().WorldUnit());
-        }
-        if (level == this->Coarsest)
-        {
-          this->Start(evolution, image);
-        }
-        else
-        {
-          evolution.Divide(image, level);
-          this->WarnOfLostParts(level, evolution.Lost());
-        }
-        this->Film.Offer(evolution, level, this->Pyramid.UnitInWorld(level), 0);
-        if (!this->RunLevel(evolution, level))
-        {
-          break;
-        }
-      }
-    });
+      this->MarkCancelled(level);
+      break;
+    }
+    const LevelImage image = this->Load(level, threads);
+    if (level == this->LastLevel)
+    {
+      evolution.SetMeanEdgeLength(
+        this->Settings.EdgeLength / this->Pyramid.GetWorkspace().WorldUnit());
+    }
+    if (level == this->Coarsest)
+    {
+      this->Start(evolution, image);
+    }
+    else if (evolution.Divide(image, level))
+    {
+      this->WarnOfLostParts(level, evolution.Lost());
+    }
+    else
+    {
+      this->MarkCancelled(level);
+      break;
+    }
+    this->Film.Offer(evolution, level, this->Pyramid.UnitInWorld(level), 0);
+    if (!this->RunLevel(evolution, level))
+    {
+      break;
+    }
+  }
+  this->Table =
+    MakeHistory(evolution.History(), this->Pyramid.GetWorkspace(), this->Settings.Profile);
+}
+
+void SurfaceSegmentation::MarkCancelled(int level)
+{
+  if (level == this->Coarsest)
+  {
+    this->Finest = MakeCancelled(level);
+    return;
+  }
+  // The block of the level above is a surface at rest and stays one.
+  auto finest = vtkSmartPointer<vtkPolyData>::New();
+  finest->ShallowCopy(this->Finest);
+  SetStopReason(finest, Describe(StopReason::Cancelled));
+  this->Finest = finest;
 }
 }

@@ -8,11 +8,13 @@
 #include "Core/SurfaceEvolution.h"
 #include "Core/SurfaceOptions.h"
 #include "KeepComponents.h"
+#include "ProgressMonitor.h"
 #include "PyramidLevels.h"
 #include "SurfaceSnapshots.h"
 
 #include <vtkSmartPointer.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -25,6 +27,8 @@ class vtkTable;
 
 namespace volumic
 {
+class HostThreads;
+
 /// What a user of vtkDeformableSurface has chosen, and what hears of the work.
 struct SegmentationSettings
 {
@@ -49,8 +53,9 @@ struct SegmentationSettings
   vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
   vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
 
-  /// Share of the work that is done and what is being done; false asks to stop.
-  std::function<bool(double share, const std::string& text)> Progress;
+  /// When the run began: what came before counts to the seconds of the first level.
+  std::chrono::steady_clock::time_point Started = std::chrono::steady_clock::now();
+  ProgressMonitor::Tell Progress;
   std::function<void(const std::string& text)> Warn;
 };
 
@@ -67,6 +72,8 @@ public:
     vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings);
   ~SurfaceSegmentation();
 
+  /// Where Progress asks to stop, the surface is what there is then, and marked as cancelled; it
+  /// is empty where there is none yet.
   /// @throws std::invalid_argument if settings and image do not fit.
   void Run();
 
@@ -85,9 +92,14 @@ private:
   void CheckIsoValue();
   /// At most `from`; 0 where no other level has any of the object.
   int CoarsestLevelWithObject(int from);
+  /// At most `from`, at least the level to end at: the coarsest on which the object is thick enough
+  /// for a surface that starts there not to vanish, if that would be the end.
+  int CoarsestLevelThatHolds(int from);
   void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
+  void RunLevels(HostThreads& threads, ProgressMonitor& monitor);
   bool RunLevel(SurfaceEvolution& evolution, int level);
+  void MarkCancelled(int level);
   void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);
 
   SegmentationSettings Settings;

@@ -28,6 +28,19 @@ inline void AskForWholeInput(vtkInformation* info)
   info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
+/// Asks an image for none of its voxels: a process that makes nothing of them must not hold them.
+/// Data in pieces keeps the piece that the process would get, which is small and its own.
+inline void AskForNothing(vtkInformation* info)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (info->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    const int none[6] = { 0, -1, 0, -1, 0, -1 };
+    info->Set(Pipeline::UPDATE_EXTENT(), none, 6);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+}
+
 /// Whether this is the first process of a parallel run, or the only one. It makes the whole
 /// output; the others have none, as they would only repeat it.
 inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
@@ -38,19 +51,17 @@ inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output
 }
 
 /// RequestUpdateExtent of a filter whose first process makes the whole output from all of its
-/// inputs.
+/// inputs: the others ask for no image.
 inline void AskForWholeInputs(
   vtkInformation* request, vtkInformationVector** input, int ports, vtkInformationVector* output)
 {
-  if (!IsFirstProcess(request, output))
-  {
-    return;
-  }
+  const bool isFirst = IsFirstProcess(request, output);
   for (int port = 0; port < ports; ++port)
   {
     for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
     {
-      AskForWholeInput(input[port]->GetInformationObject(i));
+      vtkInformation* info = input[port]->GetInformationObject(i);
+      isFirst ? AskForWholeInput(info) : AskForNothing(info);
     }
   }
 }

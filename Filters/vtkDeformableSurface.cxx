@@ -4,6 +4,7 @@
 
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
+#include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
@@ -23,6 +24,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
+#include <chrono>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -173,7 +175,8 @@ void vtkDeformableSurface::MakeLevels(
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
-  volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection);
+  volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection,
+    [this](double share) { return this->ShowPyramidProgress(share); });
 }
 
 //------------------------------------------------------------------------------
@@ -186,11 +189,19 @@ vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* 
     vtkNew<vtkImagePyramid> pyramid;
     this->MakeLevels(pyramid, image, volume);
   }
-  if (!volume.Levels)
+  else if (!volume.Levels)
   {
     throw std::invalid_argument("Input port 0: there is neither an image nor a pyramid.");
   }
   return volume;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDeformableSurface::ShowPyramidProgress(double share)
+{
+  this->SetProgressText("Building the pyramid");
+  this->UpdateProgress(PyramidShare * share);
+  return !volumic::IsAbortRequested(this);
 }
 
 //------------------------------------------------------------------------------
@@ -204,16 +215,23 @@ int vtkDeformableSurface::RequestData(
   }
   try
   {
+    const auto started = std::chrono::steady_clock::now();
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
     vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
     const double before = vtkImageData::SafeDownCast(input) ? PyramidShare : 0.0;
     if (before > 0.0)
     {
-      this->SetProgressText("Building the pyramid");
-      this->UpdateProgress(0.0);
+      this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
     }
     const Volume volume = this->PrepareVolume(input);
+    if (!volume.Levels)
+    {
+      vtkPolyData::GetData(outputVector, 0)->ShallowCopy(volumic::MakeCancelled(0));
+      vtkTable::GetData(outputVector, 2)
+        ->ShallowCopy(volumic::MakeHistory({}, volumic::Workspace(), this->Profile));
+      return 1;
+    }
 
     volumic::SegmentationSettings settings;
     settings.Options.IsoValue = volume.IsoValue;
@@ -250,6 +268,7 @@ int vtkDeformableSurface::RequestData(
     settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
     settings.AttractingPoints = vtkPolyData::GetData(inputVector[2]);
     settings.EdgeSelection = this->GetInputArrayInformation(1);
+    settings.Started = started;
 
     settings.Progress = [this, before](double share, const std::string& text)
     {

@@ -50,22 +50,32 @@
  * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
  * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
- * `Area`, `Volume` (double), `StopReason` (string: `converged`, `iteration limit`, `cancelled`,
+ * `Area`, `Volume` (double), `Seconds` (double, all that the level took), `StopReason` (string: `converged`, `iteration limit`, `cancelled`,
  * `vanished`), `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of
  * vertices nearer than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
- * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration` (int): the number
- * of the last row that the history had then.
+ * density 1 about its centroid). A snapshot has neither `StopReason` nor `Seconds`, but `Iteration`
+ * (int): the number of the last row that the history had then.
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
  * (mean over the vertices, along the normals, per unit of mass, in voxels of level 0 and units of
  * the simulated time, squared), `MeanEdgeLength` (world units, for voxels that are cubes of the
  * smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those awake),
  * `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this iteration),
- * `EulerCharacteristic`, `Components`, `RecoveredParts` (found before this iteration, see
- * Recovery). With Profile, also what `Seconds` is made of: `ForcesSeconds`, `ContactSeconds`,
+ * `EulerCharacteristic`, `Components` (as the iteration left them, like `Vertices`),
+ * `RecoveredParts` (found before this iteration, see Recovery), `Deletions` (components deleted) and
+ * `DeletedGenus` (the sum of their genera), `AddedEulerCharacteristic` (of what was added before
+ * it: the start, what encloses lost parts). `RegularisedVertices`, `RegularisedMeanEdgeLength`,
+ * `RegularisedEulerCharacteristic`, `RegularisedComponents`: in the last row of a level what the
+ * regularisation made of it, by `RegularisationCuts` and `RegularisationDeletions`; in other rows
+ * the same as without it. `SecondsBefore`: since the row before (voxels, division, recovery; in the
+ * first row all since the run began); `SecondsAfter`: in the last row of a level, regularisation
+ * and output. With these the level's rows add up to its `Seconds`, and levels to the run. Always
+ * `EulerCharacteristic` = `RegularisedEulerCharacteristic` of the row before (first row: 0) +
+ * `AddedEulerCharacteristic` + 2 (`Cuts` - `Merges` - `Deletions` + `DeletedGenus`).
+ * With Profile, also what `Seconds` is made of: `ForcesSeconds`, `ContactSeconds`,
  * `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`, `TopologySeconds`; and
  * `DivisionSeconds`, not in `Seconds`: what happens between two iterations (regularisation at the
  * end of a level, in the level's last row).
@@ -89,10 +99,11 @@
  * type are refused by the pipeline before a run: by ErrorEvent of GetExecutive() only.
  *
  * @par Cancelling:
- * AbortExecute stops after the current iteration: the surface as it is then is handed over, valid,
- * with `StopReason` `cancelled`. It counts as up to date, so that what follows in the pipeline can
- * show or write it: another Update() gives it again. To run anew call Modified() first, or change
- * an input or a property; the request to stop is forgotten then.
+ * AbortExecute is looked at several times a second, with each progress event: the surface as it is
+ * then is handed over, valid, with `StopReason` `cancelled`; an empty one if there is none yet. It
+ * counts as up to date, so that what follows in the pipeline can show or write it: another Update()
+ * gives it again. To run anew call Modified() first, or change an input or a property; the request
+ * to stop is forgotten then.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -242,7 +253,8 @@ public:
   ///@{
   /**
    * The level to start at; -1, the default: the last of the pyramid on which anything of the object
-   * is left.
+   * is left; without Recovery, on which a part of it is left that a surface holds: 36 voxels, and
+   * nowhere thinner than two.
    */
   vtkSetMacro(CoarsestLevel, int);
   vtkGetMacro(CoarsestLevel, int);
@@ -518,8 +530,11 @@ protected:
   Volume VolumeAsSet();
   /// Makes the pyramid of an image, for EdgeLength if there is one.
   void MakeLevels(vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume);
-  /// Makes the volume of the data of input port 0. Errors are thrown as std::invalid_argument.
+  /// Makes the volume of the data of input port 0; its levels are null where ShowPyramidProgress()
+  /// said stop. Errors are thrown as std::invalid_argument.
   virtual Volume PrepareVolume(vtkDataObject* input);
+  /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
+  bool ShowPyramidProgress(double share);
 
   int Metric;
   double EdgeLength;

@@ -327,9 +327,9 @@ int vtkImagePyramid::RequestInformation(
 }
 
 int vtkImagePyramid::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForWholeInput(input[0]->GetInformationObject(0));
+  volumic::AskForWholeInputs(request, input, 1, output);
   return 1;
 }
 
@@ -356,6 +356,8 @@ int vtkImagePyramid::RequestData(
   }
   try
   {
+    // ParaView leaves the flag of an earlier run as it is.
+    volumic::ForgetAbort(this);
     vtkDataArray* voxels = volumic::ChooseVoxels(this->GetInputArrayInformation(0), input);
     volumic::PyramidOptions options;
     options.ReductionFactor = this->ReductionFactor;

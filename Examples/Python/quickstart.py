@@ -71,7 +71,7 @@ def run(arguments, results):
         "iso_value": iso,
         **surface_facts(finest),
         "component_features": component_facts(finest),
-        "levels": level_facts(visited_levels(levels), history),
+        "levels": level_facts(levels),
         "seconds": {"pyramid": pyramid_seconds, "surface": seconds},
         "warnings": warnings,
         "versions": versions(),

@@ -124,12 +124,16 @@ def component_facts(surface):
             for c in range(len(arrays["area"]))]
 
 
-def level_facts(levels, history):
-    """One entry for each (number, surface), with the seconds that its iterations took."""
-    visited = vtk_to_numpy(history.GetColumnByName("Level"))
-    durations = vtk_to_numpy(history.GetColumnByName("Seconds"))
-    return [{**surface_facts(surface), "seconds": float(durations[visited == h].sum())}
-            for h, surface in levels]
+def level_facts(levels):
+    """One entry for each visited level, coarsest first, also where nothing was left of the surface.
+
+    The seconds that the levels took add up to those of the run.
+    """
+    blocks = [levels.GetBlock(b) for b in range(levels.GetNumberOfBlocks())]
+    facts = [{**surface_facts(surface),
+              "seconds": surface.GetFieldData().GetArray("Seconds").GetTuple1(0)}
+             for surface in blocks if surface is not None]
+    return sorted(facts, key=lambda level: -level["level"])
 
 
 def versions():

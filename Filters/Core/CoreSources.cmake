@@ -37,6 +37,7 @@ set(volumic_core_sources
   SurfaceMesh.cxx
   SurfacePolish.cxx
   SurfaceState.cxx
+  ThickPart.cxx
   TriangleTests.cxx
   VertexGrid.cxx
   VertexRemoval.cxx)
@@ -79,10 +80,12 @@ set(volumic_core_headers
   SurfaceOptions.h
   SurfacePolish.h
   SurfaceState.h
+  ThickPart.h
   TriangleTests.h
   Vector.h
   VertexGrid.h
-  VertexRemoval.h)
+  VertexRemoval.h
+  VoxelNumbers.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 

@@ -12,6 +12,7 @@
 #include "SurfaceEvolution.h"
 #include "SurfaceState.h"
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -52,6 +53,9 @@ struct SurfaceEvolution::Implementation
   std::vector<double> Partial;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
+  std::chrono::steady_clock::time_point Booked = std::chrono::steady_clock::now();
+  double LevelSeconds = 0.; ///< What has been booked since the last level.
+  bool Stopped = false;     ///< By the monitor.
   int Shrunk = 0;    ///< Collapses since components were labelled last.
   int Unchecked = 0; ///< Cuts since components were last checked for being inside out.
 
@@ -62,6 +66,11 @@ struct SurfaceEvolution::Implementation
   {
   }
 
+  bool Ask(bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share);
+  bool GoOn(Monitor::Activity doing, double share);
+  Checkpoint CheckpointOf(Monitor::Activity doing, double from = 0., double to = 1.);
+  bool HasIteration() const;
+  double Book();
   void Enter(const LevelImage& image, int level);
   void Reset();
   void Recover();
@@ -84,6 +93,7 @@ struct SurfaceEvolution::Implementation
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(Dynamics& dynamics);
   void Regularise(Dynamics& dynamics);
+  void RunPolish(HistoryRow& row);
   StopReason Evolve();
   StopReason Run();
 };

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -246,6 +247,13 @@ void SurfaceEvolution::Implementation::Iterate(
     dynamics.Freeze(s, this->Awake, this->Working);
   }
   watch.Lap(Phase::Verification);
+  if (mode == Mode::Evolve && !this->GoOn(Monitor::Activity::Iterating, 1.))
+  {
+    // The surface is free of intersections; a run that ends here needs no edits.
+    this->FillRow(row);
+    watch.Stop();
+    return;
+  }
 
   if (!relax)
   {
@@ -297,6 +305,9 @@ void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
   row.Vertices = this->State.Mesh.NumberOfVertices();
   row.EulerCharacteristic = this->State.EulerCharacteristic;
   row.Components = this->Watch.NumberOfComponents();
+  row.RegularisedVertices = row.Vertices;
+  row.RegularisedEulerCharacteristic = row.EulerCharacteristic;
+  row.RegularisedComponents = row.Components;
 }
 
 void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
@@ -309,6 +320,8 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.Splits = s.Counts.Splits;
   row.Collapses = s.Counts.Collapses;
   row.Flips = s.Counts.Flips;
+  row.Deletions = s.Counts.Removed;
+  row.DeletedGenus = s.Counts.RemovedGenus;
   this->FillCounts(row);
   constexpr std::size_t size = 4096;
   this->Partial.assign((this->Awake.size() + size - 1) / size, 0.);
@@ -327,6 +340,7 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.KineticEnergy =
     std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / std::max(row.Vertices, 1);
   row.MeanEdgeLength = this->MeanEdgeLength();
+  row.RegularisedMeanEdgeLength = row.MeanEdgeLength;
 }
 
 double SurfaceEvolution::Implementation::MeanEdgeLength()
@@ -344,8 +358,10 @@ double SurfaceEvolution::Implementation::MeanEdgeLength()
       }
       this->Partial[b] = sum;
     });
-  // Each edge is in two sums. A closed surface of triangles has E = 3 (V - chi).
-  const int ends = 6 * (mesh.NumberOfVertices() - this->State.EulerCharacteristic);
-  return ends > 0 ? std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / ends : 0.;
+  // Each edge is in two sums.
+  const std::int64_t edges =
+    NumberOfEdges(mesh.NumberOfVertices(), this->State.EulerCharacteristic);
+  const double sum = std::accumulate(this->Partial.begin(), this->Partial.end(), 0.);
+  return edges > 0 ? sum / (2. * static_cast<double>(edges)) : 0.;
 }
 }

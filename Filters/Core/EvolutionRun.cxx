@@ -15,6 +15,74 @@ namespace
 constexpr int RegularisationPasses = 12;
 /** Way in a pass, in delta, under which a vertex is left where it is. */
 constexpr float SmallestMove = 0.015f;
+/** Share of a level's progress that is left to what comes before and after its iterations. */
+constexpr double ShareBefore = 0.1;
+constexpr double ShareAfter = 0.2;
+/** Of a regularisation, the passes; the rest is the polish. */
+constexpr double PassesShare = 0.6;
+
+/** Of a level, in [0, 1]. */
+double FractionOf(Monitor::Activity doing, double share, int iterations)
+{
+  switch (doing)
+  {
+    case Monitor::Activity::Starting:
+      return ShareBefore * share;
+    case Monitor::Activity::Dividing:
+      return 0.5 * ShareBefore * share;
+    case Monitor::Activity::Recovering:
+      return 0.5 * ShareBefore * (1. + share);
+    case Monitor::Activity::Iterating:
+      return ShareBefore +
+        (1. - ShareBefore - ShareAfter) * (1. - std::exp(-iterations / 80.));
+    default:
+      return 1. - ShareAfter * (1. - share);
+  }
+}
+}
+
+bool SurfaceEvolution::Implementation::GoOn(Monitor::Activity doing, double share)
+{
+  return this->Ask(&Monitor::GoOn, doing, share);
+}
+
+bool SurfaceEvolution::Implementation::Ask(
+  bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share)
+{
+  if (this->Stopped)
+  {
+    return false;
+  }
+  Monitor::Status status;
+  status.Level = this->Level;
+  status.Doing = doing;
+  status.Iteration = this->LastIterations;
+  status.Vertices = this->State.Mesh.NumberOfVertices();
+  status.ActiveVertices = static_cast<int>(this->Awake.size());
+  status.Fraction = FractionOf(doing, std::clamp(share, 0., 1.), this->LastIterations);
+  this->Stopped = !(this->Listener.*question)(status);
+  return !this->Stopped;
+}
+
+Checkpoint SurfaceEvolution::Implementation::CheckpointOf(
+  Monitor::Activity doing, double from, double to)
+{
+  return [this, doing, from, to](double share)
+  { return this->GoOn(doing, from + (to - from) * share); };
+}
+
+double SurfaceEvolution::Implementation::Book()
+{
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - this->Booked).count();
+  this->Booked = now;
+  this->LevelSeconds += seconds;
+  return seconds;
+}
+
+bool SurfaceEvolution::Implementation::HasIteration() const
+{
+  return this->LastIterations > 0 && !this->Rows.empty();
 }
 
 double SurfaceEvolution::Implementation::EnclosedVolume()
@@ -61,6 +129,10 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   const double cube = std::pow(static_cast<double>(s.Delta), 3);
   while (true)
   {
+    if (this->Stopped)
+    {
+      return StopReason::Cancelled;
+    }
     if (s.Mesh.NumberOfVertices() == 0)
     {
       return StopReason::Vanished;
@@ -70,7 +142,11 @@ StopReason SurfaceEvolution::Implementation::Evolve()
       return StopReason::IterationLimit;
     }
     HistoryRow row;
+    row.SecondsBefore = this->Book();
+    row.AddedEulerCharacteristic = s.EulerCharacteristic -
+      (this->Rows.empty() ? 0 : this->Rows.back().RegularisedEulerCharacteristic);
     this->Iterate(row, dynamics, remesher, Mode::Evolve);
+    row.Seconds = this->Book();
     if (this->LastIterations == 0)
     {
       row.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
@@ -79,13 +155,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     }
     this->Rows.push_back(row);
     ++this->LastIterations;
-    Monitor::Status status;
-    status.Level = this->Level;
-    status.Iteration = this->LastIterations;
-    status.Vertices = row.Vertices;
-    status.ActiveVertices = row.ActiveVertices;
-    status.Fraction = 1. - std::exp(-this->LastIterations / 80.);
-    if (!this->Listener.Continue(status))
+    if (!this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.))
     {
       return StopReason::Cancelled;
     }
@@ -166,8 +236,11 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   Remesher remesher(s, this->TheField.get(), false);
   std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
   HistoryRow row;
+  EditCounts counts;
   this->WakeAll();
-  for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0; ++pass)
+  for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0 &&
+       this->GoOn(Monitor::Activity::Regularising, PassesShare * pass / RegularisationPasses);
+       ++pass)
   {
     if (pass > 0)
     {
@@ -175,19 +248,11 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     }
     std::fill(s.Quiet.begin(), s.Quiet.end(), std::uint8_t(1)); // An edit makes it 0 again.
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
+    counts.Cuts += s.Counts.Cuts;
+    counts.Removed += s.Counts.Removed;
   }
-  const auto start = std::chrono::steady_clock::now();
-  const int cuts = s.Counts.Cuts;
-  SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
-    this->Options.TopologyChanges, this->Threads)
-    .Run();
-  this->UpdateTouched();
-  if (s.Counts.Cuts > cuts)
-  {
-    this->Watch.Label(s, this->Threads);
-    this->Watch.DeleteDoomed(s);
-  }
-  row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  s.Counts = EditCounts();
+  this->RunPolish(row);
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
     s.Awake[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(awake.size()) || awake[v]);
@@ -197,8 +262,30 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   {
     HistoryRow& last = this->Rows.back();
     last.PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
-    this->FillCounts(last);
+    last.RegularisedVertices = s.Mesh.NumberOfVertices();
+    last.RegularisedMeanEdgeLength = this->MeanEdgeLength();
+    last.RegularisedEulerCharacteristic = s.EulerCharacteristic;
+    last.RegularisedComponents = this->Watch.NumberOfComponents();
+    last.RegularisationCuts = counts.Cuts + s.Counts.Cuts;
+    last.RegularisationDeletions = counts.Removed + s.Counts.Removed;
   }
+}
+
+void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
+{
+  SurfaceState& s = this->State;
+  const auto start = std::chrono::steady_clock::now();
+  SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
+    this->Options.TopologyChanges, this->Threads,
+    this->CheckpointOf(Monitor::Activity::Regularising, PassesShare))
+    .Run();
+  this->UpdateTouched();
+  if (s.Counts.Cuts > 0)
+  {
+    this->Watch.Label(s, this->Threads);
+    this->Watch.DeleteDoomed(s);
+  }
+  row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 StopReason SurfaceEvolution::Implementation::Run()
@@ -212,6 +299,10 @@ StopReason SurfaceEvolution::Implementation::Run()
       this->FitMeanEdge(dynamics);
     }
     this->Regularise(dynamics);
+    if (this->Stopped)
+    {
+      return StopReason::Cancelled;
+    }
     if (this->State.Mesh.NumberOfVertices() == 0)
     {
       return StopReason::Vanished;

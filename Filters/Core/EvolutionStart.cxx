@@ -15,6 +15,7 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 {
   this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
   this->Level = level;
+  this->LastIterations = 0;
   this->State.Delta = static_cast<float>(this->Options.SamplingRatio * image.Unit);
 }
 
@@ -117,7 +118,8 @@ void SurfaceEvolution::Implementation::Adapt()
     HistoryRow row;
     this->WakeAll();
     this->Iterate(row, dynamics, remesher, Mode::Adapt);
-    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
+    if (!this->GoOn(Monitor::Activity::Starting, static_cast<double>(round) / rounds) ||
+      row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
     {
       break;
     }
@@ -142,20 +144,26 @@ void SurfaceEvolution::Implementation::Recover()
     return;
   }
   const bool recovers = this->Options.RecoverLostParts;
-  const auto find = [this](PartKind kind)
+  const double objectShare = recovers && this->Options.RecoverCavities ? 0.5 : 1.;
+  const auto find = [this](PartKind kind, double from, double to)
   {
-    return FindLostParts(
-      this->State, *this->TheField, kind, this->Options.MinimumPartSize, this->Threads);
+    return FindLostParts(this->State, *this->TheField, kind, this->Options.MinimumPartSize,
+      this->Threads, this->CheckpointOf(Monitor::Activity::Recovering, from, to));
   };
-  const LostPartCover objects = find(PartKind::Object);
+  const LostPartCover objects = find(PartKind::Object, 0., objectShare);
   this->LastLost.Found = objects.Found;
   this->LastLost.Enclosed = recovers ? objects.Covered : 0;
   LostPartCover cavities;
-  if (recovers && this->Options.RecoverCavities)
+  if (recovers && this->Options.RecoverCavities && !this->Stopped)
   {
-    cavities = find(PartKind::Cavity);
+    cavities = find(PartKind::Cavity, objectShare, 1.);
     this->LastLost.FoundCavities = cavities.Found;
     this->LastLost.EnclosedCavities = cavities.Covered;
+  }
+  if (this->Stopped)
+  {
+    this->LastLost = LostParts();
+    return;
   }
   if (this->LastLost.Enclosed > 0)
   {

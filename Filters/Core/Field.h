@@ -45,6 +45,9 @@ public:
    */
   float TypicalSlope() const { return this->Slope; }
 
+  /** What the image counts as outside its voxels, with Border::Background. */
+  float Background() const { return this->Outside; }
+
   const LevelImage& Image() const { return this->Level; }
   /** Value at a voxel inside the image. */
   float Voxel(int i, int j, int k) const

@@ -3,6 +3,7 @@
 #include "LostParts.h"
 
 #include "CellSurface.h"
+#include "VoxelNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,8 @@ public:
     , TheField(field)
     , Kind(kind)
     , Size(field.Image().Size)
-    , Mark(static_cast<std::size_t>(Size[0]) * Size[1] * Size[2],
+    , Numbers(Size)
+    , Mark(static_cast<std::size_t>(Numbers.Count()),
         kind == PartKind::Object ? Unknown : Covered)
   {
     for (int k = 0; k < 3; ++k)
@@ -42,17 +44,21 @@ public:
   /** Marks what lies inside the surface: of no interest for lost objects, all for cavities. */
   void MarkInside();
   void CoverNear();
-  /** Connected sets of lost voxels. */
-  std::vector<std::vector<int>> Parts(Executor& executor);
+  /** @return false if asked to stop. */
+  bool MarkLost(Executor& executor, const Checkpoint& goOn);
+  /**
+   * The next connected set of lost voxels, in the order of their first ones; empty after the last.
+   * It is valid until the next call.
+   */
+  const std::vector<std::int64_t>& NextPart();
 
   /** Calls visit(point) for the middle of a voxel, or, where it is longer than 1.5 units along an
       axis, for the middles of equal pieces of it that are not. */
   template <typename Visit>
-  void VisitPieces(int voxel, Visit&& visit) const
+  void VisitPieces(std::int64_t voxel, Visit&& visit) const
   {
     const auto& step = this->TheField.Image().Step;
-    const int index[3] = { voxel % this->Size[0], voxel / this->Size[0] % this->Size[1],
-      voxel / this->Size[0] / this->Size[1] };
+    const std::array<int, 3> index = this->Numbers.PlaceOf(voxel);
     const auto place = [&](int axis, int piece)
     { return step[axis] * (index[axis] + (piece + 0.5) / this->Pieces[axis] - 0.5); };
     for (int c = 0; c < this->Pieces[2]; ++c)
@@ -74,10 +80,14 @@ private:
   const Field& TheField;
   PartKind Kind;
   std::array<int, 3> Size;
+  VoxelNumbers Numbers;
   double Inverse[3];
   int Pieces[3]; ///< Of a voxel along each axis, see VisitPieces.
   std::vector<std::uint8_t> Mark;
-  std::vector<std::pair<int, float>> Crossings; ///< Row of voxels and place along it.
+  /** Number of the first voxel of a row, and place along it. */
+  std::vector<std::pair<std::int64_t, float>> Crossings;
+  std::vector<std::int64_t> Part;
+  std::size_t Searched = 0; ///< No voxel before this one is lost, but for those of earlier parts.
 };
 
 void Search::Cross(int a, int b, int c)
@@ -130,7 +140,7 @@ void Search::Cross(int a, int b, int c)
       if (inside)
       {
         const double at = weight[0] * x[0] + weight[1] * x[1] + weight[2] * x[2];
-        this->Crossings.emplace_back(k * this->Size[1] + j, static_cast<float>(at));
+        this->Crossings.emplace_back(this->Numbers.Of(0, j, k), static_cast<float>(at));
       }
     }
   }
@@ -147,14 +157,13 @@ void Search::MarkInside()
       ++i; // An odd crossing, from a row that runs in a face: ignored.
       continue;
     }
-    const int row = this->Crossings[i].first;
+    const std::int64_t row = this->Crossings[i].first;
     const int first = std::max(0, static_cast<int>(std::ceil(this->Crossings[i].second)));
     const int last =
       std::min(this->Size[0] - 1, static_cast<int>(std::floor(this->Crossings[i + 1].second)));
     for (int x = first; x <= last; ++x)
     {
-      this->Mark[static_cast<std::size_t>(row) * this->Size[0] + x] =
-        this->Kind == PartKind::Object ? Covered : Unknown;
+      this->Mark[row + x] = this->Kind == PartKind::Object ? Covered : Unknown;
     }
     i += 2;
   }
@@ -186,7 +195,7 @@ void Search::CoverNear()
     {
       for (int j = low[1]; j <= high[1]; ++j)
       {
-        const std::size_t row = static_cast<std::size_t>(k * this->Size[1] + j) * this->Size[0];
+        const std::int64_t row = this->Numbers.Of(0, j, k);
         const double y = (j - place[1]) * step[1];
         const double z = (k - place[2]) * step[2];
         for (int i = low[0]; i <= high[0]; ++i)
@@ -202,65 +211,70 @@ void Search::CoverNear()
   }
 }
 
-std::vector<std::vector<int>> Search::Parts(Executor& executor)
+bool Search::MarkLost(Executor& executor, const Checkpoint& goOn)
 {
-  // Slabs of voxels; each hands over the lost ones that it has, in order.
-  std::vector<std::vector<int>> lost(this->Size[2]);
-  ForBlocks(executor, lost.size(), 1,
-    [&](std::size_t slab, std::size_t, std::size_t)
-    {
-      const int k = static_cast<int>(slab);
-      int voxel = k * this->Size[1] * this->Size[0];
-      for (int j = 0; j < this->Size[1]; ++j)
+  constexpr std::int64_t most = 1 << 22; // Voxels between two looks whether to go on.
+  const int batch =
+    static_cast<int>(std::clamp<std::int64_t>(most / this->Numbers.Stride(2), 1, this->Size[2]));
+  for (int first = 0; first < this->Size[2]; first += batch)
+  {
+    const int last = std::min(first + batch, this->Size[2]);
+    ForBlocks(executor, static_cast<std::size_t>(last - first), 1,
+      [&](std::size_t slab, std::size_t, std::size_t)
       {
-        for (int i = 0; i < this->Size[0]; ++i, ++voxel)
+        const int k = first + static_cast<int>(slab);
+        std::int64_t voxel = this->Numbers.Of(0, 0, k);
+        for (int j = 0; j < this->Size[1]; ++j)
         {
-          if (this->Mark[voxel] == Unknown &&
-            (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object))
+          for (int i = 0; i < this->Size[0]; ++i, ++voxel)
           {
-            this->Mark[voxel] = Lost;
-            lost[slab].push_back(voxel);
+            if (this->Mark[voxel] == Unknown &&
+              (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object))
+            {
+              this->Mark[voxel] = Lost;
+            }
           }
         }
-      }
-    });
-  std::vector<int> seeds;
-  for (const std::vector<int>& slab : lost)
-  {
-    seeds.insert(seeds.end(), slab.begin(), slab.end());
-  }
-  std::vector<std::vector<int>> parts;
-  const int stride[3] = { 1, this->Size[0], this->Size[0] * this->Size[1] };
-  for (int seed : seeds)
-  {
-    if (this->Mark[seed] != Lost)
+      });
+    if (!goOn(static_cast<double>(last) / this->Size[2]))
     {
-      continue;
+      return false;
     }
-    std::vector<int> part(1, seed);
-    this->Mark[seed] = Covered;
-    for (std::size_t n = 0; n < part.size(); ++n)
+  }
+  return true;
+}
+
+const std::vector<std::int64_t>& Search::NextPart()
+{
+  this->Part.clear();
+  const auto from = this->Mark.begin() + static_cast<std::ptrdiff_t>(this->Searched);
+  const auto seed = std::find(from, this->Mark.end(), Lost);
+  this->Searched = static_cast<std::size_t>(seed - this->Mark.begin());
+  if (seed == this->Mark.end())
+  {
+    return this->Part;
+  }
+  *seed = Covered;
+  this->Part.push_back(static_cast<std::int64_t>(this->Searched));
+  for (std::size_t n = 0; n < this->Part.size(); ++n)
+  {
+    const std::int64_t voxel = this->Part[n];
+    const std::array<int, 3> place = this->Numbers.PlaceOf(voxel);
+    for (int axis = 0; axis < 3; ++axis)
     {
-      const int voxel = part[n];
-      const int place[3] = { voxel % this->Size[0], voxel / stride[1] % this->Size[1],
-        voxel / stride[2] };
-      for (int axis = 0; axis < 3; ++axis)
+      for (int side : { -1, 1 })
       {
-        for (int side : { -1, 1 })
+        const int next = place[axis] + side;
+        const std::int64_t other = voxel + side * this->Numbers.Stride(axis);
+        if (next >= 0 && next < this->Size[axis] && this->Mark[other] == Lost)
         {
-          const int next = place[axis] + side;
-          const int other = voxel + side * stride[axis];
-          if (next >= 0 && next < this->Size[axis] && this->Mark[other] == Lost)
-          {
-            this->Mark[other] = Covered;
-            part.push_back(other);
-          }
+          this->Mark[other] = Covered;
+          this->Part.push_back(other);
         }
       }
     }
-    parts.push_back(std::move(part));
   }
-  return parts;
+  return this->Part;
 }
 
 /**
@@ -303,24 +317,35 @@ bool KeepsClear(
 }
 
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor)
+  int minimumSize, Executor& executor, const Checkpoint& goOn)
 {
+  LostPartCover stopped;
+  stopped.IsStopped = true;
   Search search(state, field, kind);
   search.MarkInside();
+  if (!goOn(0.25))
+  {
+    return stopped;
+  }
   search.CoverNear();
+  if (!search.MarkLost(executor, [&goOn](double share) { return goOn(0.4 + 0.3 * share); }))
+  {
+    return stopped;
+  }
   LostPartCover result;
   const CellLattice lattice(CellEdge * state.Delta);
   std::vector<CellLattice::Cell> cells;
   std::vector<CellLattice::Cell> own;
-  for (const std::vector<int>& part : search.Parts(executor))
+  std::size_t seen = 0;
+  for (const auto* part = &search.NextPart(); !part->empty(); part = &search.NextPart())
   {
-    if (static_cast<int>(part.size()) < minimumSize)
+    if (static_cast<std::int64_t>(part->size()) < minimumSize)
     {
       continue;
     }
     ++result.Found;
     own.clear();
-    for (int voxel : part)
+    for (std::int64_t voxel : *part)
     {
       search.VisitPieces(
         voxel, [&](const Point& place) { own.push_back(lattice.CellAt(place)); });
@@ -334,6 +359,10 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
       {
         cells.push_back(cell);
       }
+      if (++seen % 4096 == 0 && !goOn(0.8))
+      {
+        return stopped;
+      }
     }
     result.Covered += cells.size() > before;
   }
@@ -346,6 +375,10 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     {
       std::swap(triangle[1], triangle[2]);
     }
+  }
+  if (!goOn(1.))
+  {
+    return stopped;
   }
   return result;
 }

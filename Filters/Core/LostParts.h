@@ -4,9 +4,8 @@
 #define volumicLostParts_h
 
 #include "Field.h"
+#include "Monitor.h"
 #include "SurfaceState.h"
-
-#include <vector>
 
 namespace volumic
 {
@@ -23,6 +22,7 @@ struct LostPartCover
   int Found = 0;          ///< Parts that the surface has lost.
   int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
   IndexedSurface Surface; ///< Closed, manifold, oriented as the kind wants it; workspace.
+  bool IsStopped = false; ///< The checkpoint said stop: nothing is told, there is no surface.
 };
 
 /**
@@ -40,7 +40,7 @@ struct LostPartCover
  * of the state must be up to date, and no edge longer than 2.5 delta.
  */
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor);
+  int minimumSize, Executor& executor, const Checkpoint& goOn = NeverStop);
 }
 
 #endif

@@ -3,31 +3,65 @@
 #ifndef volumicMonitor_h
 #define volumicMonitor_h
 
+#include <functional>
+
 namespace volumic
 {
 /**
- * Progress out, cancel in. The core asks after every iteration; it never sees its host.
- * The default listens to nothing and never cancels.
+ * Told the share of a piece of work that is done, in [0, 1]; false asks to stop. Called on the
+ * thread that does the work, never from within an executor.
+ */
+using Checkpoint = std::function<bool(double share)>;
+
+/** For work that nobody follows. */
+inline bool NeverStop(double)
+{
+  return true;
+}
+
+/**
+ * Progress out, cancel in: the only way in which the core hears of its host, which it never sees.
+ * The default listens to nothing and never cancels. Who wants to end a run for any other reason,
+ * such as the time it takes, says so here too.
  */
 class Monitor
 {
 public:
+  /** What is being done. */
+  enum class Activity
+  {
+    Starting,
+    Dividing,
+    Recovering, ///< Looking for what coarser levels have lost.
+    Iterating,
+    Regularising
+  };
+
   struct Status
   {
     int Level = 0;           ///< Level that is running; 0 is the finest.
+    Activity Doing = Activity::Iterating;
     int Iteration = 0;       ///< Iterations done on this level.
     int Vertices = 0;        ///< Vertices of the surface now.
     int ActiveVertices = 0;  ///< Of them, those that are awake.
-    double Fraction = 0;     ///< Estimate of the share of this level that is done, in [0, 1].
+    double Fraction = 0;     ///< Estimate of the share of this level that is done, in [0, 1]. It
+                             ///< never becomes less.
   };
 
   virtual ~Monitor() = default;
 
   /**
-   * False asks the evolution to stop after this iteration. The surface is then handed over as it
-   * is: closed, manifold and free of self-intersections.
+   * Asked after every iteration; the surface may be looked at. False asks to stop after it. The
+   * surface is then handed over as it is: closed, manifold and free of self-intersections.
    */
   virtual bool Continue(const Status&) { return true; }
+
+  /**
+   * Asked within, before and after the iterations, several times a second; the surface is in
+   * work. False asks to stop as soon as it is closed, manifold and free of self-intersections.
+   * After false from either, neither is asked again.
+   */
+  virtual bool GoOn(const Status&) { return true; }
 };
 }
 

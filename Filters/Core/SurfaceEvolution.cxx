@@ -93,6 +93,7 @@ void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
   self.State.Mesh.Clear();
   self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Delta));
   self.Reset();
+  self.GoOn(Monitor::Activity::Starting, 1.);
 }
 
 int SurfaceEvolution::StartSeeds(
@@ -145,27 +146,40 @@ void SurfaceEvolution::SetMeanEdgeLength(double length)
   this->Self->WantedMeanEdge = length;
 }
 
-void SurfaceEvolution::Divide(const LevelImage& image, int level)
+bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
   const Timer timer(self.Preparing);
+  if (!self.GoOn(Monitor::Activity::Regularising, 1.))
+  {
+    return false;
+  }
   const double coarse = self.State.Delta;
+  self.LastLost = LostParts();
   self.Enter(image, level);
   // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
   // the mesh's, sqrt 3.
   const int divisions = static_cast<int>(
     std::lround(std::log(coarse / self.State.Delta) / std::log(std::sqrt(3.))));
-  for (int i = 0; i < divisions; ++i)
+  // After each of these steps the surface is one to hand over.
+  bool goesOn = true;
+  for (int i = 0; i < divisions && goesOn; ++i)
   {
     self.DivideOnce();
+    goesOn = self.GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
   }
   if (divisions < 1)
   {
     self.LayGrid();
   }
   self.SplitLongEdges();
-  self.Recover();
+  if (goesOn && self.GoOn(Monitor::Activity::Dividing, 1.))
+  {
+    self.Recover();
+  }
   self.Reset();
+  self.GoOn(Monitor::Activity::Recovering, 1.);
+  return true;
 }
 
 SurfaceResult SurfaceEvolution::Result() const
@@ -210,6 +224,27 @@ const std::vector<HistoryRow>& SurfaceEvolution::History() const
 int SurfaceEvolution::Iterations() const
 {
   return this->Self->LastIterations;
+}
+
+bool SurfaceEvolution::IsStopped() const
+{
+  return this->Self->Stopped;
+}
+
+void SurfaceEvolution::StartClock(std::chrono::steady_clock::time_point start)
+{
+  this->Self->Booked = start;
+}
+
+double SurfaceEvolution::EndLevel()
+{
+  Implementation& self = *this->Self;
+  const double seconds = self.Book();
+  if (self.HasIteration())
+  {
+    self.Rows.back().SecondsAfter += seconds;
+  }
+  return std::exchange(self.LevelSeconds, 0.);
 }
 
 SurfaceEvolution::LostParts SurfaceEvolution::Lost() const

@@ -10,6 +10,7 @@
 #include "SurfaceOptions.h"
 
 #include <array>
+#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -39,7 +40,20 @@ enum class Phase
   Count
 };
 
-/** One iteration. Lengths are those of the workspace. */
+/**
+ * One iteration, and what comes before the first and after the last one of a level. Lengths are
+ * those of the workspace.
+ *
+ * What happens to the Euler characteristic is explained row by row:
+ *
+ *   EulerCharacteristic = RegularisedEulerCharacteristic of the row before, 0 in the first,
+ *     + AddedEulerCharacteristic + 2 (Cuts - Merges - Deletions + DeletedGenus)
+ *   RegularisedEulerCharacteristic = EulerCharacteristic
+ *     + 2 (RegularisationCuts - RegularisationDeletions)
+ *
+ * (and, if a regularisation should ever delete a component with handles, twice their number).
+ * SecondsBefore, Seconds and SecondsAfter of all rows follow each other without a gap.
+ */
 struct HistoryRow
 {
   int Iteration = 0; ///< Counted over all levels, from 1.
@@ -55,9 +69,22 @@ struct HistoryRow
   int Splits = 0;
   int Collapses = 0;
   int Flips = 0;
-  int EulerCharacteristic = 0;
+  int EulerCharacteristic = 0; ///< As this iteration has left it, like Vertices and Components.
   int Components = 0;
   int Recovered = 0; ///< Lost parts and cavities enclosed again before the first of a level.
+  int Deletions = 0;    ///< Components deleted.
+  int DeletedGenus = 0; ///< Sum of their genera.
+  /** Of what came new before this iteration: the start, what encloses lost parts. */
+  int AddedEulerCharacteristic = 0;
+  /** What the regularisation after the last iteration of a level has made; else the same. */
+  int RegularisedVertices = 0;
+  double RegularisedMeanEdgeLength = 0.;
+  int RegularisedEulerCharacteristic = 0;
+  int RegularisedComponents = 0;
+  int RegularisationCuts = 0;
+  int RegularisationDeletions = 0;
+  double SecondsBefore = 0.; ///< Between the row before, or the start of the clock, and this one.
+  double SecondsAfter = 0.;  ///< After the last iteration of a level, until EndLevel().
   std::array<double, static_cast<int>(Phase::Count)> PhaseSeconds{};
 };
 
@@ -112,7 +139,10 @@ public:
    */
   void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface);
 
-  /** Evolve on the current level until rest, limit, cancel or nothing is left; then snap. */
+  /**
+   * Evolve on the current level until rest, limit, cancel or nothing is left; then snap. Once the
+   * monitor has said stop, wherever it was asked, the reason is Cancelled.
+   */
   StopReason Run();
 
   /**
@@ -122,8 +152,12 @@ public:
    */
   void SetMeanEdgeLength(double length);
 
-  /** Global division down to delta of a finer level; lost parts are enclosed again. */
-  void Divide(const LevelImage& image, int level);
+  /**
+   * Global division down to delta of a finer level; lost parts are enclosed again.
+   * @return false if the monitor said stop before anything was done: surface and level are those
+   *         of before.
+   */
+  bool Divide(const LevelImage& image, int level);
 
   /** The surface as it is. */
   SurfaceResult Result() const;
@@ -131,8 +165,21 @@ public:
   /** A row per iteration since the object was made. */
   const std::vector<HistoryRow>& History() const;
 
-  /** Iterations of the last Run(). */
+  /** Iterations on the level. */
   int Iterations() const;
+
+  /** Whether the monitor has said stop. */
+  bool IsStopped() const;
+
+  /** When the run began, where that is earlier than this object: where the seconds start from. */
+  void StartClock(std::chrono::steady_clock::time_point start);
+
+  /**
+   * To be called when all is done with the surface of a level. @return the seconds that have
+   * passed since the level before, or since the start of the clock; those of the level's rows
+   * add up to them (a level without an iteration has none).
+   */
+  double EndLevel();
 
   /** Lost parts that the last Divide() found, and how many of them it enclosed, if asked to. */
   struct LostParts

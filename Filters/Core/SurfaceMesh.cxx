@@ -62,7 +62,7 @@ void SurfaceMesh::RemoveVertex(int v)
 
 int SurfaceMesh::NumberOfFaces() const
 {
-  long ends = 0;
+  std::int64_t ends = 0;
   for (const Ring& ring : this->Rings)
   {
     ends += ring.Count;

@@ -7,10 +7,17 @@
 #include "Vector.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace volumic
 {
+/** Of a closed surface of triangles: E = 3 (V - chi), soon more than an int counts. */
+constexpr std::int64_t NumberOfEdges(std::int64_t vertices, std::int64_t eulerCharacteristic)
+{
+  return 3 * (vertices - eulerCharacteristic);
+}
+
 /**
  * The neighbours of a vertex, counter-clockwise seen from outside. A whole ring is one cache line,
  * which is what bounds the valence.

@@ -21,6 +21,8 @@ constexpr float Gain = 0.01f;
 constexpr float Margin = 1e-4f;
 constexpr int Rounds = 8;
 constexpr int SeparatingRounds = 4;
+/** Stars between two looks whether to go on: about ten milliseconds where all need an edit. */
+constexpr std::size_t StarsAtATime = 512;
 /** Way off the isopotential, in delta, that a slide may add. */
 constexpr float Stray = 0.02f;
 }
@@ -355,6 +357,10 @@ bool SurfacePolish::Separate(int v)
 
 void SurfacePolish::SeparateAll()
 {
+  if (this->Stopped)
+  {
+    return;
+  }
   SurfaceState& s = this->State;
   std::vector<int> crowded;
   for (int v = 0; v < s.Mesh.Size(); ++v)
@@ -377,6 +383,10 @@ void SurfacePolish::SeparateAll()
       });
     for (std::size_t i = 0; i < crowded.size(); ++i)
     {
+      if (i % StarsAtATime == 0 && this->IsToStop())
+      {
+        return;
+      }
       if (this->Scores[i] > 0)
       {
         this->Separate(crowded[i]);
@@ -387,6 +397,10 @@ void SurfacePolish::SeparateAll()
 
 void SurfacePolish::ImproveAll(float good)
 {
+  if (this->Stopped)
+  {
+    return;
+  }
   SurfaceState& s = this->State;
   std::vector<int> list;
   for (int v = 0; v < s.Mesh.Size(); ++v)
@@ -414,6 +428,10 @@ void SurfacePolish::ImproveAll(float good)
       });
     for (std::size_t i = 0; i < list.size(); ++i)
     {
+      if (i % StarsAtATime == 0 && this->IsToStop())
+      {
+        return;
+      }
       const int v = list[i];
       // An edit beside it may have changed what was found.
       const float now = this->Scores[i] < good ? score(v) : 1.f;
@@ -430,16 +448,26 @@ void SurfacePolish::ImproveAll(float good)
   }
 }
 
+bool SurfacePolish::IsToStop()
+{
+  this->Stopped = this->Stopped || !this->Goes(this->Done);
+  return this->Stopped;
+}
+
 void SurfacePolish::Run()
 {
   // A collapse may bring strangers together, and what is pushed apart may become uneven.
   this->SeparateAll();
+  this->Done = 0.1;
   this->ImproveAll(Good);
+  this->Done = 0.7;
   this->SeparateAll();
+  this->Done = 0.8;
   // What could not be mended before may be now; if not, a cycle of three stands in the way.
   this->ImproveAll(Bad);
   const int cuts = this->State.Counts.Cuts;
   this->MayCut = this->TopologyChanges;
+  this->Done = 0.9;
   this->ImproveAll(0.f);
   if (this->State.Counts.Cuts > cuts)
   {

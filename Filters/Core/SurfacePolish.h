@@ -4,8 +4,10 @@
 #define volumicSurfacePolish_h
 
 #include "Field.h"
+#include "Monitor.h"
 #include "SurfaceEditor.h"
 
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -27,17 +29,18 @@ class SurfacePolish
 {
 public:
   /** `snapTo` (may be null): vertices that slide are led back onto its isopotential. */
-  SurfacePolish(
-    SurfaceState& state, const Field* snapTo, bool topologyChanges, Executor& executor)
+  SurfacePolish(SurfaceState& state, const Field* snapTo, bool topologyChanges, Executor& executor,
+    Checkpoint goOn = NeverStop)
     : State(state)
     , Editor(state)
     , Threads(executor)
     , SnapTo(snapTo)
     , TopologyChanges(topologyChanges)
+    , Goes(std::move(goOn))
   {
   }
 
-  /** Normals must be up to date; SurfaceState::Touched holds what has been edited after it. */
+  /** Stops after an edit, if asked to. Normals must be up to date; SurfaceState::Touched holds what has been edited after it. */
   void Run();
 
 private:
@@ -57,6 +60,7 @@ private:
   bool Improve(int v);
   void SeparateAll();
   void ImproveAll(float good); ///< Stars whose worst scores less than `good`.
+  bool IsToStop();             ///< Asked now and then.
 
   struct Candidate
   {
@@ -69,6 +73,9 @@ private:
   Executor& Threads;
   const Field* SnapTo;
   bool TopologyChanges;
+  Checkpoint Goes;
+  double Done = 0.; ///< Share of the work.
+  bool Stopped = false;
   bool MayCut = false;
   std::vector<float> Scores;
   std::vector<Candidate> Candidates;

@@ -183,7 +183,7 @@ int SurfaceState::RemoveComponent(int v)
   this->Stack.assign(1, v);
   // The ring of a removed vertex is kept aside as it is emptied; -1 in Component marks visits.
   int vertices = 0;
-  int ends = 0;
+  std::int64_t ends = 0;
   this->Component[v] = -1;
   for (std::size_t i = 0; i < this->Stack.size(); ++i)
   {
@@ -205,8 +205,11 @@ int SurfaceState::RemoveComponent(int v)
     this->Forget(w);
     this->Mesh.RemoveVertex(w);
   }
-  this->EulerCharacteristic -= vertices - ends / 6;
+  // V - E + F with 2 E = 3 F, which is the sum of the valences.
+  const int characteristic = vertices - static_cast<int>(ends / 6);
+  this->EulerCharacteristic -= characteristic;
   ++this->Counts.Removed;
+  this->Counts.RemovedGenus += 1 - characteristic / 2;
   return vertices;
 }
 }

@@ -38,6 +38,7 @@ struct EditCounts
   int Collapses = 0;
   int Flips = 0;
   int Removed = 0; ///< Components deleted.
+  int RemovedGenus = 0; ///< Sum of their genera.
 };
 
 /**

@@ -153,6 +153,13 @@ class RunTest(ToolTestCase):
         with open(self.path("h.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(sum(level["iterations"] for level in report["levels"]), len(rows))
+        names = ("SecondsBefore", "Seconds", "SecondsAfter")
+        for level in report["levels"]:
+            own = [row for row in rows if int(row["Level"]) == level["level"]]
+            self.assertAlmostEqual(
+                sum(float(row[name]) for row in own for name in names) / level["seconds"], 1, 3)
+        self.assertLessEqual(sum(level["seconds"] for level in report["levels"]),
+                             report["seconds"]["surface"])
         reader = vtkXMLMultiBlockDataReader()
         reader.SetFileName(self.path("l.vtm"))
         reader.Update()

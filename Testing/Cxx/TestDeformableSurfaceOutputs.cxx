@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -44,7 +45,7 @@ TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
     surface->GetNumberOfCells());
   for (const char* name : { "Level", "Delta", "Unit", "NumberOfComponents", "EulerCharacteristic",
          "Genus", "Area", "Volume", "Iterations", "ComponentArea", "ComponentVolume",
-         "ComponentGenus", "ComponentCentroid", "ComponentInertia" })
+         "ComponentGenus", "ComponentCentroid", "ComponentInertia", "Seconds" })
   {
     EXPECT_TRUE(surface->GetFieldData()->GetArray(name)) << name;
   }
@@ -106,9 +107,12 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   vtkTable* history = filter->GetHistory();
   const char* columns[] = { "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength",
     "Seconds", "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
-    "EulerCharacteristic", "Components", "RecoveredParts" };
-  ASSERT_EQ(history->GetNumberOfColumns(), 16);
-  for (int c = 0; c < 16; ++c)
+    "EulerCharacteristic", "Components", "RecoveredParts", "Deletions", "DeletedGenus",
+    "AddedEulerCharacteristic", "RegularisedVertices", "RegularisedMeanEdgeLength",
+    "RegularisedEulerCharacteristic", "RegularisedComponents", "RegularisationCuts",
+    "RegularisationDeletions", "SecondsBefore", "SecondsAfter" };
+  ASSERT_EQ(history->GetNumberOfColumns(), 27);
+  for (int c = 0; c < 27; ++c)
   {
     EXPECT_STREQ(history->GetColumnName(c), columns[c]);
   }
@@ -140,6 +144,70 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   EXPECT_EQ(history->GetValueByName(iterations - 1, "Level").ToInt(), 0);
 }
 
+TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  filter->SetSnapshotInterval(1);
+  filter->Update();
+  vtkTable* history = filter->GetHistory();
+  vtkMultiBlockDataSet* snapshots = filter->GetSnapshots();
+  int levels = 0;
+  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
+  {
+    const auto value = [&](const char* name) { return history->GetValueByName(r, name); };
+    const int level = value("Level").ToInt();
+    const bool isLast = r + 1 == history->GetNumberOfRows() ||
+      history->GetValueByName(r + 1, "Level").ToInt() != level;
+    // Snapshots show what an iteration left; each level has one more, before its first iteration.
+    auto* left = vtkPolyData::SafeDownCast(snapshots->GetBlock(r + 3 - level));
+    ASSERT_EQ(FieldOf(left, "Iteration"), r + 1);
+    auto* block = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+    EXPECT_EQ(value("Vertices").ToInt(), left->GetNumberOfPoints());
+    EXPECT_EQ(value("EulerCharacteristic").ToInt(), FieldOf(left, "EulerCharacteristic"));
+    vtkPolyData* regularised = isLast ? block : left;
+    EXPECT_EQ(value("RegularisedVertices").ToInt(), regularised->GetNumberOfPoints());
+    EXPECT_EQ(value("RegularisedEulerCharacteristic").ToInt(),
+      FieldOf(regularised, "EulerCharacteristic"));
+    EXPECT_EQ(value("RegularisedComponents").ToInt(), FieldOf(regularised, "NumberOfComponents"));
+    levels += isLast;
+  }
+  EXPECT_EQ(levels, 3);
+}
+
+TEST(DeformableSurfaceOutputs, SecondsOfRowsAndLevelsAddUpToThoseOfTheRun)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  const auto start = std::chrono::steady_clock::now();
+  filter->Update();
+  const double run =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  vtkTable* history = filter->GetHistory();
+  std::vector<double> seconds(3, 0.0);
+  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
+  {
+    for (const char* name : { "SecondsBefore", "Seconds", "SecondsAfter" })
+    {
+      seconds[history->GetValueByName(r, "Level").ToInt()] +=
+        history->GetValueByName(r, name).ToDouble();
+    }
+  }
+  double levels = 0.0;
+  for (unsigned int level = 0; level < 3; ++level)
+  {
+    auto* surface = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+    EXPECT_NEAR(seconds[level], FieldOf(surface, "Seconds"), 1e-9 * seconds[level]);
+    levels += FieldOf(surface, "Seconds");
+  }
+  EXPECT_GT(levels, 0.0);
+  EXPECT_LE(levels, run);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Seconds"), seconds[0]);
+  EXPECT_GT(history->GetValueByName(0, "SecondsBefore").ToDouble(), 0.0) << "the inner pyramid";
+}
+
 TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
 {
   vtkNew<vtkDeformableSurface> filter;
@@ -152,10 +220,10 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
   vtkTable* history = filter->GetHistory();
   const char* phases[] = { "ForcesSeconds", "ContactSeconds", "ProximitySeconds",
     "VerificationSeconds", "RemeshingSeconds", "TopologySeconds", "DivisionSeconds" };
-  ASSERT_EQ(history->GetNumberOfColumns(), 23);
+  ASSERT_EQ(history->GetNumberOfColumns(), 34);
   for (int i = 0; i < 7; ++i)
   {
-    EXPECT_STREQ(history->GetColumnName(16 + i), phases[i]);
+    EXPECT_STREQ(history->GetColumnName(27 + i), phases[i]);
   }
   ASSERT_GT(history->GetNumberOfRows(), 10);
   double all = 0.0;

@@ -2,11 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataObject.h>
 #include <vtkFeatureEdges.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkTable.h>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +60,150 @@ TEST(DeformableSurfaceProgress, CancellingHandsOverAValidSurface)
   edges->Update();
   EXPECT_EQ(edges->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_FALSE(filter->GetLevels()->GetBlock(0)) << "levels that were not reached are empty";
+}
+
+namespace
+{
+/// Asks to stop at the n-th progress whose text has a part.
+struct StopAtText
+{
+  std::string Part;
+  int Left;
+  int After = 0; ///< Progress events after the request.
+
+  StopAtText(vtkAlgorithm* algorithm, const std::string& part, int left)
+    : Part(part), Left(left)
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject* caller, unsigned long, void* client, void*)
+      {
+        auto* self = static_cast<StopAtText*>(client);
+        auto* filter = vtkAlgorithm::SafeDownCast(caller);
+        const std::string text = filter->GetProgressText() ? filter->GetProgressText() : "";
+        self->After += self->Left <= 0;
+        if (text.find(self->Part) != std::string::npos && --self->Left == 0)
+        {
+          filter->SetAbortExecute(1);
+        }
+      });
+    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
+  }
+
+  vtkNew<vtkCallbackCommand> Command;
+};
+
+vtkSmartPointer<vtkDeformableSurface> Cancelled(const std::string& part, int n)
+{
+  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  filter->SetInputData(BallImage(40, 40, 40));
+  filter->SetIsoValue(50.0);
+  const StopAtText stop(filter, part, n);
+  const MessagesOf errors(filter);
+  filter->Update();
+  EXPECT_LE(stop.Left, 0) << "heard nothing of " << part;
+  EXPECT_LE(stop.After, 1) << "it stops at once, or as soon as the pyramid asks";
+  EXPECT_EQ(errors.Get(), "");
+  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
+  filter->RemoveAllObservers();
+  return filter;
+}
+}
+
+TEST(DeformableSurfaceProgress, CancellingInAnyPartHandsOverAValidSurface)
+{
+  const auto whole = SurfaceOf(BallImage(40, 40, 40));
+  struct Case
+  {
+    const char* Part;
+    int Number;
+    int Level; ///< of the surface handed over
+  };
+  for (const Case& test : { Case{ "Level 2, start", 1, 2 }, Case{ "Level 2, regularisation", 1, 2 },
+         Case{ "Level 2, regularisation", 14, 2 }, Case{ "Level 1, voxels", 1, 2 },
+         Case{ "Level 1, division", 1, 1 }, Case{ "Level 0, voxels", 1, 1 },
+         Case{ "Level 0, division", 2, 0 }, Case{ "Level 0, search for lost parts", 2, 0 },
+         Case{ "Level 0, regularisation", 13, 0 } })
+  {
+    SCOPED_TRACE(test.Part);
+    const auto filter = Cancelled(test.Part, test.Number);
+    vtkPolyData* surface = filter->GetOutput();
+    EXPECT_EQ(FieldOf(surface, "Level"), test.Level);
+    ASSERT_GT(surface->GetNumberOfPoints(), 0);
+    EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+    EXPECT_GT(EnclosedVolume(surface), 0.0);
+    auto* block = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(test.Level));
+    ASSERT_TRUE(block);
+    EXPECT_EQ(block->GetNumberOfPoints(), surface->GetNumberOfPoints());
+    const bool isBetween = std::string(test.Part).find("voxels") != std::string::npos;
+    EXPECT_EQ(StopReason(block), isBetween ? "converged" : "cancelled");
+    for (int level = 0; level < test.Level; ++level)
+    {
+      EXPECT_FALSE(filter->GetLevels()->GetBlock(level));
+    }
+    // Nothing of the request is left.
+    filter->Modified();
+    filter->Update();
+    EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), whole->GetOutput()));
+  }
+}
+
+TEST(DeformableSurfaceProgress, CancellingBeforeThereIsASurfaceHandsOverAnEmptyOne)
+{
+  for (const char* part : { "Building the pyramid", "Level 2, voxels" })
+  {
+    SCOPED_TRACE(part);
+    const auto filter = Cancelled(part, 1);
+    vtkPolyData* surface = filter->GetOutput();
+    EXPECT_EQ(surface->GetNumberOfPoints(), 0);
+    EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 0);
+    EXPECT_EQ(FieldOf(surface, "Seconds"), 0.0);
+    EXPECT_EQ(filter->GetHistory()->GetNumberOfRows(), 0);
+    EXPECT_EQ(filter->GetHistory()->GetNumberOfColumns(), 27);
+  }
+}
+
+TEST(DeformableSurfaceProgress, CancellingEndsTheInnerPyramidWithinALevel)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(256, 256, 128);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  image->GetPointData()->GetScalars()->FillComponent(0, 1);
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(image);
+  filter->SetIsoValue(0.5);
+  ProgressListener listener(filter);
+  listener.StopAt = 1e-3;
+  const MessagesOf errors(filter);
+  filter->Update();
+  EXPECT_EQ(errors.Get(), "");
+  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
+  EXPECT_LT(listener.Shares.back(), 0.02) << "the pyramid's share";
+}
+
+TEST(DeformableSurfaceProgress, CancellingEndsThePyramidOfTheMapOfEdges)
+{
+  auto image = BallImage(40, 40, 40);
+  vtkNew<vtkFloatArray> edges;
+  edges->SetName("Edges");
+  edges->DeepCopy(image->GetPointData()->GetScalars());
+  edges->SetName("Edges");
+  image->GetPointData()->AddArray(edges);
+  const auto pyramid = PyramidOf(image);
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputConnection(pyramid->GetOutputPort());
+  filter->SetIsoValue(50.0);
+  filter->SetEdgeAttractionWeight(1.0);
+  filter->SetInputArrayToProcess(
+    1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
+  const StopAtText stop(filter, "Pyramid of the map of edges", 1);
+  const MessagesOf errors(filter);
+  filter->Update();
+  EXPECT_LE(stop.Left, 0);
+  EXPECT_EQ(errors.Get(), "");
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
+  filter->RemoveAllObservers();
 }
 
 TEST(DeformableSurfaceProgress, RunsToTheEndAfterACancelledRun)

@@ -238,6 +238,115 @@ TEST(DeformableSurfaceStart, BeginsWhereTheObjectIsStillThere)
   EXPECT_FALSE(filter->GetLevels()->GetBlock(last)) << "not visited";
 }
 
+namespace
+{
+/// A ball with a ramp of about a voxel, 100 inside.
+vtkSmartPointer<vtkImageData> BallOfRadius(double radius, int size, double ramp = 1.0)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(size, size, size);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
+  {
+    double p[3];
+    image->GetPoint(voxel, p);
+    const double middle[3] = { 0.5 * size, 0.5 * size, 0.5 * size };
+    const double inside = radius - std::sqrt(vtkMath::Distance2BetweenPoints(p, middle));
+    voxels->SetComponent(voxel, 0, 100.0 * std::clamp(0.5 + inside / ramp, 0.0, 1.0));
+  }
+  return image;
+}
+}
+
+TEST(DeformableSurfaceStart, WithoutRecoveryBeginsWhereEnoughOfTheObjectIsLeft)
+{
+  // At the coarsest levels some voxels are left of it, on which no surface can hold.
+  for (const double radius : { 2.5, 3.5, 4.5 })
+  {
+    SCOPED_TRACE(radius);
+    vtkNew<vtkDeformableSurface> filter;
+    filter->SetInputData(BallOfRadius(radius, 40));
+    filter->SetIsoValue(50.0);
+    filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+    const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+    filter->Update();
+    EXPECT_EQ(warnings.Get(), "");
+    EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+    const double ball = 4.0 / 3.0 * vtkMath::Pi() * std::pow(radius, 3);
+    EXPECT_NEAR(FieldOf(filter->GetOutput(), "Volume") / ball, 1.0, 0.25);
+  }
+}
+
+TEST(DeformableSurfaceStart, WithoutRecoveryEndsAtTheFinestLevelAtLeast)
+{
+  // Too thin for a surface on any level: begun where it is to end, not refused.
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(BallOfRadius(1.2, 40));
+  filter->SetIsoValue(50.0);
+  filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  const MessagesOf errors(filter);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_EQ(errors.Get(), "");
+  EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
+}
+
+TEST(DeformableSurfaceStart, StartsFromTheIsoSurfaceWhereAllVoxelsAreObject)
+{
+  // Level 0 has a few dark voxels; at the coarsest level there is nothing but object.
+  for (const bool isBright : { true, false })
+  {
+    auto image = BallOfRadius(1.5, 40);
+    vtkDataArray* voxels = image->GetPointData()->GetScalars();
+    for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
+    {
+      const double value = 100.0 - voxels->GetComponent(voxel, 0);
+      voxels->SetComponent(voxel, 0, isBright ? value : 100.0 - value);
+    }
+    vtkNew<vtkDeformableSurface> filter;
+    filter->SetInputData(image);
+    filter->SetIsoValue(isBright ? 20.0 : 80.0);
+    filter->SetObjectIsBright(isBright);
+    filter->SetInitializationToIsoSurface();
+    const MessagesOf errors(filter);
+    filter->Update();
+    EXPECT_EQ(errors.Get(), "");
+    EXPECT_EQ(OpenOrNonManifoldEdges(filter->GetOutput()), 0);
+    // The whole image, up to where the field falls to the background beyond the last voxels.
+    EXPECT_GT(FieldOf(filter->GetOutput(), "Volume"), 0.97 * std::pow(39.0, 3));
+    EXPECT_LT(FieldOf(filter->GetOutput(), "Volume"), std::pow(41.0, 3));
+  }
+}
+
+TEST(DeformableSurfaceStart, TakesAllThatThePyramidMakes)
+{
+  // The third axis is down to one voxel, and stays so, while the others still shrink.
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->DeepCopy(BallImage(70, 60, 12, 0.4));
+  for (const bool byNumber : { true, false })
+  {
+    vtkNew<vtkImagePyramid> pyramid;
+    pyramid->SetInputData(image);
+    pyramid->SetNumberOfLevels(byNumber ? 8 : 0);
+    pyramid->SetMinimumLevelSize(1);
+    pyramid->Update();
+    ASSERT_GE(pyramid->GetOutput()->GetNumberOfBlocks(), 8u);
+    const int* size = Level(pyramid->GetOutput(), 6)->GetDimensions();
+    ASSERT_EQ(size[2], 1);
+    ASSERT_EQ(Level(pyramid->GetOutput(), 5)->GetDimensions()[2], 1);
+    ASSERT_GT(size[0], 1);
+    vtkNew<vtkDeformableSurface> filter;
+    filter->SetInputConnection(pyramid->GetOutputPort());
+    filter->SetIsoValue(50.0);
+    const MessagesOf errors(filter);
+    filter->Update();
+    EXPECT_EQ(errors.Get(), "");
+    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 50);
+    EXPECT_FALSE(filter->GetLevels()->GetBlock(1)) << "too small for a surface: 6 voxels";
+  }
+}
+
 TEST(DeformableSurfaceStart, WarnsOfWhatStaysLostAndNamesTheLevel)
 {
   vtkNew<vtkDeformableSurface> filter;

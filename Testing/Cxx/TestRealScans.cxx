@@ -17,6 +17,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
 #include <vtkXMLImageDataReader.h>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,39 @@ std::string StopReason(vtkPolyData* surface)
 {
   return vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"))
     ->GetValue(0);
+}
+
+/// Every change of the Euler characteristic is explained, and all that was recovered is there.
+void ExpectExplainedHistory(vtkTable* history, vtkMultiBlockDataSet* levels)
+{
+  int before = 0;
+  int level = -1;
+  for (vtkIdType row = 0; row < history->GetNumberOfRows(); ++row)
+  {
+    const auto value = [&](const char* name) { return history->GetValueByName(row, name).ToInt(); };
+    const int edits =
+      value("Cuts") - value("Merges") - value("Deletions") + value("DeletedGenus");
+    EXPECT_EQ(value("EulerCharacteristic"), before + value("AddedEulerCharacteristic") + 2 * edits)
+      << "row " << row;
+    before = value("RegularisedEulerCharacteristic");
+    EXPECT_EQ(before,
+      value("EulerCharacteristic") +
+        2 * (value("RegularisationCuts") - value("RegularisationDeletions")))
+      << "row " << row;
+    if (value("Level") == level)
+    {
+      EXPECT_EQ(value("AddedEulerCharacteristic"), 0) << "row " << row;
+    }
+    level = value("Level");
+    const bool isLast = row + 1 == history->GetNumberOfRows() ||
+      history->GetValueByName(row + 1, "Level").ToInt() != level;
+    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(static_cast<unsigned int>(level)));
+    if (isLast)
+    {
+      EXPECT_EQ(before, FieldOf(surface, "EulerCharacteristic")) << "level " << level;
+      EXPECT_EQ(value("RegularisedVertices"), surface->GetNumberOfPoints()) << "level " << level;
+    }
+  }
 }
 
 class RealScans : public ::testing::TestWithParam<Scan>
@@ -99,6 +133,8 @@ TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
     EXPECT_GT(shapes.Quantile01, 0.75);
     EXPECT_GT(shapes.Least, 0.4);
   }
+
+  ExpectExplainedHistory(filter->GetHistory(), levels);
 
   vtkPolyData* finest = filter->GetOutput();
   EXPECT_EQ(FieldOf(finest, "Level"), 0);

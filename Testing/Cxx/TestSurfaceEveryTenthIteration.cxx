@@ -95,8 +95,14 @@ int EvolveUnderWatch(const Scene& scene, int coarsest, const SurfaceOptions& giv
   witness.Evolution = &evolution;
   for (int h = coarsest; h >= 0; --h)
   {
-    h == coarsest ? evolution.StartEnclosing(levels.Image(h), h)
-                  : evolution.Divide(levels.Image(h), h);
+    if (h == coarsest)
+    {
+      evolution.StartEnclosing(levels.Image(h), h);
+    }
+    else
+    {
+      evolution.Divide(levels.Image(h), h);
+    }
     evolution.Run();
   }
   return witness.Looks;

@@ -8,6 +8,7 @@
 
 #include <numeric>
 #include <random>
+#include <string>
 
 using namespace volumic;
 
@@ -89,6 +90,29 @@ TEST(SurfacePolish, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
     EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
     EXPECT_FALSE(state.Touched.empty());
   }
+}
+
+TEST(SurfacePolish, StopsWhenAskedTo)
+{
+  SequentialExecutor executor;
+  int questions = 0;
+  SurfaceState whole = MakeState(ShakenSphere(1));
+  SurfacePolish(whole, nullptr, false, executor, [&](double) { return ++questions > 0; }).Run();
+  ASSERT_GT(questions, 6);
+  int edited = 0;
+  for (int last = 1; last <= questions; last += 3)
+  {
+    SCOPED_TRACE("question " + std::to_string(last));
+    SurfaceState state = MakeState(ShakenSphere(1));
+    int asked = 0;
+    SurfacePolish(state, nullptr, false, executor, [&](double) { return ++asked < last; }).Run();
+    EXPECT_EQ(asked, last) << "not asked again";
+    EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
+    EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
+    EXPECT_TRUE(last > 1 || state.Touched.empty()) << "nothing done yet";
+    edited += !state.Touched.empty();
+  }
+  EXPECT_GT(edited, 0) << "what was done before stays done";
 }
 
 TEST(SurfacePolish, PushesStrangersApart)

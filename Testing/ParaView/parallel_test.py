@@ -33,6 +33,15 @@ class ParallelTest(unittest.TestCase):
         self.assertEqual(information.GetNumberOfPoints(), 21**3 + 12**3)
         self.assertEqual(information.GetBounds(), (-10, 10) * 3)
 
+    def test_the_image_is_asked_for_once(self):
+        for make in (simple.ImagePyramid, simple.DeformableSurface, simple.VolumetoSurface):
+            with self.subTest(make.__name__):
+                wavelet = simple.Wavelet()
+                make(wavelet).UpdatePipeline()
+                # The sum over the processes.
+                points = wavelet.GetDataInformation().GetNumberOfPoints()
+                self.assertEqual(points, 21**3)
+
     def check_one_whole_surface(self, source, make=None, **properties):
         source.UpdatePipeline()
         filter_ = (make or simple.DeformableSurface)(source, **properties)

@@ -192,7 +192,8 @@ class VolumeToSurfaceTest(unittest.TestCase):
         reports = []
 
         def stop_after_the_tenth(*_):
-            reports.append(algorithm.GetProgressText())
+            if "iteration" in algorithm.GetProgressText():
+                reports.append(algorithm.GetProgressText())
             if len(reports) == 10:
                 abort(algorithm)
         tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)

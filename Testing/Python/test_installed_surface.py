@@ -22,7 +22,10 @@ SIZE, RADIUS, ISO = 32, 9.0, 100.5
 HISTORY_COLUMNS = (
     "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds", "TimeStep",
     "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips", "EulerCharacteristic",
-    "Components", "RecoveredParts")
+    "Components", "RecoveredParts", "Deletions", "DeletedGenus", "AddedEulerCharacteristic",
+    "RegularisedVertices", "RegularisedMeanEdgeLength", "RegularisedEulerCharacteristic",
+    "RegularisedComponents", "RegularisationCuts", "RegularisationDeletions", "SecondsBefore",
+    "SecondsAfter")
 
 
 def ball(bright=200, dark=0, centre=(SIZE - 1) / 2):
@@ -132,7 +135,7 @@ class OutputsTest(SurfaceTest):
         self.assertEqual(history.GetNumberOfRows(), rows)
 
     def test_history_ends_with_edges_of_legal_length(self):
-        lengths = self.run_once.GetHistory().GetColumnByName("MeanEdgeLength")
+        lengths = self.run_once.GetHistory().GetColumnByName("RegularisedMeanEdgeLength")
         mean = lengths.GetTuple1(lengths.GetNumberOfTuples() - 1)
         delta = field(self.run_once.GetOutput(), "Delta")
         self.assertGreater(mean, delta)

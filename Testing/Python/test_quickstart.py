@@ -83,6 +83,9 @@ class QuickstartTest(unittest.TestCase):
         for level in report["levels"]:
             self.assertGreater(level["seconds"], 0)
             self.assertGreater(level["iterations"], 0)
+        # All of the run but the look at its inputs and the handing over: no threshold of time.
+        seconds = sum(level["seconds"] for level in report["levels"])
+        self.assertLessEqual(seconds, report["seconds"]["surface"])
         self.assertEqual(report["warnings"], [])
 
     def test_the_history_has_a_line_per_iteration(self):
@@ -91,6 +94,12 @@ class QuickstartTest(unittest.TestCase):
         with open(self.path("report.json"), encoding="utf-8") as file:
             iterations = sum(level["iterations"] for level in json.load(file)["levels"])
         self.assertEqual(len(rows), iterations)
+        with open(self.path("report.json"), encoding="utf-8") as file:
+            for level in json.load(file)["levels"]:
+                own = [row for row in rows if int(row["Level"]) == level["level"]]
+                seconds = sum(float(row[name]) for row in own
+                              for name in ("SecondsBefore", "Seconds", "SecondsAfter"))
+                self.assertAlmostEqual(seconds / level["seconds"], 1, 3)
         for name in ("Level", "KineticEnergy", "Seconds"):
             self.assertTrue(all(float(row[name]) >= 0 for row in rows), name)
         for name in ("Iteration", "Vertices", "MeanEdgeLength"):

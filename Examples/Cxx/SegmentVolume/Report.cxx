@@ -13,7 +13,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-#include <vtkTable.h>
 #include <vtkVersion.h>
 
 #include <algorithm>
@@ -90,27 +89,15 @@ void WriteComponents(JsonWriter& json, vtkPolyData* surface)
   json.EndArray();
 }
 
-/// The seconds of the iterations at a level.
-double LevelSeconds(vtkTable* history, double level)
-{
-  auto* levels = vtkDataArray::SafeDownCast(history->GetColumnByName("Level"));
-  auto* seconds = vtkDataArray::SafeDownCast(history->GetColumnByName("Seconds"));
-  double sum = 0.0;
-  for (vtkIdType row = 0; levels && seconds && row < history->GetNumberOfRows(); ++row)
-  {
-    sum += levels->GetComponent(row, 0) == level ? seconds->GetComponent(row, 0) : 0.0;
-  }
-  return sum;
-}
-
-/// From the coarsest level to the finest.
-void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* history)
+/// The visited levels from the coarsest to the finest; the surface may have vanished at one. Their
+/// seconds add up to those of the run.
+void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels)
 {
   std::map<double, vtkPolyData*, std::greater<double>> surfaces;
   for (unsigned int block = 0; block < levels->GetNumberOfBlocks(); ++block)
   {
     auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(block));
-    if (surface && surface->GetNumberOfPoints() > 0)
+    if (surface)
     {
       // The last block may be level -1.
       surfaces[surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0)] = surface;
@@ -122,7 +109,7 @@ void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* histo
   {
     json.BeginObject();
     WriteSurfaceFacts(json, surface);
-    json.Member("seconds", LevelSeconds(history, level));
+    json.Member("seconds", surface->GetFieldData()->GetArray("Seconds")->GetComponent(0, 0));
     json.EndObject();
   }
   json.EndArray();
@@ -158,7 +145,7 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   json.Member("finished", input.IsFinished);
   WriteSurfaceFacts(json, surface);
   WriteComponents(json, surface);
-  WriteLevels(json, filter->GetLevels(), filter->GetHistory());
+  WriteLevels(json, filter->GetLevels());
   json.Name("seconds");
   json.BeginObject();
   json.Member("pyramid", input.PyramidSeconds);

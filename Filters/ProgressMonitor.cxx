@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ProgressMonitor.h"
+
+#include "Core/Refuse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+std::string TextOf(const Monitor::Status& status)
+{
+  switch (status.Doing)
+  {
+    case Monitor::Activity::Starting:
+      return "start";
+    case Monitor::Activity::Dividing:
+      return "division";
+    case Monitor::Activity::Recovering:
+      return "search for lost parts";
+    case Monitor::Activity::Iterating:
+      return Join("iteration ", status.Iteration);
+    default:
+      return "regularisation";
+  }
+}
+}
+
+ProgressMonitor::ProgressMonitor(Tell tell, int coarsest, int finest)
+  : Host(std::move(tell)), Coarsest(coarsest), Finest(finest)
+{
+}
+
+bool ProgressMonitor::Continue(const Status& status)
+{
+  this->AfterIteration(status);
+  return this->GoOn(status);
+}
+
+bool ProgressMonitor::GoOn(const Status& status)
+{
+  return this->Report(status.Level, status.Fraction,
+    Join("Level ", status.Level, ", ", TextOf(status), ", ", status.Vertices, " vertices"));
+}
+
+bool ProgressMonitor::LoadLevel(int level)
+{
+  return this->Report(level, 0.0, Join("Level ", level, ", voxels"));
+}
+
+bool ProgressMonitor::Report(int level, double fraction, const std::string& text)
+{
+  double before = 0.0;
+  double total = 0.0;
+  for (int other = this->Coarsest; other >= this->Finest; --other)
+  {
+    const double weight = std::pow(3.0, this->Coarsest - other);
+    before += other > level ? weight : 0.0;
+    total += weight;
+  }
+  const double own = std::pow(3.0, this->Coarsest - level);
+  const double share = (before + own * std::clamp(fraction, 0.0, 1.0)) / total;
+  this->Stopped = this->Stopped || !this->Host(share, text);
+  return !this->Stopped;
+}
+}

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ProgressMonitor_h
+#define ProgressMonitor_h
+
+#include "Core/Monitor.h"
+
+#include <functional>
+#include <string>
+
+namespace volumic
+{
+/**
+ * Tells the host of the work on the levels, as a share of the whole that never becomes less, and
+ * the core whether the host has asked to stop. It is the one place that ends a run early.
+ */
+class ProgressMonitor final : public Monitor
+{
+public:
+  /// Share of the work that is done and what is being done; false asks to stop.
+  using Tell = std::function<bool(double share, const std::string& text)>;
+
+  /// From the level `coarsest` to the level `finest`. A level has about three times the vertices of
+  /// the one above, and takes so much more of the work.
+  ProgressMonitor(Tell tell, int coarsest, int finest);
+
+  /// May look at the surface.
+  std::function<void(const Status&)> AfterIteration = [](const Status&) {};
+
+  bool Continue(const Status& status) override;
+  bool GoOn(const Status& status) override;
+
+  /// Before the voxels of a level are made ready; false asks to stop.
+  bool LoadLevel(int level);
+
+  bool IsStopped() const { return this->Stopped; }
+
+private:
+  bool Report(int level, double fraction, const std::string& text);
+
+  Tell Host;
+  int Coarsest;
+  int Finest;
+  bool Stopped = false;
+};
+}
+
+#endif

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "LostParts.h"
+#include "SurfaceEvolution.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+
+using Activity = Monitor::Activity;
+
+/** Says stop at the n-th question of an activity, and keeps what it has heard. */
+class StopAt final : public Monitor
+{
+public:
+  StopAt() = default;
+  StopAt(int level, Activity doing, int question)
+    : Level(level)
+    , Doing(doing)
+    , Left(question)
+  {
+  }
+
+  bool Continue(const Status& status) override { return this->Hear(status); }
+  bool GoOn(const Status& status) override { return this->Hear(status); }
+
+  std::vector<double> Fractions; ///< Level by level, added to those before.
+  std::map<std::pair<int, Activity>, int> Questions;
+  bool HasStopped = false;
+  int QuestionsAfter = 0;
+
+private:
+  bool Hear(const Status& status)
+  {
+    this->QuestionsAfter += this->HasStopped;
+    ++this->Questions[{ status.Level, status.Doing }];
+    EXPECT_GE(status.Fraction, 0.);
+    EXPECT_LE(status.Fraction, 1.);
+    this->Fractions.push_back(10. - status.Level + status.Fraction);
+    this->HasStopped = this->HasStopped ||
+      (status.Level == this->Level && status.Doing == this->Doing && --this->Left == 0);
+    return !this->HasStopped;
+  }
+
+  int Level = -5;
+  Activity Doing = Activity::Starting;
+  int Left = 0;
+};
+
+SurfaceOptions Options()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  options.RecoverCavities = true;
+  return options;
+}
+
+/** A ball; the fine level shows another one and a bubble that the coarse one does not. */
+struct Scene
+{
+  TestVolume Coarse;
+  TestVolume Fine;
+
+  Scene()
+  {
+    const auto known = [](double x, double y, double z)
+    { return Distance(x, y, z, 13, 18, 18) - 10.; };
+    this->Fine = MakeVolume(36, [&](double x, double y, double z)
+      {
+        const double bubble = 4. - Distance(x, y, z, 13, 18, 18);
+        return Soft(
+          std::min(std::max(known(x, y, z), bubble), Distance(x, y, z, 30, 18, 18) - 2.6));
+      });
+    this->Coarse = MakeVolume(20, [&](double x, double y, double z)
+      { return Soft(known(1.8 * x, 1.8 * y, 1.8 * z)); });
+    this->Coarse.Image.Step = { 1.8, 1.8, 1.8 };
+    this->Coarse.Image.Unit = std::sqrt(3.);
+  }
+
+  /** As vtkDeformableSurface does it. @return how the last level ended. */
+  StopReason Run(SurfaceEvolution& evolution) const
+  {
+    evolution.StartEnclosing(this->Coarse.Image, 1);
+    const StopReason reason = evolution.Run();
+    if (reason == StopReason::Cancelled || !evolution.Divide(this->Fine.Image, 0))
+    {
+      return reason;
+    }
+    return evolution.Run();
+  }
+};
+
+void ExpectValid(const SurfaceEvolution& evolution)
+{
+  const SurfaceResult surface = evolution.Result();
+  EXPECT_FALSE(surface.Points.empty());
+  SurfaceMesh mesh;
+  mesh.Append(surface);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  EXPECT_EQ(CountSelfIntersections(surface), 0);
+}
+}
+
+TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
+{
+  const Scene scene;
+  StopAt silent;
+  SurfaceEvolution evolution(Options(), Threads, silent);
+  ASSERT_EQ(scene.Run(evolution), StopReason::Converged);
+  ASSERT_EQ(evolution.Lost().Enclosed, 1);
+  ASSERT_EQ(evolution.Lost().EnclosedCavities, 1);
+  EXPECT_TRUE(std::is_sorted(silent.Fractions.begin(), silent.Fractions.end()))
+    << "progress never goes back";
+  const auto questions = [&](int level, Activity doing)
+  {
+    const auto found = silent.Questions.find({ level, doing });
+    return found == silent.Questions.end() ? 0 : found->second;
+  };
+  EXPECT_GE(questions(1, Activity::Starting), 1);
+  EXPECT_GE(questions(0, Activity::Dividing), 1);
+  EXPECT_GE(questions(0, Activity::Recovering), 7) << "objects and cavities, and the end";
+  EXPECT_EQ(questions(0, Activity::Iterating), 2 * evolution.Iterations()) << "within and after";
+  EXPECT_GE(questions(0, Activity::Regularising), 15) << "passes and polish";
+
+  // Now stopped at each of these questions, but only at some of the many after iterations.
+  for (const auto& [where, count] : silent.Questions)
+  {
+    const bool isIterating = where.second == Activity::Iterating;
+    for (int question = 1; question <= count; question += isIterating ? 47 : 1)
+    {
+      SCOPED_TRACE("level " + std::to_string(where.first) + ", activity " +
+        std::to_string(static_cast<int>(where.second)) + ", question " +
+        std::to_string(question));
+      StopAt monitor(where.first, where.second, question);
+      SurfaceEvolution stopped(Options(), Threads, monitor);
+      const StopReason reason = scene.Run(stopped);
+      ASSERT_TRUE(monitor.HasStopped);
+      EXPECT_TRUE(stopped.IsStopped());
+      // Before anything of the fine level is done, the coarse one is at rest.
+      const bool isBetween =
+        where.first == 1 && where.second == Activity::Regularising && question == count;
+      EXPECT_EQ(reason, isBetween ? StopReason::Converged : StopReason::Cancelled);
+      EXPECT_EQ(monitor.QuestionsAfter, 0);
+      ExpectValid(stopped);
+    }
+  }
+}
+
+TEST(Cancelling, LeavesTheHistoryExplained)
+{
+  const Scene scene;
+  StopAt monitor(0, Activity::Regularising, 4);
+  SurfaceEvolution evolution(Options(), Threads, monitor);
+  ASSERT_EQ(scene.Run(evolution), StopReason::Cancelled);
+  const HistoryRow& last = evolution.History().back();
+  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
+  EXPECT_EQ(last.RegularisedVertices, static_cast<int>(evolution.Result().Points.size()));
+  EXPECT_EQ(last.RegularisedEulerCharacteristic, features.EulerCharacteristic);
+}
+
+TEST(Cancelling, EndsTheSearchForLostParts)
+{
+  const Scene scene;
+  const Field field(scene.Fine.Image, Options(), Threads);
+  SurfaceState state;
+  state.Mesh = MakeSphere({ 13, 18, 18 }, 10., 1.2);
+  state.Delta = 0.85f;
+  state.Reset(Vector(-2, -2, -2), Vector(38, 38, 38));
+  int questions = 0;
+  const auto count = [&questions](double) { return ++questions > 0; };
+  const LostPartCover all = FindLostParts(state, field, PartKind::Object, 20, Threads, count);
+  EXPECT_EQ(all.Found, 1);
+  EXPECT_FALSE(all.IsStopped);
+  ASSERT_GE(questions, 3);
+  for (int last = 1; last <= questions; ++last)
+  {
+    int asked = 0;
+    const auto stop = [&](double) { return ++asked < last; };
+    const LostPartCover none = FindLostParts(state, field, PartKind::Object, 20, Threads, stop);
+    EXPECT_TRUE(none.IsStopped);
+    EXPECT_EQ(none.Found, 0);
+    EXPECT_TRUE(none.Surface.Points.empty());
+    EXPECT_EQ(asked, last) << "not asked again";
+  }
+}

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "SurfaceEvolution.h"
+#include "SurfaceState.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+Monitor Silent;
+
+SurfaceOptions Half()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  return options;
+}
+
+/** A scene as two levels, both sampled. */
+struct TwoLevels
+{
+  static constexpr int FineSize = 40;
+  static constexpr int CoarseSize = 23;
+  TestVolume Fine;
+  TestVolume Coarse;
+
+  template <typename Fine, typename Coarse>
+  TwoLevels(const Fine& fine, const Coarse& coarse)
+  {
+    this->Fine = MakeVolume(
+      FineSize, [&](double x, double y, double z) { return Soft(fine(x, y, z)); });
+    const double step = static_cast<double>(FineSize) / CoarseSize;
+    this->Coarse = MakeVolume(CoarseSize, [&](double x, double y, double z)
+      { return Soft(coarse(x * step, y * step, z * step) / step); });
+    this->Coarse.Image.Step = { step, step, step };
+    this->Coarse.Image.Unit = std::sqrt(3.);
+  }
+};
+
+double Known(double x, double y, double z)
+{
+  // Two balls, so that there is a cut, and a ring whose hole opens.
+  const double first = Distance(x, y, z, 12, 12, 20) - 6.5;
+  const double second = Distance(x, y, z, 12, 29, 20) - 6.5;
+  const double q = Distance(x, y, 0, 28, 20, 0) - 6.;
+  return std::min({ first, second, std::sqrt(q * q + (z - 20) * (z - 20)) - 2.6 });
+}
+
+TwoLevels SceneWithLostBalls()
+{
+  const auto fine = [](double x, double y, double z)
+  {
+    return std::min({ Known(x, y, z), Distance(x, y, z, 20, 20, 5.5) - 2.6,
+      Distance(x, y, z, 20, 20, 34) - 2.6 });
+  };
+  return TwoLevels(fine, Known);
+}
+
+/** Every row is explained by its columns. */
+void ExpectExplained(const std::vector<HistoryRow>& rows)
+{
+  int before = 0;
+  for (const HistoryRow& row : rows)
+  {
+    SCOPED_TRACE("row " + std::to_string(row.Iteration));
+    EXPECT_EQ(row.EulerCharacteristic,
+      before + row.AddedEulerCharacteristic +
+        2 * (row.Cuts - row.Merges - row.Deletions + row.DeletedGenus));
+    EXPECT_EQ(row.RegularisedEulerCharacteristic,
+      row.EulerCharacteristic + 2 * (row.RegularisationCuts - row.RegularisationDeletions));
+    const bool isFirstOfLevel = row.Iteration == 1 || rows[row.Iteration - 2].Level != row.Level;
+    if (!isFirstOfLevel)
+    {
+      EXPECT_EQ(row.AddedEulerCharacteristic, 0) << "nothing is added within a level";
+      EXPECT_EQ(row.Recovered, 0);
+    }
+    before = row.RegularisedEulerCharacteristic;
+  }
+}
+}
+
+TEST(EvolutionHistory, ExplainsTheEulerCharacteristicRowByRow)
+{
+  const TwoLevels scene = SceneWithLostBalls();
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  evolution.Run();
+  const std::size_t coarseRows = evolution.History().size();
+  evolution.Divide(scene.Fine.Image, 0);
+  evolution.Run();
+  const std::vector<HistoryRow>& rows = evolution.History();
+  ExpectExplained(rows);
+  EXPECT_EQ(rows.front().AddedEulerCharacteristic, 2) << "one body about the image";
+  ASSERT_GT(rows.size(), coarseRows);
+  EXPECT_EQ(rows[coarseRows].Recovered, 2);
+  EXPECT_EQ(rows[coarseRows].AddedEulerCharacteristic, 4) << "two balls about the lost ones";
+  int cuts = 0;
+  for (const HistoryRow& row : rows)
+  {
+    cuts += row.Cuts + row.RegularisationCuts;
+  }
+  EXPECT_GE(cuts, 2) << "otherwise this test would show little";
+  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
+  EXPECT_EQ(rows.back().RegularisedEulerCharacteristic, features.EulerCharacteristic);
+  EXPECT_EQ(rows.back().RegularisedComponents, static_cast<int>(features.Components.size()));
+}
+
+TEST(EvolutionHistory, TellsOfDeletedComponents)
+{
+  // Seeds in specks too small for them shrink to nothing.
+  const TestVolume volume = MakeVolume(40,
+    [](double x, double y, double z)
+    {
+      return Soft(std::min({ Distance(x, y, z, 20, 20, 20) - 8., Distance(x, y, z, 6, 6, 6) - 1.,
+        Distance(x, y, z, 33, 33, 33) - 1. }));
+    });
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  ASSERT_EQ(evolution.StartSeeds(
+              volume.Image, 0, { { 20, 20, 20 }, { 6, 6, 6 }, { 33, 33, 33 } }),
+    3);
+  evolution.Run();
+  ExpectExplained(evolution.History());
+  int deletions = 0;
+  for (const HistoryRow& row : evolution.History())
+  {
+    deletions += row.Deletions;
+    EXPECT_EQ(row.DeletedGenus, 0);
+  }
+  EXPECT_EQ(deletions, 2);
+  EXPECT_EQ(evolution.History().front().AddedEulerCharacteristic, 6);
+  EXPECT_EQ(evolution.History().back().Components, 1);
+}
+
+TEST(EvolutionHistory, CountsTheHandlesOfADeletedComponent)
+{
+  SurfaceState state;
+  state.Mesh.Append(MakeTorus({ 0, 0, 0 }, 8, 3, 24, 10));
+  state.Mesh.Append(Icosahedron({ 20, 0, 0 }, 2.));
+  state.Reset(Vector(-30, -30, -30), Vector(30, 30, 30));
+  ASSERT_EQ(state.EulerCharacteristic, 2);
+  state.RemoveComponent(0);
+  EXPECT_EQ(state.Counts.Removed, 1);
+  EXPECT_EQ(state.Counts.RemovedGenus, 1);
+  EXPECT_EQ(state.EulerCharacteristic, 2);
+  state.RemoveComponent(240);
+  EXPECT_EQ(state.Counts.Removed, 2);
+  EXPECT_EQ(state.Counts.RemovedGenus, 1);
+  EXPECT_EQ(state.EulerCharacteristic, 0);
+}
+
+TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisationMadeOfIt)
+{
+  /** Keeps what the surface was after the last iteration. */
+  class Last final : public Monitor
+  {
+  public:
+    const SurfaceEvolution* Evolution = nullptr;
+    std::size_t Vertices = 0;
+    bool Continue(const Status&) override
+    {
+      this->Vertices = this->Evolution->Result().Points.size();
+      return true;
+    }
+  };
+  const TwoLevels scene = SceneWithLostBalls();
+  Last last;
+  SurfaceEvolution evolution(Half(), Threads, last);
+  last.Evolution = &evolution;
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  evolution.Run();
+  const HistoryRow row = evolution.History().back();
+  const std::size_t regularised = evolution.Result().Points.size();
+  ASSERT_NE(last.Vertices, regularised) << "otherwise this test would show nothing";
+  EXPECT_EQ(row.Vertices, static_cast<int>(last.Vertices));
+  EXPECT_EQ(row.RegularisedVertices, static_cast<int>(regularised));
+  EXPECT_NE(row.MeanEdgeLength, row.RegularisedMeanEdgeLength);
+  const HistoryRow& other = evolution.History()[evolution.History().size() - 2];
+  EXPECT_EQ(other.Vertices, other.RegularisedVertices);
+  EXPECT_EQ(other.MeanEdgeLength, other.RegularisedMeanEdgeLength);
+}
+
+TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
+{
+  const TwoLevels scene = SceneWithLostBalls();
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  using std::chrono::steady_clock;
+  const auto start = steady_clock::now() - std::chrono::seconds(1000);
+  evolution.StartClock(start);
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  evolution.Run();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20)); // as for making the outputs
+  const double coarse = evolution.EndLevel();
+  evolution.Divide(scene.Fine.Image, 0);
+  evolution.Run();
+  const double fine = evolution.EndLevel();
+  const double all = std::chrono::duration<double>(steady_clock::now() - start).count();
+  double sums[2] = { 0., 0. };
+  for (const HistoryRow& row : evolution.History())
+  {
+    EXPECT_GE(row.SecondsBefore, 0.);
+    EXPECT_GT(row.Seconds, 0.);
+    sums[row.Level] += row.SecondsBefore + row.Seconds + row.SecondsAfter;
+  }
+  EXPECT_NEAR(sums[1], coarse, 1e-9 * coarse);
+  EXPECT_NEAR(sums[0], fine, 1e-9 * fine);
+  EXPECT_GE(coarse, 1000.) << "what came before counts to the first level";
+  EXPECT_GE(evolution.History().front().SecondsBefore, 1000.);
+  EXPECT_LE(coarse + fine, all);
+  EXPECT_EQ(evolution.History()[1].SecondsAfter, 0.) << "only after the last of a level";
+  EXPECT_GT(evolution.History().back().SecondsAfter, 0.);
+}

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "SurfaceEvolution.h"
+#include "ThickPart.h"
+#include "VoxelNumbers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+constexpr std::array<int, 3> Size = { 12, 11, 10 };
+
+std::vector<std::uint8_t> Marks(const std::function<bool(int, int, int)>& isObject)
+{
+  std::vector<std::uint8_t> marks;
+  const VoxelNumbers numbers(Size);
+  for (std::int64_t voxel = 0; voxel < numbers.Count(); ++voxel)
+  {
+    const std::array<int, 3> place = numbers.PlaceOf(voxel);
+    marks.push_back(isObject(place[0], place[1], place[2]));
+  }
+  return marks;
+}
+
+bool IsIn(int x, int low, int high)
+{
+  return x >= low && x <= high;
+}
+}
+
+TEST(ThickPart, CountsTheVoxelsOfCubes)
+{
+  const auto rod = Marks([](int i, int j, int k)
+    { return IsIn(i, 1, 9) && IsIn(j, 3, 4) && IsIn(k, 5, 6); });
+  EXPECT_TRUE(HasThickPart(rod, Size, 36));
+  EXPECT_FALSE(HasThickPart(rod, Size, 37));
+}
+
+TEST(ThickPart, LeavesOutWhatIsThin)
+{
+  const auto plate = Marks([](int i, int, int) { return i == 6; });
+  EXPECT_FALSE(HasThickPart(plate, Size, 1));
+  // A cube with a long wire.
+  const auto wire = Marks([](int i, int j, int k)
+    { return (IsIn(i, 0, 1) && IsIn(j, 0, 1) && IsIn(k, 0, 1)) || (j == 0 && k == 0); });
+  EXPECT_TRUE(HasThickPart(wire, Size, 8));
+  EXPECT_FALSE(HasThickPart(wire, Size, 9));
+}
+
+TEST(ThickPart, DoesNotAddUpParts)
+{
+  // Two of 16 voxels; they touch at the corner of the box.
+  const auto parts = Marks([](int i, int j, int k)
+    {
+      return IsIn(j, 2, 3) && IsIn(k, 2, 3) && (IsIn(i, 0, 3) || IsIn(i, 6, 9));
+    });
+  EXPECT_TRUE(HasThickPart(parts, Size, 16));
+  EXPECT_FALSE(HasThickPart(parts, Size, 17));
+}
+
+TEST(ThickPart, EndsAtTheBorderOfTheImage)
+{
+  // Rows do not go on in the next one.
+  const auto ends = Marks([](int i, int j, int k)
+    { return (i >= 10 && j <= 1 && k <= 1) || (i <= 1 && IsIn(j, 1, 2) && k <= 1); });
+  EXPECT_TRUE(HasThickPart(ends, Size, 8));
+  EXPECT_FALSE(HasThickPart(ends, Size, 9));
+}
+
+TEST(ThickPart, OfEnoughVoxelsHoldsASurfaceThatShrinksOntoIt)
+{
+  SequentialExecutor threads;
+  Monitor silent;
+  int held = 0;
+  for (int n = 0; n < 12; ++n)
+  {
+    // The least balls that do, at other places between the voxels each time.
+    const double x = 8 + 0.31 * n - std::floor(0.31 * n);
+    const double y = 8 + 0.57 * n - std::floor(0.57 * n);
+    for (double radius = 1.2; radius < 3.0; radius += 0.05)
+    {
+      const TestVolume volume = MakeVolume(17, [=](double a, double b, double c)
+        { return Soft(Distance(a, b, c, x, y, 8.2) - radius); });
+      std::vector<std::uint8_t> marks;
+      for (float value : volume.Values)
+      {
+        marks.push_back(value > 0.5f);
+      }
+      if (HasThickPart(marks, volume.Image.Size, VoxelsThatHold))
+      {
+        SurfaceOptions options;
+        options.IsoValue = 0.5;
+        SurfaceEvolution evolution(options, threads, silent);
+        evolution.StartEnclosing(volume.Image, 0);
+        EXPECT_NE(evolution.Run(), StopReason::Vanished) << "radius " << radius;
+        ++held;
+        break;
+      }
+    }
+  }
+  EXPECT_EQ(held, 12);
+}
