@@ -22,8 +22,7 @@ namespace volumic
  * @throws std::invalid_argument with the pyramid's message.
  */
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection,
-  const Checkpoint& goOn);
+  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn);
 }
 
 #endif

@@ -71,8 +71,7 @@ struct StopAtText
   int Left;
   int After = 0; ///< Progress events after the request.
 
-  StopAtText(vtkAlgorithm* algorithm, const std::string& part, int left)
-    : Part(part), Left(left)
+  StopAtText(vtkAlgorithm* algorithm, const std::string& part, int left) : Part(part), Left(left)
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback(
@@ -194,8 +193,7 @@ TEST(DeformableSurfaceProgress, CancellingEndsThePyramidOfTheMapOfEdges)
   filter->SetInputConnection(pyramid->GetOutputPort());
   filter->SetIsoValue(50.0);
   filter->SetEdgeAttractionWeight(1.0);
-  filter->SetInputArrayToProcess(
-    1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
   const StopAtText stop(filter, "Pyramid of the map of edges", 1);
   const MessagesOf errors(filter);
   filter->Update();
