@@ -32,8 +32,7 @@ EdgeLengthPlan PlanEdgeLength(
  *         user's fault (memory).
  */
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection,
-  const Checkpoint& goOn);
+  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn);
 }
 
 #endif

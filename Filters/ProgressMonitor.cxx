@@ -49,7 +49,10 @@ bool ProgressMonitor::GoOn(const Status& status)
 
 bool ProgressMonitor::LoadLevel(int level)
 {
-  return this->Report(level, 0.0, Join("Level ", level, ", voxels"));
+  // Who stops at the name of a level expects to get the surface of that level.
+  return this->Report(level, 0.0,
+    level == this->Coarsest ? Join("Level ", level, ", voxels")
+                            : Join("Level ", level + 1, " is done"));
 }
 
 bool ProgressMonitor::Report(int level, double fraction, const std::string& text)

@@ -56,6 +56,7 @@ struct SurfaceEvolution::Implementation
   std::chrono::steady_clock::time_point Booked = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< What has been booked since the last level.
   bool Stopped = false;     ///< By the monitor.
+  EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
   int Shrunk = 0;    ///< Collapses since components were labelled last.
   int Unchecked = 0; ///< Cuts since components were last checked for being inside out.
 

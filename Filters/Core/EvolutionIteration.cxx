@@ -297,6 +297,8 @@ void SurfaceEvolution::Implementation::Iterate(
   }
   watch.Lap(Phase::Topology);
   this->FillRow(row);
+  this->SinceEvolved.Cuts += s.Counts.Cuts;
+  this->SinceEvolved.Removed += s.Counts.Removed;
   watch.Stop();
 }
 

@@ -154,6 +154,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
       this->Preparing = 0.;
     }
     this->Rows.push_back(row);
+    this->SinceEvolved = EditCounts();
     ++this->LastIterations;
     if (!this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.))
     {
@@ -236,7 +237,6 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   Remesher remesher(s, this->TheField.get(), false);
   std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
   HistoryRow row;
-  EditCounts counts;
   this->WakeAll();
   for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0 &&
        this->GoOn(Monitor::Activity::Regularising, PassesShare * pass / RegularisationPasses);
@@ -248,8 +248,6 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     }
     std::fill(s.Quiet.begin(), s.Quiet.end(), std::uint8_t(1)); // An edit makes it 0 again.
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
-    counts.Cuts += s.Counts.Cuts;
-    counts.Removed += s.Counts.Removed;
   }
   s.Counts = EditCounts();
   this->RunPolish(row);
@@ -266,8 +264,8 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     last.RegularisedMeanEdgeLength = this->MeanEdgeLength();
     last.RegularisedEulerCharacteristic = s.EulerCharacteristic;
     last.RegularisedComponents = this->Watch.NumberOfComponents();
-    last.RegularisationCuts = counts.Cuts + s.Counts.Cuts;
-    last.RegularisationDeletions = counts.Removed + s.Counts.Removed;
+    last.RegularisationCuts = this->SinceEvolved.Cuts + s.Counts.Cuts;
+    last.RegularisationDeletions = this->SinceEvolved.Removed + s.Counts.Removed;
   }
 }
 

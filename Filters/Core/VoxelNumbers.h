@@ -16,8 +16,7 @@ class VoxelNumbers
 {
 public:
   constexpr explicit VoxelNumbers(const std::array<int, 3>& size)
-    : Size(size)
-    , Strides{ 1, size[0], static_cast<std::int64_t>(size[0]) * size[1] }
+    : Size(size), Strides{ 1, size[0], static_cast<std::int64_t>(size[0]) * size[1] }
   {
   }
 

@@ -25,12 +25,7 @@ class StopAt final : public Monitor
 {
 public:
   StopAt() = default;
-  StopAt(int level, Activity doing, int question)
-    : Level(level)
-    , Doing(doing)
-    , Left(question)
-  {
-  }
+  StopAt(int level, Activity doing, int question) : Level(level), Doing(doing), Left(question) {}
 
   bool Continue(const Status& status) override { return this->Hear(status); }
   bool GoOn(const Status& status) override { return this->Hear(status); }
@@ -76,14 +71,15 @@ struct Scene
   {
     const auto known = [](double x, double y, double z)
     { return Distance(x, y, z, 13, 18, 18) - 10.; };
-    this->Fine = MakeVolume(36, [&](double x, double y, double z)
+    this->Fine = MakeVolume(36,
+      [&](double x, double y, double z)
       {
         const double bubble = 4. - Distance(x, y, z, 13, 18, 18);
         return Soft(
           std::min(std::max(known(x, y, z), bubble), Distance(x, y, z, 30, 18, 18) - 2.6));
       });
-    this->Coarse = MakeVolume(20, [&](double x, double y, double z)
-      { return Soft(known(1.8 * x, 1.8 * y, 1.8 * z)); });
+    this->Coarse = MakeVolume(
+      20, [&](double x, double y, double z) { return Soft(known(1.8 * x, 1.8 * y, 1.8 * z)); });
     this->Coarse.Image.Step = { 1.8, 1.8, 1.8 };
     this->Coarse.Image.Unit = std::sqrt(3.);
   }
@@ -140,8 +136,7 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
     for (int question = 1; question <= count; question += isIterating ? 47 : 1)
     {
       SCOPED_TRACE("level " + std::to_string(where.first) + ", activity " +
-        std::to_string(static_cast<int>(where.second)) + ", question " +
-        std::to_string(question));
+        std::to_string(static_cast<int>(where.second)) + ", question " + std::to_string(question));
       StopAt monitor(where.first, where.second, question);
       SurfaceEvolution stopped(Options(), Threads, monitor);
       const StopReason reason = scene.Run(stopped);

@@ -168,8 +168,8 @@ TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
     EXPECT_EQ(value("EulerCharacteristic").ToInt(), FieldOf(left, "EulerCharacteristic"));
     vtkPolyData* regularised = isLast ? block : left;
     EXPECT_EQ(value("RegularisedVertices").ToInt(), regularised->GetNumberOfPoints());
-    EXPECT_EQ(value("RegularisedEulerCharacteristic").ToInt(),
-      FieldOf(regularised, "EulerCharacteristic"));
+    EXPECT_EQ(
+      value("RegularisedEulerCharacteristic").ToInt(), FieldOf(regularised, "EulerCharacteristic"));
     EXPECT_EQ(value("RegularisedComponents").ToInt(), FieldOf(regularised, "NumberOfComponents"));
     levels += isLast;
   }

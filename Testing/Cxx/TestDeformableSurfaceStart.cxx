@@ -188,8 +188,8 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
       }
     }
   }
-  for (int recovery : { vtkDeformableSurface::RecoverObjects,
-         vtkDeformableSurface::RecoverObjectsAndCavities })
+  for (int recovery :
+    { vtkDeformableSurface::RecoverObjects, vtkDeformableSurface::RecoverObjectsAndCavities })
   {
     SCOPED_TRACE(recovery);
     const bool wanted = recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
@@ -206,8 +206,8 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
       double cavities = 0;
       for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
       {
-        cavities += FieldOf(
-          vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredCavities");
+        cavities +=
+          FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredCavities");
       }
       EXPECT_EQ(cavities, 1);
       vtkDataArray* volumes = surface->GetFieldData()->GetArray("ComponentVolume");

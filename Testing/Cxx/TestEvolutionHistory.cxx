@@ -39,10 +39,11 @@ struct TwoLevels
   template <typename Fine, typename Coarse>
   TwoLevels(const Fine& fine, const Coarse& coarse)
   {
-    this->Fine = MakeVolume(
-      FineSize, [&](double x, double y, double z) { return Soft(fine(x, y, z)); });
+    this->Fine =
+      MakeVolume(FineSize, [&](double x, double y, double z) { return Soft(fine(x, y, z)); });
     const double step = static_cast<double>(FineSize) / CoarseSize;
-    this->Coarse = MakeVolume(CoarseSize, [&](double x, double y, double z)
+    this->Coarse = MakeVolume(CoarseSize,
+      [&](double x, double y, double z)
       { return Soft(coarse(x * step, y * step, z * step) / step); });
     this->Coarse.Image.Step = { step, step, step };
     this->Coarse.Image.Unit = std::sqrt(3.);
@@ -127,9 +128,8 @@ TEST(EvolutionHistory, TellsOfDeletedComponents)
         Distance(x, y, z, 33, 33, 33) - 1. }));
     });
   SurfaceEvolution evolution(Half(), Threads, Silent);
-  ASSERT_EQ(evolution.StartSeeds(
-              volume.Image, 0, { { 20, 20, 20 }, { 6, 6, 6 }, { 33, 33, 33 } }),
-    3);
+  ASSERT_EQ(
+    evolution.StartSeeds(volume.Image, 0, { { 20, 20, 20 }, { 6, 6, 6 }, { 33, 33, 33 } }), 3);
   evolution.Run();
   ExpectExplained(evolution.History());
   int deletions = 0;

@@ -38,8 +38,8 @@ bool IsIn(int x, int low, int high)
 
 TEST(ThickPart, CountsTheVoxelsOfCubes)
 {
-  const auto rod = Marks([](int i, int j, int k)
-    { return IsIn(i, 1, 9) && IsIn(j, 3, 4) && IsIn(k, 5, 6); });
+  const auto rod =
+    Marks([](int i, int j, int k) { return IsIn(i, 1, 9) && IsIn(j, 3, 4) && IsIn(k, 5, 6); });
   EXPECT_TRUE(HasThickPart(rod, Size, 36));
   EXPECT_FALSE(HasThickPart(rod, Size, 37));
 }
@@ -59,9 +59,7 @@ TEST(ThickPart, DoesNotAddUpParts)
 {
   // Two of 16 voxels; they touch at the corner of the box.
   const auto parts = Marks([](int i, int j, int k)
-    {
-      return IsIn(j, 2, 3) && IsIn(k, 2, 3) && (IsIn(i, 0, 3) || IsIn(i, 6, 9));
-    });
+    { return IsIn(j, 2, 3) && IsIn(k, 2, 3) && (IsIn(i, 0, 3) || IsIn(i, 6, 9)); });
   EXPECT_TRUE(HasThickPart(parts, Size, 16));
   EXPECT_FALSE(HasThickPart(parts, Size, 17));
 }
@@ -87,8 +85,8 @@ TEST(ThickPart, OfEnoughVoxelsHoldsASurfaceThatShrinksOntoIt)
     const double y = 8 + 0.57 * n - std::floor(0.57 * n);
     for (double radius = 1.2; radius < 3.0; radius += 0.05)
     {
-      const TestVolume volume = MakeVolume(17, [=](double a, double b, double c)
-        { return Soft(Distance(a, b, c, x, y, 8.2) - radius); });
+      const TestVolume volume = MakeVolume(17,
+        [=](double a, double b, double c) { return Soft(Distance(a, b, c, x, y, 8.2) - radius); });
       std::vector<std::uint8_t> marks;
       for (float value : volume.Values)
       {

@@ -20,9 +20,8 @@ TEST(VoxelNumbers, CountMoreThanAnIntDoes)
 
 TEST(VoxelNumbers, ComeBackToTheirPlaces)
 {
-  for (const std::array<int, 3>& size :
-    { std::array<int, 3>{ 1300, 1300, 1300 }, { 2048, 2048, 2048 }, { 3, 5, 7 },
-      { 65536, 65536, 2 }, { 1, 1, 70000 } })
+  for (const std::array<int, 3>& size : { std::array<int, 3>{ 1300, 1300, 1300 },
+         { 2048, 2048, 2048 }, { 3, 5, 7 }, { 65536, 65536, 2 }, { 1, 1, 70000 } })
   {
     const VoxelNumbers numbers(size);
     EXPECT_EQ(numbers.Of(0, 0, 0), 0);
