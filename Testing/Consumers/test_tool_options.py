@@ -7,6 +7,7 @@ import csv
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -204,6 +205,22 @@ class RunTest(ToolTestCase):
                 self.refused("bad.txt, line 2: (not three numbers|'.*' is not a number)",
                              self.ball_file(), self.path("a.stl"), "--seeds", self.path("bad.txt"))
 
+    def test_a_limit_of_memory_is_answered_in_words(self):
+        """Also with VTK's backend STDThread, which ends the program where it gets no thread."""
+        volume = self.ball_file()
+        environment = {**os.environ, "VTK_SMP_BACKEND_IN_USE": "STDThread",
+                       "VTK_SMP_MAX_THREADS": "4"}
+        ended = []
+        for megabytes in range(100, 180, 4):
+            limit = (megabytes << 20, megabytes << 20)
+            process = subprocess.run(
+                [PROGRAM, volume, "--iso", str(ISO), "--threads", "4", self.path("limit.stl")],
+                capture_output=True, text=True, timeout=120, check=False, env=environment,
+                preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, limit))
+            self.assertGreaterEqual(process.returncode, 0, f"{megabytes} MB: {process.stderr}")
+            ended.append(process.returncode)
+        self.assertTrue(set(ended) & {0, 1}, "the program never ran: other limits are needed")
+
     def test_attracting_points(self):
         """A point of weight 1 makes a ball of its radius part of the object."""
         point, radius = ORIGIN + SPACING * [20, 5, 13], 2.0
@@ -221,8 +238,8 @@ class RunTest(ToolTestCase):
         # A ball in the filter's workspace, where voxels are cubes of the shortest spacing.
         whole = 4 / 3 * np.pi * radius ** 3 * np.prod(SPACING / SPACING.min())
         self.assertTrue(0.8 < found["volume"] / whole < 1.1, found)
-        self.write_bytes("bad.txt", b"1 2 3 4 5 6\n1 2 3 4 5 6\n")
-        self.refused("bad.txt, line 2: not three to five", self.ball_file(), self.path("a.stl"),
+        self.write_bytes("bad.txt", b"1 2 3 4 5 6\n1 2 3\n")
+        self.refused("bad.txt, line 1: not three to five", self.ball_file(), self.path("a.stl"),
                      "--attracting-points", self.path("bad.txt"))
 
     def test_edges_as_an_array_or_a_file(self):
