@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <thread>
 
 namespace volumic
@@ -28,7 +29,8 @@ int LimitToProcessors(int numberOfThreads)
 std::string ChooseBackend(int numberOfThreads)
 {
   const std::string host = vtkSMPTools::GetBackend();
-  const bool isChosenByUser = std::getenv("VTK_SMP_BACKEND_IN_USE") != nullptr;
+  const char* chosen = std::getenv("VTK_SMP_BACKEND_IN_USE");
+  const bool isChosenByUser = chosen && std::string(chosen) == "Sequential";
   if (host == "Sequential" && !isChosenByUser && numberOfThreads != 1)
   {
     return StandardBackend;

@@ -25,7 +25,7 @@
  * Field data of every level: `Level` (int) and `Unit` (double, the U_h of the paper: the distance
  * that stands for one voxel at that level, world units). Field data of the whole: `StopReason`
  * (string), `complete` or, after AbortExecute, `cancelled`: then the levels that were finished are
- * there.
+ * there, and count as up to date; to run anew call Modified() before Update().
  *
  * @par Algorithm:
  * Equations 3 to 5 of the paper, with all places as there: voxel i of level h lies at i times the

@@ -170,15 +170,15 @@ void ComponentWatch::Label(SurfaceState& state, Executor& executor)
   }
   this->Components = static_cast<int>(this->Sizes.size());
   this->Smalls.clear();
-  for (int& size : this->Sizes)
+  for (int& place : this->Sizes)
   {
     // From here on: the place among the small ones, or -1.
-    const bool small = size <= SmallSize;
-    size = small ? static_cast<int>(this->Smalls.size()) : -1;
+    const bool small = place <= SmallSize;
+    place = small ? static_cast<int>(this->Smalls.size()) : -1;
     if (small)
     {
       this->Smalls.emplace_back();
-      this->Smalls.back().Label = static_cast<int>(&size - this->Sizes.data());
+      this->Smalls.back().Label = static_cast<int>(&place - this->Sizes.data());
     }
   }
   if (this->Smalls.empty())

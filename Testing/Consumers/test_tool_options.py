@@ -7,6 +7,7 @@ import csv
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -204,12 +205,21 @@ class RunTest(ToolTestCase):
         self.refused("bad.txt, line 3: not three numbers", self.ball_file(), self.path("a.stl"),
                      "--seeds", self.path("bad.txt"))
 
-    def test_a_first_line_of_seeds_that_is_no_header_is_not_dropped(self):
-        for first in (b"1O 2 3", b"1o,2o,3o", b"1 2", b"nan nan nan", b"-x 2 3"):
-            with self.subTest(first):
-                self.write_bytes("bad.txt", b"# seeds\n" + first + b"\n5 5 5\n")
-                self.refused("bad.txt, line 2: (not three numbers|'.*' is not a number)",
-                             self.ball_file(), self.path("a.stl"), "--seeds", self.path("bad.txt"))
+    def test_a_limit_of_memory_is_answered_in_words(self):
+        """Also with VTK's backend STDThread, which ends the program where it gets no thread."""
+        volume = self.ball_file()
+        environment = {**os.environ, "VTK_SMP_BACKEND_IN_USE": "STDThread",
+                       "VTK_SMP_MAX_THREADS": "4"}
+        ended = []
+        for megabytes in range(100, 180, 4):
+            limit = (megabytes << 20, megabytes << 20)
+            process = subprocess.run(
+                [PROGRAM, volume, "--iso", str(ISO), "--threads", "4", self.path("limit.stl")],
+                capture_output=True, text=True, timeout=120, check=False, env=environment,
+                preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, limit))
+            self.assertGreaterEqual(process.returncode, 0, f"{megabytes} MB: {process.stderr}")
+            ended.append(process.returncode)
+        self.assertTrue(set(ended) & {0, 1}, "the program never ran: other limits are needed")
 
     def test_attracting_points(self):
         """A point of weight 1 makes a ball of its radius part of the object."""

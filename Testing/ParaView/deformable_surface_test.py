@@ -246,6 +246,22 @@ class DeformableSurfaceTest(unittest.TestCase):
         filter_.IsoValue = 0.0
         self.check_ball(output(filter_), 0.2)
 
+    def test_an_error_leaves_no_old_surface_with_the_client(self):
+        filter_ = surface_of(self.ball, IsoValue=0.0)
+        for iso_value, is_good in ((0.0, True), (1000.0, False), (0.0, True)):
+            filter_.IsoValue = iso_value
+            with testing.CapturedMessages() as messages:
+                surface = output(filter_)
+                levels, history = output(filter_, LEVELS), output(filter_, HISTORY)
+            self.assertEqual("ERROR" in messages.text, not is_good, messages.text)
+            self.assertNotIn("vtkInformation", messages.text, "VTK's own report of the failure")
+            self.assertEqual(surface.GetNumberOfPoints() > 0, is_good)
+            self.assertEqual(levels.GetNumberOfBlocks() > 0, is_good)
+            self.assertEqual(history.GetNumberOfRows() > 0, is_good)
+            # What the client believes without fetching anything.
+            known = filter_.GetDataInformation(SURFACE).GetNumberOfPoints()
+            self.assertEqual(known > 0, is_good)
+
     def test_thread_counts_agree_to_the_bit(self):
         one, two = [output(surface_of(simple.Wavelet(), NumberOfThreads=n)) for n in (1, 2)]
         self.assertEqual(points(one).tobytes(), points(two).tobytes())

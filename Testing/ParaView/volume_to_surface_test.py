@@ -126,6 +126,16 @@ class VolumeToSurfaceTest(unittest.TestCase):
         filter_.SnapshotInterval = 0
         self.assertEqual(output(filter_, SNAPSHOTS).GetNumberOfBlocks(), 0)
 
+    def test_displays_where_people_write_a_comma(self):
+        """The numbers of the plugin's XML have points in every country."""
+        with testing.comma_locale() as found:
+            if not found:
+                self.skipTest("there is no locale with a comma, and localedef makes none")
+            view = simple.CreateView("RenderView")
+            display = simple.Show(simple.VolumetoSurface(self.ball), view)
+            numpy.testing.assert_allclose(display.DiffuseColor, (0.89, 0.85, 0.76))
+            self.assertAlmostEqual(display.Specular, 0.15)
+
     def test_displays(self):
         filter_ = simple.VolumetoSurface(self.ball)
         view = simple.CreateView("RenderView")

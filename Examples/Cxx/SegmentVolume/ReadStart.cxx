@@ -20,11 +20,9 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <utility>
 
 namespace tool
 {
@@ -86,21 +84,7 @@ struct PointList
   vtkNew<vtkDoubleArray> Radii;
 };
 
-/// Names of columns, such as `x y z`: words of letters, neither of which is a number.
-bool AreNames(const std::vector<std::string>& texts)
-{
-  const auto isName = [](std::string text)
-  {
-    std::transform(text.begin(), text.end(), text.begin(),
-      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool isSpecial = text == "nan" || text == "inf" || text == "infinity";
-    return !isSpecial && (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '"');
-  };
-  return std::all_of(texts.begin(), texts.end(), isName);
-}
-
-/// Lines of three numbers, or up to `columns`. Before the first of them may be one with the names
-/// of the columns.
+/// Lines of three numbers, or up to `columns`.
 void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
 {
   std::ifstream file(name);
@@ -109,7 +93,6 @@ void ReadPointLines(const std::string& name, std::size_t columns, PointList& lis
     throw Failure(name + ": cannot be opened");
   }
   std::string line;
-  bool mayBeNames = true;
   for (int number = 1; std::getline(file, line); ++number)
   {
     line.resize(std::min(line.find('#'), line.size()));
@@ -121,10 +104,6 @@ void ReadPointLines(const std::string& name, std::size_t columns, PointList& lis
       texts.push_back(word);
     }
     if (texts.empty())
-    {
-      continue;
-    }
-    if (std::exchange(mayBeNames, false) && AreNames(texts))
     {
       continue;
     }
@@ -142,7 +121,10 @@ void ReadPointLines(const std::string& name, std::size_t columns, PointList& lis
     }
     catch (const UsageError& error)
     {
-      throw Failure(name + ", line " + NumberText(number) + ": " + error.what());
+      if (number > 1)
+      {
+        throw Failure(name + ", line " + NumberText(number) + ": " + error.what());
+      }
     }
   }
 }

@@ -23,6 +23,7 @@
 #include <vtkOtsuThreshold.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
 #include <vtkTable.h>
 #include <vtkVersion.h>
 
@@ -299,6 +300,12 @@ ExitCode Run(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  // Under a limit of memory VTK's own threads of the standard library end the program; Volumic's
+  // don't.
+  if (vtkSMPTools::GetBackend() == std::string("STDThread"))
+  {
+    vtkSMPTools::SetBackend("Sequential");
+  }
   try
   {
     return Run(argc, argv);
