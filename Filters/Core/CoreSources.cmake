@@ -52,6 +52,7 @@ set(volumic_core_headers
   EvolutionImplementation.h
   Executor.h
   Field.h
+  ImageMargin.h
   InitialSurface.h
   LevelImage.h
   LevelReduction.h

@@ -47,17 +47,28 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   const float slope = std::max(Length(sample.Gradient), floor);
   float along = static_cast<float>(this->Options.IsopotentialWeight) *
     Clamp(sample.Value / (slope * ForceRange * state.Delta));
+  float beside = 0;
+  float most = 0;
   if (this->Options.GradientWeight > 0)
   {
     // Value has the sign of the object; the potential is the image itself.
     const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
-    along -= static_cast<float>(this->Options.GradientWeight) *
-      Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+    const float weight = static_cast<float>(this->Options.GradientWeight);
+    beside -=
+      weight * Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+    most += weight;
   }
   if (this->Edges)
   {
-    along += static_cast<float>(this->Options.EdgeAttractionWeight) *
-      this->Edges->Along(state.Mesh.Position[v], n);
+    const float weight = static_cast<float>(this->Options.EdgeAttractionWeight);
+    beside += weight * this->Edges->Along(state.Mesh.Position[v], n);
+    most += weight;
+  }
+  if (most > 0)
+  {
+    // They know of no background: beyond the margin of the image it takes over, as strong as they.
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    along += beside - share * (beside + most);
   }
   const Ring& ring = state.Mesh.Rings[v];
   Vector tension = state.Pull[v];
@@ -152,7 +163,8 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
         }
         if (this->Edges && this->Options.SnapToEdges)
         {
-          move += n * (longest * this->Edges->Along(state.Mesh.Position[v], n));
+          const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+          move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
         }
         const float length = Length(move);
         state.Velocity[v] = length > longest ? move * (longest / length) : move;
@@ -269,8 +281,7 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
           move *= longest / length;
         }
         state.Moved[v] = std::min(length, longest);
-        p += move;
-        p.Unused = 0;
+        p = state.Around.Confined(p, p + move);
       }
     });
   for (int v : awake)

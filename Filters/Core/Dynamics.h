@@ -33,6 +33,8 @@ namespace volumic
  *   surface over the flat parts.
  * - edges: EdgeAttractionWeight times EdgeAttraction::Along, if the image of the field has a map
  *   of edges.
+ * Beyond the margin of the image the last two give way to a pull back, against the normal, of their
+ * weights; no displacement leads further out than ImageMargin allows.
  */
 class Dynamics
 {
