@@ -344,7 +344,8 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
       ": the object is too thin for it. Set CoarsestLevel to a finer level."));
   }
-  return reason == StopReason::Converged || reason == StopReason::IterationLimit ||
+  return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
+    reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
 }
 

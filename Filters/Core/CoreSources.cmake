@@ -42,6 +42,7 @@ set(volumic_core_headers
   AxisOperator.h
   CellSurface.h
   ComponentWatch.h
+  CycleCriterion.h
   CycleCut.h
   Division.h
   Dynamics.h

@@ -70,6 +70,7 @@ public:
   double TimeStep() const { return this->Step; }
 
 private:
+  void SetPace();
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
   /**
    * Whether two vertices with a common neighbour lie across a hole, or a waist, that the image
@@ -83,6 +84,9 @@ private:
   const SurfaceOptions& Options;
   Executor& Threads;
   std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
+  float Drag = 0;       ///< Friction as it acts.
+  float Longest = 0;    ///< Time step, unless re-sampled.
+  float InnerShare = 1; ///< Of the internal forces that the time step can follow.
   float Step = 0;
   std::vector<Vector> Force;
   std::vector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.

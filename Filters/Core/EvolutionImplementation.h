@@ -4,6 +4,7 @@
 #define volumicEvolutionImplementation_h
 
 #include "ComponentWatch.h"
+#include "CycleCriterion.h"
 #include "Dynamics.h"
 #include "Field.h"
 #include "Proximity.h"
@@ -45,6 +46,7 @@ struct SurfaceEvolution::Implementation
   Proximity Recheck;
   ComponentWatch Watch;
   RestCriterion Rest;
+  CycleCriterion Cycle;
   std::vector<int> Awake;
   std::vector<int> Working;
   std::vector<int> Suspects;
@@ -52,7 +54,7 @@ struct SurfaceEvolution::Implementation
   std::vector<double> Partial;
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
   int Shrunk = 0;    ///< Collapses since components were labelled last.
-  int Unchecked = 0; ///< Cuts since components were last checked for being inside out.
+  int Unchecked = 0; ///< Cuts and deletions since components were last checked for being inside out.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
     : Options(options)
@@ -81,6 +83,7 @@ struct SurfaceEvolution::Implementation
   void FillRow(HistoryRow& row);
   double MeanEdgeLength();
   void FillCounts(HistoryRow& row) const;
+  void DeleteInsideOut();
   void Regularise(Dynamics& dynamics);
   StopReason Evolve();
   StopReason Run();

@@ -55,6 +55,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   SurfaceState& s = this->State;
   this->LastIterations = 0;
   this->Rest.Reset();
+  this->Cycle.Reset();
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   const bool evidence = this->Options.IsopotentialWeight > 0;
   Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
@@ -92,11 +93,17 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
     {
       const double volume = this->EnclosedVolume();
+      const double limit =
+        std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume));
       this->Rest.Add(volume);
-      if (this->Rest.IsMet(
-            std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume))))
+      this->Cycle.Add(volume);
+      if (this->Rest.IsMet(limit))
       {
         return StopReason::Converged;
+      }
+      if (this->Cycle.IsMet(limit))
+      {
+        return StopReason::LimitCycle;
       }
     }
   }
@@ -169,18 +176,26 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   }
 }
 
+void SurfaceEvolution::Implementation::DeleteInsideOut()
+{
+  if (this->Watch.DeleteInsideOut(this->State, this->Threads) && !this->Rows.empty())
+  {
+    this->FillCounts(this->Rows.back());
+  }
+  this->Unchecked = 0;
+}
+
 StopReason SurfaceEvolution::Implementation::Run()
 {
   const StopReason reason = this->Evolve();
-  if (reason == StopReason::Converged || reason == StopReason::IterationLimit)
+  this->DeleteInsideOut();
+  if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
-    Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-    this->Regularise(dynamics);
-    if (this->State.Mesh.NumberOfVertices() == 0)
-    {
-      return StopReason::Vanished;
-    }
+    return reason;
   }
-  return reason;
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  this->Regularise(dynamics);
+  this->DeleteInsideOut(); // The polish may have cut.
+  return this->State.Mesh.NumberOfVertices() > 0 ? reason : StopReason::Vanished;
 }
 }

@@ -18,12 +18,13 @@ namespace volumic
 enum class StopReason
 {
   Converged,
+  LimitCycle, ///< It goes to and fro without getting anywhere, see CycleCriterion.
   IterationLimit,
   Cancelled,
   Vanished ///< No component is left.
 };
 
-/** The words of the output's field data: converged, iteration limit, cancelled, vanished. */
+/** As in the output's field data: converged, limit cycle, iteration limit, cancelled, vanished. */
 const char* Describe(StopReason reason);
 
 /** Parts of an iteration, in the order of HistoryRow::PhaseSeconds. */
@@ -112,7 +113,10 @@ public:
    */
   void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface);
 
-  /** Evolve on the current level until rest, limit, cancel or nothing is left; then snap. */
+  /**
+   * Evolve on the current level until rest, cycle, limit, cancel or nothing is left; then snap.
+   * No component that is inside out is left behind, also where cancelled.
+   */
   StopReason Run();
 
   /** Global division down to delta of a finer level; lost parts are enclosed again. */
