@@ -33,9 +33,9 @@ struct Crossing
 };
 
 /**
- * Whether a ray along x passes to the right of an edge, seen along x. Ends count half, and both
- * faces of an edge get the same answer, so that a ray meets a closed surface an even number of times
- * on its whole line, even where it runs through edges and corners.
+ * Whether a ray along x passes to the right of an edge, seen along x. Of the two ends of an edge
+ * only one counts, and both its faces get the same answer, so that the line of a ray meets a closed
+ * surface an even number of times, even where it runs through edges and corners.
  */
 bool PassesRight(const VectorD& origin, const VectorD& p, const VectorD& q)
 {

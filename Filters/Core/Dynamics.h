@@ -33,8 +33,15 @@ namespace volumic
  *   surface over the flat parts.
  * - edges: EdgeAttractionWeight times EdgeAttraction::Along, if the image of the field has a map
  *   of edges.
- * Beyond the margin of the image the last two give way to a pull back, against the normal, of their
- * weights; no displacement leads further out than ImageMargin allows.
+ *
+ * Friction is Options.Friction per unit of time; where the weights of the outer forces (the last
+ * three) add up to s > 1 it is times sqrt(s), so that strong forces swing no more than weak ones: a
+ * common factor of all is another unit of time. Tension and elasticity that the time step cannot
+ * follow would swing themselves up: the step is shortened down to a quarter, then the two are
+ * weakened to what it can follow.
+ *
+ * Beyond the margin of the image gradient and edges give way to a pull back, against the normal, of
+ * their weights; no displacement leads further out than ImageMargin allows.
  */
 class Dynamics
 {

@@ -54,7 +54,7 @@ struct SurfaceEvolution::Implementation
   std::vector<double> Partial;
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
   int Shrunk = 0;    ///< Collapses since components were labelled last.
-  int Unchecked = 0; ///< Cuts and deletions since components were last checked for being inside out.
+  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
     : Options(options)
