@@ -48,11 +48,11 @@
  * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
  * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
- * `Area`, `Volume` (double), `StopReason` (string: `converged`; `limit cycle`: it gets nowhere though
- * it does not rest, as where it merges and cuts in turn, and is finished like one that rests;
+ * `Area`, `Volume` (double), `StopReason` (string: `converged`; `limit cycle`: it gets nowhere
+ * though it does not rest, as where it merges and cuts in turn; finished like one that rests;
  * `iteration limit`; `cancelled`; `vanished`), `ContactVertices` (int: those with `Contact`),
- * `RemainingContacts` (int: pairs of
- * vertices nearer than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
+ * `RemainingContacts` (int: pairs of vertices nearer than 2.5/sqrt(3) Delta and at least four edges
+ * apart), `LostParts`,
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
