@@ -375,7 +375,8 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
         ? "Set CoarsestLevel to a finer level."
         : "No level is finer: check IsoValue and ObjectIsBright, or resample the image."));
   }
-  return reason == StopReason::Converged || reason == StopReason::IterationLimit ||
+  return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
+    reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
 }
 

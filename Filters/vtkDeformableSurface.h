@@ -50,9 +50,11 @@
  * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
  * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
- * `Area`, `Volume` (double), `Seconds` (double, all that the level took), `StopReason` (string: `converged`, `iteration limit`, `cancelled`,
- * `vanished`), `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of
- * vertices nearer than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
+ * `Area`, `Volume` (double), `Seconds` (double, all that the level took), `StopReason` (string:
+ * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
+ * in turn; finished like one that rests; `iteration limit`; `cancelled`; `vanished`),
+ * `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of vertices nearer
+ * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
@@ -310,7 +312,8 @@ public:
 
   ///@{
   /**
-   * Weight of the springs along the edges, at least 0. Default: 0.1.
+   * Weight of the springs along the edges, at least 0. Default: 0.1. Springs and tension so strong,
+   * against the other forces, that the time steps cannot follow act as strongly as these can.
    */
   vtkSetMacro(ElasticityWeight, double);
   vtkGetMacro(ElasticityWeight, double);
@@ -367,7 +370,9 @@ public:
 
   ///@{
   /**
-   * Friction per unit of the simulated time, more than 0: little oscillates, much is slow.
+   * Friction per unit of the simulated time, more than 0: little oscillates, much is slow. Where
+   * the weights of isopotential, gradient and edges add up to more than 1 it acts times the square
+   * root of their sum, so that strong forces oscillate no more than weak ones.
    * Default: 3.
    */
   vtkSetMacro(Friction, double);
@@ -377,7 +382,11 @@ public:
   ///@{
   /**
    * What the field is outside the image. Background (default): away from the object, so that
-   * surfaces close at the border. Replicate: the nearest voxel.
+   * surfaces close at the border, within a voxel of it. Replicate: the nearest voxel as far as two
+   * units of the level beyond the outermost voxels (a voxel along axes where that is longer), and
+   * background from there on, so that surfaces close at most half a unit further out. With any
+   * setting, also of forces that know of no background, no vertex goes further out than three units
+   * (a voxel and one unit); what an initial surface has further out only comes nearer.
    */
   vtkSetMacro(BorderValue, int);
   vtkGetMacro(BorderValue, int);

@@ -72,7 +72,7 @@ def segment(volume, output, iso, properties):
         if surface.GetOutput().GetNumberOfPolys() == 0:
             raise
     write_surface(surface.GetOutput(), output)
-    finished = surface_facts(surface.GetOutput())["stop_reason"] == "converged"
+    finished = surface_facts(surface.GetOutput())["stop_reason"] in ("converged", "limit cycle")
     print(f"  {surface_line(surface.GetOutput())}")
     print(f"Written: {output}{'' if finished else ' (not finished)'}")
     return 0 if finished else INTERRUPTED

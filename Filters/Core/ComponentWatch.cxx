@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 namespace volumic
 {
@@ -16,7 +17,7 @@ constexpr int TinySize = 24;
 /** Up to this many they are nothing any more. */
 constexpr int NothingSize = 5;
 
-/** From a vertex of a component along x: how many faces of the other components it crosses. */
+/** From a vertex of a component along x. */
 struct Ray
 {
   int Vertex;
@@ -24,23 +25,46 @@ struct Ray
   bool IsCavity; ///< The component's volume is negative.
 };
 
-/** Whether the face crosses the ray, seen along x. */
-bool Crosses(const Ray& ray, const VectorD& a, const VectorD& b, const VectorD& c)
+/** A ray that a face of another component crosses. */
+struct Crossing
 {
-  const auto side = [&ray](const VectorD& p, const VectorD& q)
+  int Ray;
+  int Component;
+};
+
+/**
+ * Whether a ray along x passes to the right of an edge, seen along x. Of the two ends of an edge
+ * only one counts, and both its faces get the same answer, so that the line of a ray meets a closed
+ * surface an even number of times, even where it runs through edges and corners.
+ */
+bool PassesRight(const VectorD& origin, const VectorD& p, const VectorD& q)
+{
+  if ((p.Y > origin.Y) == (q.Y > origin.Y))
   {
-    return (q.Y - p.Y) * (ray.Origin.Z - p.Z) - (q.Z - p.Z) * (ray.Origin.Y - p.Y);
-  };
-  const double u = side(b, c);
-  const double v = side(c, a);
-  const double w = side(a, b);
-  const bool inside = (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
-  return inside && (u * a.X + v * b.X + w * c.X) / (u + v + w) > ray.Origin.X;
+    return false;
+  }
+  const VectorD& low = p.Y > origin.Y ? q : p;
+  const VectorD& high = p.Y > origin.Y ? p : q;
+  return (high.Y - low.Y) * (origin.Z - low.Z) < (high.Z - low.Z) * (origin.Y - low.Y);
 }
 
-/** Counts the faces that have v as their smallest vertex. `rays` is sorted by Y. */
-void CountCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int v,
-  const std::vector<Ray>& rays, std::vector<int>& crossings)
+/** Whether the face crosses the ray. */
+bool Crosses(const Ray& ray, const VectorD& a, const VectorD& b, const VectorD& c)
+{
+  const VectorD& o = ray.Origin;
+  if ((PassesRight(o, a, b) + PassesRight(o, b, c) + PassesRight(o, c, a)) % 2 == 0)
+  {
+    return false;
+  }
+  const VectorD normal = Cross(b - a, c - a);
+  // The height of the origin over the face, along x; a face along the ray has no inside.
+  const double height = Dot(normal, a - o);
+  return normal.X > 0 ? height > 0 : height < 0;
+}
+
+/** Finds the crossings with the faces that have v as their smallest vertex. `rays`: by Y. */
+void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int v,
+  const std::vector<Ray>& rays, std::vector<Crossing>& crossings)
 {
   const Ring& ring = mesh.Rings[v];
   for (int i = 0; i < ring.Count; ++i)
@@ -62,7 +86,7 @@ void CountCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int
     {
       if (labels[ray->Vertex] != labels[v] && Crosses(*ray, a, b, c))
       {
-        ++crossings[ray - rays.begin()];
+        crossings.push_back({ static_cast<int>(ray - rays.begin()), labels[v] });
       }
     }
   }
@@ -269,10 +293,6 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
 bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
   this->Label(state, executor);
-  if (this->Components < 2)
-  {
-    return false;
-  }
   const SurfaceMesh& mesh = state.Mesh;
   std::vector<double> volumes(this->Components, 0.);
   std::vector<int> first(this->Components, -1);
@@ -302,37 +322,63 @@ bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
   std::vector<Ray> rays;
   for (int label = 0; label < this->Components; ++label)
   {
-    // A little beside the vertex, so that no ray meets an edge of its own grid.
-    const VectorD beside(0., 1.3e-4 * state.Delta, 2.7e-4 * state.Delta);
-    rays.push_back({ first[label], VectorD(mesh.Position[first[label]]) + beside,
-      volumes[label] < 0. });
+    rays.push_back(
+      { first[label], VectorD(mesh.Position[first[label]]), volumes[label] < 0. });
   }
   std::sort(rays.begin(), rays.end(),
-    [](const Ray& a, const Ray& b) { return a.Origin.Y < b.Origin.Y; });
+    [](const Ray& a, const Ray& b)
+    { return a.Origin.Y != b.Origin.Y ? a.Origin.Y < b.Origin.Y : a.Vertex < b.Vertex; });
   constexpr std::size_t size = 8192;
-  std::vector<std::vector<int>> crossings((mesh.Rings.size() + size - 1) / size);
+  std::vector<std::vector<Crossing>> crossings((mesh.Rings.size() + size - 1) / size);
   ForBlocks(executor, mesh.Rings.size(), size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      crossings[b].assign(rays.size(), 0);
       for (std::size_t v = begin; v < end; ++v)
       {
         if (mesh.IsAlive(static_cast<int>(v)))
         {
-          CountCrossings(mesh, state.Component, static_cast<int>(v), rays, crossings[b]);
+          FindCrossings(mesh, state.Component, static_cast<int>(v), rays, crossings[b]);
         }
       }
     });
-  bool deleted = false;
-  for (std::size_t i = 0; i < rays.size(); ++i)
+  // Around a component are those that its ray crosses an odd number of times.
+  std::vector<std::vector<int>> around(rays.size());
+  for (const std::vector<Crossing>& block : crossings)
   {
-    int sum = 0;
-    for (const std::vector<int>& block : crossings)
+    for (const Crossing& crossing : block)
     {
-      sum += block[i];
+      around[crossing.Ray].push_back(crossing.Component);
     }
-    if ((sum % 2 == 1) != rays[i].IsCavity)
+  }
+  for (std::vector<int>& labels : around)
+  {
+    std::sort(labels.begin(), labels.end());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < labels.size();)
     {
+      if (i + 1 < labels.size() && labels[i] == labels[i + 1])
+      {
+        i += 2;
+        continue;
+      }
+      labels[kept++] = labels[i++];
+    }
+    labels.resize(kept);
+  }
+  // From outside in: what is deleted encloses nothing any more.
+  std::vector<int> order(rays.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&around](int a, int b) { return around[a].size() < around[b].size(); });
+  std::vector<char> isGone(rays.size(), 0); // By label.
+  bool deleted = false;
+  for (int i : order)
+  {
+    const auto depth = std::count_if(around[i].begin(), around[i].end(),
+      [&isGone](int label) { return !isGone[label]; });
+    if ((depth % 2 == 1) != rays[i].IsCavity)
+    {
+      isGone[state.Component[rays[i].Vertex]] = 1;
       state.RemoveComponent(rays[i].Vertex);
       deleted = true;
     }

@@ -25,9 +25,11 @@ public:
   bool DeleteDoomed(SurfaceState& state);
 
   /**
-   * Deletes components that are inside out: a cavity must lie inside the others, any other component
+   * Deletes components that are inside out: a cavity must lie inside the others, any other one
    * outside. Such a one may be born by a cut, of no size and without any intersection, and would
-   * grow without limit. Rays along x are counted: O(n + pairs of ray and triangle that overlap).
+   * grow without limit. They are judged from outside in, as if what is deleted had never been: what
+   * lies in one that is inside out need not be. Rays along x: O(n + pairs of ray and triangle that
+   * overlap).
    * @return whether anything was deleted (labels are fresh then).
    */
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);

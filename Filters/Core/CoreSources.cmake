@@ -45,6 +45,7 @@ set(volumic_core_headers
   AxisOperator.h
   CellSurface.h
   ComponentWatch.h
+  CycleCriterion.h
   CycleCut.h
   Division.h
   Dynamics.h
@@ -56,6 +57,7 @@ set(volumic_core_headers
   EvolutionImplementation.h
   Executor.h
   Field.h
+  ImageMargin.h
   InitialSurface.h
   Join.h
   LevelImage.h

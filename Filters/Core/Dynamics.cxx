@@ -21,6 +21,12 @@ constexpr float Slide = 0.3f;
 /** Iterations without visible motion after which a vertex sleeps. */
 constexpr int Patience = 5;
 
+/** Of the stiffest shape of a mesh against it, per unit of weight: that of a zigzag. */
+constexpr float TensionStiffness = 4.f;
+constexpr float ElasticityStiffness = 12.f;
+/** By how much the time step may be shortened for the sake of internal forces. */
+constexpr float Shortening = 4.f;
+
 float Clamp(float x)
 {
   return std::min(std::max(x, -1.f), 1.f);
@@ -36,6 +42,31 @@ Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& 
   {
     this->Edges = std::make_unique<EdgeAttraction>(field.Image(), executor);
   }
+  this->SetPace();
+}
+
+void Dynamics::SetPace()
+{
+  const float drive =
+    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight +
+      (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
+  // Strong forces oscillate like weak ones: friction grows with them as it would have to if only
+  // the unit of time were another.
+  this->Drag = static_cast<float>(this->Options.Friction) * std::sqrt(std::max(drive, 1.f));
+  // A free vertex at its final speed under full force goes just the largest step.
+  this->Longest =
+    static_cast<float>(this->Options.MaximumStep) * this->Drag / std::max(drive, 0.5f);
+  // A spring of stiffness k swings itself up where k step^2 exceeds 4 + 2 friction step.
+  const float outer = drive / ForceRange;
+  const float inner = TensionStiffness * static_cast<float>(this->Options.TensionWeight) +
+    ElasticityStiffness * static_cast<float>(this->Options.ElasticityWeight);
+  const float stiffness = outer + inner;
+  const float stable =
+    (this->Drag + std::sqrt(this->Drag * this->Drag + 4 * stiffness)) / std::max(stiffness, 1e-6f);
+  this->Longest = std::min(this->Longest, std::max(stable, this->Longest / Shortening));
+  const float most =
+    (4 + 2 * this->Drag * this->Longest) / (this->Longest * this->Longest) - outer;
+  this->InnerShare = inner > most ? std::max(most, 0.f) / inner : 1.f;
 }
 
 Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
@@ -47,17 +78,28 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   const float slope = std::max(Length(sample.Gradient), floor);
   float along = static_cast<float>(this->Options.IsopotentialWeight) *
     Clamp(sample.Value / (slope * ForceRange * state.Delta));
+  float beside = 0;
+  float most = 0;
   if (this->Options.GradientWeight > 0)
   {
     // Value has the sign of the object; the potential is the image itself.
     const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
-    along -= static_cast<float>(this->Options.GradientWeight) *
-      Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+    const float weight = static_cast<float>(this->Options.GradientWeight);
+    beside -=
+      weight * Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+    most += weight;
   }
   if (this->Edges)
   {
-    along += static_cast<float>(this->Options.EdgeAttractionWeight) *
-      this->Edges->Along(state.Mesh.Position[v], n);
+    const float weight = static_cast<float>(this->Options.EdgeAttractionWeight);
+    beside += weight * this->Edges->Along(state.Mesh.Position[v], n);
+    most += weight;
+  }
+  if (most > 0)
+  {
+    // They know of no background: beyond the margin of the image it takes over, as strong as they.
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    along += beside - share * (beside + most);
   }
   const Ring& ring = state.Mesh.Rings[v];
   Vector tension = state.Pull[v];
@@ -68,8 +110,9 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   }
   const float inverse = 1.f / state.Delta;
   Vector force = n * along +
-    tension * (static_cast<float>(this->Options.TensionWeight) * inverse) +
-    state.Spring[v] * (static_cast<float>(this->Options.ElasticityWeight) * inverse);
+    tension * (this->InnerShare * static_cast<float>(this->Options.TensionWeight) * inverse) +
+    state.Spring[v] *
+      (this->InnerShare * static_cast<float>(this->Options.ElasticityWeight) * inverse);
   force.Unused = 0;
   return force;
 }
@@ -80,14 +123,9 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
   const std::size_t n = awake.size();
   this->Force.resize(n);
   this->Fastest.assign((n + BlockSize - 1) / BlockSize, 0.f);
-  const float friction = static_cast<float>(this->Options.Friction);
-  const float drive =
-    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight +
-      (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
+  const float friction = this->Drag;
   const float step = static_cast<float>(this->Options.MaximumStep) * state.Delta;
-  // A free vertex at its final speed under full force goes just the largest step.
-  const float longest =
-    static_cast<float>(this->Options.MaximumStep) * friction / std::max(drive, 0.5f);
+  const float longest = this->Longest;
   ForBlocks(this->Threads, n, BlockSize,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
@@ -152,7 +190,8 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
         }
         if (this->Edges && this->Options.SnapToEdges)
         {
-          move += n * (longest * this->Edges->Along(state.Mesh.Position[v], n));
+          const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+          move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
         }
         const float length = Length(move);
         state.Velocity[v] = length > longest ? move * (longest / length) : move;
@@ -269,8 +308,7 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
           move *= longest / length;
         }
         state.Moved[v] = std::min(length, longest);
-        p += move;
-        p.Unused = 0;
+        p = state.Around.Confined(p, p + move);
       }
     });
   for (int v : awake)

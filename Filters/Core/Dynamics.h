@@ -33,6 +33,15 @@ namespace volumic
  *   surface over the flat parts.
  * - edges: EdgeAttractionWeight times EdgeAttraction::Along, if the image of the field has a map
  *   of edges.
+ *
+ * Friction is Options.Friction per unit of time; where the weights of the outer forces (the last
+ * three) add up to s > 1 it is times sqrt(s), so that strong forces swing no more than weak ones: a
+ * common factor of all is another unit of time. Tension and elasticity that the time step cannot
+ * follow would swing themselves up: the step is shortened down to a quarter, then the two are
+ * weakened to what it can follow.
+ *
+ * Beyond the margin of the image gradient and edges give way to a pull back, against the normal, of
+ * their weights; no displacement leads further out than ImageMargin allows.
  */
 class Dynamics
 {
@@ -68,6 +77,7 @@ public:
   double TimeStep() const { return this->Step; }
 
 private:
+  void SetPace();
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
   /**
    * Whether two vertices with a common neighbour lie across a hole, or a waist, that the image
@@ -81,6 +91,9 @@ private:
   const SurfaceOptions& Options;
   Executor& Threads;
   std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
+  float Drag = 0;       ///< Friction as it acts.
+  float Longest = 0;    ///< Time step, unless re-sampled.
+  float InnerShare = 1; ///< Of the internal forces that the time step can follow.
   float Step = 0;
   std::vector<Vector> Force;
   std::vector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.

@@ -4,6 +4,7 @@
 #define volumicEvolutionImplementation_h
 
 #include "ComponentWatch.h"
+#include "CycleCriterion.h"
 #include "Dynamics.h"
 #include "Field.h"
 #include "Proximity.h"
@@ -46,6 +47,7 @@ struct SurfaceEvolution::Implementation
   Proximity Recheck;
   ComponentWatch Watch;
   RestCriterion Rest;
+  CycleCriterion Cycle;
   std::vector<int> Awake;
   std::vector<int> Working;
   std::vector<int> Suspects;
@@ -58,7 +60,7 @@ struct SurfaceEvolution::Implementation
   bool Stopped = false;     ///< By the monitor.
   EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
   int Shrunk = 0;    ///< Collapses since components were labelled last.
-  int Unchecked = 0; ///< Cuts since components were last checked for being inside out.
+  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
     : Options(options)
@@ -93,6 +95,8 @@ struct SurfaceEvolution::Implementation
   double MeanEdgeLength();
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(Dynamics& dynamics);
+  void DeleteInsideOut();
+  void FinishRow();
   void Regularise(Dynamics& dynamics);
   void RunPolish(HistoryRow& row);
   StopReason Evolve();

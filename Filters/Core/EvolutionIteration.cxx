@@ -287,12 +287,13 @@ void SurfaceEvolution::Implementation::Iterate(
     this->Watch.Label(s, this->Threads);
     this->Shrunk = 0;
   }
-  this->Watch.DeleteDoomed(s);
-  this->Unchecked += s.Counts.Cuts;
+  const bool deleted = this->Watch.DeleteDoomed(s);
+  // Only a cut can give birth to one, and what was inside a deleted component is bare.
+  this->Unchecked += s.Counts.Cuts + (deleted ? 1 : 0);
   constexpr int period = 10;
   if (this->LastIterations % period == 0 && this->Unchecked > 0)
   {
-    this->Watch.DeleteInsideOut(s, this->Threads); // Only a cut can give birth to one.
+    this->Watch.DeleteInsideOut(s, this->Threads);
     this->Unchecked = 0;
   }
   watch.Lap(Phase::Topology);

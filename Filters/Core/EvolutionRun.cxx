@@ -123,6 +123,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   SurfaceState& s = this->State;
   this->LastIterations = 0;
   this->Rest.Reset();
+  this->Cycle.Reset();
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   const bool evidence = this->Options.IsopotentialWeight > 0;
   Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
@@ -163,11 +164,17 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
     {
       const double volume = this->EnclosedVolume();
+      const double limit =
+        std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume));
       this->Rest.Add(volume);
-      if (this->Rest.IsMet(
-            std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume))))
+      this->Cycle.Add(volume);
+      if (this->Rest.IsMet(limit))
       {
         return StopReason::Converged;
+      }
+      if (this->Cycle.IsMet(limit))
+      {
+        return StopReason::LimitCycle;
       }
     }
   }
@@ -210,7 +217,9 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
   const float most = static_cast<float>(unit);
   Remesher remesher(s, this->TheField.get(), false);
   double first = 0.;
-  for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0; ++step)
+  for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0 &&
+       this->GoOn(Monitor::Activity::Regularising, 0.);
+       ++step)
   {
     const double missing = this->WantedMeanEdge / this->MeanEdgeLength() - 1.;
     first = step == 0 ? missing : first;
@@ -249,7 +258,6 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     std::fill(s.Quiet.begin(), s.Quiet.end(), std::uint8_t(1)); // An edit makes it 0 again.
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
   }
-  s.Counts = EditCounts();
   this->RunPolish(row);
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
@@ -258,14 +266,7 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   }
   if (!this->Rows.empty())
   {
-    HistoryRow& last = this->Rows.back();
-    last.PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
-    last.RegularisedVertices = s.Mesh.NumberOfVertices();
-    last.RegularisedMeanEdgeLength = this->MeanEdgeLength();
-    last.RegularisedEulerCharacteristic = s.EulerCharacteristic;
-    last.RegularisedComponents = this->Watch.NumberOfComponents();
-    last.RegularisationCuts = this->SinceEvolved.Cuts + s.Counts.Cuts;
-    last.RegularisationDeletions = this->SinceEvolved.Removed + s.Counts.Removed;
+    this->Rows.back().PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
   }
 }
 
@@ -273,6 +274,7 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
 {
   SurfaceState& s = this->State;
   const auto start = std::chrono::steady_clock::now();
+  s.Counts = EditCounts();
   SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
     this->Options.TopologyChanges, this->Threads,
     this->CheckpointOf(Monitor::Activity::Regularising, PassesShare))
@@ -283,29 +285,55 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
     this->Watch.Label(s, this->Threads);
     this->Watch.DeleteDoomed(s);
   }
+  this->SinceEvolved.Cuts += s.Counts.Cuts;
+  this->SinceEvolved.Removed += s.Counts.Removed;
   row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void SurfaceEvolution::Implementation::DeleteInsideOut()
+{
+  this->State.Counts = EditCounts();
+  this->Watch.DeleteInsideOut(this->State, this->Threads);
+  this->SinceEvolved.Removed += this->State.Counts.Removed;
+  this->Unchecked = 0;
+}
+
+void SurfaceEvolution::Implementation::FinishRow()
+{
+  if (!this->HasIteration())
+  {
+    return;
+  }
+  HistoryRow& last = this->Rows.back();
+  last.RegularisedVertices = this->State.Mesh.NumberOfVertices();
+  last.RegularisedMeanEdgeLength = this->MeanEdgeLength();
+  last.RegularisedEulerCharacteristic = this->State.EulerCharacteristic;
+  last.RegularisedComponents = this->Watch.NumberOfComponents();
+  last.RegularisationCuts = this->SinceEvolved.Cuts;
+  last.RegularisationDeletions = this->SinceEvolved.Removed;
 }
 
 StopReason SurfaceEvolution::Implementation::Run()
 {
   const StopReason reason = this->Evolve();
-  if (reason == StopReason::Converged || reason == StopReason::IterationLimit)
+  this->DeleteInsideOut();
+  if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
-    Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-    if (this->WantedMeanEdge > 0.)
-    {
-      this->FitMeanEdge(dynamics);
-    }
-    this->Regularise(dynamics);
-    if (this->Stopped)
-    {
-      return StopReason::Cancelled;
-    }
-    if (this->State.Mesh.NumberOfVertices() == 0)
-    {
-      return StopReason::Vanished;
-    }
+    this->FinishRow();
+    return reason;
   }
-  return reason;
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  if (this->WantedMeanEdge > 0.)
+  {
+    this->FitMeanEdge(dynamics);
+  }
+  this->Regularise(dynamics);
+  this->DeleteInsideOut(); // The polish may have cut.
+  this->FinishRow();
+  if (this->Stopped)
+  {
+    return StopReason::Cancelled;
+  }
+  return this->State.Mesh.NumberOfVertices() > 0 ? reason : StopReason::Vanished;
 }
 }

@@ -14,6 +14,7 @@ namespace volumic
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 {
   this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
+  this->State.Around = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;
   this->State.Delta = static_cast<float>(this->Options.SamplingRatio * image.Unit);

@@ -12,6 +12,7 @@ namespace volumic
 {
 Field::Field(const LevelImage& image, const SurfaceOptions& options, Executor& executor)
   : Level(image)
+  , Around(image)
   , Iso(static_cast<float>(options.IsoValue - image.Base))
   , Sign(options.ObjectIsBright ? 1.f : -1.f)
   , Replicate(options.BorderValue == Border::Replicate)
@@ -107,8 +108,8 @@ void Field::MeasureSlope()
 
 Field::Cell Field::Locate(const Vector& position) const
 {
-  // Two voxels past the border everything is background or replicated: far places are clamped,
-  // which also keeps the indices small.
+  // Two voxels past the border everything is background or replicated (until it fades): far places
+  // are clamped, which also keeps the indices small.
   const auto place = [this](float x, int axis)
   {
     const float scaled = x * this->Inverse[axis];
@@ -139,6 +140,22 @@ float Field::Fetch(int i, int j, int k) const
   j = std::min(std::max(j, 0), size[1] - 1);
   k = std::min(std::max(k, 0), size[2] - 1);
   return this->Level.Values[this->Offset(i, j, k)];
+}
+
+Field::Sample Field::Faded(const Vector& position, const Sample& sample) const
+{
+  if (!this->Replicate)
+  {
+    return sample;
+  }
+  const ImageMargin::Depth depth = this->Around.DepthAt(position);
+  if (!(depth.Share > 0))
+  {
+    return sample;
+  }
+  const float fall = this->Sign * (this->Outside - this->Iso) - sample.Value;
+  return { sample.Value + depth.Share * fall,
+    sample.Gradient * (1 - depth.Share) + depth.Slope * fall };
 }
 
 float Field::ValueAt(const Vector& position) const
@@ -174,7 +191,8 @@ float Field::ValueAt(const Vector& position) const
   }
   const float low = row[0][0] + c.Y * (row[0][1] - row[0][0]);
   const float high = row[1][0] + c.Y * (row[1][1] - row[1][0]);
-  return this->Sign * (low + c.Z * (high - low) - this->Iso);
+  const float value = this->Sign * (low + c.Z * (high - low) - this->Iso);
+  return this->Replicate ? this->Faded(position, { value, Vector() }).Value : value;
 }
 
 Field::Sample Field::At(const Vector& position) const
@@ -240,8 +258,9 @@ Field::Sample Field::At(const Vector& position) const
   const float gy = (1 - z) * slopeY(1) + z * slopeY(2);
   const float gz = (1 - z) * (high - alongY(0)) + z * (alongY(3) - low);
   const float half = 0.5f * this->Sign;
-  return { this->Sign * (low + z * (high - low) - this->Iso),
-    Vector(half * gx * this->Inverse[0], half * gy * this->Inverse[1],
-      half * gz * this->Inverse[2]) };
+  return this->Faded(position,
+    { this->Sign * (low + z * (high - low) - this->Iso),
+      Vector(half * gx * this->Inverse[0], half * gy * this->Inverse[1],
+        half * gz * this->Inverse[2]) });
 }
 }

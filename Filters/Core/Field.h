@@ -4,6 +4,7 @@
 #define volumicField_h
 
 #include "Executor.h"
+#include "ImageMargin.h"
 #include "LevelImage.h"
 #include "SurfaceOptions.h"
 #include "Vector.h"
@@ -18,7 +19,8 @@ namespace volumic
  *
  * Outside the image the voxels count as background (the extreme value of the image away from the
  * object, or as far below the iso-value as the object is above it, whichever is the stronger), so
- * the field ramps over one voxel; or, for Border::Replicate, as the nearest voxel.
+ * the field ramps over one voxel; or, for Border::Replicate, as the nearest voxel as far as
+ * ImageMargin::Width, and from there on as background, ramping over ImageMargin::Ramp.
  */
 class Field
 {
@@ -49,6 +51,7 @@ public:
   float Background() const { return this->Outside; }
 
   const LevelImage& Image() const { return this->Level; }
+  const ImageMargin& Margin() const { return this->Around; }
   /** Value at a voxel inside the image. */
   float Voxel(int i, int j, int k) const
   {
@@ -68,10 +71,12 @@ private:
   }
   Cell Locate(const Vector& position) const;
   float Fetch(int i, int j, int k) const;
+  Sample Faded(const Vector& position, const Sample& sample) const;
   void MeasureRange(Executor& executor);
   void MeasureSlope();
 
   LevelImage Level;
+  ImageMargin Around;
   float Iso = 0; ///< The iso-value less the image's Base, as Level.Values are.
   float Sign = 1;
   float Inverse[3] = { 1, 1, 1 };

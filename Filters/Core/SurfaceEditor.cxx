@@ -264,6 +264,10 @@ bool SurfaceEditor::Remove(int v)
 bool SurfaceEditor::Move(int v, const Vector& position, Care care)
 {
   SurfaceState& s = this->State;
+  if (!s.Around.Allows(s.Mesh.Position[v], position))
+  {
+    return false;
+  }
   const Ring& ring = s.Mesh.Rings[v];
   const float longest = constraint::LongestEdge * s.Delta;
   this->Faces.clear();

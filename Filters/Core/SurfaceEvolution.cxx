@@ -54,6 +54,8 @@ const char* Describe(StopReason reason)
   {
     case StopReason::Converged:
       return "converged";
+    case StopReason::LimitCycle:
+      return "limit cycle";
     case StopReason::IterationLimit:
       return "iteration limit";
     case StopReason::Cancelled:

@@ -19,12 +19,13 @@ namespace volumic
 enum class StopReason
 {
   Converged,
+  LimitCycle, ///< It goes to and fro without getting anywhere, see CycleCriterion.
   IterationLimit,
   Cancelled,
   Vanished ///< No component is left.
 };
 
-/** The words of the output's field data: converged, iteration limit, cancelled, vanished. */
+/** As in the output's field data: converged, limit cycle, iteration limit, cancelled, vanished. */
 const char* Describe(StopReason reason);
 
 /** Parts of an iteration, in the order of HistoryRow::PhaseSeconds. */
@@ -140,8 +141,9 @@ public:
   void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface);
 
   /**
-   * Evolve on the current level until rest, limit, cancel or nothing is left; then snap. Once the
-   * monitor has said stop, wherever it was asked, the reason is Cancelled.
+   * Evolve on the current level until rest, cycle, limit, cancel or nothing is left; then snap. No
+   * component that is inside out is left behind, also where cancelled. Once the monitor has said
+   * stop, wherever it was asked, the reason is Cancelled.
    */
   StopReason Run();
 

@@ -9,7 +9,7 @@ namespace volumic
 enum class Border
 {
   Background = 0, ///< Away from the object, ramping over one voxel: surfaces close at the border.
-  Replicate = 1   ///< The nearest voxel.
+  Replicate = 1   ///< The nearest voxel, as far as ImageMargin::Width.
 };
 
 /**
@@ -35,7 +35,7 @@ struct SurfaceOptions
    * IsopotentialWeight; see EdgeAttraction.h.
    */
   double EdgeAttractionWeight = 0.;
-  double Friction = 3.;            ///< Per unit of time.
+  double Friction = 3.;            ///< Per unit of time, see Dynamics.h for strong forces.
 
   Border BorderValue = Border::Background;
   bool TopologyChanges = true;     ///< Off: contacts only stop the surface.
@@ -43,7 +43,7 @@ struct SurfaceOptions
   int MaximumNumberOfIterations = 1000; ///< Per level.
   /**
    * A level rests when the enclosed volume changes by less than max(delta^3, this share of it)
-   * over the last 10 and over the last 20 iterations.
+   * over the last 10 and over the last 20 iterations. See CycleCriterion for one that never does.
    */
   double ConvergenceTolerance = 5e-4;
   bool FreezeMotionlessVertices = true; ///< Skip vertices at rest until something near changes.

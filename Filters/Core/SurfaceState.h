@@ -4,6 +4,7 @@
 #define volumicSurfaceState_h
 
 #include "Executor.h"
+#include "ImageMargin.h"
 #include "SurfaceMesh.h"
 #include "VertexGrid.h"
 
@@ -51,6 +52,7 @@ public:
   SurfaceMesh Mesh;
   VertexGrid Grid;
   float Delta = 1;
+  ImageMargin Around; ///< Of the level: no vertex is moved further out.
   int EulerCharacteristic = 0; ///< Kept by the operations; tests hold it against a count.
   EditCounts Counts;
 

@@ -84,6 +84,73 @@ TEST(ComponentWatch, DeletesAnIslandWithinTheObject)
   EXPECT_EQ(watch.NumberOfComponents(), 1);
 }
 
+TEST(ComponentWatch, KeepsTheGoodThatLieInTheInverted)
+{
+  // From outside in: a ball inside out, in it a ball with a cavity in it. Only the first is wrong.
+  SurfaceState state;
+  const IndexedSurface good = Ball({ 1, 0, 0 }, 9);
+  const IndexedSurface cavity = Ball({ 1, 1, 0 }, 4, true);
+  Fill(state, { Ball({ 0, 0, 0 }, 15, true), good, cavity });
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
+  EXPECT_EQ(watch.NumberOfComponents(), 2);
+  EXPECT_EQ(state.Mesh.NumberOfVertices(),
+    static_cast<int>(good.Points.size() + cavity.Points.size()));
+  EXPECT_FALSE(watch.DeleteInsideOut(state, executor)) << "nothing wrong is left";
+}
+
+TEST(ComponentWatch, JudgesAfreshWhatLosesItsIsland)
+{
+  // In the object an island, which is wrong; in the island a cavity, which is then in the object.
+  SurfaceState state;
+  Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
+                Ball({ 0, 1, 0 }, 2, true) });
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
+  EXPECT_EQ(watch.NumberOfComponents(), 2) << "the outermost and the larger cavity";
+  EXPECT_FALSE(watch.DeleteInsideOut(state, executor));
+}
+
+TEST(ComponentWatch, DeletesTheOnlyComponentIfItIsInsideOut)
+{
+  SurfaceState state;
+  Fill(state, { Ball({ 0, 0, 0 }, 8, true) });
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), 0);
+}
+
+TEST(ComponentWatch, LooksThroughEdgesAndCorners)
+{
+  // The rays of the inner components run exactly through corners and edges of the outer one.
+  IndexedSurface octahedron;
+  octahedron.Points = { { 9, 0, 0 }, { -9, 0, 0 }, { 0, 9, 0 }, { 0, -9, 0 }, { 0, 0, 9 },
+    { 0, 0, -9 } };
+  octahedron.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  for (const double shift : { 0., 1. })
+  {
+    IndexedSurface cavity = octahedron;
+    for (Point& p : cavity.Points)
+    {
+      p = { p[0] / 9., p[1] / 9. + shift, p[2] / 9. };
+    }
+    for (Triangle& t : cavity.Triangles)
+    {
+      std::swap(t[0], t[1]);
+    }
+    SurfaceState state;
+    Fill(state, { octahedron, cavity });
+    SequentialExecutor executor;
+    ComponentWatch watch;
+    EXPECT_FALSE(watch.DeleteInsideOut(state, executor)) << shift;
+    EXPECT_EQ(watch.NumberOfComponents(), 2);
+  }
+}
+
 TEST(ComponentWatch, DeletesSmallOnesAndKeepsCount)
 {
   SurfaceState state;

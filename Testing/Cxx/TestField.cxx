@@ -100,8 +100,38 @@ TEST(Field, ReplicatesTheBorderOnRequest)
   SurfaceOptions options = WithIso(4.);
   options.BorderValue = Border::Replicate;
   const Field field(volume.Image, options, Threads);
-  EXPECT_FLOAT_EQ(field.ValueAt(Vector(100, 4, 4)), 3);
-  EXPECT_FLOAT_EQ(field.ValueAt(Vector(-100, 4, 4)), -4);
+  EXPECT_FLOAT_EQ(field.ValueAt(Vector(9, 4, 4)), 3);
+  EXPECT_FLOAT_EQ(field.ValueAt(Vector(-2, 4, 4)), -4);
+  EXPECT_FLOAT_EQ(field.At(Vector(9, -2, 4)).Value, 3);
+}
+
+TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
+{
+  // Along z a voxel is longer than the margin.
+  for (const bool bright : { true, false })
+  {
+    TestVolume volume = MakeVolume(8, [](double x, double, double) { return x; });
+    volume.Image.Step = { 1.5, 1.5, 5. };
+    volume.Image.Unit = 1.5;
+    SurfaceOptions options = WithIso(3.);
+    options.ObjectIsBright = bright;
+    options.BorderValue = Border::Replicate;
+    const Field field(volume.Image, options, Threads);
+    const float x = bright ? 9.f : 1.5f; // Within the object.
+    EXPECT_GT(field.ValueAt(Vector(x, -3.f, 10)), 0);
+    EXPECT_LT(field.ValueAt(Vector(x, -3.8f, 10)), 0) << "half of the ramp is too much";
+    EXPECT_LT(field.ValueAt(Vector(x, 15.f, 10)), field.ValueAt(Vector(x, 14.f, 10)));
+    EXPECT_GT(field.ValueAt(Vector(x, 5, 39.9f)), 0);
+    EXPECT_LT(field.ValueAt(Vector(x, 5, 40.8f)), 0);
+    const float far = field.ValueAt(Vector(x, 1000, 10));
+    EXPECT_LE(far, -field.Highest());
+    EXPECT_FLOAT_EQ(field.ValueAt(Vector(x, 15.1f, 10)), far);
+    EXPECT_FLOAT_EQ(field.At(Vector(x, 15.1f, 10)).Value, far);
+    EXPECT_FLOAT_EQ(field.At(Vector(x, 15.1f, 10)).Gradient.Y, 0);
+    // Of the ramp: what it falls by, over its length.
+    const float fall = far - field.ValueAt(Vector(x, 10, 10));
+    EXPECT_NEAR(field.At(Vector(x, 14.2f, 10)).Gradient.Y, fall / 1.5f, 1e-4f);
+  }
 }
 
 TEST(Field, KnowsHowSteepTheSurfaceIs)

@@ -258,7 +258,7 @@ ExitCode Segment(
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = volume;
   results.Filters = { pyramid, filter };
-  results.IsFinished = reason == "converged";
+  results.IsFinished = reason == "converged" || reason == "limit cycle";
   results.PyramidSeconds = pyramidRun.Seconds;
   results.SurfaceSeconds = run.Seconds;
   results.Warnings = run.Warnings;

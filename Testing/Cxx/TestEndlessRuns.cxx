@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/**
+ * Scenes and settings that never came to rest, found by random runs. What they cost is told in
+ * vertices times iterations, which is the same on every machine.
+ */
+
+#include "CoreTestTools.h"
+#include "CycleCriterion.h"
+#include "SurfaceEvolution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+Monitor Silent;
+
+double Work(const SurfaceEvolution& evolution)
+{
+  double work = 0;
+  for (const HistoryRow& row : evolution.History())
+  {
+    work += row.Vertices;
+  }
+  return work;
+}
+
+SurfaceOptions Half()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  return options;
+}
+
+TestVolume Noise(int n, unsigned seed)
+{
+  std::mt19937 engine(seed);
+  return MakeVolume(n, [&engine](double, double, double)
+    { return static_cast<double>(engine()) / 4294967296.; });
+}
+}
+
+TEST(CycleCriterion, IsMetByAVolumeThatGoesToAndFro)
+{
+  CycleCriterion cycle;
+  std::mt19937 engine(1);
+  for (int i = 0; i < 15; ++i)
+  {
+    cycle.Add(1000. + (i % 2 == 0 ? 20. : -20.) + static_cast<double>(engine() % 10));
+    EXPECT_FALSE(cycle.IsMet(1.)) << "not before 80 iterations";
+  }
+  cycle.Add(985.);
+  EXPECT_TRUE(cycle.IsMet(1.));
+  cycle.Reset();
+  EXPECT_FALSE(cycle.IsMet(1.));
+}
+
+TEST(CycleCriterion, IsNotMetByWhatGetsSomewhere)
+{
+  std::mt19937 engine(2);
+  CycleCriterion steady;
+  CycleCriterion shaken;
+  CycleCriterion slowing;
+  for (int i = 0; i < 60; ++i)
+  {
+    const double shake = static_cast<double>(engine() % 1000) / 100.; // Up to 10.
+    steady.Add(1000. + i * 0.5);
+    shaken.Add(1000. - i * 2. + shake);
+    slowing.Add(1000. * (1. - std::exp(-i / 20.)));
+    EXPECT_FALSE(steady.IsMet(1.)) << i;
+    EXPECT_FALSE(shaken.IsMet(1.)) << i;
+    EXPECT_FALSE(slowing.IsMet(1.)) << i;
+  }
+}
+
+TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
+{
+  const TestVolume volume = Noise(20, 5);
+  SurfaceOptions options = Half();
+  options.Friction = 0.3;
+  options.ConvergenceTolerance = 0.;
+  SurfaceEvolution evolution(options, Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  const StopReason reason = evolution.Run();
+  EXPECT_EQ(reason, StopReason::LimitCycle) << Describe(reason);
+  EXPECT_STREQ(Describe(reason), "limit cycle");
+  EXPECT_LT(evolution.Iterations(), 400);
+  const SurfaceResult surface = evolution.Result();
+  EXPECT_EQ(CountSelfIntersections(surface, 1), 0);
+  // It is finished like a level that rests: within the constraints.
+  double shortest = 1e9;
+  for (const Triangle& t : surface.Triangles)
+  {
+    const Point& a = surface.Points[t[0]];
+    const Point& b = surface.Points[t[1]];
+    shortest = std::min(shortest, Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
+  }
+  EXPECT_GE(shortest, surface.Delta * (1 - 1e-5));
+}
+
+TEST(EndlessRuns, AShellAtAReplicatedBorderCostsLittle)
+{
+  const TestVolume volume = MakeVolume(24, [](double x, double y, double z)
+    { return Soft(std::abs(Distance(x, y, z, 8, 10, 13) - 14.) - 2.); });
+  SurfaceOptions options = Half();
+  options.BorderValue = Border::Replicate;
+  SurfaceEvolution evolution(options, Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_LT(Work(evolution), 1e6);
+}
+
+TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
+{
+  const TestVolume volume = MakeVolume(20, [](double x, double y, double z)
+    { return (static_cast<int>(x / 3) + static_cast<int>(y / 3) + static_cast<int>(z / 3)) % 2; });
+  SurfaceOptions options = Half();
+  options.IsoValue = 0.45;
+  options.BorderValue = Border::Replicate;
+  options.IsopotentialWeight = 75.;
+  options.Friction = 0.65;
+  options.ConvergenceTolerance = 0.;
+  options.FreezeMotionlessVertices = false;
+  SurfaceEvolution evolution(options, Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  evolution.Run();
+  EXPECT_LT(Work(evolution), 2e6);
+}
+
+TEST(EndlessRuns, AStrongMapOfEdgesInNoiseCostsLittle)
+{
+  TestVolume volume = Noise(20, 3);
+  const TestVolume edges = Noise(20, 4);
+  volume.Image.Edges = edges.Values.data();
+  for (const double weight : { 30., 1000. })
+  {
+    SurfaceOptions options = Half();
+    options.EdgeAttractionWeight = weight;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    evolution.StartEnclosing(volume.Image, 0);
+    evolution.Run();
+    EXPECT_LT(Work(evolution), 1e6) << weight;
+    EXPECT_EQ(CountSelfIntersections(evolution.Result(), 1), 0);
+  }
+}
+
+TEST(EndlessRuns, StrongInnerForcesComeToRest)
+{
+  // Springs and tension that the time step cannot follow swung themselves up to wrinkles.
+  const TestVolume volume = MakeVolume(28, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 14, 14, 14) - 9.); });
+  for (const auto& weights : { std::pair<double, double>(0.2, 100.), { 100., 0.1 } })
+  {
+    SurfaceOptions options = Half();
+    options.TensionWeight = weights.first;
+    options.ElasticityWeight = weights.second;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    evolution.StartEnclosing(volume.Image, 0);
+    EXPECT_EQ(evolution.Run(), StopReason::Converged) << weights.first;
+    EXPECT_LT(Work(evolution), 5e5) << weights.first;
+    const double volumeOfBall = 4. / 3. * 3.14159265 * 729.;
+    EXPECT_NEAR(ComputeFeatures(evolution.Result()).Volume, volumeOfBall, 0.1 * volumeOfBall)
+      << weights.first;
+  }
+}

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "SurfaceEvolution.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+
+/** Furthest way of a point beyond the outermost voxels, along any axis, in lengths. */
+double Beyond(const SurfaceResult& surface, const LevelImage& image)
+{
+  double furthest = 0;
+  for (const Point& p : surface.Points)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      furthest = std::max({ furthest, -p[k], p[k] - (image.Size[k] - 1) * image.Step[k] });
+    }
+  }
+  return furthest;
+}
+
+/** Keeps the furthest way out of all iterations. */
+class Watcher final : public Monitor
+{
+public:
+  const SurfaceEvolution* Evolution = nullptr;
+  const LevelImage* Image = nullptr;
+  double Furthest = 0;
+  bool Continue(const Status&) override
+  {
+    this->Furthest = std::max(this->Furthest, Beyond(this->Evolution->Result(), *this->Image));
+    return true;
+  }
+};
+
+SurfaceOptions Replicating()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  options.BorderValue = Border::Replicate;
+  return options;
+}
+
+/** A rod along x that leaves the image on both sides. */
+TestVolume Rod()
+{
+  return MakeVolume(16, [](double, double y, double z)
+    { return Soft(std::hypot(y - 8., z - 8.) - 4.); });
+}
+
+/** What a test of the whole margin allows: it, its ramp, and a delta. */
+double Most(const LevelImage& image, double delta)
+{
+  double most = 0;
+  for (const double step : image.Step)
+  {
+    most = std::max(most, std::max(2. * image.Unit, step) + image.Unit + delta);
+  }
+  return most;
+}
+}
+
+TEST(ImageMargin, AReplicatedObjectClosesAtTheMargin)
+{
+  TestVolume volume = Rod();
+  for (const double step : { 1., 2.5 }) // Along x: the margin is a voxel where that is longer.
+  {
+    volume.Image.Step[0] = step;
+    SurfaceOptions options = Replicating();
+    options.MaximumNumberOfIterations = 300;
+    Monitor silent;
+    SurfaceEvolution evolution(options, Threads, silent);
+    evolution.StartSeeds(volume.Image, 0, { { 8 * step, 8, 8 } });
+    EXPECT_EQ(evolution.Run(), StopReason::Converged);
+    const double beyond = Beyond(evolution.Result(), volume.Image);
+    EXPECT_GT(beyond, std::max(2., step) - 0.2) << "it is replicated up to there";
+    EXPECT_LT(beyond, std::max(2., step) + 0.7);
+    EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
+  }
+}
+
+TEST(ImageMargin, EdgesAndGradientsDoNotLeadOut)
+{
+  TestVolume volume = Rod();
+  // The map's ridge is the rod's middle: on the outside it draws inward, along the rod nowhere.
+  const TestVolume edges = MakeVolume(16, [](double x, double y, double z)
+    { return 0.3 * x + std::exp(-0.02 * ((y - 8) * (y - 8) + (z - 8) * (z - 8))); });
+  volume.Image.Edges = edges.Values.data();
+  for (const double weight : { 3., 1000. })
+  {
+    for (const bool byEdges : { true, false })
+    {
+      for (const Border border : { Border::Replicate, Border::Background })
+      {
+        SurfaceOptions options = Replicating();
+        options.BorderValue = border;
+        options.MaximumNumberOfIterations = 60;
+        (byEdges ? options.EdgeAttractionWeight : options.GradientWeight) = weight;
+        options.ObjectIsBright = byEdges;
+        Watcher watcher;
+        SurfaceEvolution evolution(options, Threads, watcher);
+        watcher.Evolution = &evolution;
+        watcher.Image = &volume.Image;
+        evolution.StartSurface(
+          volume.Image, 0, DividedIcosahedron({ 8, 8, 8 }, 7, 1.5));
+        evolution.Run();
+        EXPECT_LT(watcher.Furthest, Most(volume.Image, 0.85))
+          << weight << " edges " << byEdges << " background " << (border == Border::Background);
+        EXPECT_LT(Beyond(evolution.Result(), volume.Image), 2.9) << "closed within the ramp";
+      }
+    }
+  }
+}
+
+TEST(ImageMargin, NoSettingLeadsFurtherOut)
+{
+  std::mt19937 engine(7);
+  const auto uniform = [&engine](double low, double high)
+  { return low + (high - low) * (static_cast<double>(engine()) / 4294967296.); };
+  for (int run = 0; run < 24; ++run)
+  {
+    const double wave = uniform(0.3, 1.2);
+    TestVolume volume = MakeVolume(12, [&](double x, double y, double z)
+      { return 0.5 + std::sin(wave * x) * std::cos(wave * y) + uniform(-0.3, 0.3) + 0.05 * z; });
+    const TestVolume edges = MakeVolume(12, [&](double x, double, double z)
+      { return uniform(0., 1.) + 0.2 * x - 0.1 * z; });
+    volume.Image.Step = { 1., 1., uniform(1., 4.) };
+    const auto weight = [&](double share)
+    { return uniform(0., 1.) < share ? std::pow(10., uniform(-2., 3.5)) : 0.; };
+    SurfaceOptions options = Replicating();
+    options.BorderValue = run % 3 == 0 ? Border::Background : Border::Replicate;
+    options.TensionWeight = weight(0.7);
+    options.ElasticityWeight = weight(0.7);
+    options.IsopotentialWeight = run % 4 == 0 ? weight(0.5) : 1.;
+    options.GradientWeight = weight(0.3);
+    options.EdgeAttractionWeight = weight(0.4);
+    options.Friction = std::pow(10., uniform(-2., 1.5));
+    options.FreezeMotionlessVertices = run % 2 == 0;
+    options.MaximumNumberOfIterations = 40;
+    if (options.EdgeAttractionWeight > 0)
+    {
+      volume.Image.Edges = edges.Values.data();
+    }
+    Watcher watcher;
+    SurfaceEvolution evolution(options, Threads, watcher);
+    watcher.Evolution = &evolution;
+    watcher.Image = &volume.Image;
+    if (run % 2 == 0)
+    {
+      evolution.StartSeeds(volume.Image, 0, {});
+    }
+    else
+    {
+      evolution.StartEnclosing(volume.Image, 0);
+    }
+    const double start = Beyond(evolution.Result(), volume.Image);
+    evolution.Run();
+    const SurfaceResult surface = evolution.Result();
+    EXPECT_LT(std::max(watcher.Furthest, Beyond(surface, volume.Image)),
+      std::max(start + 1e-3, Most(volume.Image, surface.Delta)))
+      << "run " << run;
+    EXPECT_EQ(CountSelfIntersections(surface, 1), 0) << "run " << run;
+  }
+}
