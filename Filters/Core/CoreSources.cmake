@@ -18,7 +18,9 @@ set(volumic_core_sources
   EvolutionRun.cxx
   EvolutionStart.cxx
   Field.cxx
+  GivenSurface.cxx
   InitialSurface.cxx
+  LatticeSurface.cxx
   LevelReduction.cxx
   LostParts.cxx
   PointAttraction.cxx
@@ -27,6 +29,7 @@ set(volumic_core_sources
   RemainingContacts.cxx
   Remesher.cxx
   RowKernels.cxx
+  SelfIntersections.cxx
   StarMerge.cxx
   SurfaceCheck.cxx
   SurfaceEditor.cxx
@@ -36,6 +39,7 @@ set(volumic_core_sources
   SurfacePolish.cxx
   SurfaceState.cxx
   TriangleTests.cxx
+  TriangleTree.cxx
   VertexGrid.cxx
   VertexRemoval.cxx)
 set(volumic_core_headers
@@ -53,10 +57,12 @@ set(volumic_core_headers
   Executor.h
   Field.h
   InitialSurface.h
+  LatticeSurface.h
   LevelImage.h
   LevelReduction.h
   LostParts.h
   Monitor.h
+  ObliqueRotation.h
   PointAttraction.h
   Proximity.h
   PyramidGeometry.h
@@ -64,7 +70,9 @@ set(volumic_core_headers
   Remesher.h
   RestCriterion.h
   Refuse.h
+  RowCrossing.h
   RowKernels.h
+  SelfIntersections.h
   StarMerge.h
   SurfaceCheck.h
   SurfaceEditor.h
@@ -75,6 +83,7 @@ set(volumic_core_headers
   SurfacePolish.h
   SurfaceState.h
   TriangleTests.h
+  TriangleTree.h
   Vector.h
   VertexGrid.h
   VertexRemoval.h)

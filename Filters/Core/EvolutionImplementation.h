@@ -28,7 +28,7 @@ enum class Mode
 
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
- * recovery), EvolutionIteration.cxx does one iteration, EvolutionRun.cxx a whole level.
+ * recovery), GivenSurface.cxx makes a given one ready, EvolutionIteration.cxx does one iteration, EvolutionRun.cxx a whole level.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -52,6 +52,7 @@ struct SurfaceEvolution::Implementation
   std::vector<double> Partial;
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
   int Shrunk = 0;    ///< Collapses since components were labelled last.
+  bool Cancelled = false; ///< While the start was made ready.
   int Unchecked = 0; ///< Cuts since components were last checked for being inside out.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
@@ -67,6 +68,9 @@ struct SurfaceEvolution::Implementation
   void LayGrid();
   void SplitLongEdges();
   void DivideOnce();
+  void Take(const IndexedSurface& surface);
+  IndexedSurface Remesh(const IndexedSurface& surface);
+  bool GoesOn();
   void Adapt();
   void WakeAll();
   void SleepUnlessMoving(float least);

@@ -171,6 +171,11 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
 
 StopReason SurfaceEvolution::Implementation::Run()
 {
+  if (this->Cancelled)
+  {
+    this->LastIterations = 0;
+    return StopReason::Cancelled;
+  }
   const StopReason reason = this->Evolve();
   if (reason == StopReason::Converged || reason == StopReason::IterationLimit)
   {

@@ -106,25 +106,6 @@ void SurfaceEvolution::Implementation::DivideOnce()
   }
 }
 
-void SurfaceEvolution::Implementation::Adapt()
-{
-  // The verified displacements and edits of an iteration, until the lengths are legal.
-  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  Remesher remesher(this->State, this->TheField.get(), false);
-  constexpr int rounds = 40;
-  for (int round = 0; round < rounds; ++round)
-  {
-    HistoryRow row;
-    this->WakeAll();
-    this->Iterate(row, dynamics, remesher, Mode::Adapt);
-    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
-    {
-      break;
-    }
-  }
-  this->Reset();
-}
-
 void SurfaceEvolution::Implementation::WakeAll()
 {
   for (int v = 0; v < this->State.Mesh.Size(); ++v)

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EvolutionImplementation.h"
+#include "LatticeSurface.h"
+#include "ObliqueRotation.h"
+#include "Refuse.h"
+#include "SelfIntersections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+struct EdgeLengths
+{
+  double Shortest = std::numeric_limits<double>::max();
+  double Longest = 0.;
+};
+
+EdgeLengths LengthsOf(const IndexedSurface& surface)
+{
+  EdgeLengths lengths;
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& p = surface.Points[t[k]];
+      const Point& q = surface.Points[t[(k + 1) % 3]];
+      const double length = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+      lengths.Shortest = std::min(lengths.Shortest, length);
+      lengths.Longest = std::max(lengths.Longest, length);
+    }
+  }
+  return lengths;
+}
+
+/** Whether no point has more neighbours than a ring can take. */
+bool FitsRings(const IndexedSurface& surface)
+{
+  std::vector<int> valence(surface.Points.size(), 0);
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int corner : t)
+    {
+      if (++valence[corner] > Ring::Capacity)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/** Whether so many points share a place of the size of a triangle that a search finds too many. */
+bool IsCrowded(const IndexedSurface& surface, double delta)
+{
+  constexpr int most = 60;
+  const double cell = constraint::Reach * delta;
+  std::unordered_map<std::uint64_t, int> count;
+  for (const Point& p : surface.Points)
+  {
+    std::uint64_t key = 0;
+    for (double x : p)
+    {
+      key = key << 21 | (static_cast<std::uint64_t>(std::llround(x / cell)) & 0x1fffff);
+    }
+    if (++count[key] > most)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+struct Topology
+{
+  int Components = 0;
+  int EulerCharacteristic = 0;
+
+  static Topology Of(const IndexedSurface& surface)
+  {
+    const SurfaceFeatures features = ComputeFeatures(surface);
+    return { static_cast<int>(features.Components.size()), features.EulerCharacteristic };
+  }
+};
+
+bool IsSound(const IndexedSurface& surface, double delta)
+{
+  const EdgeLengths lengths = LengthsOf(surface);
+  return !surface.Triangles.empty() && lengths.Shortest > 0. &&
+    lengths.Longest <= constraint::LongestEdge * 1.0001 * delta &&
+    CountSelfIntersections(surface, 1) == 0;
+}
+}
+
+IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& surface)
+{
+  // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
+  // mesh that has the components and tunnels of what was given, or else the nearest to it.
+  constexpr double pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.3, 1.2, 1.1 }; // in delta
+  constexpr std::size_t large = 300000;
+  const Topology wanted = Topology::Of(surface);
+  IndexedSurface best;
+  int least = std::numeric_limits<int>::max();
+  for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
+  {
+    IndexedSurface mesh = RemeshOnLattice(surface, pitches[attempt] * this->State.Delta, attempt,
+      this->Threads, [this] { return this->GoesOn(); });
+    if (this->Cancelled)
+    {
+      return {};
+    }
+    const Topology found = Topology::Of(mesh);
+    const int difference = std::abs(found.Components - wanted.Components) +
+      std::abs(found.EulerCharacteristic - wanted.EulerCharacteristic);
+    if (difference < least)
+    {
+      least = difference;
+      best = std::move(mesh);
+    }
+    if (best.Points.size() > large)
+    {
+      break;
+    }
+  }
+  return best;
+}
+
+void SurfaceEvolution::Implementation::Take(const IndexedSurface& surface)
+{
+  // A mesh that is near to the constraints is brought within them as it is, by the edits of an
+  // iteration. They rely on edges that are not too long and rings that have room; where long edges,
+  // slivers or fans deny them that, the same surface gets another mesh first.
+  SurfaceState& s = this->State;
+  const double delta = s.Delta;
+  const auto begin = [&](const IndexedSurface& mesh)
+  {
+    s.Mesh.Clear();
+    s.Mesh.Append(mesh);
+    this->Reset();
+  };
+  this->Cancelled = false;
+  const EdgeLengths lengths = LengthsOf(surface);
+  if (lengths.Longest <= constraint::LongestEdge * delta && FitsRings(surface) &&
+    !IsCrowded(surface, delta))
+  {
+    begin(surface);
+    if (this->Near.Meetings().empty())
+    {
+      if (lengths.Shortest >= delta)
+      {
+        return;
+      }
+      this->Adapt();
+      if (this->Cancelled || IsSound(s.Mesh.ToIndexed(), delta))
+      {
+        return;
+      }
+    }
+  }
+  s.Mesh.Clear();
+  const IndexedSurface fine = this->Remesh(surface);
+  if (!this->Cancelled && fine.Triangles.empty())
+  {
+    Refuse("The initial surface is thinner everywhere than the triangles of this level, whose "
+           "edges are about ",
+      1.6 * delta, " voxels long. Start at a finer level, give a thicker surface, or check that "
+                   "its coordinates are in the image's unit.");
+  }
+  begin(fine);
+  this->Adapt();
+  if (!this->Cancelled && !IsSound(s.Mesh.ToIndexed(), delta))
+  {
+    Refuse("The initial surface could not be brought to edges between ", delta, " and ",
+      constraint::LongestEdge * delta, " voxels without an intersection. Remesh it to such edges "
+                                       "before it is given, or choose another Initialization.");
+  }
+}
+
+bool SurfaceEvolution::Implementation::GoesOn()
+{
+  Monitor::Status status;
+  status.Level = this->Level;
+  status.Vertices = this->State.Mesh.NumberOfVertices();
+  status.ActiveVertices = status.Vertices;
+  this->Cancelled = this->Cancelled || !this->Listener.Continue(status);
+  return !this->Cancelled;
+}
+
+void SurfaceEvolution::Implementation::Adapt()
+{
+  // The verified displacements and edits of an iteration, until the lengths are legal.
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  Remesher remesher(this->State, this->TheField.get(), false);
+  constexpr int rounds = 40;
+  for (int round = 0; round < rounds && this->GoesOn(); ++round)
+  {
+    HistoryRow row;
+    this->WakeAll();
+    this->Iterate(row, dynamics, remesher, Mode::Adapt);
+    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
+    {
+      break;
+    }
+  }
+  if (this->State.Mesh.NumberOfVertices() > 0)
+  {
+    this->Reset();
+  }
+}
+}
