@@ -67,9 +67,12 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void LayGrid();
   void SplitLongEdges();
+  void FindMeetings();
   void DivideOnce();
   void Take(const IndexedSurface& surface);
+  void TakeRemeshed(const IndexedSurface& surface);
   IndexedSurface Remesh(const IndexedSurface& surface);
+  void Begin(const IndexedSurface& surface);
   bool GoesOn();
   void Adapt();
   void WakeAll();

@@ -106,7 +106,7 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
 {
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
-  constexpr double pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.3, 1.2, 1.1 }; // in delta
+  constexpr double pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 }; // in delta
   constexpr std::size_t large = 300000;
   const Topology wanted = Topology::Of(surface);
   IndexedSurface best;
@@ -140,49 +140,60 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& surface)
   // A mesh that is near to the constraints is brought within them as it is, by the edits of an
   // iteration. They rely on edges that are not too long and rings that have room; where long edges,
   // slivers or fans deny them that, the same surface gets another mesh first.
-  SurfaceState& s = this->State;
-  const double delta = s.Delta;
-  const auto begin = [&](const IndexedSurface& mesh)
-  {
-    s.Mesh.Clear();
-    s.Mesh.Append(mesh);
-    this->Reset();
-  };
+  const SurfaceState& s = this->State;
   this->Cancelled = false;
   const EdgeLengths lengths = LengthsOf(surface);
-  if (lengths.Longest <= constraint::LongestEdge * delta && FitsRings(surface) &&
-    !IsCrowded(surface, delta))
+  if (lengths.Longest <= constraint::LongestEdge * s.Delta && FitsRings(surface) &&
+    !IsCrowded(surface, s.Delta))
   {
-    begin(surface);
+    this->Begin(surface);
     if (this->Near.Meetings().empty())
     {
-      if (lengths.Shortest >= delta)
+      if (lengths.Shortest < s.Delta)
       {
-        return;
+        this->Adapt();
       }
-      this->Adapt();
-      if (this->Cancelled || IsSound(s.Mesh.ToIndexed(), delta))
+      if (this->Cancelled || IsSound(s.Mesh.ToIndexed(), s.Delta))
       {
         return;
       }
     }
   }
-  s.Mesh.Clear();
+  this->TakeRemeshed(surface);
+}
+
+void SurfaceEvolution::Implementation::Begin(const IndexedSurface& surface)
+{
+  this->State.Mesh.Clear();
+  this->State.Mesh.Append(surface);
+  this->Reset();
+}
+
+void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surface)
+{
+  const SurfaceState& s = this->State;
   const IndexedSurface fine = this->Remesh(surface);
-  if (!this->Cancelled && fine.Triangles.empty())
+  if (!this->Cancelled)
   {
-    Refuse("The initial surface is thinner everywhere than the triangles of this level, whose "
-           "edges are about ",
-      1.6 * delta, " voxels long. Start at a finer level, give a thicker surface, or check that "
-                   "its coordinates are in the image's unit.");
+    // Of what is thinner than the lattice only shreds are left.
+    const double share = ComputeFeatures(fine).Volume / ComputeFeatures(surface).Volume;
+    if (!(share > 0.5))
+    {
+      Refuse("The initial surface is too thin for this level, whose triangles have edges of about ",
+        constraint::RestLength * s.Delta, " voxels: they would hold ",
+        std::lround(100. * std::max(share, 0.)),
+        " % of its volume. Start at a finer level, give a thicker surface, or check that its "
+        "coordinates are in the image's unit.");
+    }
   }
-  begin(fine);
+  this->Begin(fine);
   this->Adapt();
-  if (!this->Cancelled && !IsSound(s.Mesh.ToIndexed(), delta))
+  if (!this->Cancelled && !IsSound(s.Mesh.ToIndexed(), s.Delta))
   {
-    Refuse("The initial surface could not be brought to edges between ", delta, " and ",
-      constraint::LongestEdge * delta, " voxels without an intersection. Remesh it to such edges "
-                                       "before it is given, or choose another Initialization.");
+    Refuse("The initial surface could not be brought to edges between ", s.Delta, " and ",
+      constraint::LongestEdge * s.Delta,
+      " voxels without an intersection. Remesh it to such edges before it is given, or choose "
+      "another Initialization.");
   }
 }
 

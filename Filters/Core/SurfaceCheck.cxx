@@ -134,15 +134,11 @@ void CheckVertices(const IndexedSurface& surface)
   }
 }
 
-/**
- * Every component must face outward, or inward if it is a cavity of one that does: only then is
- * the whole the boundary of a volume.
- */
 void CheckOrientation(const IndexedSurface& surface)
 {
+  // Cavities are legal, so it is the component with the largest volume that must face outward.
   const SurfaceFeatures features = ComputeFeatures(surface);
   double largest = 0.;
-  std::vector<int> first(features.Components.size(), -1);
   for (const ComponentFeatures& c : features.Components)
   {
     largest = std::abs(c.Volume) > std::abs(largest) ? c.Volume : largest;
@@ -156,6 +152,16 @@ void CheckOrientation(const IndexedSurface& surface)
   {
     Refuse("encloses no volume.");
   }
+}
+
+/**
+ * Every component must face outward, or inward if it is a cavity of one that does: only then is
+ * the whole the boundary of a volume.
+ */
+void CheckNesting(const IndexedSurface& surface)
+{
+  const SurfaceFeatures features = ComputeFeatures(surface);
+  std::vector<int> first(features.Components.size(), -1);
   const int count = static_cast<int>(surface.Triangles.size());
   for (int i = count - 1; i >= 0; --i)
   {
@@ -226,6 +232,7 @@ void CheckInitialSurface(const IndexedSurface& surface)
     Refuse("intersects itself: " + std::string(pairs >= limit ? "at least " : "") +
       std::to_string(pairs) + " pairs of triangles meet. Repair it before it is given.");
   }
+  CheckNesting(surface);
 }
 
 void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
