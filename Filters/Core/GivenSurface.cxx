@@ -85,11 +85,13 @@ struct Topology
 {
   int Components = 0;
   int EulerCharacteristic = 0;
+  double Area = 0.;
 
   static Topology Of(const IndexedSurface& surface)
   {
     const SurfaceFeatures features = ComputeFeatures(surface);
-    return { static_cast<int>(features.Components.size()), features.EulerCharacteristic };
+    return { static_cast<int>(features.Components.size()), features.EulerCharacteristic,
+      features.Area };
   }
 };
 
@@ -107,14 +109,19 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
   constexpr double pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 }; // in delta
-  constexpr std::size_t large = 300000;
+  // Large surfaces get one of the coarsest that still shows parts of two edges, for the sake of time.
+  constexpr double coarse = 2.;
+  constexpr double large = 100000.; // delta^2
+  const double delta = this->State.Delta;
   const Topology wanted = Topology::Of(surface);
+  const bool isLarge = wanted.Area > large * delta * delta;
   IndexedSurface best;
   int least = std::numeric_limits<int>::max();
   for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
   {
-    IndexedSurface mesh = RemeshOnLattice(surface, pitches[attempt] * this->State.Delta, attempt,
-      this->Threads, [this] { return this->GoesOn(); });
+    const double pitch = delta * (isLarge ? coarse : pitches[attempt]);
+    IndexedSurface mesh = RemeshOnLattice(
+      surface, pitch, attempt, this->Threads, [this] { return this->GoesOn(); });
     if (this->Cancelled)
     {
       return {};
@@ -127,7 +134,7 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
       least = difference;
       best = std::move(mesh);
     }
-    if (best.Points.size() > large)
+    if (isLarge)
     {
       break;
     }

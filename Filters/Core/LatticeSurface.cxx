@@ -128,6 +128,10 @@ Lattice::Lattice(const IndexedSurface& surface, double pitch)
     static_cast<std::size_t>(2 * Kept * this->Size[1] * this->Words), 0);
   this->FindCrossings(0);
   this->FindCrossings(1);
+  // There is about one crossing per squared pitch of the surface, and six or seven cut edges.
+  const std::size_t crossings = this->Crossings[0].size() + this->Crossings[1].size();
+  this->EdgeOf.reserve(7 * crossings);
+  this->AskedOf.reserve(5 * crossings);
 }
 
 void Lattice::FindCrossings(int kind)
