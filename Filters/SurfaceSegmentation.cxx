@@ -59,7 +59,10 @@ public:
 
   bool Continue(const Status& status) override
   {
-    this->AfterIteration(status);
+    if (status.Iteration > 0)
+    {
+      this->AfterIteration(status);
+    }
     double before = 0.0;
     double total = 0.0;
     for (int level = this->Coarsest; level >= this->Finest; --level)

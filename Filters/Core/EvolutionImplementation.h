@@ -73,7 +73,7 @@ struct SurfaceEvolution::Implementation
   void TakeRemeshed(const IndexedSurface& surface);
   IndexedSurface Remesh(const IndexedSurface& surface);
   void Begin(const IndexedSurface& surface);
-  bool GoesOn();
+  bool GoesOn(double share);
   void Adapt();
   void WakeAll();
   void SleepUnlessMoving(float least);

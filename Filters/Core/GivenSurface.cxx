@@ -121,7 +121,7 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   {
     const double pitch = delta * (isLarge ? coarse : pitches[attempt]);
     IndexedSurface mesh = RemeshOnLattice(
-      surface, pitch, attempt, this->Threads, [this] { return this->GoesOn(); });
+      surface, pitch, attempt, this->Threads, [this](double share) { return this->GoesOn(0.5 * share); });
     if (this->Cancelled)
     {
       return {};
@@ -148,7 +148,6 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& surface)
   // iteration. They rely on edges that are not too long and rings that have room; where long edges,
   // slivers or fans deny them that, the same surface gets another mesh first.
   const SurfaceState& s = this->State;
-  this->Cancelled = false;
   const EdgeLengths lengths = LengthsOf(surface);
   if (lengths.Longest <= constraint::LongestEdge * s.Delta && FitsRings(surface) &&
     !IsCrowded(surface, s.Delta))
@@ -204,12 +203,13 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   }
 }
 
-bool SurfaceEvolution::Implementation::GoesOn()
+bool SurfaceEvolution::Implementation::GoesOn(double share)
 {
   Monitor::Status status;
   status.Level = this->Level;
   status.Vertices = this->State.Mesh.NumberOfVertices();
   status.ActiveVertices = status.Vertices;
+  status.Fraction = 0.1 * share;
   this->Cancelled = this->Cancelled || !this->Listener.Continue(status);
   return !this->Cancelled;
 }
@@ -220,7 +220,7 @@ void SurfaceEvolution::Implementation::Adapt()
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   Remesher remesher(this->State, this->TheField.get(), false);
   constexpr int rounds = 40;
-  for (int round = 0; round < rounds && this->GoesOn(); ++round)
+  for (int round = 0; round < rounds && this->GoesOn(0.5 + 0.5 * round / rounds); ++round)
   {
     HistoryRow row;
     this->WakeAll();

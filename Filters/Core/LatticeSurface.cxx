@@ -422,7 +422,7 @@ IndexedSurface Lattice::Finish(Executor& executor)
 }
 
 IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int attempt,
-  Executor& executor, const std::function<bool()>& goOn)
+  Executor& executor, const std::function<bool(double share)>& goOn)
 {
   const ObliqueRotation rotation(attempt);
   IndexedSurface turned = surface;
@@ -434,7 +434,7 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int 
   lattice.Fill(0);
   for (std::int64_t k = 0; k + 1 < lattice.NumberOfLayers(); ++k)
   {
-    if (!goOn())
+    if (!goOn(0.8 * static_cast<double>(k) / static_cast<double>(lattice.NumberOfLayers())))
     {
       return {};
     }
@@ -446,6 +446,6 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int 
   {
     p = rotation.Undo(p);
   }
-  return goOn() ? std::move(result) : IndexedSurface();
+  return goOn(1.) ? std::move(result) : IndexedSurface();
 }
 }

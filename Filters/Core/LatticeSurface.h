@@ -25,12 +25,12 @@ namespace volumic
  * @param pitch side of the lattice's cubes, in the unit of the points.
  * @param attempt which of ObliqueRotation::Count directions the lattice has: what one tears, another
  * may not.
- * @param goOn asked now and then; when it says no the result is empty.
+ * @param goOn told the share that is done now and then; when it says no the result is empty.
  * @return with no triangles also where everything is thinner than the lattice resolves.
  * `surface` must be closed and oriented, and the boundary of a volume.
  */
 IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int attempt,
-  Executor& executor, const std::function<bool()>& goOn);
+  Executor& executor, const std::function<bool(double share)>& goOn);
 
 }
 

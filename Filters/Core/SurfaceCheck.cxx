@@ -84,7 +84,9 @@ void CheckEdges(const IndexedSurface& surface)
   if (open > 0)
   {
     Refuse("is open: " + std::to_string(open) +
-      " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter.");
+      " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter, or, "
+      "where triangles have points of their own at the same places, merge these with "
+      "vtkCleanPolyData.");
   }
   if (crowded > 0)
   {

@@ -277,7 +277,7 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
     for (int attempt = 0; attempt < ObliqueRotation::Count; ++attempt)
     {
       const IndexedSurface mesh =
-        RemeshOnLattice(given, pitch, attempt, Threads, [] { return true; });
+        RemeshOnLattice(given, pitch, attempt, Threads, [](double) { return true; });
       EXPECT_EQ(CountSelfIntersections(mesh), 0);
       SurfaceMesh rings;
       rings.Append(mesh);
