@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -21,6 +23,15 @@ namespace
 [[noreturn]] void Refuse(const std::string& what)
 {
   throw std::invalid_argument("The initial surface " + what);
+}
+
+/** As it is written everywhere. */
+std::string Number(double x)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << x;
+  return text.str();
 }
 
 void CheckIndices(const IndexedSurface& surface)
@@ -147,7 +158,7 @@ void CheckOrientation(const IndexedSurface& surface)
   }
   if (largest < 0.)
   {
-    Refuse("is inside out: it encloses a volume of " + std::to_string(largest) +
+    Refuse("is inside out: it encloses a volume of " + Number(largest) +
       ". Reverse it, for example with vtkReverseSense.");
   }
   if (largest == 0.)
@@ -262,8 +273,8 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   constexpr double most = 5.;
   if (widest > most * widestImage)
   {
-    Refuse("is too large for the image: it is " + std::to_string(widest) +
-      " voxels wide, the image " + std::to_string(widestImage) +
+    Refuse("is too large for the image: it is " + Number(widest) +
+      " voxels wide, the image " + Number(widestImage) +
       ". Are its coordinates in another unit than the image's, for example micrometres instead of "
       "millimetres? Scale it to the image's.");
   }
@@ -272,8 +283,8 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
     if (high[k] < 0. || low[k] > image.Size[k] * image.Step[k])
     {
       Refuse("lies wholly outside the image: along axis " + std::to_string(k) + " it runs from " +
-        std::to_string(low[k]) + " to " + std::to_string(high[k]) +
-        " voxels, the image from 0 to " + std::to_string(image.Size[k] * image.Step[k]) +
+        Number(low[k]) + " to " + Number(high[k]) +
+        " voxels, the image from 0 to " + Number(image.Size[k] * image.Step[k]) +
         ". Check that both use the same space.");
     }
   }

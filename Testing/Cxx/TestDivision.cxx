@@ -219,16 +219,29 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
   options.RecoverLostParts = false;
   SequentialExecutor threads;
   Monitor monitor;
-  SurfaceEvolution evolution(options, threads, monitor);
-  evolution.StartSurface(volume.Image, 1, given);
-  ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
-  LevelImage fine = volume.Image;
-  fine.Unit = 1. / std::sqrt(3.);
-  evolution.Divide(fine, 0);
-  const SurfaceResult divided = evolution.Result();
-  EXPECT_EQ(CountSelfIntersections(divided), 0);
-  SurfaceMesh mesh;
-  mesh.Append(divided);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(ComputeFeatures(divided).Components.size(), 2u);
+  // One division, and two in a row, the first of which leaves edges longer than the last level's.
+  for (double unit : { 1. / std::sqrt(3.), 1. / 3. })
+  {
+    SurfaceEvolution evolution(options, threads, monitor);
+    evolution.StartSurface(volume.Image, 1, given);
+    ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
+    LevelImage fine = volume.Image;
+    fine.Unit = unit;
+    evolution.Divide(fine, 0);
+    const SurfaceResult divided = evolution.Result();
+    EXPECT_EQ(CountSelfIntersections(divided), 0);
+    SurfaceMesh mesh;
+    mesh.Append(divided);
+    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+    EXPECT_EQ(ComputeFeatures(divided).Components.size(), 2u);
+    for (const Triangle& t : divided.Triangles)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const Point& p = divided.Points[t[k]];
+        const Point& q = divided.Points[t[(k + 1) % 3]];
+        ASSERT_LE(Distance(p[0], p[1], p[2], q[0], q[1], q[2]), 2.5001 * divided.Delta);
+      }
+    }
+  }
 }
