@@ -245,3 +245,53 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
     }
   }
 }
+
+TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
+{
+  // A body with a groove, which the division fills, and a blade in the groove. They meet in the
+  // middle of edges, far from all corners if the last of three divisions is the measure.
+  IndexedSurface given;
+  given.Points = { { -2.1, 0, 0.6 }, { 2.1, 0, 0.6 }, { 0, -1.2, 0 }, { 0, 1.2, 0 }, { 0, 0, -0.7 },
+    { 0, -1.2, 0.1 }, { 0, 1.2, 0.1 }, { 0.51, 0, 0.253 }, { -0.51, 0, 0.253 } };
+  given.Triangles = { { 0, 2, 3 }, { 1, 3, 2 }, { 0, 4, 2 }, { 2, 4, 1 }, { 1, 4, 3 }, { 3, 4, 0 },
+    { 5, 6, 7 }, { 6, 5, 8 }, { 5, 7, 8 }, { 6, 8, 7 } };
+  for (Point& p : given.Points)
+  {
+    p = { p[0] + 8, p[1] + 8, p[2] + 8 };
+  }
+  const SurfaceFeatures features = ComputeFeatures(given);
+  ASSERT_EQ(features.Components.size(), 2u);
+  ASSERT_GT(features.Components[0].Volume, 0);
+  ASSERT_GT(features.Components[1].Volume, 0);
+  ASSERT_EQ(CountSelfIntersections(given), 0);
+  SurfaceMesh plain;
+  plain.Append(given);
+  Divide(plain);
+  ASSERT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
+
+  TestVolume volume = MakeVolume(16, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  options.SamplingRatio = 1.;
+  options.RecoverLostParts = false;
+  SequentialExecutor threads;
+  Monitor monitor;
+  SurfaceEvolution evolution(options, threads, monitor);
+  evolution.StartSurface(volume.Image, 1, given);
+  ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
+  LevelImage fine = volume.Image;
+  fine.Unit = std::pow(3., -1.5);
+  evolution.Divide(fine, 0);
+  const SurfaceResult divided = evolution.Result();
+  EXPECT_EQ(CountSelfIntersections(divided), 0);
+  for (const Point& old : given.Points)
+  {
+    double nearest = 1e9;
+    for (const Point& p : divided.Points)
+    {
+      nearest = std::min(nearest, Distance(p[0], p[1], p[2], old[0], old[1], old[2]));
+    }
+    EXPECT_LT(nearest, 1e-5) << "divided, not remeshed as what has met itself is";
+  }
+}
