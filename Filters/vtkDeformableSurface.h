@@ -19,9 +19,11 @@
  *   at most 1e37 in size (the surface computes in single precision, after IsoValue was subtracted
  *   where that matters: 10^9 to 10^9 + 50 are fine). At least 8 voxels along each axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
- *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components;
- *   polygons are triangulated). With Initialization Seeds, the centres of the seeds. World
- *   coordinates.
+ *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components,
+ *   cavities among them facing inward, at most five times as wide as the image; polygons are
+ *   triangulated). Triangles may be of any size and shape: where they are not yet even and of the
+ *   level's size the surface gets another mesh first, which may lose what is thinner than about two
+ *   edges. With Initialization Seeds, the centres of the seeds. World coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
  *   PointAttractionWeight. Point arrays, optional: `Weight` (any numeric type, at least 0, default
  *   1) and `Radius` (world units, default 0: automatic).

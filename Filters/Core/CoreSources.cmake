@@ -19,7 +19,9 @@ set(volumic_core_sources
   EvolutionRun.cxx
   EvolutionStart.cxx
   Field.cxx
+  GivenSurface.cxx
   InitialSurface.cxx
+  LatticeSurface.cxx
   LevelReduction.cxx
   LostParts.cxx
   PointAttraction.cxx
@@ -28,6 +30,7 @@ set(volumic_core_sources
   RemainingContacts.cxx
   Remesher.cxx
   RowKernels.cxx
+  SelfIntersections.cxx
   StandardThreads.cxx
   StarMerge.cxx
   SurfaceCheck.cxx
@@ -39,6 +42,7 @@ set(volumic_core_sources
   SurfaceState.cxx
   ThickPart.cxx
   TriangleTests.cxx
+  TriangleTree.cxx
   VertexGrid.cxx
   VertexRemoval.cxx)
 set(volumic_core_headers
@@ -60,10 +64,12 @@ set(volumic_core_headers
   ImageMargin.h
   InitialSurface.h
   Join.h
+  LatticeSurface.h
   LevelImage.h
   LevelReduction.h
   LostParts.h
   Monitor.h
+  ObliqueRotation.h
   PointAttraction.h
   Proximity.h
   PyramidGeometry.h
@@ -71,7 +77,9 @@ set(volumic_core_headers
   Remesher.h
   RestCriterion.h
   Refuse.h
+  RowCrossing.h
   RowKernels.h
+  SelfIntersections.h
   StandardThreads.h
   StarMerge.h
   SurfaceCheck.h
@@ -84,6 +92,7 @@ set(volumic_core_headers
   SurfaceState.h
   ThickPart.h
   TriangleTests.h
+  TriangleTree.h
   Vector.h
   VertexGrid.h
   VertexRemoval.h

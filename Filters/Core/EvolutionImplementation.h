@@ -30,7 +30,7 @@ enum class Mode
 
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
- * recovery), EvolutionIteration.cxx does one iteration, EvolutionRun.cxx a whole level.
+ * recovery), GivenSurface.cxx makes a given one ready, EvolutionIteration.cxx does one iteration, EvolutionRun.cxx a whole level.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -79,7 +79,12 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void LayGrid();
   void SplitLongEdges();
+  void FindMeetings();
   void DivideOnce();
+  void Take(const IndexedSurface& surface);
+  void TakeRemeshed(const IndexedSurface& surface);
+  IndexedSurface Remesh(const IndexedSurface& surface);
+  void Begin(const IndexedSurface& surface);
   void Adapt();
   void WakeAll();
   void SleepUnlessMoving(float least);

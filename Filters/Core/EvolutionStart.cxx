@@ -1,16 +1,36 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Division.h"
-#include "EdgeFlip.h"
-#include "EdgeSplit.h"
 #include "EvolutionImplementation.h"
 #include "InitialSurface.h"
 #include "LostParts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 namespace volumic
 {
+namespace
+{
+float LongestEdge(const SurfaceMesh& mesh)
+{
+  float longest = 0;
+  mesh.VisitFaces(
+    [&](int a, int b, int c)
+    {
+      for (const auto& edge : { std::make_pair(a, b), std::make_pair(b, c), std::make_pair(c, a) })
+      {
+        longest = std::max(
+          longest, SquaredDistance(mesh.Position[edge.first], mesh.Position[edge.second]));
+      }
+    });
+  return std::sqrt(longest);
+}
+}
+
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 {
   this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
@@ -38,6 +58,10 @@ void SurfaceEvolution::Implementation::SplitLongEdges()
   s.UpdateShape(this->Awake, this->Threads);
   Remesher(s, nullptr, false).Split(this->Awake);
   this->UpdateTouched();
+  if (LongestEdge(s.Mesh) > 1.0001f * constraint::LongestEdge * s.Delta)
+  {
+    this->TakeRemeshed(s.Mesh.ToIndexed()); // Full rings all about it: not seen yet.
+  }
 }
 
 void SurfaceEvolution::Implementation::LayGrid()
@@ -59,73 +83,103 @@ void SurfaceEvolution::Implementation::LayGrid()
   s.Reset(low - margin, high + margin);
 }
 
-void SurfaceEvolution::Implementation::DivideOnce()
+namespace
 {
+/** Keeps the edges whose flips made the face; from the second round on others about it, too. */
+void KeepAbout(const std::array<int, 3>& face, const std::vector<std::array<int, 3>>& faces,
+  const SurfaceMesh& old, int round, KeptEdges& kept)
+{
+  const int olds = old.Size();
+  const int centres = olds + static_cast<int>(faces.size());
+  const auto isCentre = [=](int v) { return v >= olds && v < centres; };
+  std::vector<int> about;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (!isCentre(face[k]))
+    {
+      continue;
+    }
+    const std::array<int, 3>& own = faces[face[k] - olds];
+    about.insert(about.end(), own.begin(), own.end());
+    const int next = face[(k + 1) % 3];
+    if (isCentre(next))
+    {
+      const std::array<int, 3>& other = faces[next - olds];
+      for (int i = 0; i < 3; ++i)
+      {
+        const auto has = [&other](int v)
+        { return std::find(other.begin(), other.end(), v) != other.end(); };
+        if (has(own[i]) && has(own[(i + 1) % 3]))
+        {
+          kept.Keep(own[i], own[(i + 1) % 3]);
+        }
+      }
+    }
+  }
+  for (int ring = 0; ring < round; ++ring)
+  {
+    std::sort(about.begin(), about.end());
+    about.erase(std::unique(about.begin(), about.end()), about.end());
+    for (std::size_t i = 0, n = about.size(); i < n; ++i)
+    {
+      kept.KeepAllAt(about[i]);
+      const Ring& neighbours = old.Rings[about[i]];
+      about.insert(about.end(), neighbours.Item, neighbours.Item + neighbours.Count);
+    }
+  }
+}
+}
+
+void SurfaceEvolution::Implementation::FindMeetings()
+{
+  // A division leaves some edges longer than verification may rely on; it looks further for them.
   SurfaceState& s = this->State;
-  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
-  const int firstNew = volumic::Divide(s.Mesh);
-  // The division flips edges of the old surface; in narrow places these may pass through each
-  // other. Such edges are flipped back, which at worst leaves the old surface, and cut to length.
-  constexpr int rounds = 8;
+  const float delta = s.Delta;
+  s.Delta = std::max(delta, LongestEdge(s.Mesh) / constraint::LongestEdge);
   this->LayGrid();
   this->CollectAwake();
   s.UpdateShape(this->Awake, this->Threads);
   this->Near.Examine(s, this->Awake, this->Threads);
-  for (int round = 0; round < rounds && !this->Near.Meetings().empty(); ++round)
-  {
-    std::vector<int> halves;
-    for (const Proximity::Meeting& meeting : this->Near.Meetings())
-    {
-      for (const std::array<int, 3>& face : { meeting.First, meeting.Second })
-      {
-        for (int k = 0; k < 3; ++k)
-        {
-          const int a = face[k];
-          const int b = face[(k + 1) % 3];
-          if (a < firstNew || b < firstNew || !s.Mesh.AreNeighbours(a, b))
-          {
-            continue;
-          }
-          const EdgeFlip flip = EdgeFlip::Of(s.Mesh, a, b);
-          if (flip.A < firstNew && flip.B < firstNew && flip.IsLegal(s.Mesh))
-          {
-            flip.Apply(s.Mesh);
-            const EdgeSplit split{ flip.A, flip.B };
-            const Vector middle =
-              (s.Mesh.Position[flip.A] + s.Mesh.Position[flip.B]) * 0.5f;
-            const int m = split.IsLegal(s.Mesh) ? split.Apply(s.Mesh, middle) : -1;
-            if (m >= 0)
-            {
-              s.Adopt(m, flip.A);
-            }
-          }
-        }
-      }
-    }
-    this->CollectAwake();
-    s.UpdateShape(this->Awake, this->Threads);
-    this->Near.Examine(s, this->Awake, this->Threads);
-  }
+  s.Delta = delta;
 }
 
-void SurfaceEvolution::Implementation::Adapt()
+void SurfaceEvolution::Implementation::DivideOnce()
 {
-  // The verified displacements and edits of an iteration, until the lengths are legal.
-  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  Remesher remesher(this->State, this->TheField.get(), false);
-  constexpr int rounds = 40;
-  for (int round = 0; round < rounds; ++round)
+  SurfaceState& s = this->State;
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  const int olds = s.Mesh.Size();
+  const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh);
+  this->FindMeetings();
+  if (this->Near.Meetings().empty())
   {
-    HistoryRow row;
-    this->WakeAll();
-    this->Iterate(row, dynamics, remesher, Mode::Adapt);
-    if (!this->GoOn(Monitor::Activity::Starting, static_cast<double>(round) / rounds) ||
-      row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
-    {
-      break;
-    }
+    return;
   }
-  this->Reset();
+  // The division flips edges of the old surface; in narrow places these may pass through each
+  // other. Such edges are kept, then more and more about them, and all of them at last, which
+  // leaves the old surface, with more vertices.
+  const SurfaceMesh old = Undivided(s.Mesh, olds);
+  KeptEdges kept(old);
+  constexpr int rounds = 6;
+  for (int round = 0; round < rounds && !this->Near.Meetings().empty(); ++round)
+  {
+    for (const Proximity::Meeting& meeting : this->Near.Meetings())
+    {
+      KeepAbout(meeting.First, faces, old, round, kept);
+      KeepAbout(meeting.Second, faces, old, round, kept);
+    }
+    if (round == rounds - 1)
+    {
+      kept.KeepAll();
+    }
+    kept.MakeRoom();
+    s.Mesh = old;
+    volumic::Divide(s.Mesh, &kept);
+    this->FindMeetings();
+  }
+  if (!this->Near.Meetings().empty())
+  {
+    this->TakeRemeshed(old.ToIndexed()); // The old surface has met itself: not seen yet.
+  }
 }
 
 void SurfaceEvolution::Implementation::WakeAll()

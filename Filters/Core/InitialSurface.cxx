@@ -9,7 +9,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace volumic
 {
@@ -96,112 +95,6 @@ IndexedSurface EnclosingSurface(const LevelImage& image, double meanEdge)
     }
   }
   return surface;
-}
-
-IndexedSurface LimitValence(const IndexedSurface& surface)
-{
-  constexpr int most = 12;
-  IndexedSurface result;
-  std::vector<int> place(surface.Points.size(), -1);
-  for (Triangle t : surface.Triangles)
-  {
-    for (int& corner : t)
-    {
-      if (place[corner] < 0)
-      {
-        place[corner] = static_cast<int>(result.Points.size());
-        result.Points.push_back(surface.Points[corner]);
-      }
-      corner = place[corner];
-    }
-    result.Triangles.push_back(t);
-  }
-  const int olds = static_cast<int>(result.Points.size());
-  std::vector<std::vector<int>> trianglesOf(olds);
-  for (std::size_t i = 0; i < result.Triangles.size(); ++i)
-  {
-    for (int corner : result.Triangles[i])
-    {
-      trianglesOf[corner].push_back(static_cast<int>(i));
-    }
-  }
-  for (int v = 0; v < olds; ++v)
-  {
-    if (static_cast<int>(trianglesOf[v].size()) <= most)
-    {
-      continue;
-    }
-    // Another crowded point may have changed these triangles: gather them afresh.
-    std::vector<int> fan;
-    std::vector<std::pair<int, int>> edges;
-    for (std::size_t i = 0; i < result.Triangles.size(); ++i)
-    {
-      const Triangle& t = result.Triangles[i];
-      for (int k = 0; k < 3; ++k)
-      {
-        if (t[k] == v)
-        {
-          fan.push_back(static_cast<int>(i));
-          edges.emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
-        }
-      }
-    }
-    std::vector<int> ring(1, edges.front().first);
-    while (ring.size() < edges.size())
-    {
-      for (const auto& edge : edges)
-      {
-        if (edge.first == ring.back())
-        {
-          ring.push_back(edge.second);
-          break;
-        }
-      }
-    }
-    std::vector<Triangle> added;
-    while (static_cast<int>(ring.size()) > most)
-    {
-      // Point j of the inner ring lies half way to point 2 j of the outer one.
-      const std::size_t n = ring.size();
-      std::vector<int> inner;
-      for (std::size_t i = 0; i < n; i += 2)
-      {
-        Point middle;
-        for (int k = 0; k < 3; ++k)
-        {
-          middle[k] = 0.5 * (result.Points[v][k] + result.Points[ring[i]][k]);
-        }
-        inner.push_back(static_cast<int>(result.Points.size()));
-        result.Points.push_back(middle);
-      }
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        const int next = ring[(i + 1) % n];
-        added.push_back({ inner[i / 2], ring[i], next });
-        if (i % 2 == 1 || i + 1 == n)
-        {
-          added.push_back({ inner[i / 2], next, inner[(i / 2 + 1) % inner.size()] });
-        }
-      }
-      ring.swap(inner);
-    }
-    for (std::size_t i = 0; i < ring.size(); ++i)
-    {
-      added.push_back({ v, ring[i], ring[(i + 1) % ring.size()] });
-    }
-    for (std::size_t i = 0; i < added.size(); ++i)
-    {
-      if (i < fan.size())
-      {
-        result.Triangles[fan[i]] = added[i];
-      }
-      else
-      {
-        result.Triangles.push_back(added[i]);
-      }
-    }
-  }
-  return result;
 }
 
 namespace

@@ -24,13 +24,6 @@ IndexedSurface DividedIcosahedron(const Point& centre, double radius, double mea
  */
 IndexedSurface EnclosingSurface(const LevelImage& image, double meanEdge);
 
-/**
- * A copy in which no point has more neighbours than a ring can take: about crowded points (the
- * poles of spheres, the tips of cones) rings of half as many neighbours are set in. Points without
- * triangles are left out. `surface` must be closed and manifold.
- */
-IndexedSurface LimitValence(const IndexedSurface& surface);
-
 /** Radius, in delta, of the smallest icosahedron with legal edges. */
 constexpr double SmallestSeed = 0.96;
 

@@ -9,6 +9,47 @@
 
 namespace volumic
 {
+namespace
+{
+/** Splits that may have to come before one, see SplitEdge. */
+constexpr int DeepestSplit = 4;
+}
+
+bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
+{
+  SurfaceState& s = this->State;
+  if (!s.Mesh.AreNeighbours(u, v))
+  {
+    return true; // Split on the way to another one.
+  }
+  int m = this->Editor.Split(u, v);
+  if (m < 0 && depth > 0)
+  {
+    // A vertex opposite to the edge has no room for another neighbour. Once an edge from it to one
+    // of the ends is split, that one's middle is what lies opposite.
+    const EdgeFlip across = EdgeFlip::Of(s.Mesh, u, v);
+    for (int full : { across.A, across.B })
+    {
+      if (s.Mesh.Rings[full].Count == Ring::Capacity &&
+        !this->SplitEdge(full, u, added, depth - 1))
+      {
+        this->SplitEdge(full, v, added, depth - 1);
+      }
+    }
+    if (!s.Mesh.AreNeighbours(u, v))
+    {
+      return true;
+    }
+    m = this->Editor.Split(u, v);
+  }
+  if (m >= 0)
+  {
+    s.Wants[m] = SurfaceState::Shorter; // Checked when the walk reaches it.
+    added.push_back(m);
+  }
+  return m >= 0;
+}
+
 void Remesher::Split(std::vector<int>& vertices)
 {
   SurfaceState& s = this->State;
@@ -27,13 +68,7 @@ void Remesher::Split(std::vector<int>& vertices)
       const int w = s.Mesh.Rings[v].Item[i];
       if (SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) > longest * longest)
       {
-        const int m = this->Editor.Split(v, w);
-        if (m >= 0)
-        {
-          s.Wants[m] = SurfaceState::Shorter; // Checked when the walk reaches it.
-          vertices.push_back(m);
-        }
-        blocked = blocked || m < 0;
+        blocked = !this->SplitEdge(v, w, vertices, DeepestSplit) || blocked;
       }
     }
     if (!blocked)

@@ -28,7 +28,8 @@ public:
   }
 
   /**
-   * Splits all edges over 2.5 delta at these vertices. New vertices are appended to the list.
+   * Splits all edges over 2.5 delta at these vertices, where a ring is full after others that make
+   * room. New vertices are appended to the list.
    * Changes no geometry, so it comes before verification, which relies on it.
    */
   void Split(std::vector<int>& vertices);
@@ -46,6 +47,7 @@ public:
   void Unstick(const std::vector<int>& vertices);
 
 private:
+  bool SplitEdge(int u, int v, std::vector<int>& added, int depth);
   bool WantsMerge(int u, int v) const;
   bool FlipBetween(int u, int v);
   void CollapseAt(int v);

@@ -3,8 +3,10 @@
 #include "SurfaceCheck.h"
 
 #include "Join.h"
+#include "ObliqueRotation.h"
+#include "RowCrossing.h"
 #include "SurfaceMesh.h"
-#include "TriangleTests.h"
+#include "TriangleTree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +85,9 @@ void CheckEdges(const IndexedSurface& surface)
   if (open > 0)
   {
     Refuse("is open: " + std::to_string(open) +
-      " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter.");
+      " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter, or, "
+      "where triangles have points of their own at the same places, merge these with "
+      "vtkCleanPolyData.");
   }
   if (crowded > 0)
   {
@@ -152,6 +156,70 @@ void CheckOrientation(const IndexedSurface& surface)
     Refuse("encloses no volume.");
   }
 }
+
+/**
+ * Every component must face outward, or inward if it is a cavity of one that does: only then is
+ * the whole the boundary of a volume.
+ */
+void CheckNesting(const IndexedSurface& surface)
+{
+  const SurfaceFeatures features = ComputeFeatures(surface);
+  std::vector<int> first(features.Components.size(), -1);
+  const int count = static_cast<int>(surface.Triangles.size());
+  for (int i = count - 1; i >= 0; --i)
+  {
+    first[features.ComponentOfTriangle[i]] = i;
+  }
+  if (first.size() == 1)
+  {
+    return;
+  }
+  IndexedSurface turned = surface;
+  const ObliqueRotation rotation(0);
+  for (Point& p : turned.Points)
+  {
+    p = rotation.Apply(p);
+  }
+  const TriangleTree tree(turned);
+  int wrong = 0;
+  for (std::size_t c = 0; c < first.size(); ++c)
+  {
+    // How often do the others go round a place in a triangle of this one?
+    const Triangle& own = turned.Triangles[first[c]];
+    Point place;
+    for (int k = 0; k < 3; ++k)
+    {
+      place[k] = 0.41421 * turned.Points[own[0]][k] + 0.35425 * turned.Points[own[1]][k] +
+        0.23154 * turned.Points[own[2]][k];
+    }
+    int around = 0;
+    tree.Traverse(
+      [&place](const TriangleTree::Node& node)
+      {
+        return node.Low[0] <= place[0] && node.Low[1] <= place[1] && node.High[1] >= place[1] &&
+          node.Low[2] <= place[2] && node.High[2] >= place[2];
+      },
+      [&](int i)
+      {
+        if (features.ComponentOfTriangle[i] != static_cast<int>(c))
+        {
+          const RowCrossing crossing =
+            RowCrossing::Of(turned, turned.Triangles[i], place[1], place[2]);
+          around += crossing.X < place[0] ? crossing.Turn : 0;
+        }
+        return true;
+      });
+    const bool isCavity = features.Components[c].Volume < 0.;
+    wrong += around != (isCavity ? 1 : 0);
+  }
+  if (wrong > 0)
+  {
+    Refuse("is not the boundary of a volume: " + std::to_string(wrong) + " of its " +
+      std::to_string(first.size()) +
+      " components face the wrong way. Those inside another one are cavities and must face inward, "
+      "those inside a cavity or outside of all must face outward.");
+  }
+}
 }
 
 void CheckInitialSurface(const IndexedSurface& surface)
@@ -167,115 +235,48 @@ void CheckInitialSurface(const IndexedSurface& surface)
     Refuse("intersects itself: " + std::string(pairs >= limit ? "at least " : "") +
       std::to_string(pairs) + " pairs of triangles meet. Repair it before it is given.");
   }
+  CheckNesting(surface);
 }
 
 void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
 {
+  double low[3];
+  double high[3];
+  double widest = 0.;
+  double widestImage = 0.;
   for (int k = 0; k < 3; ++k)
   {
-    double low = std::numeric_limits<double>::max();
-    double high = -low;
-    for (const Point& p : surface.Points)
+    low[k] = std::numeric_limits<double>::max();
+    high[k] = -low[k];
+    for (const Triangle& t : surface.Triangles)
     {
-      low = std::min(low, p[k]);
-      high = std::max(high, p[k]);
+      for (int corner : t)
+      {
+        low[k] = std::min(low[k], surface.Points[corner][k]);
+        high[k] = std::max(high[k], surface.Points[corner][k]);
+      }
     }
-    if (high < 0. || low > image.Size[k] * image.Step[k])
+    widest = std::max(widest, high[k] - low[k]);
+    widestImage = std::max(widestImage, image.Size[k] * image.Step[k]);
+  }
+  // What encloses a flat image as a ball does is not yet wrong.
+  constexpr double most = 5.;
+  if (widest > most * widestImage)
+  {
+    Refuse("is too large for the image: it is " + Join(widest) +
+      " voxels wide, the image " + Join(widestImage) +
+      ". Are its coordinates in another unit than the image's, for example micrometres instead of "
+      "millimetres? Scale it to the image's.");
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    if (high[k] < 0. || low[k] > image.Size[k] * image.Step[k])
     {
-      Refuse(Join("lies wholly outside the image: along axis ", k, " it runs from ", low, " to ",
-        high, " voxels, the image from 0 to ", image.Size[k] * image.Step[k],
+      Refuse(Join("lies wholly outside the image: along axis ", k, " it runs from ", low[k], " to ",
+        high[k], " voxels, the image from 0 to ", image.Size[k] * image.Step[k],
         ". Check that both use the same space."));
     }
   }
-}
-
-int CountSelfIntersections(const IndexedSurface& surface, int limit)
-{
-  // Boxes of triangles in a sparse grid with cells of the size of a mean edge.
-  const std::size_t count = surface.Triangles.size();
-  double sum = 0.;
-  double extent = 0.;
-  std::vector<NamedTriangle> triangles(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Triangle& t = surface.Triangles[i];
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& p = surface.Points[t[k]];
-      triangles[i].Name[k] = t[k];
-      triangles[i].Corner[k] = VectorD(static_cast<float>(p[0]), static_cast<float>(p[1]),
-        static_cast<float>(p[2]));
-      extent = std::max({ extent, std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
-    }
-    sum += Length(triangles[i].Corner[1] - triangles[i].Corner[0]);
-  }
-  const double cell = std::max(2. * sum / std::max<std::size_t>(count, 1), extent * 1e-5);
-  if (!(cell > 0.))
-  {
-    return 0;
-  }
-  struct Entry
-  {
-    long long Key;
-    int Triangle;
-  };
-  std::vector<Entry> entries;
-  const auto place = [cell](double x) { return static_cast<long long>(std::floor(x / cell)); };
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    long long low[3];
-    long long high[3];
-    const VectorD* p = triangles[i].Corner;
-    low[0] = place(std::min({ p[0].X, p[1].X, p[2].X }));
-    high[0] = place(std::max({ p[0].X, p[1].X, p[2].X }));
-    low[1] = place(std::min({ p[0].Y, p[1].Y, p[2].Y }));
-    high[1] = place(std::max({ p[0].Y, p[1].Y, p[2].Y }));
-    low[2] = place(std::min({ p[0].Z, p[1].Z, p[2].Z }));
-    high[2] = place(std::max({ p[0].Z, p[1].Z, p[2].Z }));
-    for (long long z = low[2]; z <= high[2]; ++z)
-    {
-      for (long long y = low[1]; y <= high[1]; ++y)
-      {
-        for (long long x = low[0]; x <= high[0]; ++x)
-        {
-          const long long bias = 1 << 20;
-          entries.push_back({ ((z + bias) << 42) | ((y + bias) << 21) | (x + bias),
-            static_cast<int>(i) });
-        }
-      }
-    }
-  }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b)
-    { return a.Key != b.Key ? a.Key < b.Key : a.Triangle < b.Triangle; });
-  std::vector<std::pair<int, int>> hits;
-  for (std::size_t begin = 0; begin < entries.size();)
-  {
-    std::size_t end = begin;
-    while (end < entries.size() && entries[end].Key == entries[begin].Key)
-    {
-      ++end;
-    }
-    for (std::size_t i = begin; i < end; ++i)
-    {
-      for (std::size_t j = i + 1; j < end; ++j)
-      {
-        if (TrianglesMeet(
-              triangles[entries[i].Triangle], triangles[entries[j].Triangle], 1e-9 * cell))
-        {
-          hits.emplace_back(entries[i].Triangle, entries[j].Triangle);
-        }
-      }
-    }
-    begin = end;
-    if (limit > 0 && static_cast<int>(hits.size()) > 27 * limit)
-    {
-      break;
-    }
-  }
-  std::sort(hits.begin(), hits.end());
-  hits.erase(std::unique(hits.begin(), hits.end()), hits.end());
-  const int found = static_cast<int>(hits.size());
-  return limit > 0 ? std::min(found, limit) : found;
 }
 
 std::string DescribeBrokenInvariant(const SurfaceMesh& mesh)

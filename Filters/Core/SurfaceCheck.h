@@ -4,6 +4,7 @@
 #define volumicSurfaceCheck_h
 
 #include "LevelImage.h"
+#include "SelfIntersections.h"
 #include "SurfaceFeatures.h"
 
 #include <string>
@@ -14,22 +15,18 @@ class SurfaceMesh;
 
 /**
  * Refuses a surface that can't be evolved: empty, indices or coordinates out of range, open, not
- * manifold, not oriented, inside out, self-intersecting. `surface` may be in any space.
+ * manifold, not oriented, inside out, not the boundary of a volume (components nested the wrong
+ * way), self-intersecting. `surface` may be in any space.
  * @throws std::invalid_argument whose message names what is wrong, how often, and the way out.
  */
 void CheckInitialSurface(const IndexedSurface& surface);
 
 /**
- * Refuses a surface (workspace) that lies wholly outside the image.
+ * Refuses a surface (workspace) that lies wholly outside the image, or is so much larger that its
+ * coordinates must be in another unit.
  * @throws std::invalid_argument
  */
 void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image);
-
-/**
- * Number of intersecting pairs of triangles, neighbours included, by exact tests over a grid.
- * Stops counting at `limit` (0: never).
- */
-int CountSelfIntersections(const IndexedSurface& surface, int limit = 0);
 
 /**
  * Every invariant of a live mesh that holds at any time: consistent rings, no duplicate

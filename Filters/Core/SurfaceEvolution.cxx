@@ -125,17 +125,8 @@ void SurfaceEvolution::StartSurface(
   CheckOverlapsImage(surface, image);
   Implementation& self = *this->Self;
   const Timer timer(self.Preparing);
-  const IndexedSurface prepared = LimitValence(surface);
-  if (CountSelfIntersections(prepared, 1) > 0)
-  {
-    throw std::invalid_argument("The initial surface has points with more neighbours than can be "
-                                "handled, and intersects itself when they are split. Remesh it.");
-  }
   self.Enter(image, level);
-  self.State.Mesh.Clear();
-  self.State.Mesh.Append(prepared);
-  self.Reset();
-  self.Adapt();
+  self.Take(surface);
 }
 
 StopReason SurfaceEvolution::Run()

@@ -135,8 +135,12 @@ public:
   int StartSeeds(const LevelImage& image, int level, const std::vector<Point>& centres);
 
   /**
-   * Start from a closed surface (workspace), remeshed to the constraints of delta.
-   * @throws std::invalid_argument as CheckInitialSurface and CheckOverlapsImage.
+   * Start from a closed surface (workspace), remeshed to the constraints of delta: afterwards no
+   * edge is longer than 2.5 delta, none but a few in places narrower than that shorter than delta,
+   * and nothing intersects, which is tested. The monitor is asked meanwhile; once it has said stop
+   * Run() does nothing.
+   * @throws std::invalid_argument as CheckInitialSurface and CheckOverlapsImage, or where the
+   * surface is too thin for triangles of this size.
    */
   void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface);
 

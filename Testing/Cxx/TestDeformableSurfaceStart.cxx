@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
+#include <vtkCleanPolyData.h>
 #include <vtkCommand.h>
+#include <vtkCylinderSource.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -359,4 +361,53 @@ TEST(DeformableSurfaceStart, WarnsOfWhatStaysLostAndNamesTheLevel)
   EXPECT_TRUE(warnings.Has("1 part of the object that the surface lost at level"))
     << warnings.Get();
   EXPECT_TRUE(warnings.Has("Turn Recovery on")) << warnings.Get();
+}
+
+TEST(DeformableSurfaceStart, StartsFromTheCoarseFacetsOfACylinder)
+{
+  // The one whose long facets and slivers once left 69 intersections and a "converged".
+  for (double radius : { 13.0, 17.0 })
+  {
+    SCOPED_TRACE(radius);
+    vtkNew<vtkCylinderSource> cylinder;
+    cylinder->SetCenter(19.5, 19.5, 19.5);
+    cylinder->SetRadius(radius);
+    cylinder->SetHeight(25.5);
+    cylinder->SetResolution(12);
+    vtkNew<vtkCleanPolyData> shared; // Caps and side have points of their own.
+    shared->SetInputConnection(cylinder->GetOutputPort());
+    vtkNew<vtkDeformableSurface> filter;
+    filter->SetInputData(BallImage(40, 40, 40));
+    filter->SetIsoValue(50.0);
+    filter->SetInitializationToInputSurface();
+    filter->SetInitialSurfaceConnection(shared->GetOutputPort());
+    filter->SetCoarsestLevel(0);
+    filter->SetSnapshotInterval(1000);
+    filter->Update();
+    ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
+    EXPECT_EQ(StopReason(filter->GetOutput()), "converged");
+    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 900);
+    ASSERT_EQ(filter->GetSnapshots()->GetNumberOfBlocks(), 1u) << "none from within the start";
+    auto* start = vtkPolyData::SafeDownCast(filter->GetSnapshots()->GetBlock(0));
+    EXPECT_EQ(OpenOrNonManifoldEdges(start), 0);
+    const double volume = 0.5 * 12 * std::sin(vtkMath::Pi() / 6.0) * radius * radius * 25.5;
+    EXPECT_NEAR(EnclosedVolume(start) / volume, 1.0, 0.03);
+    const double delta = FieldOf(start, "Delta");
+    for (vtkIdType cell = 0; cell < start->GetNumberOfCells(); ++cell)
+    {
+      vtkIdType size;
+      const vtkIdType* corners;
+      start->GetCellPoints(cell, size, corners);
+      for (int k = 0; k < 3; ++k)
+      {
+        double p[3];
+        double q[3];
+        start->GetPoint(corners[k], p);
+        start->GetPoint(corners[(k + 1) % 3], q);
+        const double length = std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
+        ASSERT_GE(length, 0.99 * delta);
+        ASSERT_LE(length, 2.51 * delta);
+      }
+    }
+  }
 }

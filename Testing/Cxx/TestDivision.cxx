@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoreTestTools.h"
 #include "Division.h"
+#include "SurfaceEvolution.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 using namespace volumic;
 
@@ -30,7 +34,8 @@ TEST(Division, MakesThreeTimesTheFacesWithEdgesShorterBySqrtThree)
   const int vertices = mesh.NumberOfVertices();
   const int faces = mesh.NumberOfFaces();
   const double edge = MeanEdge(mesh);
-  const int first = Divide(mesh);
+  const int first = mesh.Size();
+  Divide(mesh);
   EXPECT_EQ(first, vertices);
   EXPECT_EQ(mesh.NumberOfVertices(), vertices + faces);
   EXPECT_EQ(mesh.NumberOfFaces(), 3 * faces);
@@ -45,7 +50,8 @@ TEST(Division, KeepsOldValencesAndGivesNewVerticesSix)
   mesh.Append(MakeTorus({ 0, 0, 0 }, 5, 2, 17, 9));
   mesh.Append(Icosahedron({ 20, 0, 0 }, 3));
   const std::vector<Ring> old = mesh.Rings;
-  const int first = Divide(mesh);
+  const int first = mesh.Size();
+  Divide(mesh);
   for (int v = 0; v < mesh.Size(); ++v)
   {
     EXPECT_EQ(mesh.Rings[v].Count, v < first ? old[v].Count : 6);
@@ -60,4 +66,232 @@ TEST(Division, DoesNotIntersectOnASmoothSurface)
   mesh.Append(MakeTorus({ 0, 0, 0 }, 5, 2, 30, 15));
   Divide(mesh);
   EXPECT_EQ(CountSelfIntersections(mesh.ToIndexed()), 0);
+}
+
+TEST(Division, LeavesTheOldSurfaceWhereEdgesAreKept)
+{
+  SurfaceMesh mesh;
+  mesh.Append(MakeTorus({ 0, 0, 0 }, 5, 2, 9, 5));
+  const SurfaceFeatures old = ComputeFeatures(mesh.ToIndexed());
+  SurfaceMesh flipped = mesh;
+  Divide(flipped);
+  EXPECT_GT(std::abs(ComputeFeatures(flipped.ToIndexed()).Volume - old.Volume), 1.);
+  const SurfaceMesh copy = mesh;
+  KeptEdges kept(copy);
+  kept.KeepAll();
+  kept.MakeRoom();
+  Divide(mesh, &kept);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  const SurfaceFeatures divided = ComputeFeatures(mesh.ToIndexed());
+  EXPECT_NEAR(divided.Volume, old.Volume, 1e-3);
+  EXPECT_NEAR(divided.Area, old.Area, 1e-3);
+  EXPECT_EQ(divided.Genus, 1);
+}
+
+TEST(Division, IsSoundWhicheverEdgesAreKept)
+{
+  std::mt19937 engine(7);
+  for (int share : { 1, 5, 9 })
+  {
+    SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 10, 3);
+    const SurfaceMesh copy = mesh;
+    KeptEdges kept(copy);
+    int edges = 0;
+    for (int v = 0; v < copy.Size(); ++v)
+    {
+      for (int i = 0; i < copy.Rings[v].Count; ++i)
+      {
+        const int w = copy.Rings[v].Item[i];
+        if (v < w && static_cast<int>(engine() % 10) < share)
+        {
+          kept.Keep(v, w);
+          ++edges;
+        }
+      }
+    }
+    kept.MakeRoom();
+    Divide(mesh, &kept);
+    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+    EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
+    EXPECT_GE(mesh.Size(), copy.Size() + copy.NumberOfFaces() + edges);
+    EXPECT_EQ(CountSelfIntersections(mesh.ToIndexed()), 0);
+  }
+}
+
+TEST(Division, CanBeTakenBack)
+{
+  SurfaceMesh mesh;
+  mesh.Append(MakeTorus({ 0, 0, 0 }, 5, 2, 17, 9));
+  const SurfaceMesh old = mesh;
+  Divide(mesh);
+  const SurfaceMesh back = Undivided(mesh, old.Size());
+  ASSERT_EQ(back.Size(), old.Size());
+  for (int v = 0; v < old.Size(); ++v)
+  {
+    ASSERT_EQ(back.Rings[v].Count, old.Rings[v].Count);
+    for (int i = 0; i < old.Rings[v].Count; ++i)
+    {
+      EXPECT_EQ(back.Rings[v].Item[i], old.Rings[v].Item[i]);
+    }
+  }
+}
+
+TEST(Division, FindsRoomForKeptEdgesInFullRings)
+{
+  // Both tips of a double cone have 15 neighbours: every other edge kept would make them 22.
+  IndexedSurface cone;
+  constexpr int sides = Ring::Capacity;
+  cone.Points = { { 0, 0, 5 }, { 0, 0, -5 } };
+  for (int i = 0; i < sides; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / sides;
+    cone.Points.push_back({ 5 * std::cos(a), 5 * std::sin(a), 0 });
+  }
+  for (int i = 0; i < sides; ++i)
+  {
+    const int next = 2 + (i + 1) % sides;
+    cone.Triangles.push_back({ 0, 2 + i, next });
+    cone.Triangles.push_back({ 1, next, 2 + i });
+  }
+  SurfaceMesh mesh;
+  mesh.Append(cone);
+  const SurfaceMesh copy = mesh;
+  KeptEdges kept(copy);
+  for (int i = 0; i < sides; i += 2)
+  {
+    kept.Keep(0, 2 + i);
+  }
+  kept.MakeRoom();
+  Divide(mesh, &kept);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  EXPECT_EQ(mesh.Rings[0].Count, sides);
+}
+
+TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
+{
+  // The division cuts the edges of an icosahedron off. A small one inside, a cavity, has a corner
+  // just beneath the middle of such an edge, where the divided surface would pass through it.
+  const auto make = []
+  {
+    IndexedSurface surface = Icosahedron({ 0, 0, 0 }, 2.37);
+    const Triangle t = surface.Triangles[0];
+    VectorD up;
+    for (int corner : { t[0], t[1] })
+    {
+      const Point& p = surface.Points[corner];
+      up += VectorD(p[0], p[1], p[2]);
+    }
+    up = Normalized(up);
+    IndexedSurface inner = Icosahedron({ 0, 0, 0 }, 0.96);
+    // Turned so that its first corner points up.
+    const Point& c = inner.Points[0];
+    const VectorD corner = Normalized(VectorD(c[0], c[1], c[2]));
+    const VectorD half = Normalized(corner + up);
+    for (Point& point : inner.Points)
+    {
+      const VectorD p(point[0], point[1], point[2]);
+      const VectorD turned = half * (2 * Dot(half, p)) - p + up * 0.94;
+      point = { turned.X, turned.Y, turned.Z };
+    }
+    for (const Triangle& triangle : inner.Triangles)
+    {
+      surface.Triangles.push_back({ 12 + triangle[0], 12 + triangle[2], 12 + triangle[1] });
+    }
+    surface.Points.insert(surface.Points.end(), inner.Points.begin(), inner.Points.end());
+    for (Point& point : surface.Points)
+    {
+      point = { 8 + point[0], 8 + point[1], 8 + point[2] };
+    }
+    return surface;
+  };
+  const IndexedSurface given = make();
+  ASSERT_EQ(CountSelfIntersections(given), 0);
+  SurfaceMesh plain;
+  plain.Append(given);
+  Divide(plain);
+  ASSERT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
+
+  TestVolume volume = MakeVolume(16, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  options.SamplingRatio = 1.;
+  options.RecoverLostParts = false;
+  SequentialExecutor threads;
+  Monitor monitor;
+  // One division, and two in a row, the first of which leaves edges longer than the last level's.
+  for (double unit : { 1. / std::sqrt(3.), 1. / 3. })
+  {
+    SurfaceEvolution evolution(options, threads, monitor);
+    evolution.StartSurface(volume.Image, 1, given);
+    ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
+    LevelImage fine = volume.Image;
+    fine.Unit = unit;
+    evolution.Divide(fine, 0);
+    const SurfaceResult divided = evolution.Result();
+    EXPECT_EQ(CountSelfIntersections(divided), 0);
+    SurfaceMesh mesh;
+    mesh.Append(divided);
+    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+    EXPECT_EQ(ComputeFeatures(divided).Components.size(), 2u);
+    for (const Triangle& t : divided.Triangles)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const Point& p = divided.Points[t[k]];
+        const Point& q = divided.Points[t[(k + 1) % 3]];
+        ASSERT_LE(Distance(p[0], p[1], p[2], q[0], q[1], q[2]), 2.5001 * divided.Delta);
+      }
+    }
+  }
+}
+
+TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
+{
+  // A body with a groove, which the division fills, and a blade in the groove. They meet in the
+  // middle of edges, far from all corners if the last of three divisions is the measure.
+  IndexedSurface given;
+  given.Points = { { -2.1, 0, 0.6 }, { 2.1, 0, 0.6 }, { 0, -1.2, 0 }, { 0, 1.2, 0 }, { 0, 0, -0.7 },
+    { 0, -1.2, 0.1 }, { 0, 1.2, 0.1 }, { 0.51, 0, 0.253 }, { -0.51, 0, 0.253 } };
+  given.Triangles = { { 0, 2, 3 }, { 1, 3, 2 }, { 0, 4, 2 }, { 2, 4, 1 }, { 1, 4, 3 }, { 3, 4, 0 },
+    { 5, 6, 7 }, { 6, 5, 8 }, { 5, 7, 8 }, { 6, 8, 7 } };
+  for (Point& p : given.Points)
+  {
+    p = { p[0] + 8, p[1] + 8, p[2] + 8 };
+  }
+  const SurfaceFeatures features = ComputeFeatures(given);
+  ASSERT_EQ(features.Components.size(), 2u);
+  ASSERT_GT(features.Components[0].Volume, 0);
+  ASSERT_GT(features.Components[1].Volume, 0);
+  ASSERT_EQ(CountSelfIntersections(given), 0);
+  SurfaceMesh plain;
+  plain.Append(given);
+  Divide(plain);
+  ASSERT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
+
+  TestVolume volume = MakeVolume(16, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  options.SamplingRatio = 1.;
+  options.RecoverLostParts = false;
+  SequentialExecutor threads;
+  Monitor monitor;
+  SurfaceEvolution evolution(options, threads, monitor);
+  evolution.StartSurface(volume.Image, 1, given);
+  ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
+  LevelImage fine = volume.Image;
+  fine.Unit = std::pow(3., -1.5);
+  evolution.Divide(fine, 0);
+  const SurfaceResult divided = evolution.Result();
+  EXPECT_EQ(CountSelfIntersections(divided), 0);
+  for (const Point& old : given.Points)
+  {
+    double nearest = 1e9;
+    for (const Point& p : divided.Points)
+    {
+      nearest = std::min(nearest, Distance(p[0], p[1], p[2], old[0], old[1], old[2]));
+    }
+    EXPECT_LT(nearest, 1e-5) << "divided, not remeshed as what has met itself is";
+  }
 }

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "Division.h"
+#include "LatticeSurface.h"
+#include "ObliqueRotation.h"
+#include "Remesher.h"
+#include "SurfaceEvolution.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+Monitor Silent;
+
+SurfaceOptions Half()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  return options;
+}
+
+TestVolume Ball()
+{
+  return MakeVolume(
+    40, [](double x, double y, double z) { return Soft(Distance(x, y, z, 19.5, 19.5, 19.5) - 12.); });
+}
+
+/** As VTK's cylinder source makes it, triangulated: caps are fans of ears, sides long slivers. */
+IndexedSurface Cylinder(double radius, double height, int sides)
+{
+  IndexedSurface surface;
+  for (double z : { 19.5 - 0.5 * height, 19.5 + 0.5 * height })
+  {
+    for (int i = 0; i < sides; ++i)
+    {
+      const double a = 2 * 3.14159265358979 * i / sides;
+      surface.Points.push_back({ 19.5 + radius * std::cos(a), 19.5 + radius * std::sin(a), z });
+    }
+  }
+  for (int i = 0; i < sides; ++i)
+  {
+    const int next = (i + 1) % sides;
+    surface.Triangles.push_back({ i, next, sides + next });
+    surface.Triangles.push_back({ sides + next, sides + i, i });
+  }
+  for (int i = 1; i + 1 < sides; ++i)
+  {
+    surface.Triangles.push_back({ 0, i + 1, i });
+    surface.Triangles.push_back({ sides, sides + i, sides + i + 1 });
+  }
+  return surface;
+}
+
+IndexedSurface Box(const Point& low, const Point& high)
+{
+  IndexedSurface box;
+  for (int i = 0; i < 8; ++i)
+  {
+    box.Points.push_back(
+      { i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2] });
+  }
+  for (const auto& q : { std::array<int, 4>{ 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 },
+         { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } })
+  {
+    box.Triangles.push_back({ q[0], q[1], q[2] });
+    box.Triangles.push_back({ q[2], q[3], q[0] });
+  }
+  return box;
+}
+
+void Append(IndexedSurface& surface, const IndexedSurface& other, bool reversed = false)
+{
+  const int first = static_cast<int>(surface.Points.size());
+  surface.Points.insert(surface.Points.end(), other.Points.begin(), other.Points.end());
+  for (const Triangle& t : other.Triangles)
+  {
+    surface.Triangles.push_back({ first + t[0], first + t[reversed ? 2 : 1],
+      first + t[reversed ? 1 : 2] });
+  }
+}
+
+/** Eq. (1) for edges, no intersection, and a mesh whose rings agree. */
+void ExpectLegal(const IndexedSurface& surface, double delta)
+{
+  EXPECT_EQ(CountSelfIntersections(surface), 0);
+  SurfaceMesh mesh;
+  mesh.Append(surface);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  double shortest = 1e9;
+  double longest = 0;
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& p = surface.Points[t[k]];
+      const Point& q = surface.Points[t[(k + 1) % 3]];
+      const double length = Distance(p[0], p[1], p[2], q[0], q[1], q[2]);
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
+  }
+  EXPECT_GE(shortest, 0.999 * delta);
+  EXPECT_LE(longest, 2.501 * delta);
+}
+
+std::string RefusalOf(const IndexedSurface& surface)
+{
+  const TestVolume volume = Ball();
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  try
+  {
+    evolution.StartSurface(volume.Image, 0, surface);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return "accepted";
+}
+}
+
+TEST(GivenSurface, IsLegalBeforeTheFirstIterationWhateverItsTriangles)
+{
+  const TestVolume volume = Ball();
+  struct Case
+  {
+    const char* Name;
+    IndexedSurface Surface;
+  };
+  for (const Case& given : { Case{ "coarse cylinder", Cylinder(13, 25.5, 12) },
+         Case{ "cylinder of 42 points", Cylinder(14, 30, 21) },
+         Case{ "fans of 300", Cylinder(12, 20, 300) }, Case{ "prism", Cylinder(15, 8, 3) },
+         Case{ "flat box", Box({ 4, 4, 17 }, { 35, 35, 22 }) },
+         Case{ "cube", Box({ 6, 6, 6 }, { 33, 33, 33 }) } })
+  {
+    SCOPED_TRACE(given.Name);
+    SurfaceEvolution evolution(Half(), Threads, Silent);
+    evolution.StartSurface(volume.Image, 0, given.Surface);
+    const SurfaceResult start = evolution.Result();
+    ExpectLegal(start, start.Delta);
+    const SurfaceFeatures wanted = ComputeFeatures(given.Surface);
+    const SurfaceFeatures found = ComputeFeatures(start);
+    EXPECT_EQ(found.EulerCharacteristic, 2);
+    EXPECT_NEAR(found.Volume / wanted.Volume, 1., 0.06) << "where it was given";
+    EXPECT_EQ(evolution.Run(), StopReason::Converged);
+    const SurfaceResult end = evolution.Result();
+    ExpectLegal(end, end.Delta);
+    EXPECT_NEAR(ComputeFeatures(end).Volume, 4. / 3. * 3.14159 * 1728., 150.);
+  }
+}
+
+TEST(GivenSurface, KeepsItsComponentsCavitiesAndTunnels)
+{
+  // A torus, a thick-walled box, both of large triangles, and a ball of many small ones.
+  const TestVolume volume = Ball();
+  IndexedSurface given = MakeTorus({ 12, 12, 8 }, 7, 3, 9, 6);
+  Append(given, Box({ 20, 20, 16 }, { 38, 38, 36 }));
+  Append(given, Box({ 24, 24, 20 }, { 34, 34, 32 }), true);
+  Append(given, DividedIcosahedron({ 8, 30, 30 }, 5, 0.1));
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartSurface(volume.Image, 0, given);
+  const SurfaceResult start = evolution.Result();
+  ExpectLegal(start, start.Delta);
+  const SurfaceFeatures features = ComputeFeatures(start);
+  EXPECT_EQ(features.Components.size(), 4u);
+  EXPECT_EQ(features.Genus, 1);
+  EXPECT_NEAR(features.Volume / ComputeFeatures(given).Volume, 1., 0.03);
+}
+
+TEST(GivenSurface, IsTakenAsItIsWhereItIsLegal)
+{
+  const TestVolume volume = Ball();
+  SurfaceEvolution first(Half(), Threads, Silent);
+  first.StartEnclosing(volume.Image, 0);
+  first.Run();
+  const SurfaceResult rested = first.Result();
+  SurfaceEvolution second(Half(), Threads, Silent);
+  second.StartSurface(volume.Image, 0, rested);
+  const SurfaceResult again = second.Result();
+  ASSERT_EQ(again.Points.size(), rested.Points.size());
+  EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(rested).Volume, 1e-6);
+}
+
+TEST(GivenSurface, IsLegalForAnyOrderOfTriangles)
+{
+  const TestVolume volume = Ball();
+  IndexedSurface given = Cylinder(13, 25.5, 40);
+  std::reverse(given.Triangles.begin(), given.Triangles.end());
+  SurfaceEvolution evolution(Half(), Threads, Silent);
+  evolution.StartSurface(volume.Image, 0, given);
+  const SurfaceResult start = evolution.Result();
+  ExpectLegal(start, start.Delta);
+}
+
+namespace
+{
+class CancelAt final : public Monitor
+{
+public:
+  explicit CancelAt(int call) : Left(call) {}
+  bool Continue(const Status&) override { return --this->Left >= 0; }
+  int Left;
+};
+}
+
+TEST(GivenSurface, CanBeCancelledWhileItIsMadeReady)
+{
+  const TestVolume volume = Ball();
+  CancelAt count(1000000);
+  {
+    SurfaceEvolution evolution(Half(), Threads, count);
+    evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
+  }
+  const int calls = 1000000 - count.Left;
+  ASSERT_GT(calls, 20) << "asked again and again";
+  for (int call = 0; call < calls; call += 7)
+  {
+    CancelAt monitor(call);
+    SurfaceEvolution evolution(Half(), Threads, monitor);
+    evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
+    EXPECT_EQ(monitor.Left, -1) << "not asked again";
+    const SurfaceResult state = evolution.Result();
+    EXPECT_EQ(CountSelfIntersections(state), 0);
+    EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
+    EXPECT_EQ(evolution.Iterations(), 0);
+  }
+}
+
+TEST(GivenSurfaceInvalid, RefusesWrongUnitsAndNamesBothSizes)
+{
+  const std::string text = RefusalOf(Cylinder(13000, 25500, 12));
+  EXPECT_NE(text.find("too large for the image"), std::string::npos) << text;
+  EXPECT_NE(text.find("26000"), std::string::npos) << text;
+  EXPECT_NE(text.find("the image 40"), std::string::npos) << text;
+  EXPECT_NE(text.find("unit"), std::string::npos) << text;
+  EXPECT_EQ(RefusalOf(Cylinder(35, 70, 12)), "accepted") << "what encloses the image generously";
+}
+
+TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
+{
+  EXPECT_EQ(RefusalOf(Box({ 10, 10, 19.5 }, { 30, 30, 20.9 })), "accepted");
+  const std::string text = RefusalOf(Box({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
+  EXPECT_NE(text.find("too thin for this level"), std::string::npos) << text;
+  EXPECT_NE(text.find("finer level"), std::string::npos) << text;
+}
+
+TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
+{
+  const IndexedSurface box = Box({ 5, 5, 5 }, { 35, 35, 35 });
+  const IndexedSurface inner = Box({ 12, 12, 12 }, { 28, 28, 28 });
+  IndexedSurface twice = box;
+  Append(twice, inner);
+  EXPECT_NE(RefusalOf(twice).find("1 of its 2 components face the wrong way"), std::string::npos);
+  IndexedSurface beside = Box({ 5, 5, 5 }, { 20, 35, 35 });
+  Append(beside, Box({ 25, 5, 5 }, { 35, 35, 35 }), true);
+  EXPECT_NE(RefusalOf(beside).find("face the wrong way"), std::string::npos);
+  IndexedSurface hollow = box;
+  Append(hollow, inner, true);
+  Append(hollow, Box({ 16, 16, 16 }, { 24, 24, 24 }));
+  EXPECT_EQ(RefusalOf(hollow), "accepted") << "a cavity, and a body in it";
+}
+
+TEST(LatticeSurface, IsLegalForAnyLattice)
+{
+  const IndexedSurface given = Cylinder(9, 14, 50);
+  for (double pitch : { 0.8, 1.3, 4. })
+  {
+    for (int attempt = 0; attempt < ObliqueRotation::Count; ++attempt)
+    {
+      const IndexedSurface mesh =
+        RemeshOnLattice(given, pitch, attempt, Threads, [](double) { return true; });
+      EXPECT_EQ(CountSelfIntersections(mesh), 0);
+      SurfaceMesh rings;
+      rings.Append(mesh);
+      EXPECT_EQ(DescribeBrokenInvariant(rings), "");
+      const SurfaceFeatures features = ComputeFeatures(mesh);
+      EXPECT_EQ(features.EulerCharacteristic, 2);
+      EXPECT_NEAR(features.Volume / ComputeFeatures(given).Volume, 1., 0.01 * pitch * pitch);
+      for (const Triangle& t : mesh.Triangles)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const Point& p = mesh.Points[t[k]];
+          const Point& q = mesh.Points[t[(k + 1) % 3]];
+          const double length = Distance(p[0], p[1], p[2], q[0], q[1], q[2]);
+          ASSERT_LT(length, pitch);
+          ASSERT_GT(length, 0.1 * pitch);
+        }
+      }
+    }
+  }
+}
+
+TEST(Remesher, SplitsLongEdgesBetweenFullRings)
+{
+  // A double cone on a polygon of 15 sides, one of them long: both vertices opposite to it are full.
+  IndexedSurface cone;
+  cone.Points = { { 0, 0, 0.8 }, { 0, 0, -0.8 } };
+  constexpr int sides = Ring::Capacity;
+  for (int i = 0; i < sides; ++i)
+  {
+    const double a = 0.85 + (2 * 3.14159265358979 - 1.7) * i / (sides - 1);
+    cone.Points.push_back({ 2 * std::cos(a), 2 * std::sin(a), 0 });
+  }
+  for (int i = 0; i < sides; ++i)
+  {
+    const int next = 2 + (i + 1) % sides;
+    cone.Triangles.push_back({ 0, 2 + i, next });
+    cone.Triangles.push_back({ 1, next, 2 + i });
+  }
+  SurfaceState state;
+  state.Mesh.Append(cone);
+  state.Reset(Vector(-3, -3, -3), Vector(3, 3, 3));
+  std::vector<int> all;
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    all.push_back(v);
+  }
+  state.UpdateShape(all, Threads);
+  Remesher(state, nullptr, false).Split(all);
+  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
+  EXPECT_GT(state.Counts.Splits, 1);
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    for (int i = 0; i < state.Mesh.Rings[v].Count; ++i)
+    {
+      const Vector& q = state.Mesh.Position[state.Mesh.Rings[v].Item[i]];
+      EXPECT_LE(SquaredDistance(state.Mesh.Position[v], q), 6.2501f);
+    }
+  }
+  EXPECT_NEAR(ComputeFeatures(state.Mesh.ToIndexed()).Volume, ComputeFeatures(cone).Volume, 1e-4)
+    << "no geometry is changed";
+}

@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What people give as initial surfaces: VTK's sources with their coarse facets, slivers and fans,
+// extruded outlines, decimated scans. Each must be legal before the first iteration and at the end,
+// by the judge's exact tests, or be refused because it is not legal itself.
+#include "SurfaceEvolution.h"
+#include "SurfaceJudge.h"
+
+#include <vtkCellArray.h>
+#include <vtkCleanPolyData.h>
+#include <vtkConeSource.h>
+#include <vtkCubeSource.h>
+#include <vtkCylinderSource.h>
+#include <vtkDecimatePro.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataConnectivityFilter.h>
+#include <vtkQuadricDecimation.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphereSource.h>
+#include <vtkTriangleFilter.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+using namespace volumic::support;
+
+namespace
+{
+constexpr int Size = 40;
+constexpr double Middle = 19.5;
+
+/// Numbers that are the same with any standard library.
+class Dice
+{
+public:
+  explicit Dice(unsigned int seed) : Engine(seed) {}
+  double Between(double low, double high)
+  {
+    return low + (high - low) * (static_cast<double>(this->Engine()) / 4294967296.0);
+  }
+  /// Small ones as often as large ones.
+  int Count(int low, int high)
+  {
+    return static_cast<int>(std::exp(this->Between(std::log(low), std::log(high))));
+  }
+
+private:
+  std::mt19937 Engine;
+};
+
+vtkSmartPointer<vtkPolyData> Cleaned(vtkAlgorithmOutput* polygons)
+{
+  vtkNew<vtkTriangleFilter> triangulate;
+  triangulate->SetInputConnection(polygons);
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputConnection(triangulate->GetOutputPort());
+  clean->Update();
+  return clean->GetOutput();
+}
+
+/// An outline with flat ends; not convex, so that its ends have slivers.
+vtkSmartPointer<vtkPolyData> Extruded(Dice& dice)
+{
+  static const std::vector<std::array<double, 2>> outlines[] = {
+    { { 0, 0 }, { 7, 0 }, { 7, 2 }, { 2, 2 }, { 2, 4 }, { 5, 4 }, { 5, 6 }, { 2, 6 }, { 2, 8 },
+      { 7, 8 }, { 7, 10 }, { 0, 10 } },
+    { { 0, 0 }, { 2, 0 }, { 5, 7 }, { 8, 0 }, { 10, 0 }, { 6, 10 }, { 4, 10 } },
+    { { 0, 0 }, { 2, 0 }, { 2, 4 }, { 6, 4 }, { 6, 0 }, { 8, 0 }, { 8, 10 }, { 6, 10 }, { 6, 6 },
+      { 2, 6 }, { 2, 10 }, { 0, 10 } }
+  };
+  const auto& outline = outlines[dice.Count(1, 4) - 1];
+  const auto n = static_cast<vtkIdType>(outline.size());
+  const double scale = dice.Between(1.6, 3.0);
+  const double depth = dice.Between(3.0, 20.0);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (double z : { 0.0, depth })
+  {
+    for (const auto& p : outline)
+    {
+      points->InsertNextPoint(scale * (p[0] - 4.0), scale * (p[1] - 5.0), z - 0.5 * depth);
+    }
+  }
+  vtkNew<vtkCellArray> polygons;
+  vtkNew<vtkIdList> bottom;
+  vtkNew<vtkIdList> top;
+  for (vtkIdType i = 0; i < n; ++i)
+  {
+    bottom->InsertNextId(n - 1 - i);
+    top->InsertNextId(n + i);
+    const vtkIdType next = (i + 1) % n;
+    const vtkIdType side[4] = { i, next, n + next, n + i };
+    polygons->InsertNextCell(4, side);
+  }
+  polygons->InsertNextCell(bottom);
+  polygons->InsertNextCell(top);
+  vtkNew<vtkPolyData> prism;
+  prism->SetPoints(points);
+  prism->SetPolys(polygons);
+  vtkNew<vtkTriangleFilter> triangulate;
+  triangulate->SetInputData(prism);
+  triangulate->Update();
+  return triangulate->GetOutput();
+}
+
+/// A bumpy ball as from a scan, with fewer triangles.
+vtkSmartPointer<vtkPolyData> Decimated(Dice& dice, bool quadric)
+{
+  double wave[12];
+  double phase[4];
+  for (double& w : wave)
+  {
+    w = dice.Between(0.1, 0.5);
+  }
+  for (double& p : phase)
+  {
+    p = dice.Between(0.0, 6.28);
+  }
+  const double height = dice.Between(0.5, 3.0);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(Size, Size, Size);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  auto* value = static_cast<float*>(image->GetScalarPointer());
+  for (int k = 0; k < Size; ++k)
+  {
+    for (int j = 0; j < Size; ++j)
+    {
+      for (int i = 0; i < Size; ++i)
+      {
+        double bumps = 0.0;
+        for (int m = 0; m < 4; ++m)
+        {
+          bumps += std::sin(wave[3 * m] * i + wave[3 * m + 1] * j + wave[3 * m + 2] * k + phase[m]);
+        }
+        const double r = std::hypot(i - Middle, j - Middle, k - Middle);
+        *value++ = static_cast<float>(r > 18.0 ? -3.0 : 13.0 - r + height * bumps);
+      }
+    }
+  }
+  vtkNew<vtkFlyingEdges3D> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.013);
+  vtkNew<vtkPolyDataConnectivityFilter> largest;
+  largest->SetInputConnection(contour->GetOutputPort());
+  largest->SetExtractionModeToLargestRegion();
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputConnection(largest->GetOutputPort());
+  clean->SetTolerance(0.0);
+  vtkSmartPointer<vtkPolyData> result;
+  const double reduction = dice.Between(0.2, 0.97);
+  if (quadric)
+  {
+    vtkNew<vtkQuadricDecimation> decimate;
+    decimate->SetInputConnection(clean->GetOutputPort());
+    decimate->SetTargetReduction(reduction);
+    result = Cleaned(decimate->GetOutputPort());
+  }
+  else
+  {
+    vtkNew<vtkDecimatePro> decimate;
+    decimate->SetInputConnection(clean->GetOutputPort());
+    decimate->SetTargetReduction(reduction);
+    decimate->PreserveTopologyOn();
+    result = Cleaned(decimate->GetOutputPort());
+  }
+  for (vtkIdType i = 0; i < result->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    result->GetPoint(i, p);
+    result->GetPoints()->SetPoint(i, p[0] - Middle, p[1] - Middle, p[2] - Middle);
+  }
+  return result;
+}
+
+vtkSmartPointer<vtkPolyData> MakeShape(const std::string& kind, Dice& dice)
+{
+  const double radius = dice.Between(3.0, 16.0);
+  const double height = dice.Between(3.0, 32.0);
+  const int sides = dice.Count(3, 300);
+  if (kind == "Cylinders")
+  {
+    vtkNew<vtkCylinderSource> cylinder;
+    cylinder->SetRadius(radius);
+    cylinder->SetHeight(height);
+    cylinder->SetResolution(sides);
+    return Cleaned(cylinder->GetOutputPort());
+  }
+  if (kind == "Cones")
+  {
+    vtkNew<vtkConeSource> cone;
+    cone->SetRadius(radius + 2.0);
+    cone->SetHeight(height + 4.0);
+    cone->SetResolution(sides);
+    return Cleaned(cone->GetOutputPort());
+  }
+  if (kind == "Boxes")
+  {
+    vtkNew<vtkCubeSource> box;
+    box->SetXLength(2.0 * radius);
+    box->SetYLength(height);
+    box->SetZLength(dice.Between(3.0, 32.0));
+    return Cleaned(box->GetOutputPort());
+  }
+  if (kind == "Spheres")
+  {
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetRadius(radius);
+    sphere->SetThetaResolution(sides);
+    sphere->SetPhiResolution(dice.Count(4, 200));
+    return Cleaned(sphere->GetOutputPort());
+  }
+  return kind == "Outlines" ? Extruded(dice) : Decimated(dice, kind == "DecimatedByQuadrics");
+}
+
+/// Turned about an oblique axis and set into the image.
+IndexedSurface Placed(vtkPolyData* shape, Dice& dice)
+{
+  const double angle = dice.Between(0.0, 1.0) < 0.3 ? 0.0 : dice.Between(0.0, 6.28);
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  IndexedSurface surface;
+  for (vtkIdType i = 0; i < shape->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    shape->GetPoint(i, p);
+    const double x = c * p[0] - s * p[1];
+    const double y = s * p[0] + c * p[1];
+    surface.Points.push_back({ x + Middle, c * y - s * p[2] + Middle, s * y + c * p[2] + Middle });
+  }
+  for (vtkIdType cell = 0; cell < shape->GetNumberOfCells(); ++cell)
+  {
+    vtkNew<vtkIdList> corners;
+    shape->GetCellPoints(cell, corners);
+    surface.Triangles.push_back({ static_cast<int>(corners->GetId(0)),
+      static_cast<int>(corners->GetId(1)), static_cast<int>(corners->GetId(2)) });
+  }
+  return surface;
+}
+
+TriangleSurface Judged(const IndexedSurface& surface)
+{
+  TriangleSurface judged;
+  judged.Points = surface.Points;
+  judged.Triangles = surface.Triangles;
+  return judged;
+}
+
+void ExpectLegal(const SurfaceResult& surface, const char* when)
+{
+  const SurfaceVerdict verdict = JudgeSurface(Judged(surface), surface.Delta);
+  EXPECT_TRUE(verdict.Topology.Outward) << when << "\n" << Describe(verdict);
+  EXPECT_EQ(verdict.Intersections.Pairs, 0u) << when << "\n" << Describe(verdict);
+  EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u) << when << "\n" << Describe(verdict);
+  EXPECT_LE(verdict.Lengths.Longest, 2.5001 * surface.Delta) << when << "\n" << Describe(verdict);
+  EXPECT_GE(verdict.Lengths.Shortest, 0.2 * surface.Delta) << when << "\n" << Describe(verdict);
+  EXPECT_LE(verdict.Lengths.EdgesTooShort, verdict.Lengths.Edges / 50 + 3)
+    << when << "\n" << Describe(verdict);
+}
+}
+
+class GivenSurfaces : public ::testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
+{
+  std::vector<float> values;
+  for (int voxel = 0; voxel < Size * Size * Size; ++voxel)
+  {
+    const double r = std::hypot(voxel % Size - Middle, voxel / Size % Size - Middle,
+      voxel / (Size * Size) - Middle);
+    values.push_back(static_cast<float>(std::clamp(0.5 + 0.5 * (12.0 - r), 0.0, 1.0)));
+  }
+  LevelImage image;
+  image.Values = values.data();
+  image.Size = { Size, Size, Size };
+  SequentialExecutor executor;
+  Monitor silent;
+  int accepted = 0;
+  constexpr int rounds = 12;
+  for (unsigned int seed = 1; seed <= rounds; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    Dice dice(seed);
+    const IndexedSurface given = Placed(MakeShape(GetParam(), dice), dice);
+    SurfaceOptions options;
+    options.IsoValue = 0.5;
+    SurfaceEvolution evolution(options, executor, silent);
+    try
+    {
+      evolution.StartSurface(image, 0, given);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      // What decimation leaves may be broken, and shapes may be too flat; nothing else.
+      const TopologyVerdict topology = JudgeTopology(Judged(given));
+      const bool isBroken =
+        !topology.Outward || JudgeIntersections(Judged(given)).Pairs > 0;
+      EXPECT_TRUE(isBroken || std::string(error.what()).find("too thin") != std::string::npos)
+        << error.what();
+      continue;
+    }
+    ++accepted;
+    ExpectLegal(evolution.Result(), "at the start");
+    EXPECT_EQ(evolution.Run(), StopReason::Converged);
+    ExpectLegal(evolution.Result(), "at the end");
+    EXPECT_EQ(JudgeTopology(Judged(evolution.Result())).Genus, 0);
+  }
+  EXPECT_GE(accepted, rounds / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Starts, GivenSurfaces,
+  ::testing::Values("Cylinders", "Cones", "Boxes", "Spheres", "Outlines", "DecimatedScans",
+    "DecimatedByQuadrics"),
+  [](const ::testing::TestParamInfo<const char*>& info) { return std::string(info.param); });

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CoreTestTools.h"
+#include "SelfIntersections.h"
+#include "TriangleTests.h"
+#include "TriangleTree.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+using namespace volumic;
+
+namespace
+{
+void Append(IndexedSurface& surface, const IndexedSurface& other)
+{
+  const int first = static_cast<int>(surface.Points.size());
+  surface.Points.insert(surface.Points.end(), other.Points.begin(), other.Points.end());
+  for (const Triangle& t : other.Triangles)
+  {
+    surface.Triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
+  }
+}
+
+/** A cube of 12 triangles, turned so that no face is along an axis. */
+IndexedSurface TurnedCube(const Point& centre, double half)
+{
+  IndexedSurface cube;
+  const double c = 0.6;
+  const double s = 0.8;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double x = i & 1 ? half : -half;
+    const double y = i & 2 ? half : -half;
+    const double z = i & 4 ? half : -half;
+    const double u = c * x - s * y;
+    const double v = s * x + c * y;
+    cube.Points.push_back({ centre[0] + u, centre[1] + c * v - s * z, centre[2] + s * v + c * z });
+  }
+  for (const auto& q : { std::array<int, 4>{ 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 },
+         { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } })
+  {
+    cube.Triangles.push_back({ q[0], q[1], q[2] });
+    cube.Triangles.push_back({ q[2], q[3], q[0] });
+  }
+  return cube;
+}
+
+/** Triangles that share nothing, of sizes from .01 to 3 in a cube of side 4. */
+IndexedSurface MixedSoup(int count, unsigned int seed)
+{
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> place(0., 4.);
+  std::uniform_real_distribution<double> part(-1., 1.);
+  std::uniform_real_distribution<double> power(-2., 0.5);
+  IndexedSurface soup;
+  for (int i = 0; i < count; ++i)
+  {
+    const Point centre = { place(engine), place(engine), place(engine) };
+    const double size = std::pow(10., power(engine));
+    for (int k = 0; k < 3; ++k)
+    {
+      soup.Points.push_back({ centre[0] + size * part(engine), centre[1] + size * part(engine),
+        centre[2] + size * part(engine) });
+    }
+    soup.Triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
+  }
+  return soup;
+}
+
+NamedTriangle Rounded(const IndexedSurface& surface, int i)
+{
+  NamedTriangle triangle;
+  for (int k = 0; k < 3; ++k)
+  {
+    triangle.Name[k] = surface.Triangles[i][k];
+    const Point& p = surface.Points[triangle.Name[k]];
+    triangle.Corner[k] = VectorD(
+      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+  }
+  return triangle;
+}
+}
+
+TEST(SelfIntersections, AreThoseOfAllPairs)
+{
+  for (unsigned int seed : { 1u, 2u, 3u })
+  {
+    const IndexedSurface soup = MixedSoup(400, seed);
+    int expected = 0;
+    for (int i = 0; i < 400; ++i)
+    {
+      for (int j = i + 1; j < 400; ++j)
+      {
+        expected += TrianglesMeet(Rounded(soup, i), Rounded(soup, j), 1e-9);
+      }
+    }
+    ASSERT_GT(expected, 20);
+    EXPECT_EQ(CountSelfIntersections(soup), expected);
+    EXPECT_EQ(CountSelfIntersections(soup, 7), 7) << "stops at the limit";
+  }
+}
+
+TEST(SelfIntersections, TakeNoLongerForLargeTrianglesBesideSmallOnes)
+{
+  // Cells of the size of a mean edge would have to be 10^11 for the cube.
+  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 1, 0.02);
+  const std::size_t dense = surface.Triangles.size();
+  ASSERT_GT(dense, 20000u);
+  Append(surface, TurnedCube({ 300, 0, 0 }, 100));
+  IntersectionWork work;
+  EXPECT_EQ(CountSelfIntersections(surface, 0, &work), 0);
+  EXPECT_LT(work.Boxes, 400ll * static_cast<long long>(dense));
+  EXPECT_LT(work.Pairs, 40ll * static_cast<long long>(dense));
+}
+
+TEST(SelfIntersections, OfLargeTrianglesAboutSmallOnesAreLookedForWhereTheyPass)
+{
+  // The boxes of the cube's triangles hold the whole sphere, their planes pass it by.
+  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 1, 0.02);
+  const auto dense = static_cast<long long>(surface.Triangles.size());
+  Append(surface, TurnedCube({ 0, 0, 0 }, 100));
+  IntersectionWork work;
+  EXPECT_EQ(CountSelfIntersections(surface, 0, &work), 0);
+  EXPECT_LT(work.Boxes, 400 * dense);
+  EXPECT_LT(work.Pairs, 40 * dense);
+  // And a cube that passes the sphere is found.
+  IndexedSurface crossing = DividedIcosahedron({ 0, 0, 0 }, 1, 0.1);
+  Append(crossing, TurnedCube({ 60.3, 48.24, 64.32 }, 100));
+  EXPECT_GT(CountSelfIntersections(crossing), 0);
+}
+
+TEST(SelfIntersections, AreFoundInNoTriangles)
+{
+  EXPECT_EQ(CountSelfIntersections(IndexedSurface()), 0);
+}
+
+TEST(TriangleTree, MeasuresTheDistanceToTheNearestTriangle)
+{
+  const IndexedSurface cube = TurnedCube({ 5, 5, 5 }, 2);
+  const TriangleTree tree(cube);
+  EXPECT_NEAR(std::sqrt(tree.SquaredDistance({ 5, 5, 5 })), 2., 1e-9) << "to the faces";
+  const Point& corner = cube.Points[0];
+  const Point beyond = { 2 * corner[0] - 5, 2 * corner[1] - 5, 2 * corner[2] - 5 };
+  EXPECT_NEAR(std::sqrt(tree.SquaredDistance(beyond)), 2 * std::sqrt(3.), 1e-9) << "to a corner";
+  const IndexedSurface sphere = DividedIcosahedron({ 0, 0, 0 }, 10, 1.);
+  const TriangleTree round(sphere);
+  EXPECT_NEAR(std::sqrt(round.SquaredDistance({ 20, 1, -3 })), std::sqrt(410.) - 10, 0.05);
+}
