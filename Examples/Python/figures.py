@@ -167,8 +167,8 @@ def all_levels_row(surface, coarsest, frame, bounds):
     for column, level in enumerate(range(coarsest, -1, -1)):
         if level not in there:
             panels.insert(column, render.blank(*panels[0].shape[:2]))
-            text = f"vanished after {counts[level]} iterations" if level in counts else "not visited"
-            captions.insert(column, (f"Level {level}", text))
+            captions.insert(column, (f"Level {level}", f"vanished after {counts[level]} iterations"
+                                     if level in counts else "not visited"))
     return panels, captions
 
 

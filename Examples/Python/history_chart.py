@@ -59,7 +59,8 @@ def comparison_chart(evolutions, other, size=(1240, 1240), scale=render.OVERSAMP
         render.line_strip([(width // 2, name, True, render.INK)], width, 19, centred=True),
         legend(columns, None, width, 15, coarsest, "")])
         for (name, _), columns in zip(evolutions, tables)]
-    dashed = f"Iterations on each level. Dashed: {other[0]}, {other[1].GetNumberOfRows()} iterations"
+    dashed = (f"Iterations on each level. Dashed: {other[0]},"
+              f" {other[1].GetNumberOfRows()} iterations")
     cells = [(column, row, curve, columns)
              for column, columns in enumerate(tables) for row, curve in enumerate(CURVES)]
     return np.concatenate([np.concatenate(heads, axis=1),

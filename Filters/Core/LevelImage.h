@@ -11,7 +11,7 @@ namespace volumic
  * One level of the image pyramid as the surface sees it, in the workspace.
  *
  * The workspace is the space in which the voxels of level 0 are cubes of side 1: the index
- * coordinates of level 0, with the first voxel at the origin (method.md section 6). All levels
+ * coordinates of level 0, with the first voxel at the origin (the paper's section 5.2). All levels
  * share origin and extent [0, M_0) x [0, N_0) x [0, P_0) (eq. 3), so voxel (i, j, k) lies at
  * (i Step[0], j Step[1], k Step[2]) with Step = M_0 / M_h along each axis. All lengths inside the
  * core are lengths of the workspace.

@@ -108,7 +108,8 @@ class ChartTest(unittest.TestCase):
             for place in (vtkAxis.BOTTOM, vtkAxis.LEFT):
                 ends = []
                 for column in range(2):
-                    axis = matrix.GetChart(vtkVector2i(column, len(CURVES) - 1 - row)).GetAxis(place)
+                    chart = matrix.GetChart(vtkVector2i(column, len(CURVES) - 1 - row))
+                    axis = chart.GetAxis(place)
                     ends.append((axis.GetUnscaledMinimum(), axis.GetUnscaledMaximum()))
                 self.assertEqual(ends[0], ends[1], name)
                 least = 80 if place == vtkAxis.BOTTOM else 120 * factor
