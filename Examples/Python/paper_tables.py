@@ -8,16 +8,22 @@
     levels    iterations per level on the skull, beside those that the paper states
     vessels   without recovery, as in the paper: iterations, and how much is there at each level
     recovery  how much of the object is there in the end, with each value of Recovery
-    start     iterations of the first level from outside, and from the iso-surface
+    start     iterations of the first level from outside (0), and from the iso-surface (2)
+    rest      when every --scan falls below the mean kinetic energy at which the skull rests
+    sampling  what delta / U costs and gives, on the skull
 
-The first table is of the skull alone, the others of the skull and of every --scan. What is going
-on is told on standard error.
+The first and the last table are of the skull alone, the others of the skull and of every --scan.
+What is going on is told on standard error.
 """
 
 import argparse
 import contextlib
 import os
 import sys
+from time import process_time
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from pipeline import SKULL, SKULL_ISO
 from read_volume import VolumeError
@@ -90,16 +96,62 @@ def recovery(scans):
 def start(scans):
     rows = []
     for scan in scans:
-        outside, iso = (iterations(scan.run(**properties))
-                        for properties in ({}, {"Initialization": 2}))
+        (outside, outside_time), (iso, iso_time) = (
+            timed(scan, NumberOfThreads=1, Initialization=n) for n in (0, 2))
+        outside, iso = iterations(outside), iterations(iso)
         first = outside[0][0]
         counts = {level: count for level, count, _ in iso}
         share = outside[0][2] / sum(seconds for _, _, seconds in outside)
         rows.append([scan_name(scan), first, outside[0][1], counts.get(first, "none"),
-                     sum(c for _, c, _ in outside), sum(counts.values()), percent(share)])
-    return table(["scan, iso-value", "first level", "iterations there, from outside",
-                  "from the iso-surface", "on all levels, from outside", "from the iso-surface",
-                  "time of the first level, from outside"], rows)
+                     sum(c for _, c, _ in outside), sum(counts.values()), percent(share),
+                     f"{iso_time / outside_time:.2f}"])
+    return table(["scan, iso-value", "first level", "iterations there: 0", "2",
+                  "on all levels: 0", "2", "time of the first level: 0",
+                  "processor time of all: 2 to 0"], rows)
+
+
+def rest(scans):
+    skull, *others = (scan.run_as_paper()[0] for scan in scans)
+    bound = energies(skull)[-10:].mean()
+    rows = []
+    for scan, run in zip(scans[1:], others):
+        energy, vertices = energies(run), column(run, "Vertices")
+        below = np.flatnonzero(energy < bound)
+        rows.append([scan_name(scan), *((below[0] + 1, len(energy), f"{vertices[below[0]]:,.0f}")
+                                        if len(below) else ("never", len(energy), "")),
+                     f"{vertices[-1]:,.0f}"])
+    return table([f"scan, iso-value; under {bound:.1e} delta^2", "iteration", "of",
+                  "vertices then", "in the end"], rows)
+
+
+def energies(run):
+    """The mean kinetic energy of the iterations on the finest level, lengths in its delta."""
+    surface = run.GetOutput()
+    scale = field_of(surface, "Unit") / field_of(surface, "Delta")
+    return column(run, "KineticEnergy") * scale ** 2
+
+
+def column(run, name):
+    """A column of the history, its rows of level 0."""
+    levels, values = (vtk_to_numpy(run.GetHistory().GetColumnByName(n)) for n in ("Level", name))
+    return values[levels == 0].astype(float)
+
+
+def sampling(scans):
+    runs = {ratio: timed(scans[0], NumberOfThreads=1, SamplingRatio=ratio)
+            for ratio in (0.7, 0.85, 1.0)}
+    return table(["delta / U", "vertices", "iso-surface within a voxel", "processor time"],
+                 [[ratio, f"{run.GetOutput().GetNumberOfPoints():,}",
+                   percent(scans[0].share_found(run.GetOutput())), f"{time / runs[0.85][1]:.2f}"]
+                  for ratio, (run, time) in runs.items()])
+
+
+def timed(scan, **properties):
+    """A run of its own, and the seconds of the processor that it took."""
+    scan.pyramid.Update()
+    started = process_time()
+    run = scan.run(**properties)
+    return run, process_time() - started
 
 
 def field_of(surface, name):
@@ -114,7 +166,7 @@ def scan_name(scan):
     return f"{os.path.basename(scan.path).partition('.')[0]}, {scan.iso:g}"
 
 
-TABLES = (levels, vessels, recovery, start)
+TABLES = (levels, vessels, recovery, start, rest, sampling)
 
 
 def main():

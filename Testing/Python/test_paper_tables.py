@@ -91,6 +91,20 @@ class TablesTest(unittest.TestCase):
             self.assertLess(outside, all_outside)
             self.assertLess(iso, all_iso)
 
+    def test_rest_compares_with_the_skull(self):
+        (_, _, row), = (self.tables[4],)
+        self.assertEqual(row[0], f"small, {RING_ISO}")
+        self.assertGreaterEqual(int(row[2]), 20)
+        if row[1] != "never":
+            self.assertLessEqual(int(row[1]), int(row[2]))
+
+    def test_a_finer_sampling_has_more_vertices(self):
+        rows = self.tables[5][2:]
+        self.assertEqual([row[0] for row in rows], ["0.7", "0.85", "1.0"])
+        counts = [int(row[1].replace(",", "")) for row in rows]
+        self.assertEqual(counts, sorted(counts, reverse=True))
+        self.assertEqual(rows[1][3], "1.00")
+
     def test_refused(self):
         for arguments, code, reason in ((("--only", "nothing"), 2, "invalid choice"),
                                         (("--skull", "none.vti", "3"), 1, "no such file"),
