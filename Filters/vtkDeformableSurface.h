@@ -85,11 +85,12 @@
  * end of a level, in the level's last row).
  *
  * @par Algorithm:
- * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: every
- * operation is verified by exact tests, displacements that would intersect are taken back, merges
- * need the image's consent. The surface lives in a workspace where voxels are cubes (section 5.2);
- * the lengths that the constraints speak of are lengths there. Results are the same bits for any
- * number of threads.
+ * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever
+ * triangles could meet, operations are verified by tests of the triangles and displacements that
+ * make them meet are taken back; merges need the image's consent. Documentation/differences.md of
+ * the sources names all that differs from the paper. The surface lives in a workspace where voxels
+ * are cubes (section 5.2); the lengths that the constraints speak of are lengths there. Results are
+ * the same bits for any number of threads.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. A

@@ -9,9 +9,12 @@
     levels     the surface at the end of each level                          Cranium.inv3
     views      the finest surface from outside, and cut open                 Cranium.inv3
     triangles  its triangles, and its contour on slices                      Cranium.inv3
-    history    the curves of the paper's figure 5, with and without pyramid  Cranium.inv3
-    evolution  the paper's figures 3 and 4                                   Cranium.inv3
+    history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
+               with the paper's settings and with the defaults
+    evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
     vessels    the paper's figure 6, with recovery and without               --vessels
+
+The paper's settings are four levels and no recovery.
 
 Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any
 scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the first
@@ -20,18 +23,17 @@ picture. Each picture is less than 300 kB.
 """
 
 import argparse
-import functools
 import os
 import sys
 
 import numpy as np
 
 import render
-from history_chart import history_chart
-from pipeline import (
-    SKULL, SKULL_ISO, build_pyramid, load_volume, prepare_surface, run_surface)
+from history_chart import comparison_chart
+from pipeline import SKULL, SKULL_ISO
 from pyramid_picture import grey_window, index_bounds, pyramid_picture
 from read_volume import VolumeError
+from scan_runs import Scan, field, iterations, starts
 from surface_pictures import (
     close_view, common_height, cut_open, main_component, slice_with_contour, surface_row,
     to_index_space, visited_levels)
@@ -41,49 +43,9 @@ ROW_WIDTH = 1240  # pixels of a whole picture, about as wide as a page of a repo
 GAP = 10  # between panels, that of render.compose
 LARGEST = 300000  # bytes of a picture
 GREY_STEP = 5  # colours are rounded to multiples: half the size, and hardly visible
-SNAPSHOTS = (0, 50, 100, 200)  # iterations that are shown, and the surface at rest
-
-
-class Scan:
-    """A volume, its pyramid and the runs on it, each made when it is first asked for."""
-
-    def __init__(self, path, iso):
-        self.path, self.iso = path, iso
-
-    @functools.cached_property
-    def image(self):
-        return load_volume(self.path, self.iso)[0]
-
-    @functools.cached_property
-    def pyramid(self):
-        return build_pyramid(self.image)[0]
-
-    @functools.cached_property
-    def frame(self):
-        return render.world_frame(self.image)
-
-    @functools.cache
-    def run(self, **properties):
-        """The filter after its run, with the properties that differ from their defaults."""
-        print(f"  {', '.join(f'{n} {v}' for n, v in properties.items()) or 'default properties'}")
-        surface = prepare_surface(self.pyramid, self.iso, properties)
-        run_surface(surface)
-        return surface
-
-    def coarsest(self):
-        """The coarsest level where a voxel is above the iso-value."""
-        levels = self.pyramid.GetOutput()
-        return max(h for h in range(levels.GetNumberOfBlocks())
-                   if levels.GetBlock(h).GetScalarRange()[1] > self.iso)
-
-    def run_without_recovery(self):
-        """From the coarsest level at which something is left of the surface, and that level."""
-        for level in range(self.coarsest(), 0, -1):
-            try:
-                return self.run(Recovery=0, CoarsestLevel=level), level
-            except FilterError as error:
-                print(f"  from level {level}: {error}")
-        return self.run(Recovery=0, CoarsestLevel=0), 0
+SNAPSHOTS = (0, 50, 100, 250)  # iterations that are shown, and the surface at rest
+START_ZOOM = 1.25  # a rounded box does not reach the corners of its bounds
+AS_PAPER = "As in the paper: {} levels, no recovery"
 
 
 def panel_width(columns):
@@ -146,8 +108,10 @@ def without_pyramid(skull):
 
 
 def history(skull):
-    return history_chart(skull.run().GetHistory(),
-                         ("Without the pyramid", without_pyramid(skull).GetHistory()))
+    as_paper, start = skull.run_as_paper()
+    return comparison_chart(((AS_PAPER.format(start + 1), as_paper.GetHistory()),
+                             ("With the default properties", skull.run().GetHistory())),
+                            ("without the pyramid", without_pyramid(skull).GetHistory()))
 
 
 def evolution(skull):
@@ -156,39 +120,56 @@ def evolution(skull):
     taken = {field(films.GetBlock(b), "Iterations"): films.GetBlock(b)
              for b in range(films.GetNumberOfBlocks())}
     stages = [(f"Iteration {n}", taken[n]) for n in SNAPSHOTS if n in taken]
-    stages.append((f"At rest, after {field(direct.GetOutput(), 'Iterations')}", direct.GetOutput()))
-    surface = skull.run()
-    columns = max(len(stages), len(visited_levels(surface.GetLevels())))
-    rows, captions = zip(
-        surface_row(stages, skull.frame, stages[0][1].GetBounds(), panel_width(columns)),
-        level_row(surface, skull.frame, columns, surface.GetOutput().GetBounds()))
-    return render.compose(rows, captions, None, ["Without the pyramid", "With the pyramid"])
+    stages.append((f"At rest, iteration {iterations(direct)[0][1]}", direct.GetOutput()))
+    as_paper, start = skull.run_as_paper()
+    rows = [stages, stages_by_level(as_paper), stages_by_level(skull.run())]
+    # The starts enclose the image, a little wider on coarser levels.
+    bounds = np.array([surface.GetBounds() for row in rows for _, surface in row])
+    bounds = np.ravel([bounds[:, ::2].min(axis=0), bounds[:, 1::2].max(axis=0)], order="F")
+    width = panel_width(max(map(len, rows)))
+    panels, captions = zip(*(surface_row(row, skull.frame, bounds, width, zoom=START_ZOOM)
+                             for row in rows))
+    return render.compose(panels, captions, None,
+                          ["Without the pyramid (the paper's figure 3)",
+                           AS_PAPER.format(start + 1) + " (its figure 4, and level 0)",
+                           "With the default properties"])
+
+
+def stages_by_level(surface):
+    """The start, and the surface at rest on each level, with the iterations until then."""
+    blocks = dict(visited_levels(surface.GetLevels()))
+    counts = [(level, count) for level, count, _ in iterations(surface)]
+    stages = [(f"Level {counts[0][0]}, iteration 0", starts(surface)[counts[0][0]])]
+    total = 0
+    for level, count in counts:
+        total += count
+        stages.append((f"Level {level}, iteration {total}", blocks[level]))
+    return stages
 
 
 def vessels(scan):
-    without, start = scan.run_without_recovery()
+    without, start = scan.run_as_paper()
     coarsest, recovered = scan.coarsest(), scan.run(Recovery=2)
     rows, captions = zip(*(all_levels_row(surface, coarsest, scan.frame,
                                           recovered.GetOutput().GetBounds())
                            for surface in (without, recovered)))
-    origin = f" (from level {start}: begun coarser, nothing is left)" if start < coarsest else ""
-    return render.compose(rows, captions, None, [f"Recovery off, as in the paper{origin}",
-                                                 "With recovery of parts and cavities"])
+    return render.compose(rows, captions, None,
+                          [f"No recovery, as in the paper, from level {start}",
+                           "With recovery of parts and cavities, from the coarsest level"])
 
 
 def all_levels_row(surface, coarsest, frame, bounds):
     """Panels and captions of all levels from the coarsest, empty where there is no surface."""
-    row, captions = level_row(surface, frame, coarsest + 1, bounds, zoom=1)
-    there = [number for number, _ in visited_levels(surface.GetLevels())]
-    for column, number in enumerate(range(coarsest, -1, -1)):
-        if number not in there:
-            row.insert(column, render.blank(*row[0].shape[:2]))
-            captions.insert(column, (f"Level {number}", "no surface"))
-    return row, captions
-
-
-def field(surface, name):
-    return int(surface.GetFieldData().GetArray(name).GetTuple1(0))
+    counts = {level: count for level, count, _ in iterations(surface)}
+    there = {level: (f"Level {level}, {counts[level]} iterations", block)
+             for level, block in visited_levels(surface.GetLevels())}
+    panels, captions = surface_row(there.values(), frame, bounds, panel_width(coarsest + 1), zoom=1)
+    for column, level in enumerate(range(coarsest, -1, -1)):
+        if level not in there:
+            panels.insert(column, render.blank(*panels[0].shape[:2]))
+            captions.insert(column, (f"Level {level}", f"vanished after {counts[level]} iterations"
+                                     if level in counts else "not visited"))
+    return panels, captions
 
 
 def compact(picture):

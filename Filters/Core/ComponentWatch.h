@@ -13,7 +13,7 @@ namespace volumic
 /**
  * Keeps the labels of the components and watches the small ones: those that have shrunk to
  * nothing, that lie wholly on the side where they must vanish, or whose signed volume has changed
- * sign in a step are deleted (rule 10 of method.md section 10).
+ * sign in a step are deleted (Documentation/differences.md, Changes of topology).
  */
 class ComponentWatch
 {

@@ -37,7 +37,9 @@ private:
 };
 
 /**
- * Global division with factor sqrt 3: a new vertex at the centre of every face, joined to its
+ * Global division with factor sqrt 3 (the paper's section 5.1; L. Kobbelt has published the same
+ * refinement as "sqrt(3)-subdivision", SIGGRAPH 2000, with a rule that smooths the old vertices,
+ * which here stay where they are): a new vertex at the centre of every face, joined to its
  * corners; then every edge between two old vertices is flipped. Vertices become three times as
  * many, edges sqrt 3 times shorter. Old vertices keep index and valence, new ones have 6; chi
  * stays.

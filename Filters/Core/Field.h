@@ -12,7 +12,7 @@
 namespace volumic
 {
 /**
- * The continuous field of a level (method.md section 2), as the surface wants it: Value is the
+ * The continuous field of a level (the paper's section 4.1), as the surface wants it: Value is the
  * image minus the iso-value, with the sign changed for dark objects, so that it is positive on
  * the object's side. Trilinear between voxels; the gradient is the trilinear interpolation of
  * the discrete gradient (central differences), not the derivative of the interpolant.

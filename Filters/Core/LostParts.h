@@ -26,8 +26,8 @@ struct LostPartCover
 };
 
 /**
- * Looks for what coarser levels have lost (method.md section 10, last paragraph): connected sets
- * of at least `minimumSize` voxels on the object's side outside the surface, or on the other side
+ * Looks for what coarser levels have lost (Documentation/differences.md): connected sets of at
+ * least `minimumSize` voxels on the object's side outside the surface, or on the other side
  * inside it, all farther than two voxels from any vertex; and encloses them with a new surface,
  * which then shrinks onto them as the first one did onto the object.
  *

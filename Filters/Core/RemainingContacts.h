@@ -22,8 +22,8 @@ struct RemainingContacts
   /**
    * The pairs that eq. (1) forbids and that are there nevertheless: nearer than lambda delta
    * (2.5/sqrt 3 delta) though not near along the surface, that is, at least four edges apart or on
-   * different components (method.md section 10, rule 3: what is nearer along the surface is only
-   * bent). Mesh indices (v, w), v < w, sorted.
+   * different components (Documentation/differences.md, Constraints: what is nearer along the
+   * surface is only bent). Mesh indices (v, w), v < w, sorted.
    */
   std::vector<std::array<int, 2>> Pairs;
   /**

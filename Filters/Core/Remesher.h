@@ -11,9 +11,10 @@
 namespace volumic
 {
 /**
- * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts
- * (rules 1-6 and 9 of method.md section 10). Edits are applied one after another in a fixed
- * order; what may be edited has been found in parallel before.
+ * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts, the
+ * paper's changes of topology, with the rules of Documentation/differences.md (Constraints,
+ * Changes of topology). Edits are applied one after another in a fixed order; what may be edited
+ * has been found in parallel before.
  */
 class Remesher
 {

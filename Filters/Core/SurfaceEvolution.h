@@ -102,7 +102,7 @@ struct SurfaceResult : IndexedSurface
 
 /**
  * The deformable surface: a closed triangulated mesh that follows an isopotential from coarse to
- * fine (method.md sections 3-5 and 10). Usage:
+ * fine (the paper's sections 3 to 5, and Documentation/differences.md). Usage:
  *
  *   SurfaceEvolution evolution(options, executor, monitor);
  *   evolution.StartEnclosing(coarsest, h);      // or StartSeeds, StartSurface

@@ -56,7 +56,7 @@ struct SurfaceOptions
 
   /**
    * After a division, parts of the object that the coarser level did not resolve, and that the
-   * surface therefore has lost (method.md section 10, last paragraph), are enclosed again.
+   * surface therefore has lost, are enclosed again (Documentation/differences.md).
    */
   bool RecoverLostParts = true;
   bool RecoverCavities = false; ///< The same for background that the object encloses.

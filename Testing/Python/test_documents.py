@@ -26,7 +26,7 @@ from read_volume import read_volume
 
 ROOT = os.path.normpath(os.path.join(EXAMPLES, "..", ".."))
 DOCUMENTS = ("README.md", *(f"Documentation/{name}.md"
-                            for name in ("tutorial", "reference", "paraview")))
+                            for name in ("tutorial", "differences", "reference", "paraview")))
 
 
 def read(document):
@@ -93,6 +93,26 @@ class LinksTest(unittest.TestCase):
     def test_scripts_that_are_named_exist(self):
         for name in re.findall(r"^\| `(\w+\.py)", read("README.md"), flags=re.MULTILINE):
             self.assertTrue(os.path.exists(os.path.join(EXAMPLES, name)), name)
+
+    def test_tests_that_are_named_exist(self):
+        folder = os.path.join(ROOT, "Testing", "Cxx")
+        known = set()
+        for name in os.listdir(folder):
+            for suite, test in re.findall(r"^TEST(?:_F|_P)?\((\w+), (\w+)\)",
+                                          read(os.path.join("Testing", "Cxx", name)), re.MULTILINE):
+                known |= {f"{suite}.{test}", f"{suite}.*"}
+        named = set(re.findall(r"`([A-Z]\w+\.(?:[A-Z]\w+|\*))`",
+                               read("Documentation/differences.md")))
+        self.assertGreater(len(named), 20)
+        self.assertEqual(sorted(named - known), [])
+
+    def test_comments_cite_what_is_here(self):
+        for path, _, names in os.walk(os.path.join(ROOT, "Filters")):
+            for name in names:
+                document = os.path.relpath(os.path.join(path, name), ROOT)
+                for cited in re.findall(r"\b([\w/]+\.md)\b", read(document)):
+                    self.assertTrue(os.path.exists(os.path.join(ROOT, cited)),
+                                    f"{document}: {cited}")
 
     def test_properties_on_command_lines_are_known(self):
         names = property_names(volumic.vtkDeformableSurface())

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Examples/Python/figures.py on a small volume: every picture that it promises."""
 
+import contextlib
+import io
 import os
 import sys
 import tempfile
@@ -9,13 +11,18 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkChartsCore import vtkAxis
+from vtkmodules.vtkCommonDataModel import vtkVector2i
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 from examples_path import EXAMPLES
 from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
 
 sys.path.insert(0, EXAMPLES)
-from figures import ROW_WIDTH, SKULL_PICTURES  # pylint: disable=wrong-import-position
+# pylint: disable=wrong-import-position
+from figures import ROW_WIDTH, SKULL_PICTURES, stages_by_level
+from history_chart import CURVES, chart_matrix
+from scan_runs import Scan
 
 
 def pixels_of(path):
@@ -34,17 +41,19 @@ class FiguresTest(unittest.TestCase):
         cls.output = os.path.join(cls.temporary.name, "pictures")
         large = np.kron(ring_voxels(), np.ones((2, 2, 2), "u1"))
         cls.ring = write_volume(os.path.join(cls.temporary.name, "r.mha"), large, RING_SPACING)
+        cls.small = write_volume(os.path.join(cls.temporary.name, "s.mha"), ring_voxels(),
+                                 RING_SPACING)
 
     def figures(self, *arguments):
         return run_script("figures.py", "--output", self.output, "--skull", self.ring,
                           str(RING_ISO), *arguments)
 
     def test_every_picture(self):
-        run = self.figures("--vessels", self.ring, str(RING_ISO),
-                           "--vessels", self.ring, str(RING_ISO))
+        run = self.figures("--vessels", self.small, str(RING_ISO),
+                           "--vessels", self.small, str(RING_ISO))
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         names = sorted([draw.__name__ + ".png" for draw in SKULL_PICTURES]
-                       + ["vessels.png", "vessels-r.png"])
+                       + ["vessels.png", "vessels-s.png"])
         self.assertEqual(sorted(os.listdir(self.output)), names)
         for name in names:
             pixels = pixels_of(os.path.join(self.output, name))
@@ -53,6 +62,8 @@ class FiguresTest(unittest.TestCase):
         # One run serves all pictures of the same properties: default and without the pyramid.
         self.assertEqual(run.stdout.count("default properties"), 1)
         self.assertEqual(run.stdout.count("SnapshotInterval"), 1)
+        self.assertEqual(run.stdout.count("Recovery 0, CoarsestLevel 3\n"), 1)
+        self.assertEqual(run.stdout.count("Recovery 0, CoarsestLevel 2\n"), 2)  # both vessels
 
     def test_one_picture_alone(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -71,6 +82,42 @@ class FiguresTest(unittest.TestCase):
                 self.assertEqual(run.returncode, code)
                 self.assertIn(reason, run.stderr)
                 self.assertNotIn("Traceback", run.stderr)
+
+
+class EvolutionTest(unittest.TestCase):
+    def test_stages_are_the_start_and_each_level_at_rest(self):
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+            path = write_volume(os.path.join(folder, "r.mha"), ring_voxels(), RING_SPACING)
+            surface = Scan(path, RING_ISO).run()
+        rows = surface.GetHistory().GetNumberOfRows()
+        names = [name for name, _ in stages_by_level(surface)]
+        self.assertEqual(len(names), 4)
+        self.assertEqual(names[0], "Level 2, iteration 0")
+        self.assertEqual(names[-1], f"Level 0, iteration {rows}")
+        sizes = [stage.GetNumberOfPoints() for _, stage in stages_by_level(surface)]
+        self.assertLess(sizes[1], sizes[0])  # the start encloses the image
+        self.assertLess(sizes[1], sizes[2])
+
+
+class ChartTest(unittest.TestCase):
+    def test_two_evolutions_have_the_same_scale(self):
+        rows = np.arange(1.0, 41)
+        small = {"Level": 1 + rows * 0, **{curve[0]: rows for curve in CURVES}}
+        large = {name: np.tile(column, 2) * 3 for name, column in small.items()}
+        cells = [(column, row, curve, columns) for column, columns in enumerate((small, large))
+                 for row, curve in enumerate(CURVES)]
+        matrix = chart_matrix(cells, small, 1)
+        for row, (name, _, factor, logarithmic) in enumerate(CURVES):
+            for place in (vtkAxis.BOTTOM, vtkAxis.LEFT):
+                ends = []
+                for column in range(2):
+                    chart = matrix.GetChart(vtkVector2i(column, len(CURVES) - 1 - row))
+                    axis = chart.GetAxis(place)
+                    ends.append((axis.GetUnscaledMinimum(), axis.GetUnscaledMaximum()))
+                self.assertEqual(ends[0], ends[1], name)
+                least = 80 if place == vtkAxis.BOTTOM else 120 * factor
+                self.assertGreaterEqual(ends[0][1], least, name)
+            self.assertEqual(axis.GetLogScale(), logarithmic, name)
 
 
 if __name__ == "__main__":
