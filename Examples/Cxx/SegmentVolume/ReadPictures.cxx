@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVolume.h"
 
+#include "CheckInputs.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
@@ -154,6 +155,14 @@ vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files
     if (!reader)
     {
       throw Failure(file + ": not a picture that VTK's readers know");
+    }
+    try
+    {
+      CheckTiff(file);
+    }
+    catch (const Failure& failure)
+    {
+      throw Failure(file + ": " + failure.what());
     }
     VtkMessages messages;
     messages.ListenTo(reader);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVolume.h"
 
+#include "CheckInputs.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
@@ -32,6 +33,8 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <new>
 #include <sstream>
 #include <utility>
 
@@ -73,10 +76,36 @@ Image ReadIfItsFormat(const std::string& name)
   return ImageOf(reader, name);
 }
 
+/// What MetaIO prints about data that it lacks, and goes on.
+Image ReadMetaVoxels(const std::string& name)
+{
+  std::ostringstream printed;
+  std::streambuf* output = std::cerr.rdbuf(printed.rdbuf());
+  Image image;
+  try
+  {
+    image = ReadIfItsFormat<vtkMetaImageReader>(name);
+  }
+  catch (...)
+  {
+    std::cerr.rdbuf(output);
+    throw;
+  }
+  std::cerr.rdbuf(output);
+  if (!printed.str().empty())
+  {
+    std::string text = printed.str();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    throw Failure("cannot be read (" + text + ")");
+  }
+  return image;
+}
+
 /// MetaImage; VTK's reader drops the directions of the axes, which are in the header's text.
 Image ReadMeta(const std::string& name)
 {
-  Image image = ReadIfItsFormat<vtkMetaImageReader>(name);
+  CheckMeta(name);
+  Image image = ReadMetaVoxels(name);
   std::ifstream file(name, std::ios::binary);
   std::string line;
   while (std::getline(file, line) && line.compare(0, 15, "ElementDataFile") != 0)
@@ -130,6 +159,7 @@ Image ReadNifti(const std::string& name)
   {
     throw Failure("not a NIfTI or Analyze file");
   }
+  CheckNifti(name);
   reader->SetFileName(name.c_str());
   Image image = ImageOf(reader, name);
   if (reader->GetTimeDimension() > 1)
@@ -164,6 +194,12 @@ Image ReadNifti(const std::string& name)
     throw Failure(failure);
   }
   return image;
+}
+
+Image ReadMrc(const std::string& name)
+{
+  CheckMrc(name);
+  return ReadWith<vtkMRCReader>(name);
 }
 
 #ifdef VOLUMIC_HAS_MINC
@@ -219,6 +255,7 @@ Image ReadByContent(const std::string& name)
   {
     throw Failure(name + ": not a format that VTK's readers know");
   }
+  CheckTiff(name);
   reader->SetFileName(name.c_str());
   return ImageOf(reader, name);
 }
@@ -246,8 +283,8 @@ Reader ChooseReader(const std::string& name)
 #ifdef VOLUMIC_HAS_MINC
     { ".mnc", ReadMinc },
 #endif
-    { ".mrc", ReadWith<vtkMRCReader> },
-    { ".ccp4", ReadWith<vtkMRCReader> },
+    { ".mrc", ReadMrc },
+    { ".ccp4", ReadMrc },
     { ".slc", ReadIfItsFormat<vtkSLCReader> },
     { ".dcm", ReadDicomFile },
     { ".dicom", ReadDicomFile },
@@ -300,6 +337,10 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
   catch (const std::filesystem::filesystem_error& error)
   {
     throw Failure(name + ": " + error.code().message());
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure(name + ": not enough memory to read it; crop it, or resample it to fewer voxels");
   }
   catch (const Failure& failure)
   {

@@ -8,6 +8,10 @@
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
 
 namespace tool
 {
@@ -17,7 +21,10 @@ namespace
 std::string PlainMessage(const std::string& text)
 {
   const std::size_t colon = text.find("): ");
-  const std::string message = colon == std::string::npos ? text : text.substr(colon + 3);
+  const bool hasPlaceOnly = text.compare(0, 20, "Generic Warning: In ") == 0;
+  const std::string message = hasPlaceOnly ? text.substr(std::min(text.find('\n'), text.size()))
+    : colon == std::string::npos           ? text
+                                           : text.substr(colon + 3);
   std::string plain;
   for (const char c : message)
   {
@@ -46,11 +53,53 @@ public:
   void Execute(vtkObject*, unsigned long event, void* data) override
   {
     const std::string text = PlainMessage(data ? static_cast<const char*>(data) : "");
+    const bool isEcho = text.find("returned failure for request") != std::string::npos;
+    if (isEcho && !this->Messages->Errors.empty())
+    {
+      return; // the executive says that its algorithm failed, which has said why
+    }
     (event == vtkCommand::ErrorEvent ? this->Messages->Errors : this->Messages->Warnings)
-      .push_back(text);
+      .push_back(isEcho ? "it failed" : text);
   }
 
   VtkMessages* Messages = nullptr;
+};
+
+/// Takes what VTK prints for objects that nobody listens to, such as the parts of a reader.
+class OutputCatcher : public vtkOutputWindow
+{
+public:
+  static OutputCatcher* New() { return new OutputCatcher; }
+
+  void DisplayErrorText(const char* text) override { this->Messages->Errors.push_back(Plain(text)); }
+  void DisplayWarningText(const char* text) override
+  {
+    this->Messages->Warnings.push_back(Plain(text));
+  }
+  void DisplayGenericWarningText(const char* text) override { this->DisplayWarningText(text); }
+
+  VtkMessages* Messages = nullptr;
+
+private:
+  static std::string Plain(const char* text) { return PlainMessage(text ? text : ""); }
+};
+
+/// From here to its end, what VTK would print is among the messages.
+class CaughtOutput
+{
+public:
+  explicit CaughtOutput(VtkMessages& messages) : Former(vtkOutputWindow::GetInstance())
+  {
+    vtkNew<OutputCatcher> catcher;
+    catcher->Messages = &messages;
+    vtkOutputWindow::SetInstance(catcher);
+  }
+  ~CaughtOutput() { vtkOutputWindow::SetInstance(this->Former); }
+  CaughtOutput(const CaughtOutput&) = delete;
+  CaughtOutput& operator=(const CaughtOutput&) = delete;
+
+private:
+  vtkSmartPointer<vtkOutputWindow> Former;
 };
 }
 
@@ -69,7 +118,12 @@ void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
 void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name)
 {
   this->ListenTo(reader);
-  reader->Update();
+  {
+    const CaughtOutput caught(*this);
+    reader->Update();
+  }
+  // What a reader warns of are data that it had not and made up.
+  this->Errors.insert(this->Errors.end(), this->Warnings.begin(), this->Warnings.end());
   if (!this->Errors.empty() || reader->GetErrorCode() != 0)
   {
     const std::string reason = this->JoinedErrors();

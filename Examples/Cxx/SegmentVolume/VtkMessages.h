@@ -20,7 +20,8 @@ public:
   /// Listen to an algorithm and its executive. This object must outlive their runs.
   void ListenTo(vtkAlgorithm* algorithm);
 
-  /// Update the algorithm. @throws Failure "NAME: cannot be ... (errors)" if it reports an error.
+  /// Update the reader of the file. @throws Failure "NAME: cannot be read (reasons)" if it, or an
+  /// object within it, reports an error or warns.
   void UpdateReader(vtkAlgorithm* reader, const std::string& name);
 
   std::string JoinedErrors() const;

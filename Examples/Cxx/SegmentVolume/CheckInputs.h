@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef CheckInputs_h
+#define CheckInputs_h
+
+#include <string>
+
+namespace tool
+{
+// VTK's readers of these formats give what memory holds where a file has been cut off or damaged,
+// or end the program. Hence these looks at a file before: all throw a Failure, without its name,
+// with the bytes that are there and those that its header asks for.
+
+/// MetaImage (.mha, .mhd): the size of the data, in one file, and the checksum of packed ones.
+void CheckMeta(const std::string& name);
+
+/// NIfTI and Analyze: the type of the voxels, and the checksum of a packed file.
+void CheckNifti(const std::string& name);
+
+/// MRC (.mrc, .ccp4): the size of the data.
+void CheckMrc(const std::string& name);
+
+/// TIFF: all pages and their data lie within the file. Other files are passed over.
+void CheckTiff(const std::string& name);
+}
+
+#endif
