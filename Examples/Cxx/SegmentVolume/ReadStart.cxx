@@ -20,6 +20,7 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -84,7 +85,36 @@ struct PointList
   vtkNew<vtkDoubleArray> Radii;
 };
 
-/// Lines of three numbers, or up to `columns`.
+/// The words of a line, between blanks and commas, without a comment.
+std::vector<std::string> WordsOf(std::string line)
+{
+  line.resize(std::min(line.find('#'), line.size()));
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream words(line);
+  std::vector<std::string> texts;
+  for (std::string word; words >> word;)
+  {
+    texts.push_back(word);
+  }
+  return texts;
+}
+
+/// Whether these are names of columns, such as x, "y" or Weight: no numbers, mistyped or not.
+bool IsHeading(const std::vector<std::string>& words)
+{
+  const auto isName = [](const std::string& word)
+  {
+    std::string lower = word;
+    lower.erase(std::remove(lower.begin(), lower.end(), '"'), lower.end());
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return !lower.empty() && std::isalpha(static_cast<unsigned char>(lower[0])) != 0 &&
+      lower != "nan" && lower.compare(0, 3, "inf") != 0;
+  };
+  return std::all_of(words.begin(), words.end(), isName);
+}
+
+/// Lines of three numbers, or up to `columns`; the first that is not empty may be a heading.
 void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
 {
   std::ifstream file(name);
@@ -93,20 +123,18 @@ void ReadPointLines(const std::string& name, std::size_t columns, PointList& lis
     throw Failure(name + ": cannot be opened");
   }
   std::string line;
+  bool isFirst = true;
   for (int number = 1; std::getline(file, line); ++number)
   {
-    line.resize(std::min(line.find('#'), line.size()));
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    std::vector<std::string> texts;
-    for (std::string word; words >> word;)
+    const std::string mark = "\xEF\xBB\xBF"; // of UTF-8, which some programs write
+    const bool isMarked = number == 1 && line.compare(0, mark.size(), mark) == 0;
+    const std::vector<std::string> texts = WordsOf(isMarked ? line.substr(mark.size()) : line);
+    if (texts.empty() || (isFirst && IsHeading(texts)))
     {
-      texts.push_back(word);
-    }
-    if (texts.empty())
-    {
+      isFirst = isFirst && texts.empty();
       continue;
     }
+    isFirst = false;
     try
     {
       if (texts.size() < 3 || texts.size() > columns)
@@ -121,10 +149,7 @@ void ReadPointLines(const std::string& name, std::size_t columns, PointList& lis
     }
     catch (const UsageError& error)
     {
-      if (number > 1)
-      {
-        throw Failure(name + ", line " + NumberText(number) + ": " + error.what());
-      }
+      throw Failure(name + ", line " + NumberText(number) + ": " + error.what());
     }
   }
 }

@@ -44,10 +44,10 @@ namespace
 {
 using Image = vtkSmartPointer<vtkImageData>;
 
-Image ImageOf(vtkAlgorithm* reader, const std::string& name)
+Image ImageOf(vtkAlgorithm* reader, const std::string& name, bool hasTrustedWarnings = true)
 {
   VtkMessages messages;
-  messages.UpdateReader(reader, name);
+  messages.UpdateReader(reader, name, hasTrustedWarnings);
   auto* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!image)
   {
@@ -161,7 +161,8 @@ Image ReadNifti(const std::string& name)
   }
   CheckNifti(name);
   reader->SetFileName(name.c_str());
-  Image image = ImageOf(reader, name);
+  // It warns where sform and qform differ in handedness, of which both are served below.
+  Image image = ImageOf(reader, name, false);
   if (reader->GetTimeDimension() > 1)
   {
     throw Failure(NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");

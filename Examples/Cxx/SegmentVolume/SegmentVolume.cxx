@@ -258,6 +258,29 @@ void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
   }
 }
 
+/// Run a filter; of too little memory, whoever told of it, is said for which volume and what helps.
+FilterRun RunOnVolume(const SegmentOptions& options, vtkAlgorithm* filter, const std::string& title,
+  ProgressStyle style)
+{
+  const std::string help =
+    "a coarser level (--finest 1), or the volume cropped or resampled, needs less";
+  try
+  {
+    return RunFilter(filter, title, style);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure(options.Volume + ": not enough memory to segment it; " + help);
+  }
+  catch (const Failure& failure)
+  {
+    const std::string text = failure.what();
+    throw Failure(text.find("memory") == std::string::npos
+        ? text
+        : options.Volume + ": not enough memory to segment it; " + help);
+  }
+}
+
 ExitCode Segment(
   const SegmentOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
 {
@@ -270,7 +293,7 @@ ExitCode Segment(
   {
     vtkNew<vtkOtsuThreshold> otsu;
     otsu->SetInputData(volume);
-    RunFilter(otsu, "Otsu's threshold", ProgressStyle::None);
+    RunOnVolume(options, otsu, "Otsu's threshold", ProgressStyle::None);
     filter->SetIsoValue(otsu->GetThreshold());
     announcer.Say("iso-value " + NumberText(filter->GetIsoValue()) +
       " by Otsu's threshold; choose another one with --iso");
@@ -283,13 +306,13 @@ ExitCode Segment(
   CatchInterrupts();
   pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
   pyramid->SetInputData(volume);
-  const FilterRun pyramidRun = RunFilter(pyramid, "Building the pyramid", announcer.Style);
+  const FilterRun pyramidRun = RunOnVolume(options, pyramid, "Building the pyramid", announcer.Style);
   filter->SetInputConnection(pyramid->GetOutputPort());
   if (pyramidRun.IsInterrupted)
   {
     throw Failure("interrupted before there was a surface; nothing is written");
   }
-  const FilterRun run = RunFilter(filter, "Evolving the surface", announcer.Style);
+  const FilterRun run = RunOnVolume(options, filter, "Evolving the surface", announcer.Style);
   for (const std::string& warning : run.Warnings)
   {
     announcer.Say("warning: " + warning);
@@ -344,7 +367,15 @@ ExitCode Run(int argc, char* argv[])
       break;
   }
   ApplyProperties(options, filters);
-  return Segment(options, pyramid, filter);
+  try
+  {
+    return Segment(options, pyramid, filter);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure(
+      options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
+  }
 }
 }
 

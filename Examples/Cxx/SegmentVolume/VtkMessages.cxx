@@ -7,6 +7,7 @@
 #include <vtkAlgorithm.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
@@ -88,18 +89,25 @@ private:
 class CaughtOutput
 {
 public:
-  explicit CaughtOutput(VtkMessages& messages) : Former(vtkOutputWindow::GetInstance())
+  explicit CaughtOutput(VtkMessages& messages)
+    : Former(vtkOutputWindow::GetInstance()), Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
   {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it prints what it hands on
     vtkNew<OutputCatcher> catcher;
     catcher->Messages = &messages;
     vtkOutputWindow::SetInstance(catcher);
   }
-  ~CaughtOutput() { vtkOutputWindow::SetInstance(this->Former); }
+  ~CaughtOutput()
+  {
+    vtkOutputWindow::SetInstance(this->Former);
+    vtkLogger::SetStderrVerbosity(this->Verbosity);
+  }
   CaughtOutput(const CaughtOutput&) = delete;
   CaughtOutput& operator=(const CaughtOutput&) = delete;
 
 private:
   vtkSmartPointer<vtkOutputWindow> Former;
+  vtkLogger::Verbosity Verbosity;
 };
 }
 
@@ -115,15 +123,18 @@ void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
   }
 }
 
-void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name)
+void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted)
 {
   this->ListenTo(reader);
   {
     const CaughtOutput caught(*this);
     reader->Update();
   }
-  // What a reader warns of are data that it had not and made up.
-  this->Errors.insert(this->Errors.end(), this->Warnings.begin(), this->Warnings.end());
+  if (trusted)
+  {
+    // What a reader warns of are data that it lacked and made up.
+    this->Errors.insert(this->Errors.end(), this->Warnings.begin(), this->Warnings.end());
+  }
   if (!this->Errors.empty() || reader->GetErrorCode() != 0)
   {
     const std::string reason = this->JoinedErrors();
