@@ -14,6 +14,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <vector>
 
 namespace tool
 {
@@ -74,6 +75,42 @@ void CheckMetaText(std::ifstream& file, std::uint64_t values)
   }
 }
 
+/// The files in the lines behind the header: one for each slice, or one if there is but one.
+void CheckMetaList(const std::string& name, std::uint64_t needed)
+{
+  const std::vector<std::string> files = FilesOfVolume(name);
+  std::istringstream sizes(HeaderValue(name, "DimSize"));
+  std::uint64_t slices = 1;
+  for (std::uint64_t size = 0; sizes >> size;)
+  {
+    slices = std::max<std::uint64_t>(size, 1);
+  }
+  const std::string words = HeaderValue(name, "ElementDataFile");
+  if (words.find('3') != std::string::npos)
+  {
+    slices = 1; // "LIST 3D"
+  }
+  if (files.size() < slices + 1) // the header is one of them
+  {
+    throw Failure("its header lists " + std::to_string(files.size() - 1) + " files for " +
+      std::to_string(slices) + " slices");
+  }
+  for (std::uint64_t i = 1; i <= slices; ++i)
+  {
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(files[i], failed);
+    if (failed)
+    {
+      throw Failure("its data file " + files[i] + " cannot be opened");
+    }
+    if (size < needed / slices)
+    {
+      throw Failure("its data file " + files[i] + " is cut off: it has " + std::to_string(size) +
+        " bytes, " + std::to_string(needed / slices) + " are needed");
+    }
+  }
+}
+
 // ---- NIfTI --------------------------------------------------------------------------------------
 
 /// The file with the header: .hdr for a .img.
@@ -101,44 +138,52 @@ void CheckNiftiType(std::uint64_t type)
 }
 }
 
-void CheckMeta(const std::string& name)
+bool CheckMeta(const std::string& name)
 {
   const std::string dataFile = HeaderValue(name, "ElementDataFile");
   const bool isLocal = dataFile == "LOCAL" || dataFile == "Local" || dataFile == "local";
-  const bool isSeveral =
-    dataFile.compare(0, 4, "LIST") == 0 || dataFile.find('%') != std::string::npos;
   const std::uint64_t bytes = MetaTypeBytes(HeaderValue(name, "ElementType"));
-  if (isSeveral || dataFile.empty() || bytes == 0)
+  const std::uint64_t values = MetaValues(name);
+  const std::uint64_t needed = Times(values, bytes);
+  const bool isPacked = IsTrue(HeaderValue(name, "CompressedData"));
+  if (dataFile.find('%') != std::string::npos || dataFile.empty() || bytes == 0)
   {
-    return; // VTK's reader tells of missing bytes, see ReadMeta
+    return false;
   }
-  const std::string path = isLocal
-    ? name
-    : (std::filesystem::path(name).parent_path() / dataFile).string();
+  if (dataFile.compare(0, 4, "LIST") == 0)
+  {
+    if (!isPacked)
+    {
+      CheckMetaList(name, needed);
+    }
+    return !isPacked;
+  }
+  const std::string path =
+    isLocal ? name : (std::filesystem::path(name).parent_path() / dataFile).string();
   std::ifstream file(path, std::ios::binary);
   if (!file)
   {
     throw Failure("its data file " + path + " cannot be opened");
   }
-  std::uint64_t start = isLocal ? static_cast<std::uint64_t>(BehindMetaHeader(file)) : 0;
-  const std::uint64_t values = MetaValues(name);
-  const std::uint64_t needed = Times(values, bytes);
+  const std::uint64_t start = isLocal ? static_cast<std::uint64_t>(BehindMetaHeader(file)) : 0;
   const std::string isBinary = HeaderValue(name, "BinaryData");
   if (!isBinary.empty() && !IsTrue(isBinary))
   {
     CheckMetaText(file, values);
-    return;
   }
-  if (IsTrue(HeaderValue(name, "CompressedData")))
+  else if (isPacked)
   {
     Inflate(file, needed, nullptr);
-    return;
   }
-  // -1: the voxels are the last bytes of the file, whatever is before.
-  const long long skipped = std::atoll(HeaderValue(name, "HeaderSize").c_str());
-  start += static_cast<std::uint64_t>(std::max(skipped, 0LL));
-  const std::uint64_t size = std::filesystem::file_size(path);
-  NeedBytes(size - std::min(size, skipped < 0 && !isLocal ? 0 : start), needed);
+  else
+  {
+    // -1: the voxels are the last bytes of the file, whatever is before.
+    const long long skipped = std::atoll(HeaderValue(name, "HeaderSize").c_str());
+    const std::uint64_t size = std::filesystem::file_size(path);
+    NeedBytes(
+      size - std::min(size, start + static_cast<std::uint64_t>(std::max(skipped, 0LL))), needed);
+  }
+  return true;
 }
 
 void CheckNifti(const std::string& name)

@@ -11,8 +11,9 @@ namespace tool
 // or end the program. Hence these looks at a file before: all throw a Failure, without its name,
 // with the bytes that are there and those that its header asks for.
 
-/// MetaImage (.mha, .mhd): the size of the data, in one file, and the checksum of packed ones.
-void CheckMeta(const std::string& name);
+/// MetaImage (.mha, .mhd): the size of the data, and the checksum of packed ones. False where that
+/// was not possible: packed data in several files, or files of a pattern.
+bool CheckMeta(const std::string& name);
 
 /// NIfTI and Analyze: the type of the voxels, and the checksum of a packed file.
 void CheckNifti(const std::string& name);
@@ -20,8 +21,8 @@ void CheckNifti(const std::string& name);
 /// MRC (.mrc, .ccp4): the size of the data.
 void CheckMrc(const std::string& name);
 
-/// TIFF: all pages and their data lie within the file. Other files are passed over.
-void CheckTiff(const std::string& name);
+/// TIFF: all pages and their data lie within the file; PNG: the checksums. Others are passed over.
+void CheckPicture(const std::string& name);
 }
 
 #endif

@@ -60,7 +60,7 @@ void CheckPly(const std::string& path)
 {
   const auto bytesOf = [](const std::string& type) -> std::uint64_t
   {
-    return type == "double" || type == "float64"             ? 8
+    return type == "double" || type == "float64"                                    ? 8
       : type.find("char") != std::string::npos || type == "uint8" || type == "int8" ? 1
       : type.find("short") != std::string::npos                                     ? 2
                                                                                     : 4;

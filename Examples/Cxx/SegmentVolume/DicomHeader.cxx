@@ -149,10 +149,10 @@ void TakeSyntax(const std::string& syntax, ElementStream& stream)
 void Take(const Element& element, ElementStream& stream, DicomHeader& header)
 {
   std::string* text = element.Tag == Tag(0x0002, 0x0010) ? &header.Syntax
-    : element.Tag == Tag(0x0002, 0x0002) ? &header.Class
-    : element.Tag == Tag(0x0008, 0x0016) ? &header.Class
-    : element.Tag == Tag(0x0020, 0x000E) ? &header.Series
-                                         : nullptr;
+    : element.Tag == Tag(0x0002, 0x0002)                 ? &header.Class
+    : element.Tag == Tag(0x0008, 0x0016)                 ? &header.Class
+    : element.Tag == Tag(0x0020, 0x000E)                 ? &header.Series
+                                                         : nullptr;
   int* number = element.Tag == Tag(0x0028, 0x0002) ? &header.Samples
     : element.Tag == Tag(0x0028, 0x0010)           ? &header.Rows
     : element.Tag == Tag(0x0028, 0x0011)           ? &header.Columns
@@ -192,7 +192,8 @@ bool DicomHeader::IsOtherThanImage() const
     "1.2.840.10008.5.1.4.1.1.481." };
   return !this->HasPixels &&
     std::any_of(std::begin(others), std::end(others),
-      [this](const std::string& start) { return this->Class.compare(0, start.size(), start) == 0; });
+      [this](const std::string& start)
+      { return this->Class.compare(0, start.size(), start) == 0; });
 }
 
 DicomHeader ReadDicomHeader(const std::string& file)

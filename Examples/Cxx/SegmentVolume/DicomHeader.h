@@ -11,14 +11,14 @@ namespace tool
 /// What vtkDICOMImageReader does not tell or look at.
 struct DicomHeader
 {
-  std::string Syntax;  ///< how the file is encoded, an identifier
-  std::string Class;   ///< of the object: an image of CT, a report, ...
-  std::string Series;  ///< the identifier of the series
-  int Samples = 1;     ///< per pixel
+  std::string Syntax; ///< how the file is encoded, an identifier
+  std::string Class;  ///< of the object: an image of CT, a report, ...
+  std::string Series; ///< the identifier of the series
+  int Samples = 1;    ///< per pixel
   int Frames = 1;
   int Rows = 0;
   int Columns = 0;
-  int Bits = 0;        ///< allocated for each sample
+  int Bits = 0; ///< allocated for each sample
   bool HasPixels = false;
   std::uint64_t PixelBytes = 0; ///< in the file, as far as the element says they go
 

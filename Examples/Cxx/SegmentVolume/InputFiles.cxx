@@ -33,8 +33,7 @@ std::string Trimmed(const std::string& text)
 
 bool EndsWith(const std::string& text, const std::string& end)
 {
-  return text.size() >= end.size() &&
-    text.compare(text.size() - end.size(), end.size(), end) == 0;
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 /// The lines of a text header, which comes before any voxels.

@@ -159,8 +159,8 @@ void CheckPair(const OutputName& a, const OutputName& b)
   }
   FileId idOfA;
   FileId idOfB;
-  const bool isSame = PlaceOf(a) == PlaceOf(b) ||
-    (FindId(a.Name, idOfA) && FindId(b.Name, idOfB) && idOfA == idOfB);
+  const bool isSame =
+    PlaceOf(a) == PlaceOf(b) || (FindId(a.Name, idOfA) && FindId(b.Name, idOfB) && idOfA == idOfB);
   const bool isSameFolder = a.Form == OutputName::Kind::Folder && a.Form == b.Form;
   const auto holds = [](const OutputName& several, const OutputName& one)
   {

@@ -158,7 +158,8 @@ void StagedFiles::Publish()
     }
   }
   // The file that names the others comes last.
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b)
+  std::sort(files.begin(), files.end(),
+    [](const fs::path& a, const fs::path& b)
     { return std::make_pair(!a.has_parent_path(), a) < std::make_pair(!b.has_parent_path(), b); });
   for (const fs::path& file : files)
   {

@@ -125,8 +125,8 @@ Slice ReadSlice(const std::string& file, const DicomHeader& header)
 
 void CheckFits(const Slice& slice, const Slice& first)
 {
-  const bool isSameSeries = slice.Study == first.Study && slice.Series == first.Series && Dot(slice.Across, first.Across) > 0.999 &&
-    Dot(slice.Down, first.Down) > 0.999;
+  const bool isSameSeries = slice.Study == first.Study && slice.Series == first.Series &&
+    Dot(slice.Across, first.Across) > 0.999 && Dot(slice.Down, first.Down) > 0.999;
   const bool isSameSize = std::equal(slice.Image->GetDimensions(), slice.Image->GetDimensions() + 2,
                             first.Image->GetDimensions()) &&
     std::abs(slice.Spacing[0] - first.Spacing[0]) < 1e-3 &&
@@ -134,10 +134,10 @@ void CheckFits(const Slice& slice, const Slice& first)
   if (!isSameSeries || !isSameSize)
   {
     throw Failure(slice.File + ": its " +
-      (!isSameSize                         ? "size or pixel spacing"
+      (!isSameSize                       ? "size or pixel spacing"
           : slice.Series != first.Series ? "series"
-                                         : "study or orientation") + " differs from that of " +
-      first.File + "; one series per folder is needed");
+                                         : "study or orientation") +
+      " differs from that of " + first.File + "; one series per folder is needed");
   }
 }
 

@@ -76,8 +76,8 @@ Image ReadIfItsFormat(const std::string& name)
   return ImageOf(reader, name);
 }
 
-/// What MetaIO prints about data that it lacks, and goes on.
-Image ReadMetaVoxels(const std::string& name)
+/// MetaIO prints what it misses, and goes on: an error, unless the file is known to be whole.
+Image ReadMetaVoxels(const std::string& name, bool isWhole)
 {
   std::ostringstream printed;
   std::streambuf* output = std::cerr.rdbuf(printed.rdbuf());
@@ -92,7 +92,7 @@ Image ReadMetaVoxels(const std::string& name)
     throw;
   }
   std::cerr.rdbuf(output);
-  if (!printed.str().empty())
+  if (!isWhole && !printed.str().empty())
   {
     std::string text = printed.str();
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -104,8 +104,8 @@ Image ReadMetaVoxels(const std::string& name)
 /// MetaImage; VTK's reader drops the directions of the axes, which are in the header's text.
 Image ReadMeta(const std::string& name)
 {
-  CheckMeta(name);
-  Image image = ReadMetaVoxels(name);
+  const bool isWhole = CheckMeta(name);
+  Image image = ReadMetaVoxels(name, isWhole);
   std::ifstream file(name, std::ios::binary);
   std::string line;
   while (std::getline(file, line) && line.compare(0, 15, "ElementDataFile") != 0)
@@ -256,7 +256,7 @@ Image ReadByContent(const std::string& name)
   {
     throw Failure(name + ": not a format that VTK's readers know");
   }
-  CheckTiff(name);
+  CheckPicture(name);
   reader->SetFileName(name.c_str());
   return ImageOf(reader, name);
 }

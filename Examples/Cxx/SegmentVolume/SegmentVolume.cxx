@@ -234,8 +234,7 @@ void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
       WriteFolder(blocks, name, prefix, numbers);
     }
   };
-  Attempt(
-    failures, [&] { writeSurfaces(filter->GetLevels(), options.Levels, "level", LevelOf); });
+  Attempt(failures, [&] { writeSurfaces(filter->GetLevels(), options.Levels, "level", LevelOf); });
   Attempt(failures,
     [&] { writeSurfaces(filter->GetSnapshots(), options.Snapshots, "snapshot", nullptr); });
   if (!options.History.empty())
@@ -306,7 +305,8 @@ ExitCode Segment(
   CatchInterrupts();
   pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
   pyramid->SetInputData(volume);
-  const FilterRun pyramidRun = RunOnVolume(options, pyramid, "Building the pyramid", announcer.Style);
+  const FilterRun pyramidRun =
+    RunOnVolume(options, pyramid, "Building the pyramid", announcer.Style);
   filter->SetInputConnection(pyramid->GetOutputPort());
   if (pyramidRun.IsInterrupted)
   {
@@ -373,8 +373,7 @@ ExitCode Run(int argc, char* argv[])
   }
   catch (const std::bad_alloc&)
   {
-    throw Failure(
-      options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
+    throw Failure(options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
   }
 }
 }

@@ -46,6 +46,16 @@ std::string PlainMessage(const std::string& text)
   return plain;
 }
 
+/// Keep an error, but not the executive's that its algorithm failed, which has said why.
+void KeepError(const std::string& text, std::vector<std::string>& errors)
+{
+  const bool isEcho = text.find("returned failure for request") != std::string::npos;
+  if (!isEcho || errors.empty())
+  {
+    errors.push_back(isEcho ? "it failed" : text);
+  }
+}
+
 class MessageObserver : public vtkCommand
 {
 public:
@@ -54,13 +64,14 @@ public:
   void Execute(vtkObject*, unsigned long event, void* data) override
   {
     const std::string text = PlainMessage(data ? static_cast<const char*>(data) : "");
-    const bool isEcho = text.find("returned failure for request") != std::string::npos;
-    if (isEcho && !this->Messages->Errors.empty())
+    if (event == vtkCommand::ErrorEvent)
     {
-      return; // the executive says that its algorithm failed, which has said why
+      KeepError(text, this->Messages->Errors);
     }
-    (event == vtkCommand::ErrorEvent ? this->Messages->Errors : this->Messages->Warnings)
-      .push_back(isEcho ? "it failed" : text);
+    else
+    {
+      this->Messages->Warnings.push_back(text);
+    }
   }
 
   VtkMessages* Messages = nullptr;
@@ -72,7 +83,10 @@ class OutputCatcher : public vtkOutputWindow
 public:
   static OutputCatcher* New() { return new OutputCatcher; }
 
-  void DisplayErrorText(const char* text) override { this->Messages->Errors.push_back(Plain(text)); }
+  void DisplayErrorText(const char* text) override
+  {
+    KeepError(Plain(text), this->Messages->Errors);
+  }
   void DisplayWarningText(const char* text) override
   {
     this->Messages->Warnings.push_back(Plain(text));
@@ -126,10 +140,7 @@ void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
 void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted)
 {
   this->ListenTo(reader);
-  {
-    const CaughtOutput caught(*this);
-    reader->Update();
-  }
+  this->Catch([&] { reader->Update(); });
   if (trusted)
   {
     // What a reader warns of are data that it lacked and made up.
@@ -142,12 +153,19 @@ void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name, bo
   }
 }
 
+void VtkMessages::Catch(const std::function<void()>& action)
+{
+  const CaughtOutput caught(*this);
+  action();
+}
+
 std::string VtkMessages::JoinedErrors() const
 {
   std::string joined;
-  for (const std::string& error : this->Errors)
+  for (auto error = this->Errors.begin(); error != this->Errors.end(); ++error)
   {
-    joined += (joined.empty() ? "" : "; ") + error;
+    const bool isNew = std::find(this->Errors.begin(), error, *error) == error;
+    joined += !isNew ? "" : (joined.empty() ? "" : "; ") + *error;
   }
   return joined;
 }

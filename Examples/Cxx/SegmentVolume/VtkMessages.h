@@ -3,6 +3,7 @@
 #ifndef VtkMessages_h
 #define VtkMessages_h
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ public:
   /// object within it, reports an error; or warns, unless its warnings are not `trusted`.
   void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true);
 
+  /// Run the action; what VTK would print meanwhile, for objects that nobody listens to, is kept.
+  void Catch(const std::function<void()>& action);
+
+  /// Each error once, with semicolons between.
   std::string JoinedErrors() const;
 };
 }

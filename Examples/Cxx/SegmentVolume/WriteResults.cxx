@@ -46,7 +46,7 @@ void Run(Writer* writer)
 {
   VtkMessages messages;
   messages.ListenTo(writer);
-  writer->Write();
+  messages.Catch([&] { writer->Write(); });
   if (!messages.Errors.empty() || writer->GetErrorCode() != 0)
   {
     const std::string reason = messages.JoinedErrors();
@@ -159,8 +159,7 @@ template <int More>
 void CheckText(const std::string& path, vtkPolyData* surface)
 {
   CheckLines(path,
-    More +
-      static_cast<std::uint64_t>(surface->GetNumberOfPoints() + surface->GetNumberOfPolys()));
+    More + static_cast<std::uint64_t>(surface->GetNumberOfPoints() + surface->GetNumberOfPolys()));
 }
 
 void CheckObj(const std::string& path, vtkPolyData* surface)
@@ -306,7 +305,6 @@ void WriteTable(vtkTable* table, const std::string& name)
 
 void WriteText(const std::string& text, const std::string& name)
 {
-  WriteBeside(name,
-    [&](const std::string& path) { WriteBytes(path, text.data(), text.size()); });
+  WriteBeside(name, [&](const std::string& path) { WriteBytes(path, text.data(), text.size()); });
 }
 }

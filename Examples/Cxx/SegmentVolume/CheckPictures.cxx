@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// TIFF 6.0, and BigTIFF, which has wider numbers.
+// TIFF 6.0, and BigTIFF, which has wider numbers; PNG (W3C recommendation).
 #include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
+
+#include <vtk_zlib.h>
 
 #include <algorithm>
 #include <map>
@@ -42,8 +44,8 @@ struct TiffFile
     std::vector<std::uint64_t> values;
     for (std::uint64_t at = 0; bytes > 0 && at < size; at += static_cast<std::uint64_t>(bytes))
     {
-      values.push_back(NumberOf(
-        text.substr(at, static_cast<std::size_t>(bytes)), this->File.IsBig));
+      values.push_back(
+        NumberOf(text.substr(at, static_cast<std::size_t>(bytes)), this->File.IsBig));
     }
     return values;
   }
@@ -82,7 +84,6 @@ std::uint64_t CheckPage(TiffFile& tiff, std::uint64_t page)
   }
   return tiff.File.Number(first + count * entryBytes, tiff.Wide(4));
 }
-}
 
 void CheckTiff(const std::string& name)
 {
@@ -101,5 +102,39 @@ void CheckTiff(const std::string& name)
   {
     page = CheckPage(tiff, page);
   }
+}
+
+/// A chain of chunks, each with its checksum.
+void CheckPng(const std::string& name)
+{
+  BinaryFile file(name);
+  file.IsBig = true;
+  const std::string mark = "\x89PNG\r\n\x1a\n";
+  if (file.Size() < mark.size() || file.Text(0, mark.size()) != mark)
+  {
+    return;
+  }
+  std::string kind;
+  for (std::uint64_t at = mark.size(); kind != "IEND";)
+  {
+    const std::uint64_t length = file.Number(at, 4);
+    const std::string chunk = file.Text(at + 4, length + 4);
+    const uLong sum = crc32(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(chunk.data()),
+      static_cast<uInt>(chunk.size()));
+    if (sum != file.Number(at + 8 + length, 4))
+    {
+      throw Failure("the file is damaged: the checksum of its part at byte " + std::to_string(at) +
+        " is wrong; copy it again");
+    }
+    kind = chunk.substr(0, 4);
+    at += 12 + length;
+  }
+}
+}
+
+void CheckPicture(const std::string& name)
+{
+  CheckTiff(name);
+  CheckPng(name);
 }
 }
