@@ -21,12 +21,11 @@ import os
 import sys
 import time
 
-from output_files import check_output
+from output_files import check_output, write_text
 from pipeline import load_volume, prepare_surface, run_surface
 from read_volume import READERS, VolumeError, files_of_volume
 from segment import INTERRUPTED, add_filter_options, filter_properties
-from surface_results import (
-    SURFACE_WRITERS, surface_facts, surface_line, write_surface, write_text)
+from surface_results import SURFACE_WRITERS, surface_facts, surface_line, write_surface
 from terminal import FilterError, Interrupted
 
 FACTS = ("stop_reason", "vertices", "triangles", "components", "genus", "area", "volume")

@@ -24,11 +24,11 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOOggTheora import vtkOggTheoraWriter
 
 import render
-from output_files import beside, check_output
+from output_files import beside, check_output, write_text
 from pipeline import build_pyramid, load_volume, prepare_surface, run_surface
 from read_volume import VolumeError, files_of_volume
 from surface_pictures import THREE_QUARTERS, field_value, visited_levels
-from surface_results import write_surface, write_text
+from surface_results import write_surface
 from terminal import FilterError, Interrupted
 
 RESTED_FRAMES = 8  # how long the surface of a level is shown at rest

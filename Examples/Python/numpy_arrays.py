@@ -13,6 +13,7 @@ clockwise seen from outside), `normals` (n x 3, outward), `residual` (n: field m
 """
 
 import argparse
+import io
 import sys
 
 import numpy as np
@@ -91,8 +92,10 @@ def main():
             print(f"  {name}: {' x '.join(map(str, array.shape))} {array.dtype}")
         print(f"  volume of the triangles: {volume_of(arrays['points'], arrays['triangles']):,.1f}")
         if arguments.mesh:
+            packed = io.BytesIO()
+            np.savez_compressed(packed, **arrays)
             with beside(arguments.mesh) as path, open(path, "wb") as file:
-                np.savez_compressed(file, **arrays)
+                file.write(packed.getbuffer())
             print(f"Written: {arguments.mesh}")
         if arguments.show:
             show(surface)

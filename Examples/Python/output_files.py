@@ -18,6 +18,8 @@ import shutil
 import stat
 import tempfile
 
+from terminal import caught_output
+
 PIECE = 1 << 20  # bytes at a time
 PLY_BYTES = {"char": 1, "uchar": 1, "int8": 1, "uint8": 1, "short": 2, "ushort": 2, "int16": 2,
              "uint16": 2, "double": 8, "float64": 8}  # others have 4
@@ -70,6 +72,24 @@ def beside(path):
         raise OSError(f"{path} cannot be written ({error.strerror or error})") from error
     finally:
         shutil.rmtree(hidden, ignore_errors=True)
+
+
+def write_with(writer, data, path, check):
+    """Have a VTK writer write the data; check(path) looks whether the disk took all of it."""
+    failures = []
+    writer.AddObserver("ErrorEvent", lambda *_: failures.append(writer.GetErrorCode()))
+    writer.SetInputData(data)
+    with beside(path) as written, caught_output() as printed:
+        writer.SetFileName(written)
+        writer.Write()
+        if failures or printed.GetOutput() or writer.GetErrorCode():
+            raise OSError("is the disk full?")
+        check(written)
+
+
+def write_text(text, path):
+    with beside(path) as written, open(written, "w", encoding="utf-8", newline="") as file:
+        file.write(text)
 
 
 def hidden_folder(path, folder):

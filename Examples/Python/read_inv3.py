@@ -11,6 +11,7 @@ import plistlib
 import posixpath
 import tarfile
 import zlib
+from xml.parsers.expat import ExpatError
 
 import numpy as np
 
@@ -27,6 +28,7 @@ def read_inv3(path):
     left-handed frame (its own surfaces have -y instead).
     """
     try:
+        check_sum(path)
         with tarfile.open(path, "r:*") as archive:
             plist_member = find_member(archive, "main.plist", path)
             if plist_member.size > LARGEST_PLIST:
@@ -39,10 +41,9 @@ def read_inv3(path):
                 raise VolumeError(f"{path}: {member.name} has {member.size} bytes, the sizes in"
                                   f" main.plist ask for {expected}")
             voxels = np.frombuffer(archive.extractfile(member).read(), dtype).reshape(shape)
-        check_sum(path)
     except (tarfile.TarError, EOFError, zlib.error, OSError) as error:
         raise VolumeError(f"{path}: not a readable InVesalius project ({error})") from error
-    except plistlib.InvalidFileException as error:
+    except (plistlib.InvalidFileException, ExpatError) as error:
         raise VolumeError(f"{path}: main.plist cannot be parsed ({error})") from error
     axes = "LAS" if project.get("orientation", AXIAL) == AXIAL else None
     return make_image(voxels, spacing, axes=axes)

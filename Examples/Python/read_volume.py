@@ -22,16 +22,15 @@ import numpy as np
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
-from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOImage import vtkMetaImageReader, vtkNIFTIImageReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
 
 from check_volume import check_meta, check_nifti, meta_fields, meta_files
-from output_files import beside, check_end, check_output
+from output_files import check_end, check_output, write_with
 from read_dicom import is_dicom, read_dicom
 from read_inv3 import read_inv3
 from read_nrrd import nrrd_files, read_nrrd
-from terminal import plain_message
+from terminal import caught_output, plain_message
 from volume_image import VolumeError, make_image, place_image
 
 
@@ -85,7 +84,7 @@ def run_reader(reader, path, trust_warnings=True):
 
     Its warnings too, unless they are not trusted: they are about data that it lacked and made up.
     """
-    messages, printed = [], vtkStringOutputWindow()
+    messages = []
 
     @calldata_type(VTK_STRING)
     def keep(_caller, _event, text):
@@ -94,18 +93,12 @@ def run_reader(reader, path, trust_warnings=True):
     reader.AddObserver("ErrorEvent", keep)
     reader.AddObserver("WarningEvent", keep if trust_warnings else lambda *_: None)
     reader.SetFileName(path)
-    # Objects within the reader print what they find wrong.
-    former, verbosity = vtkOutputWindow.GetInstance(), vtkLogger.GetCurrentVerbosityCutoff()
-    vtkOutputWindow.SetInstance(printed)
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     try:
-        reader.Update()
+        with caught_output() as printed:  # by objects within the reader
+            reader.Update()
     except MemoryError as error:
         raise VolumeError(f"{path}: not enough memory to read it; crop it, or resample it to fewer"
                           " voxels") from error
-    finally:
-        vtkOutputWindow.SetInstance(former)
-        vtkLogger.SetStderrVerbosity(verbosity)
     if messages or printed.GetOutput() or reader.GetErrorCode():
         messages = messages or [plain_message(printed.GetOutput()) or "damaged file"]
         raise VolumeError(f"{path}: cannot be read ({'; '.join(messages)})")
@@ -187,17 +180,6 @@ READERS = {
 }
 
 
-def write_vti(image, path):
-    """Write an image; OSError where that fails."""
-    writer = vtkXMLImageDataWriter()
-    writer.SetInputData(image)
-    with beside(path) as written:
-        writer.SetFileName(written)
-        if not writer.Write():
-            raise OSError("is the disk full?")
-        check_end(written, b"</VTKFile>")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("input", help="volume file, or folder of one DICOM series")
@@ -208,7 +190,8 @@ def main():
     try:
         check_output(arguments.output, files_of_volume(arguments.input))
         image = read_volume(arguments.input)
-        write_vti(image, arguments.output)
+        write_with(vtkXMLImageDataWriter(), image, arguments.output,
+                   lambda written: check_end(written, b"</VTKFile>"))
     except (VolumeError, OSError) as error:
         sys.exit(f"read_volume.py: {error}")
     scalars = image.GetPointData().GetScalars()

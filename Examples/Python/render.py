@@ -17,7 +17,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderWindow, vtkTextProperty, vtkTextRenderer, vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
 
-from output_files import beside, check_end
+from output_files import check_end, write_with
 from volume_image import OPPOSITE, direction_of, world_axes
 
 BACKGROUND = (0.085, 0.092, 0.105)
@@ -286,11 +286,5 @@ def write_png(pixels, path):
     image.GetPointData().SetScalars(
         numpy_to_vtk(np.ascontiguousarray(pixels[::-1]).reshape(-1, 3), deep=True))
     writer = vtkPNGWriter()
-    writer.SetInputData(image)
     writer.SetCompressionLevel(9)
-    with beside(path) as written:
-        writer.SetFileName(written)
-        writer.Write()
-        if writer.GetErrorCode():
-            raise OSError("is the disk full?")
-        check_end(written, b"IEND")
+    write_with(writer, image, path, lambda written: check_end(written, b"IEND"))

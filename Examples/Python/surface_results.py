@@ -12,7 +12,8 @@ from vtkmodules.vtkIOGeometry import vtkOBJWriter, vtkSTLWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter
 
-from output_files import beside, check_end, check_lines, check_ply, check_size
+from output_files import (
+    check_end, check_lines, check_ply, check_size, write_text, write_with)
 
 # Names in the report and in the field data of a surface.
 FACTS = {
@@ -28,20 +29,6 @@ COMPONENT_FACTS = {
     "area": "ComponentArea", "volume": "ComponentVolume", "genus": "ComponentGenus",
     "centroid": "ComponentCentroid", "inertia": "ComponentInertia",
 }
-
-
-def write_with(writer, data, path, check=None):
-    """Write the data beside the file, which takes its place when it is whole; OSError where that
-    fails. check(path) looks whether the disk took all of it."""
-    failures = []
-    writer.AddObserver("ErrorEvent", lambda *_: failures.append(writer.GetErrorCode()))
-    writer.SetInputData(data)
-    with beside(path) as written:
-        writer.SetFileName(written)
-        if not writer.Write() or failures:
-            raise OSError("is the disk full?")
-        if check:
-            check(written)
 
 
 def check_xml(path):
@@ -95,12 +82,6 @@ def write_history(history, path):
 
 def write_report(report, path):
     write_text(json.dumps(report, indent=2, allow_nan=False) + "\n", path)
-
-
-def write_text(text, path):
-    """A file of text, which takes its place when it is whole."""
-    with beside(path) as written, open(written, "w", encoding="utf-8", newline="") as file:
-        file.write(text)
 
 
 def plain(value):
