@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Looks at files before VTK reads them.
 
-VTK's readers of MetaImage and NIfTI give what memory holds where a file has been cut off or damaged,
-or end the program. So the sizes and the checksums are compared here, and VolumeError tells.
+VTK's readers of MetaImage and NIfTI give what memory holds where a file has been cut off or
+damaged, or end the program. So the sizes and the checksums are compared here; VolumeError tells.
 """
 
 import contextlib

@@ -149,5 +149,5 @@ def caught_output():
 
 def plain_message(text):
     """The message of vtkErrorMacro without the place in the source code."""
-    return re.sub(r"\s+", " ", re.sub(r"^(ERROR|Warning|Generic Warning): In .*?\n.*?\): ", "", text,
-                                      flags=re.DOTALL)).strip()
+    text = re.sub(r"^(ERROR|Warning): In .*?\n.*?\): ", "", text, flags=re.DOTALL)
+    return re.sub(r"\s+", " ", re.sub("^Generic Warning: In .*\n", "", text)).strip()

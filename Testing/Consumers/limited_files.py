@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Disks that are full, for tests that need no rights: a process whose files may not grow further."""
+"""Full disks, for tests that need no rights: a process whose files may not grow further."""
 
 import resource
 import signal

@@ -3,6 +3,7 @@
 """`volumic` refuses a volume that has been cut off or damaged, and names the file."""
 
 import gzip
+import importlib.util
 import os
 import resource
 import struct
@@ -47,7 +48,7 @@ class DamageTest(ToolTestCase):
         self.accepted_file(name, content)
         for rest in rests:
             with self.subTest(name, rest=rest):
-                count = int(len(content) * rest) if rest > 0 else rest
+                count = int(len(content) * rest) if 0 < rest < 1 else rest
                 self.refused_file(name, content[:count], reason)
 
     def flipped(self, name, content, reason, start, times=8):
@@ -105,8 +106,8 @@ class FilesTest(DamageTest):
     def test_meta_image_as_text(self):
         header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
         text = " ".join(map(str, ball().ravel())).encode()
-        self.cut("a.mha", header.replace(b"BinaryData = True", b"BinaryData = False") + text + b"\n",
-                 "it has [0-9]+ values, its header asks for 10296")
+        header = header.replace(b"BinaryData = True", b"BinaryData = False")
+        self.cut("a.mha", header + text + b"\n", "it has [0-9]+ values, its header asks for 10296")
 
     def test_legacy_vtk(self):
         for name in ("FileTypeToBinary", "FileTypeToASCII"):
@@ -157,6 +158,12 @@ class FilesTest(DamageTest):
         self.cut("a.mrc", bytes(header) + noisy_ball().tobytes(), "it has [0-9]+ bytes of voxels")
         struct.pack_into("<i", header, 12, 77)
         self.refused_file("a.mrc", bytes(header) + noisy_ball().tobytes(), "mode 77 is no type")
+
+    @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
+    def test_minc(self):
+        from vtkmodules.vtkIOMINC import vtkMINCImageWriter
+        content = self.content(vtkMINCImageWriter(), "a.mnc")
+        self.cut("a.mnc", content, "cut off: it has [0-9]+ bytes of voxels|cut off", (0.5, -10, 90))
 
     def test_pages_of_a_picture(self):
         content = self.content(vtkTIFFWriter(), "a.tif", make_image(noisy_ball("u2")))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `volumic` writes takes its place when it is whole, whatever happens, and never an input's."""
+"""What `volumic` writes takes its place when it is whole, and never that of an input."""
 
 import contextlib
 import json
@@ -135,7 +135,7 @@ class FullDiskTest(OutputsTest):
 
 class KilledTest(OutputsTest):
     def test_the_old_file_or_the_new_one_is_there(self):
-        names = [f"{i}.{suffix}" for i in range(3) for suffix in ("obj", "vtp", "stl", "ply", "tri")]
+        names = [f"{i}.{end}" for i in range(3) for end in ("obj", "vtp", "stl", "ply", "tri")]
         paths = [self.path(name) for name in names]
         self.segment(*paths)
         new = {name: self.content(name) for name in names}

@@ -180,8 +180,9 @@ class ScriptsTest(OutputFilesTest):
         self.assertEqual(self.batch().returncode, 0)
         table = self.content("out/results.csv")
         script = os.path.join(EXAMPLES, "batch.py")
-        with subprocess.Popen([sys.executable, script, self.path("scans"), "--output", self.path("out"),
-                               "--iso", str(RING_ISO)], stdout=subprocess.PIPE) as process:
+        with subprocess.Popen([sys.executable, script, self.path("scans"), "--output",
+                               self.path("out"), "--iso", str(RING_ISO)],
+                              stdout=subprocess.PIPE) as process:
             process.stdout.read(8)  # it has begun with the first volume
             self.assertEqual(self.content("out/results.csv"), table)
             time.sleep(0.01)

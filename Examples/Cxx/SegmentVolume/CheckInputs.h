@@ -21,6 +21,9 @@ void CheckNifti(const std::string& name);
 /// MRC (.mrc, .ccp4): the size of the data.
 void CheckMrc(const std::string& name);
 
+/// netCDF of the classic form, which MINC 1 is: the size of the data. Others are passed over.
+void CheckNetcdf(const std::string& name);
+
 /// TIFF: all pages and their data lie within the file; PNG: the checksums. Others are passed over.
 void CheckPicture(const std::string& name);
 }

@@ -207,6 +207,7 @@ Image ReadMrc(const std::string& name)
 /// MINC in its world coordinates, with the real values.
 Image ReadMinc(const std::string& name)
 {
+  CheckNetcdf(name);
   vtkNew<vtkMINCImageReader> reader;
   reader->SetFileName(name.c_str());
   reader->RescaleRealValuesOn();
