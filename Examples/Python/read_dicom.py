@@ -152,7 +152,12 @@ def check_slice(part, first):
         raise VolumeError(f"{path}: lacks {', '.join(missing)}: not a slice of a volume")
     if part.get("samples", 1) != 1:
         raise VolumeError(f"{path}: {part['samples']} components per pixel; one is needed")
-    if int(part.get("frames") or 1) != 1:
+    for name, default in (("frames", 1), ("slope", 1), ("intercept", 0), ("thickness", 1)):
+        try:
+            part[name] = float(part.get(name) or default)
+        except ValueError as error:
+            raise VolumeError(f"{path}: its header is damaged: {name} '{part[name]}'") from error
+    if part["frames"] != 1:
         raise VolumeError(f"{path}: multi-frame files are not read")
     if part["bits"] not in (8, 16, 32):
         raise VolumeError(f"{path}: {part['bits']} bits per pixel are not read")
@@ -172,7 +177,7 @@ def check_slice(part, first):
 def slice_distance(slices, normal, folder):
     """Distance of neighbouring slices; an error for missing, repeated and sheared ones."""
     if len(slices) == 1:
-        return float(slices[0].get("thickness") or 1)
+        return slices[0]["thickness"] or 1.0
     steps = np.diff([part["position"] for part in slices], axis=0)
     along = steps @ normal
     mean = along.mean()
@@ -202,8 +207,8 @@ def read_pixels(part):
 
 def rescale(voxels, slices):
     """Stored values to physical ones (Hounsfield units for CT), as integers where they are."""
-    slopes = np.array([float(part.get("slope") or 1) for part in slices])
-    shifts = np.array([float(part.get("intercept") or 0) for part in slices])
+    slopes = np.array([part["slope"] for part in slices])
+    shifts = np.array([part["intercept"] for part in slices])
     if (slopes == 1).all() and (shifts == 0).all():
         return voxels
     if (slopes == slopes[0]).all() and np.all(np.mod([slopes, shifts], 1) == 0):

@@ -245,6 +245,13 @@ class SeriesTest(DamageTest):
         self.write_bytes("series/IM03", self.slice(3, frames="2"))
         self.refused_series("IM03: 2 frames")
 
+    def test_headers_that_make_no_sense(self):
+        self.series()
+        for changes, reason in (({"bits": 32}, "32 bits per pixel"), ({"bits": 0}, "0 bits per"),
+                                ({"frames": "1A"}, "the number of frames is '1A'")):
+            self.write_bytes("series/IM03", self.slice(3, **changes))
+            self.refused_series("IM03: .*" + reason)
+
     def test_packed_slices(self):
         for syntax in ("1.2.840.10008.1.2.1.99", "1.2.840.10008.1.2.4.70"):
             self.series()

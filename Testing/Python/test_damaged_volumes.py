@@ -171,6 +171,11 @@ class SeriesTest(DamagedTest):
         self.write_bytes("IM3", content[:place] + short + content[place + 4:])
         self.refused_series("IM3: the pixels are cut off: 180 bytes, 360 needed")
 
+    def test_numbers_that_are_none(self):
+        for name in ("frames", "slope", "intercept"):
+            self.write_bytes("IM3", self.slice(3, **{name: "1A"}))
+            self.refused_series(f"IM3: its header is damaged: {name} '1A'")
+
     def test_reports_and_directories_are_no_slices(self):
         for name, kind in (("DICOMDIR", "1.2.840.10008.1.3.10"),
                            ("SR", "1.2.840.10008.5.1.4.1.1.88.11")):

@@ -168,7 +168,12 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
   }
   else if (element.Tag == Tag(0x0028, 0x0008) && element.Length != Undefined)
   {
-    header.Frames = std::max(1, std::atoi(stream.Bytes(element.Length).c_str()));
+    const std::string frames = Text(stream.Bytes(element.Length));
+    header.Frames = frames.empty() ? 1 : std::atoi(frames.c_str());
+    if (frames.find_first_not_of("0123456789+ ") != std::string::npos || header.Frames < 1)
+    {
+      throw Failure("its header is damaged: the number of frames is '" + frames + "'");
+    }
   }
   else
   {

@@ -65,9 +65,13 @@ void CheckPixels(const DicomHeader& header)
   {
     throw Failure(NumberText(header.Frames) + " frames; files of several frames are not read");
   }
+  if (header.Bits != 8 && header.Bits != 16)
+  {
+    throw Failure(NumberText(header.Bits) + " bits per pixel; 8 and 16 are read");
+  }
   if (header.NeededBytes() == 0)
   {
-    throw Failure("lacks its rows, columns or bits: it is damaged, or no slice");
+    throw Failure("lacks its rows or columns: it is damaged, or no slice");
   }
   if (header.PixelBytes < header.NeededBytes())
   {
