@@ -193,6 +193,61 @@ class FilesTest(DamageTest):
         self.assertRegex(process.stderr,
                          "^volumic: .*large.mha: not enough memory to read it; crop it")
 
+    def test_too_little_memory_later(self):
+        """Each limit ends with a surface or with the name of the volume and what helps."""
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        file = self.write_bytes("large.mha", header.replace(b"26 22 18", b"256 256 256"))
+        with open(file, "r+b") as stream:
+            stream.truncate(len(header) + 3 + (2 << 24))
+            stream.seek(len(header) + 3 + (1 << 24))
+            stream.write(bytes([200]) * (1 << 22))
+        told = set()
+        for megabytes in (400, 330, 280, 230):
+            limit = megabytes << 20
+            process = self.run_tool(
+                file, self.path("a.stl"), "--iso", "500.5", "--threads", "1", "-q",
+                status=None, preexec_fn=lambda size=limit: resource.setrlimit(
+                    resource.RLIMIT_AS, (size, size)))
+            if process.returncode != 0:
+                self.assertRegex(process.stderr, "(?m)^volumic: .*large.mha: not enough memory to "
+                                 "(read|segment) it.*(crop|--finest)")
+                told.add(process.stderr)
+        self.assertGreater(len(told), 0, "all limits were large enough")
+
+
+class MeshesTest(DamageTest):
+    """As surfaces they would be open, as points fewer, and VTK's reader of .ply ends the program."""
+
+    def setUp(self):
+        super().setUp()
+        names = [self.path(f"a.{suffix}") for suffix in ("vtp", "vtk", "stl", "ply", "obj")]
+        self.run_tool(self.ball_file(), *names, "--iso", ISO)
+
+    def refused_mesh(self, name, reason):
+        for option in ("--initial-surface", "--seeds", "--attracting-points"):
+            with self.subTest(name, option=option):
+                self.refused(f"{name}.*({reason})", self.path("ball.vti"), "--iso", ISO, option,
+                             self.path(name), "--report", os.devnull)
+
+    def test_cut_off(self):
+        for suffix, rests in (("vtp", (0.5, -100)), ("vtk", (0.5, -100)), ("ply", (0.2, 0.7, -1)),
+                              ("stl", (0.5, -50, -1))):
+            with open(self.path(f"a.{suffix}"), "rb") as file:
+                content = file.read()
+            for rest in rests:
+                self.write_bytes(f"b.{suffix}",
+                                 content[:int(len(content) * rest) if rest > 0 else rest])
+                self.refused_mesh(f"b.{suffix}", "cannot be read|the file is cut off")
+
+    def test_polygon_file_as_text(self):
+        head = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+                "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n")
+        self.write_bytes("c.ply", head.encode())
+        self.refused_mesh("c.ply", "the file is cut off: it ends in element 4 of 4")
+        self.write_bytes("c.ply", head.encode() + b"3 0 3 9\n")
+        self.refused_mesh("c.ply", "is damaged: a polygon has point 9, there are 4")
+
 
 class SeriesTest(DamageTest):
     def slice(self, k, **changes):

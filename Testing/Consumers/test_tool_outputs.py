@@ -205,6 +205,8 @@ class PlacesTest(OutputsTest):
         self.write_bytes("file", b"")
         self.refused_at_once("file is no folder", "--levels-output", self.path("file/levels"))
         self.refused_at_once("is no folder", "--levels-output", self.path("file"))
+        os.symlink("nowhere", self.path("loose"))
+        self.refused_at_once("loose is no folder", "--levels-output", self.path("loose/levels"))
         self.write_bytes("l", b"")
         self.refused_at_once("l is no folder", "--levels-output", self.path("l.vtm"))
 

@@ -24,6 +24,9 @@ void CheckMrc(const std::string& name);
 /// netCDF of the classic form, which MINC 1 is: the size of the data. Others are passed over.
 void CheckNetcdf(const std::string& name);
 
+/// A polygon file (.ply): all elements that its head tells of are there.
+void CheckPly(const std::string& name);
+
 /// TIFF: all pages and their data lie within the file; PNG: the checksums. Others are passed over.
 void CheckPicture(const std::string& name);
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <vector>
 
 namespace tool
@@ -54,44 +53,6 @@ void CheckLines(const std::string& path, std::uint64_t lines)
   {
     Refuse(std::to_string(found) + " of " + std::to_string(lines) + " lines were");
   }
-}
-
-void CheckPly(const std::string& path)
-{
-  const auto bytesOf = [](const std::string& type) -> std::uint64_t
-  {
-    return type == "double" || type == "float64"                                    ? 8
-      : type.find("char") != std::string::npos || type == "uint8" || type == "int8" ? 1
-      : type.find("short") != std::string::npos                                     ? 2
-                                                                                    : 4;
-  };
-  std::ifstream file(path, std::ios::binary);
-  std::uint64_t count = 0;
-  std::uint64_t bytes = 0;
-  std::string line;
-  while (std::getline(file, line) && line != "end_header")
-  {
-    std::istringstream words(line);
-    std::string word;
-    std::string type;
-    words >> word >> type;
-    if (word == "element")
-    {
-      words >> count;
-    }
-    else if (word == "property" && type == "list")
-    {
-      std::string length;
-      words >> length >> type;
-      bytes += count * (bytesOf(length) + 3 * bytesOf(type));
-    }
-    else if (word == "property")
-    {
-      bytes += count * bytesOf(type);
-    }
-  }
-  const std::streamoff head = file.tellg();
-  CheckSize(path, static_cast<std::uint64_t>(std::max<std::streamoff>(head, 0)) + bytes);
 }
 
 void CheckXml(const std::string& path)

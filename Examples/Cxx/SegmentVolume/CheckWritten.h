@@ -17,9 +17,6 @@ void CheckSize(const std::string& path, std::uint64_t bytes);
 /// The file ends with a complete line, and has no fewer than this many.
 void CheckLines(const std::string& path, std::uint64_t lines);
 
-/// The binary .ply has the elements that its head tells of; its lists are triangles.
-void CheckPly(const std::string& path);
-
 /// The file, or each one of a folder, ends as VTK's XML files do.
 void CheckXml(const std::string& path);
 }

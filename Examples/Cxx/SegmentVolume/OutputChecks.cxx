@@ -45,7 +45,8 @@ fs::path FolderOf(const fs::path& path)
 /// The next folder upwards that is there: where one would be made.
 fs::path FolderThatIsThere(fs::path folder)
 {
-  while (!folder.empty() && !fs::exists(folder))
+  // A link to nowhere cannot be made a folder.
+  while (!folder.empty() && !fs::exists(folder) && !fs::is_symlink(folder))
   {
     folder = folder.parent_path();
   }

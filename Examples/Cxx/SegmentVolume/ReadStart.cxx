@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadStart.h"
 
+#include "BinaryFile.h"
+#include "CheckInputs.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
@@ -9,6 +11,7 @@
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
 #include <vtkDoubleArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
@@ -47,7 +50,35 @@ std::string SuffixOf(const std::string& name)
   return suffix;
 }
 
-vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
+/// STL; one that has been cut off between two triangles looks whole to VTK's reader.
+vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
+{
+  const vtkSmartPointer<vtkPolyData> mesh = ReadWith<vtkSTLReader>(name);
+  BinaryFile file(name);
+  const bool isText = file.Size() < 84 || file.Text(0, 5) == "solid";
+  const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
+  if (file.Size() < 84 + 50 * triangles)
+  {
+    throw Failure(name + ": the file is cut off: it has " + std::to_string(file.Size()) +
+      " bytes, its header asks for " + std::to_string(84 + 50 * triangles));
+  }
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> ReadPly(const std::string& name)
+{
+  try
+  {
+    CheckPly(name); // VTK's reader would go on with what memory holds
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(name + ": " + failure.what());
+  }
+  return ReadWith<vtkPLYReader>(name);
+}
+
+vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 {
   const std::string suffix = SuffixOf(name);
   if (!std::filesystem::exists(name))
@@ -64,17 +95,39 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   }
   if (suffix == ".stl")
   {
-    return ReadWith<vtkSTLReader>(name);
+    return ReadStl(name);
   }
   if (suffix == ".ply")
   {
-    return ReadWith<vtkPLYReader>(name);
+    return ReadPly(name);
   }
   if (suffix == ".obj")
   {
     return ReadWith<vtkOBJReader>(name);
   }
   throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");
+}
+
+/// The mesh, whose polygons have points that are there.
+vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
+{
+  vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
+  vtkNew<vtkIdList> corners;
+  vtkCellArray* polygons = mesh->GetPolys();
+  for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+  {
+    polygons->GetCellAtId(i, corners);
+    for (vtkIdType c = 0; c < corners->GetNumberOfIds(); ++c)
+    {
+      if (corners->GetId(c) < 0 || corners->GetId(c) >= mesh->GetNumberOfPoints())
+      {
+        throw Failure(name + ": is damaged: a polygon has point " +
+          std::to_string(corners->GetId(c)) + ", there are " +
+          std::to_string(mesh->GetNumberOfPoints()));
+      }
+    }
+  }
+  return mesh;
 }
 
 /// Points, and what comes with each.

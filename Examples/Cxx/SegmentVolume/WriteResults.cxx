@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WriteResults.h"
 
+#include "CheckInputs.h"
 #include "CheckWritten.h"
 #include "OutputFiles.h"
 #include "ToolErrors.h"
@@ -188,7 +189,14 @@ void CheckVtp(const std::string& path, vtkPolyData*)
 
 void CheckWrittenPly(const std::string& path, vtkPolyData*)
 {
-  CheckPly(path);
+  try
+  {
+    CheckPly(path);
+  }
+  catch (const Failure&)
+  {
+    throw Failure("cannot be written (not all of it was; is the disk full?)");
+  }
 }
 
 struct Format
