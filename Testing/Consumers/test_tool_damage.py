@@ -200,7 +200,7 @@ class FilesTest(DamageTest):
         with open(file, "r+b") as stream:
             stream.truncate(len(header) + 3 + (2 << 24))
             stream.seek(len(header) + 3 + (1 << 24))
-            stream.write(bytes([200]) * (1 << 22))
+            stream.write(b"\xe8\x03" * (1 << 22))
         told = set()
         for megabytes in (400, 330, 280, 230):
             limit = megabytes << 20
