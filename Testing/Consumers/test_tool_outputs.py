@@ -225,6 +225,13 @@ class PlacesTest(OutputsTest):
         self.as_nobody(reason, "--levels-output", self.path("locked"))
         self.as_nobody(reason, "--snapshots", self.path("locked/new/ones"))
 
+    def test_folders_that_cannot_be_looked_into(self):
+        os.mkdir(self.path("closed"), mode=0o700)
+        os.mkdir(self.path("closed/inner"))
+        for arguments in ([self.path("closed/inner/a.stl")], ["--levels-output",
+                                                              self.path("closed/inner/l")]):
+            self.as_nobody("cannot be written: Permission denied", *arguments)
+
     def test_files_that_are_write_protected(self):
         os.mkdir(self.path("open"))
         os.chmod(self.path("open"), 0o777)

@@ -204,6 +204,10 @@ void CheckOutputs(const std::vector<OutputName>& outputs, const std::vector<std:
     {
       throw Failure(outputs[i].Name + ": " + failure.what());
     }
+    catch (const fs::filesystem_error& error)
+    {
+      throw Failure(outputs[i].Name + ": cannot be written: " + error.code().message());
+    }
   }
 }
 }

@@ -31,9 +31,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <new>
 
 namespace tool
 {
@@ -55,6 +57,13 @@ void Run(Writer* writer)
   }
 }
 
+/// Why the file cannot be written.
+std::string ReasonOf(const std::exception& error)
+{
+  const bool isOfMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return isOfMemory ? "cannot be written (not enough memory)" : error.what();
+}
+
 /// Have `write` write to a path beside the file, which takes the file's place if all went well.
 template <class Write>
 void WriteBeside(const std::string& name, const Write& write)
@@ -67,9 +76,9 @@ void WriteBeside(const std::string& name, const Write& write)
     write(file.Path());
     file.Publish();
   }
-  catch (const Failure& failure)
+  catch (const std::exception& error)
   {
-    std::string reason = failure.what();
+    std::string reason = ReasonOf(error);
     for (std::size_t at = reason.find(beside); !beside.empty() && at != std::string::npos;
          at = reason.find(beside))
     {
@@ -287,13 +296,13 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
     }
     files.Publish();
   }
-  catch (const Failure& failure)
+  catch (const std::exception& error)
   {
     if (isNew)
     {
       fs::remove(name, failed); // only if it is empty
     }
-    throw Failure(name + ": " + failure.what());
+    throw Failure(name + ": " + ReasonOf(error));
   }
 }
 
