@@ -149,6 +149,19 @@ class FilesTest(DamageTest):
                 self.refused_file("b.nii", bytes(header), f"the data type {kind} is none of")
                 self.refused_file("b.nii.gz", gzip.compress(header), f"the data type {kind} is")
 
+    def test_nifti_in_two_files(self):
+        content = bytearray(medical_files.nifti(noisy_ball(), SPACING))
+        content[344:348] = b"ni1\0"
+        struct.pack_into("<f", content, 108, 0)
+        data = gzip.compress(content[352:])
+        self.write_bytes("a.img.gz", data)
+        self.write_bytes("a.hdr", content[:348])
+        self.accepted_file("a.img.gz", data)
+        self.refused_file("a.img.gz", data[:-1], "damaged or cut off")
+        struct.pack_into("<h", content, 70, 999)
+        self.write_bytes("a.hdr", content[:348])
+        self.refused_file("a.img.gz", data, "the data type 999 is none of")
+
     def test_mrc(self):
         header = bytearray(1024)
         struct.pack_into("<10i", header, 0, *SIZE, 1, 0, 0, 0, *SIZE)

@@ -113,16 +113,19 @@ void CheckMetaList(const std::string& name, std::uint64_t needed)
 
 // ---- NIfTI --------------------------------------------------------------------------------------
 
-/// The file with the header: .hdr for a .img.
-std::string NiftiHeaderFile(const std::string& name)
+/// NIfTI in two files: the one of these that is there, for the name of either.
+std::string NiftiPart(const std::string& name, const std::string& suffix)
 {
-  const std::size_t stem = name.rfind(".img");
-  if (stem == std::string::npos)
+  for (const char* end : { ".img.gz", ".hdr.gz", ".img", ".hdr" })
   {
-    return name;
+    const std::size_t length = std::string(end).size();
+    if (name.size() > length && name.compare(name.size() - length, length, end) == 0)
+    {
+      const std::string part = name.substr(0, name.size() - length) + suffix;
+      return std::filesystem::exists(part) ? part : part + ".gz";
+    }
   }
-  const std::string header = name.substr(0, stem) + ".hdr";
-  return std::filesystem::exists(header) ? header : header + ".gz";
+  return name;
 }
 
 /// Types of VTK's reader: numbers of 8 to 64 bits, and colours.
@@ -188,7 +191,7 @@ bool CheckMeta(const std::string& name)
 
 void CheckNifti(const std::string& name)
 {
-  const std::string headerFile = NiftiHeaderFile(name);
+  const std::string headerFile = NiftiPart(name, ".hdr");
   const std::string header = GzipHead(headerFile, 540);
   if (header.size() >= 76)
   {
@@ -203,9 +206,10 @@ void CheckNifti(const std::string& name)
       }
     }
   }
-  if (headerFile != name)
+  const std::string dataFile = NiftiPart(name, ".img");
+  if (dataFile != headerFile)
   {
-    GzipHead(name, 0);
+    GzipHead(dataFile, 0);
   }
 }
 

@@ -115,13 +115,15 @@ void AddCompanions(const std::string& name, std::vector<std::string>& files)
       }
     }
   }
-  for (const std::string end : { ".img", ".img.gz" })
+  for (const std::string end : { ".img", ".img.gz", ".hdr", ".hdr.gz" })
   {
     if (EndsWith(lower, end))
     {
       const std::string stem = name.substr(0, name.size() - end.size());
-      files.push_back(stem + ".hdr");
-      files.push_back(stem + ".hdr.gz");
+      for (const char* other : { ".img", ".img.gz", ".hdr", ".hdr.gz" })
+      {
+        files.push_back(stem + other);
+      }
     }
   }
 }

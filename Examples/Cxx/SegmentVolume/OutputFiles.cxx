@@ -146,7 +146,7 @@ void StagedFiles::Publish()
   {
     if (entry.is_regular_file())
     {
-      files.push_back(fs::relative(entry.path(), this->Hidden));
+      files.push_back(entry.path().lexically_relative(this->Hidden));
     }
   }
   for (const fs::path& file : files)

@@ -257,6 +257,10 @@ Image ReadByContent(const std::string& name)
   {
     throw Failure(name + ": not a format that VTK's readers know");
   }
+  if (reader->IsA("vtkNIFTIImageReader"))
+  {
+    return ReadNifti(name);
+  }
   CheckPicture(name);
   reader->SetFileName(name.c_str());
   return ImageOf(reader, name);
