@@ -8,7 +8,6 @@ import stat
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import numpy as np
@@ -178,16 +177,15 @@ class ScriptsTest(OutputFilesTest):
 
     def test_a_table_is_whole_when_killed(self):
         self.assertEqual(self.batch().returncode, 0)
-        table = self.content("out/results.csv")
         script = os.path.join(EXAMPLES, "batch.py")
         with subprocess.Popen([sys.executable, script, self.path("scans"), "--output",
                                self.path("out"), "--iso", str(RING_ISO)],
                               stdout=subprocess.PIPE) as process:
             process.stdout.read(8)  # it has begun with the first volume
-            self.assertEqual(self.content("out/results.csv"), table)
-            time.sleep(0.01)
             process.kill()
+        # The old one, or the new one if that was quicker.
         self.assertEqual(self.content("out/results.csv").count(b"\n"), 2)
+        self.assertIn(b"ring.mha,ok", self.content("out/results.csv"))
 
 
 if __name__ == "__main__":

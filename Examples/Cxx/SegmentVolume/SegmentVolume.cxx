@@ -81,7 +81,7 @@ void CheckFiles(const SegmentOptions& options)
   for (const std::string& name : options.Surfaces)
   {
     CheckSurfaceName(name);
-    outputs.push_back({ name });
+    outputs.push_back({ name, OutputName::Kind::File, "" });
   }
   for (const auto& [name, prefix] :
     { std::pair{ options.Levels, "level" }, std::pair{ options.Snapshots, "snapshot" } })
@@ -89,8 +89,10 @@ void CheckFiles(const SegmentOptions& options)
     outputs.push_back(
       { name, IsBlocks(name) ? OutputName::Kind::Blocks : OutputName::Kind::Folder, prefix });
   }
-  outputs.push_back({ options.History });
-  outputs.push_back({ options.Report == "-" ? "" : options.Report });
+  for (const std::string& name : { options.History, options.Report })
+  {
+    outputs.push_back({ name == "-" ? "" : name, OutputName::Kind::File, "" });
+  }
   outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
                   [](const OutputName& output) { return output.Name.empty(); }),
     outputs.end());
