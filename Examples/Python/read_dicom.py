@@ -65,7 +65,7 @@ def read_header(path):
     found = {"path": path}
     try:
         parse_elements(data, 132, found)
-    except (struct.error, IndexError) as error:
+    except (struct.error, IndexError, RecursionError) as error:
         raise VolumeError(f"{path}: the DICOM header is damaged ({error})") from error
     if "pixels" in found:
         return found

@@ -182,6 +182,14 @@ class FilesTest(DamageTest):
         content = self.content(vtkTIFFWriter(), "a.tif", make_image(noisy_ball("u2")))
         self.cut("a.tif", content, "cut off", rests=(0.3, 0.5, 0.9, -200))
 
+    def test_pages_in_a_ring(self):
+        content = bytearray(self.content(vtkTIFFWriter(), "a.tif",
+                                         make_image(noisy_ball("u2")[:1])))
+        page, = struct.unpack_from("<I", content, 4)
+        count, = struct.unpack_from("<H", content, page)
+        struct.pack_into("<I", content, page + 2 + 12 * count, page)
+        self.refused_file("a.tif", content, "its pages form a ring")
+
     def test_pictures(self):
         for writer, suffix in ((vtkPNGWriter, "png"), (vtkTIFFWriter, "tif"), (vtkPNMWriter, "pgm"),
                                (vtkBMPWriter, "bmp"), (vtkJPEGWriter, "jpg")):
@@ -319,6 +327,14 @@ class SeriesTest(DamageTest):
                                 ({"frames": "1A"}, "the number of frames is '1A'")):
             self.write_bytes("series/IM03", self.slice(3, **changes))
             self.refused_series("IM03: .*" + reason)
+
+    def test_sequences_without_end(self):
+        self.series()
+        content = self.slice(3)
+        place = content.index(struct.pack("<HH", 0x0008, 0x1140)) + 12
+        deep = content[:place] + struct.pack("<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF) * 300000
+        self.write_bytes("series/IM03", deep)
+        self.refused_series("IM03: its header is damaged: sequences within sequences")
 
     def test_packed_slices(self):
         for syntax in ("1.2.840.10008.1.2.1.99", "1.2.840.10008.1.2.4.70"):

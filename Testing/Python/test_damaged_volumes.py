@@ -176,6 +176,13 @@ class SeriesTest(DamagedTest):
             self.write_bytes("IM3", self.slice(3, **{name: "1A"}))
             self.refused_series(f"IM3: its header is damaged: {name} '1A'")
 
+    def test_sequences_without_end(self):
+        content = self.slice(3)
+        place = content.index(struct.pack("<HH", 0x0008, 0x1140)) + 12
+        self.write_bytes("IM3", content[:place] + struct.pack(
+            "<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF) * 3000)
+        self.refused_series("IM3: the DICOM header is damaged")
+
     def test_reports_and_directories_are_no_slices(self):
         for name, kind in (("DICOMDIR", "1.2.840.10008.1.3.10"),
                            ("SR", "1.2.840.10008.5.1.4.1.1.88.11")):

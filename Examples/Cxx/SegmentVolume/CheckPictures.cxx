@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -97,9 +98,13 @@ void CheckTiff(const std::string& name)
   }
   tiff.IsWide = version == 43;
   std::uint64_t page = tiff.IsWide ? tiff.File.Number(8, 8) : tiff.File.Number(4, 4);
-  // Each page needs bytes of its own: more would be a ring of pages.
-  for (std::uint64_t pages = 0; page != 0 && pages < tiff.File.Size(); ++pages)
+  std::set<std::uint64_t> pages;
+  while (page != 0)
   {
+    if (!pages.insert(page).second)
+    {
+      throw Failure("the file is damaged: its pages form a ring");
+    }
     page = CheckPage(tiff, page);
   }
 }

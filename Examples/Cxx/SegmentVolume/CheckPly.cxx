@@ -141,7 +141,7 @@ void CheckPly(const std::string& name)
   Body body(file, head.Format);
   for (const Elements& part : head.Parts)
   {
-    for (std::uint64_t i = 0; i < part.Count; ++i)
+    for (std::uint64_t i = 0; !part.Properties.empty() && i < part.Count; ++i)
     {
       for (const Property& property : part.Properties)
       {

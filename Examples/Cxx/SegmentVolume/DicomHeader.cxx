@@ -98,7 +98,7 @@ public:
   }
 
   /// Go behind a value; one of undefined length is a sequence of items, which may hold such.
-  void Skip(const Element& element)
+  void Skip(const Element& element, int depth = 0)
   {
     if (element.Length != Undefined)
     {
@@ -109,13 +109,17 @@ public:
       this->File.seekg(static_cast<std::streamoff>(element.Length), std::ios::cur);
       return;
     }
+    if (depth > 100)
+    {
+      throw Failure("its header is damaged: sequences within sequences without end");
+    }
     const bool wasExplicit = this->IsExplicit;
     this->IsExplicit = wasExplicit && element.Kind != "UN"; // PS3.5, 6.2.2
     Element inner = this->Next();
     // The ends of an item and of a sequence.
     while (inner.Tag != Tag(0xFFFE, 0xE00D) && inner.Tag != Tag(0xFFFE, 0xE0DD))
     {
-      this->Skip(inner);
+      this->Skip(inner, depth + 1);
       inner = this->Next();
     }
     this->IsExplicit = wasExplicit;

@@ -89,10 +89,8 @@ void CheckFiles(const SegmentOptions& options)
     outputs.push_back(
       { name, IsBlocks(name) ? OutputName::Kind::Blocks : OutputName::Kind::Folder, prefix });
   }
-  for (const std::string& name : { options.History, options.Report })
-  {
-    outputs.push_back({ name == "-" ? "" : name, OutputName::Kind::File, "" });
-  }
+  outputs.push_back({ options.History, OutputName::Kind::File, "" });
+  outputs.push_back({ options.Report == "-" ? "" : options.Report, OutputName::Kind::File, "" });
   outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
                   [](const OutputName& output) { return output.Name.empty(); }),
     outputs.end());
