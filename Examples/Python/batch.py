@@ -16,12 +16,14 @@ volume, 3 after Ctrl-C.
 
 import argparse
 import csv
+import io
 import os
 import sys
 import time
 
+from output_files import check_output, write_text
 from pipeline import load_volume, prepare_surface, run_surface
-from read_volume import READERS, VolumeError
+from read_volume import READERS, VolumeError, files_of_volume
 from segment import INTERRUPTED, add_filter_options, filter_properties
 from surface_results import SURFACE_WRITERS, surface_facts, surface_line, write_surface
 from terminal import FilterError, Interrupted
@@ -52,6 +54,7 @@ def stem_of(name):
 
 def segment_one(path, output, iso, properties):
     """Write the surface of one volume; the line of the table about it."""
+    check_output(output, files_of_volume(path))
     started = time.monotonic()
     image, iso = load_volume(path, iso)
     surface = prepare_surface(image, iso, properties)
@@ -86,16 +89,18 @@ def run_batch(arguments, properties, table):
 
 
 class Table:
-    """A CSV file with a line per volume."""
+    """A CSV file with a line per volume, whole at any time: each line makes a new one."""
 
-    def __init__(self, file):
-        self.file = file
-        self.writer = csv.DictWriter(file, COLUMNS, restval="")
+    def __init__(self, path):
+        self.path = path
+        self.text = io.StringIO(newline="")
+        self.writer = csv.DictWriter(self.text, COLUMNS, restval="")
         self.writer.writeheader()
+        check_output(path)
 
     def add(self, line):
         self.writer.writerow(line)
-        self.file.flush()
+        write_text(self.text.getvalue(), self.path)
 
 
 def main():
@@ -115,8 +120,7 @@ def main():
         properties = filter_properties(arguments)
         os.makedirs(arguments.output, exist_ok=True)
         path = os.path.join(arguments.output, "results.csv")
-        with open(path, "w", encoding="utf-8", newline="") as file:
-            failed, total = run_batch(arguments, properties, Table(file))
+        failed, total = run_batch(arguments, properties, Table(path))
     except Interrupted as error:
         print(f"batch.py: {error}", file=sys.stderr)
         return INTERRUPTED

@@ -22,12 +22,13 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOOggTheora import vtkOggTheoraWriter
-from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import render
+from output_files import beside, check_output, write_text
 from pipeline import build_pyramid, load_volume, prepare_surface, run_surface
-from read_volume import VolumeError
+from read_volume import VolumeError, files_of_volume
 from surface_pictures import THREE_QUARTERS, field_value, visited_levels
+from surface_results import write_surface
 from terminal import FilterError, Interrupted
 
 RESTED_FRAMES = 8  # how long the surface of a level is shown at rest
@@ -61,6 +62,11 @@ def frames_of(in_time, frame, width):
 
 
 def write_film(frames, path, rate):
+    with beside(path) as written:
+        write_frames(frames, written, rate)
+
+
+def write_frames(frames, path, rate):
     writer = vtkOggTheoraWriter()
     writer.SetFileName(path)
     writer.SetQuality(2)
@@ -75,8 +81,8 @@ def write_film(frames, path, rate):
             writer.Start()
         writer.Write()
     writer.End()
-    if writer.GetErrorCode() or not os.path.exists(path):
-        raise OSError(f"{path} cannot be written")
+    if writer.GetErrorCode() or not os.path.exists(path) or not os.path.getsize(path):
+        raise OSError("is the disk full?")
 
 
 def write_pictures(frames, folder):
@@ -91,17 +97,14 @@ def write_series(in_time, path):
     os.makedirs(folder, exist_ok=True)
     for step, (_, surface, _) in enumerate(in_time):
         name = os.path.join(folder, f"{step:04d}.vtp")
-        writer = vtkXMLPolyDataWriter()
-        writer.SetFileName(name)
-        writer.SetInputData(surface)
-        if not writer.Write():
-            raise OSError(f"{name} cannot be written")
+        write_surface(surface, name)
         files.append({"name": f"{os.path.basename(folder)}/{step:04d}.vtp", "time": step})
-    with open(path, "w", encoding="utf-8") as file:
-        json.dump({"file-series-version": "1.0", "files": files}, file, indent=1)
+    write_text(json.dumps({"file-series-version": "1.0", "files": files}, indent=1), path)
 
 
 def make_film(arguments):
+    if arguments.output.endswith((".ogv", ".vtp.series")):
+        check_output(arguments.output, files_of_volume(arguments.volume))
     image, iso = load_volume(arguments.volume, arguments.iso)
     pyramid, _ = build_pyramid(image)
     filter_ = prepare_surface(pyramid, iso, {

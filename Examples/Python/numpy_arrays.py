@@ -13,11 +13,13 @@ clockwise seen from outside), `normals` (n x 3, outward), `residual` (n: field m
 """
 
 import argparse
+import io
 import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from output_files import beside, check_output
 from pipeline import prepare_surface, run_surface
 from surface_results import surface_line
 from terminal import FilterError, Interrupted
@@ -78,6 +80,10 @@ def main():
     parser.add_argument("--show", action="store_true", help="in a window, with pyvista")
     arguments = parser.parse_args()
     try:
+        if arguments.mesh:
+            if not arguments.mesh.endswith(".npz"):
+                arguments.mesh += ".npz"
+            check_output(arguments.mesh, [arguments.voxels])
         voxels = np.load(arguments.voxels) if arguments.voxels else two_rings()
         surface = surface_of_array(voxels, arguments.iso, arguments.spacing)
         arrays = arrays_of_surface(surface)
@@ -86,7 +92,10 @@ def main():
             print(f"  {name}: {' x '.join(map(str, array.shape))} {array.dtype}")
         print(f"  volume of the triangles: {volume_of(arrays['points'], arrays['triangles']):,.1f}")
         if arguments.mesh:
-            np.savez_compressed(arguments.mesh, **arrays)
+            packed = io.BytesIO()
+            np.savez_compressed(packed, **arrays)
+            with beside(arguments.mesh) as path, open(path, "wb") as file:
+                file.write(packed.getbuffer())
             print(f"Written: {arguments.mesh}")
         if arguments.show:
             show(surface)

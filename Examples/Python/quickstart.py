@@ -20,9 +20,10 @@ import os
 import sys
 
 from history_chart import history_chart
+from output_files import check_output
 from pipeline import SKULL, build_pyramid, load_volume, prepare_surface, run_surface
 from pyramid_picture import pyramid_picture
-from read_volume import VolumeError
+from read_volume import VolumeError, files_of_volume
 from render import world_frame, write_png
 from surface_pictures import levels_picture, views_picture, visited_levels
 from surface_results import (
@@ -41,11 +42,17 @@ def parse_arguments():
     return parser.parse_args()
 
 
+FILES = ("pyramid.vtm", "levels.vtm", "surface.vtp", "history.csv", "report.json", "pyramid.png",
+         "levels.png", "history.png", "surface-views.png")
+
+
 class Results:
     """The output folder, and the names of what was written there."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, volume):
         os.makedirs(folder, exist_ok=True)
+        for name in FILES:
+            check_output(os.path.join(folder, name), files_of_volume(volume))
         self.folder = folder
         self.paths = []
 
@@ -95,7 +102,7 @@ def run(arguments, results):
 def main():
     arguments = parse_arguments()
     try:
-        results = Results(arguments.output)
+        results = Results(arguments.output, arguments.volume)
         run(arguments, results)
     except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:
         sys.exit(f"quickstart.py: {error}")

@@ -21,12 +21,17 @@ UNDEFINED = 0xFFFFFFFF
 ITEM, ITEM_END, SEQUENCE_END = (0xFFFE, 0xE000), (0xFFFE, 0xE00D), (0xFFFE, 0xE0DD)
 PIXEL_DATA = (0x7FE0, 0x0010)
 TAGS = {
-    (0x0002, 0x0010): "syntax", (0x0008, 0x103E): "description", (0x0020, 0x000E): "series",
+    (0x0002, 0x0002): "class", (0x0002, 0x0010): "syntax", (0x0008, 0x0016): "class",
+    (0x0008, 0x103E): "description", (0x0020, 0x000E): "series",
     (0x0020, 0x0032): "position", (0x0020, 0x0037): "orientation", (0x0028, 0x0002): "samples",
     (0x0028, 0x0008): "frames", (0x0028, 0x0010): "rows", (0x0028, 0x0011): "columns",
     (0x0028, 0x0030): "spacing", (0x0028, 0x0100): "bits", (0x0028, 0x0103): "signed",
     (0x0018, 0x0050): "thickness", (0x0028, 0x1052): "intercept", (0x0028, 0x1053): "slope",
 }
+# What has no pixels by its nature (PS3.4, B.5): directories, waveforms, presentation states, raw
+# data, surfaces, reports, documents, plans.
+OTHERS = ("1.2.840.10008.1.3.10", *(f"1.2.840.10008.5.1.4.1.1.{end}" for end in (
+    "9.", "11.", "66", "67", "68", "88.", "104.", "481.")))
 NUMBERS = {"samples", "rows", "columns", "bits", "signed"}  # binary 16-bit values; others are text
 UNEVEN = 0.05  # tolerated deviation of the distance of two slices from their mean
 
@@ -53,25 +58,33 @@ def read_dicom(folder):
 
 def read_header(path):
     """The elements of TAGS and where the pixels lie; None for a file that is no DICOM image."""
-    if not os.path.isfile(path):
+    if not is_dicom(path):
         return None
     with open(path, "rb") as file:
         data = file.read()
-    if data[128:132] != b"DICM":
-        return None
     found = {"path": path}
     try:
         parse_elements(data, 132, found)
-    except (struct.error, IndexError) as error:
+    except (struct.error, IndexError, RecursionError) as error:
         raise VolumeError(f"{path}: the DICOM header is damaged ({error})") from error
-    if "pixels" not in found:
-        return None  # a DICOMDIR, a report
-    return found
+    if "pixels" in found:
+        return found
+    if found.get("class", "").startswith(OTHERS):
+        return None
+    raise VolumeError(f"{path}: has no pixels: it is cut off, or no slice; replace it, or take it"
+                      " out of the folder")
+
+
+def is_dicom(path):
+    if not os.path.isfile(path):
+        return False
+    with open(path, "rb") as file:
+        return file.read(132)[128:] == b"DICM"
 
 
 def parse_elements(data, at, found):
     """Walk through the top-level elements up to the pixels, keeping those of TAGS."""
-    while at + 8 <= len(data):
+    while at < len(data):
         group = struct.unpack_from("<H", data, at)[0]
         syntax = EXPLICIT_LITTLE if group == 2 else found.get("syntax", EXPLICIT_LITTLE)
         if syntax != IMPLICIT_LITTLE and syntax != EXPLICIT_LITTLE:
@@ -80,11 +93,17 @@ def parse_elements(data, at, found):
                 " series first, for example with gdcmconv --raw")
         tag, length, at = element_head(data, at, syntax == EXPLICIT_LITTLE)
         if tag == PIXEL_DATA:
+            if length == UNDEFINED:
+                raise VolumeError(f"{found['path']}: compressed, against its transfer syntax")
             found["pixels"], found["length"] = at, length
             return
         if length == UNDEFINED:
-            at = skip_items(data, at, syntax == EXPLICIT_LITTLE)
+            # Of an unknown kind: its items are implicit (PS3.5, 6.2.2).
+            is_unknown = data[at - 8:at - 6] == b"UN" and syntax == EXPLICIT_LITTLE
+            at = skip_items(data, at, syntax == EXPLICIT_LITTLE and not is_unknown)
             continue
+        if at + length > len(data):
+            raise IndexError("the file is cut off")
         if tag in TAGS:
             name, value = TAGS[tag], data[at:at + length]
             found[name] = (struct.unpack("<H", value[:2])[0] if name in NUMBERS
@@ -133,7 +152,12 @@ def check_slice(part, first):
         raise VolumeError(f"{path}: lacks {', '.join(missing)}: not a slice of a volume")
     if part.get("samples", 1) != 1:
         raise VolumeError(f"{path}: {part['samples']} components per pixel; one is needed")
-    if int(part.get("frames") or 1) != 1:
+    for name, default in (("frames", 1), ("slope", 1), ("intercept", 0), ("thickness", 1)):
+        try:
+            part[name] = float(part.get(name) or default)
+        except ValueError as error:
+            raise VolumeError(f"{path}: its header is damaged: {name} '{part[name]}'") from error
+    if part["frames"] != 1:
         raise VolumeError(f"{path}: multi-frame files are not read")
     if part["bits"] not in (8, 16, 32):
         raise VolumeError(f"{path}: {part['bits']} bits per pixel are not read")
@@ -153,7 +177,7 @@ def check_slice(part, first):
 def slice_distance(slices, normal, folder):
     """Distance of neighbouring slices; an error for missing, repeated and sheared ones."""
     if len(slices) == 1:
-        return float(slices[0].get("thickness") or 1)
+        return slices[0]["thickness"] or 1.0
     steps = np.diff([part["position"] for part in slices], axis=0)
     along = steps @ normal
     mean = along.mean()
@@ -174,15 +198,17 @@ def read_pixels(part):
     with open(part["path"], "rb") as file:
         file.seek(part["pixels"])
         data = file.read(count * dtype.itemsize)
-    if len(data) < count * dtype.itemsize:
-        raise VolumeError(f"{part['path']}: the pixels are cut off")
+    length = min(part["length"], len(data))
+    if length < count * dtype.itemsize:
+        raise VolumeError(f"{part['path']}: the pixels are cut off: {length} bytes,"
+                          f" {count * dtype.itemsize} needed; copy the file again")
     return np.frombuffer(data, dtype).reshape(part["rows"], part["columns"])
 
 
 def rescale(voxels, slices):
     """Stored values to physical ones (Hounsfield units for CT), as integers where they are."""
-    slopes = np.array([float(part.get("slope") or 1) for part in slices])
-    shifts = np.array([float(part.get("intercept") or 0) for part in slices])
+    slopes = np.array([part["slope"] for part in slices])
+    shifts = np.array([part["intercept"] for part in slices])
     if (slopes == 1).all() and (shifts == 0).all():
         return voxels
     if (slopes == slopes[0]).all() and np.all(np.mod([slopes, shifts], 1) == 0):

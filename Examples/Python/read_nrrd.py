@@ -9,10 +9,10 @@ is read here: https://teem.sourceforge.net/nrrd/format.html. Encodings raw, gzip
 import bz2
 import os
 import re
-import zlib
 
 import numpy as np
 
+from check_volume import inflate
 from volume_image import VolumeError, make_image
 
 TYPES = {
@@ -60,6 +60,17 @@ def read_nrrd(path):
     return make_image(voxels, spacing, origin, direction, axes)
 
 
+def nrrd_files(path):
+    """The file that the header names: none if it stands before its data, or there is no header."""
+    try:
+        with open(path, "rb") as file:
+            fields, _ = parse_header(file.read(1 << 16), path)
+    except (OSError, VolumeError):
+        return []
+    name = fields.get("data file")
+    return [os.path.join(os.path.dirname(path), name)] if name else []
+
+
 def parse_header(content, path):
     """Fields by lower-case name, and where the data of an attached file start."""
     if not content.startswith(b"NRRD000"):
@@ -91,12 +102,13 @@ def read_data_file(name, path):
 def decode(data, fields, dtype, sizes, path):
     """The voxels as array [z, y, x]."""
     encoding = fields.get("encoding", "raw").lower()
+    skip = int(fields.get("byte skip", "0"))
     for _ in range(int(fields.get("line skip", "0"))):
         data = data[data.index(b"\n") + 1:]
     count = int(np.prod(sizes, dtype=np.int64))
     try:
         if encoding in ("gzip", "gz"):
-            data = zlib.decompress(data, wbits=47)
+            data = inflate([data], count * dtype.itemsize + max(skip, 0), path)
         elif encoding in ("bzip2", "bz2"):
             data = bz2.decompress(data)
         elif encoding in ("text", "txt", "ascii"):
@@ -104,9 +116,8 @@ def decode(data, fields, dtype, sizes, path):
             data = values.astype(dtype).tobytes()
         elif encoding != "raw":
             raise VolumeError(f"{path}: encoding '{encoding}' is not known")
-    except (zlib.error, OSError, ValueError) as error:
+    except (OSError, ValueError) as error:
         raise VolumeError(f"{path}: the {encoding} data are damaged ({error})") from error
-    skip = int(fields.get("byte skip", "0"))
     data = data[len(data) - count * dtype.itemsize if skip == -1 else skip:]
     if len(data) < count * dtype.itemsize:
         raise VolumeError(f"{path}: {len(data)} bytes of voxels, {count * dtype.itemsize} needed")

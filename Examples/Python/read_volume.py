@@ -25,9 +25,12 @@ from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkIOImage import vtkMetaImageReader, vtkNIFTIImageReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
 
-from read_dicom import read_dicom
+from check_volume import check_meta, check_nifti, meta_fields, meta_files
+from output_files import check_end, check_output, write_with
+from read_dicom import is_dicom, read_dicom
 from read_inv3 import read_inv3
-from read_nrrd import read_nrrd
+from read_nrrd import nrrd_files, read_nrrd
+from terminal import caught_output, plain_message
 from volume_image import VolumeError, make_image, place_image
 
 
@@ -76,20 +79,38 @@ def check_scalars(image, path):
         raise VolumeError(f"{path}: {components} components per voxel; one is needed")
 
 
-def run_reader(reader, path):
-    """The output of a VTK reader; its errors become a VolumeError instead of text on stderr."""
+def run_reader(reader, path, trust_warnings=True):
+    """The output of a VTK reader; what it reports or prints becomes a VolumeError.
+
+    Its warnings too, unless they are not trusted: they are about data that it lacked and made up.
+    """
     messages = []
 
     @calldata_type(VTK_STRING)
     def keep(_caller, _event, text):
-        messages.append(re.sub(r"\s+", " ", text.split("):", 1)[-1]).strip())
+        messages.append(plain_message(text))
 
     reader.AddObserver("ErrorEvent", keep)
+    reader.AddObserver("WarningEvent", keep if trust_warnings else lambda *_: None)
     reader.SetFileName(path)
-    reader.Update()
-    if messages or reader.GetErrorCode():
-        raise VolumeError(f"{path}: cannot be read ({'; '.join(messages) or 'damaged file'})")
+    try:
+        with caught_output() as printed:  # by objects within the reader
+            reader.Update()
+    except MemoryError as error:
+        raise VolumeError(f"{path}: not enough memory to read it; crop it, or resample it to fewer"
+                          " voxels") from error
+    if messages or printed.GetOutput() or reader.GetErrorCode():
+        messages = messages or [plain_message(printed.GetOutput()) or "damaged file"]
+        raise VolumeError(f"{path}: cannot be read ({'; '.join(messages)})")
     return reader.GetOutput()
+
+
+def files_of_volume(path):
+    """The files that read_volume would read, those that a header names included."""
+    if os.path.isdir(path):
+        return [entry.path for entry in os.scandir(path) if is_dicom(entry.path)]
+    names = meta_files(path) if path.lower().endswith((".mha", ".mhd")) else nrrd_files(path)
+    return [path, *names]
 
 
 def read_vti(path):
@@ -104,14 +125,9 @@ def read_meta(path):
     reader = vtkMetaImageReader()
     if not reader.CanReadFile(path):
         raise VolumeError(f"{path}: not a MetaImage file")
+    check_meta(path)
     image = run_reader(reader, path)
-    fields = {}
-    with open(path, "rb") as file:
-        for line in iter(file.readline, b""):
-            name, _, value = line.decode("latin-1").partition("=")
-            fields[name.strip()] = value.strip()
-            if name.strip() == "ElementDataFile":
-                break
+    fields = meta_fields(path)
     matrix = next((fields[name] for name in ("TransformMatrix", "Rotation", "Orientation")
                    if name in fields), None)
     direction = None
@@ -130,7 +146,9 @@ def read_nifti(path):
     reader = vtkNIFTIImageReader()
     if not reader.CanReadFile(path):
         raise VolumeError(f"{path}: not a NIfTI file")
-    image = run_reader(reader, path)
+    check_nifti(path)
+    # It warns where sform and qform differ in handedness, of which both are served below.
+    image = run_reader(reader, path, trust_warnings=False)
     if reader.GetTimeDimension() > 1:
         raise VolumeError(f"{path}: {reader.GetTimeDimension()} time points; one volume is needed")
     check_scalars(image, path)
@@ -170,14 +188,12 @@ def main():
     if not arguments.output.endswith(".vti"):
         parser.error("the output must end in .vti")
     try:
+        check_output(arguments.output, files_of_volume(arguments.input))
         image = read_volume(arguments.input)
-    except VolumeError as error:
+        write_with(vtkXMLImageDataWriter(), image, arguments.output,
+                   lambda written: check_end(written, b"</VTKFile>"))
+    except (VolumeError, OSError) as error:
         sys.exit(f"read_volume.py: {error}")
-    writer = vtkXMLImageDataWriter()
-    writer.SetFileName(arguments.output)
-    writer.SetInputData(image)
-    if not writer.Write():
-        sys.exit(f"read_volume.py: {arguments.output} cannot be written")
     scalars = image.GetPointData().GetScalars()
     print(f"{arguments.output}: {' x '.join(map(str, image.GetDimensions()))} voxels,"
           f" {scalars.GetDataTypeAsString()}, {scalars.GetRange()[0]:g} to"

@@ -17,6 +17,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderWindow, vtkTextProperty, vtkTextRenderer, vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
 
+from output_files import check_end, write_with
 from volume_image import OPPOSITE, direction_of, world_axes
 
 BACKGROUND = (0.085, 0.092, 0.105)
@@ -285,9 +286,5 @@ def write_png(pixels, path):
     image.GetPointData().SetScalars(
         numpy_to_vtk(np.ascontiguousarray(pixels[::-1]).reshape(-1, 3), deep=True))
     writer = vtkPNGWriter()
-    writer.SetFileName(path)
-    writer.SetInputData(image)
     writer.SetCompressionLevel(9)
-    writer.Write()
-    if writer.GetErrorCode():
-        raise OSError(f"{path} cannot be written")
+    write_with(writer, image, path, lambda written: check_end(written, b"IEND"))

@@ -16,12 +16,12 @@ iterations stopped it: then the surface as it was is written.
 """
 
 import argparse
-import os
 import sys
 
+from output_files import check_output
 from pipeline import (
     build_pyramid, check_properties, load_volume, prepare_surface, run_surface)
-from read_volume import VolumeError
+from read_volume import VolumeError, files_of_volume
 from surface_results import SURFACE_WRITERS, surface_facts, surface_line, write_surface
 from terminal import FilterError, Interrupted
 
@@ -52,17 +52,16 @@ def filter_properties(arguments):
     return properties
 
 
-def check_output(path):
+def check_surface_output(path, volume):
     """An error where the surface could not be written, before it is made."""
     if not path.lower().endswith(tuple(SURFACE_WRITERS)):
         raise ValueError(f"{path}: the suffix must be one of {', '.join(SURFACE_WRITERS)}")
-    if not os.path.isdir(os.path.dirname(path) or "."):
-        raise OSError(f"{os.path.dirname(path)}: no such folder")
+    check_output(path, files_of_volume(volume))
 
 
 def segment(volume, output, iso, properties):
     """Read, segment, write; returns the exit code. Prints what it does."""
-    check_output(output)
+    check_surface_output(output, volume)
     image, iso = load_volume(volume, iso)
     pyramid, _ = build_pyramid(image)
     surface = prepare_surface(pyramid, iso, properties)
@@ -91,6 +90,10 @@ def main():
     except Interrupted as error:
         print(f"segment.py: {error}", file=sys.stderr)
         return INTERRUPTED
+    except MemoryError:
+        print(f"segment.py: {arguments.volume}: not enough memory; crop it, or resample it to fewer"
+              " voxels", file=sys.stderr)
+        return 1
     except (VolumeError, FilterError, ValueError, OSError) as error:
         print(f"segment.py: {error}", file=sys.stderr)
         return 1

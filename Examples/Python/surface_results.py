@@ -12,6 +12,9 @@ from vtkmodules.vtkIOGeometry import vtkOBJWriter, vtkSTLWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter
 
+from output_files import (
+    check_end, check_lines, check_ply, check_size, write_text, write_with)
+
 # Names in the report and in the field data of a surface.
 FACTS = {
     "components": "NumberOfComponents", "genus": "Genus",
@@ -28,19 +31,17 @@ COMPONENT_FACTS = {
 }
 
 
-def write_with(writer, data, path):
-    """Write the data; OSError where that fails."""
-    failures = []
-    writer.AddObserver("ErrorEvent", lambda *_: failures.append(writer.GetErrorCode()))
-    writer.SetFileName(path)
-    writer.SetInputData(data)
-    if not writer.Write() or failures:
-        raise OSError(f"{path} cannot be written")
+def check_xml(path):
+    """Whether VTK's XML file is whole, and those of its blocks, in the folder of its name."""
+    check_end(path, b"</VTKFile>")
+    pieces = os.path.splitext(path)[0]
+    if os.path.isdir(pieces):
+        check_end(pieces, b"</VTKFile>")
 
 
 def write_blocks(blocks, path):
     """A .vtm file and, in a folder beside it, a file for each block."""
-    write_with(vtkXMLMultiBlockDataWriter(), blocks, path)
+    write_with(vtkXMLMultiBlockDataWriter(), blocks, path, check_xml)
 
 
 def stl_writer():
@@ -55,22 +56,32 @@ SURFACE_WRITERS = {".stl": stl_writer, ".ply": vtkPLYWriter, ".obj": vtkOBJWrite
                    ".vtp": vtkXMLPolyDataWriter}
 
 
+def check_surface(surface, path):
+    """Whether the file has all that the surface is made of."""
+    points, triangles = surface.GetNumberOfPoints(), surface.GetNumberOfPolys()
+    normals = points if surface.GetPointData().GetNormals() else 0
+    {".stl": lambda: check_size(path, 84 + 50 * triangles),
+     ".ply": lambda: check_ply(path),
+     ".obj": lambda: check_lines(path, 1 + points + normals + triangles),
+     ".vtp": lambda: check_xml(path)}[os.path.splitext(path)[1].lower()]()
+
+
 def write_surface(surface, path):
     """In the format that the suffix tells, one of SURFACE_WRITERS."""
-    write_with(SURFACE_WRITERS[os.path.splitext(path)[1].lower()](), surface, path)
+    write_with(SURFACE_WRITERS[os.path.splitext(path)[1].lower()](), surface, path,
+               lambda written: check_surface(surface, written))
 
 
 def write_history(history, path):
     """A .csv file with a line per iteration."""
     writer = vtkDelimitedTextWriter()
     writer.SetFieldDelimiter(",")
-    write_with(writer, history, path)
+    write_with(writer, history, path,
+               lambda written: check_lines(written, 1 + history.GetNumberOfRows()))
 
 
 def write_report(report, path):
-    with open(path, "w", encoding="utf-8") as file:
-        json.dump(report, file, indent=2, allow_nan=False)
-        file.write("\n")
+    write_text(json.dumps(report, indent=2, allow_nan=False) + "\n", path)
 
 
 def plain(value):

@@ -3,6 +3,7 @@
 """Running a VTK filter from a script: a progress bar on the terminal, errors as exceptions, and
 Ctrl-C, which lets the filter hand over what it has."""
 
+import contextlib
 import os
 import re
 import shutil
@@ -13,6 +14,7 @@ import time
 
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 
 REDRAW_SECONDS = 0.1
 BAR_WIDTH = 24  # characters
@@ -128,7 +130,24 @@ class AbortAtInterrupt:
         self.algorithm.SetAbortExecute(1)
 
 
+@contextlib.contextmanager
+def caught_output():
+    """Within this context VTK's messages that nobody observes are kept, not printed.
+
+    Yields a vtkStringOutputWindow.
+    """
+    window, former = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkOutputWindow.SetInstance(window)
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # it prints what it hands on
+    try:
+        yield window
+    finally:
+        vtkOutputWindow.SetInstance(former)
+        vtkLogger.SetStderrVerbosity(verbosity)
+
+
 def plain_message(text):
     """The message of vtkErrorMacro without the place in the source code."""
-    return re.sub(r"\s+", " ", re.sub(r"^(ERROR|Warning): In .*?\n.*?\): ", "", text,
-                                      flags=re.DOTALL)).strip()
+    text = re.sub(r"^(ERROR|Warning): In .*?\n.*?\): ", "", text, flags=re.DOTALL)
+    return re.sub(r"\s+", " ", re.sub("^Generic Warning: In .*\n", "", text)).strip()

@@ -239,7 +239,7 @@ class RunTest(ToolTestCase):
         whole = 4 / 3 * np.pi * radius ** 3 * np.prod(SPACING / SPACING.min())
         self.assertTrue(0.8 < found["volume"] / whole < 1.1, found)
         self.write_bytes("bad.txt", b"1 2 3 4 5 6\n1 2 3 4 5 6\n")
-        self.refused("bad.txt, line 2: not three to five", self.ball_file(), self.path("a.stl"),
+        self.refused("bad.txt, line 1: not three to five", self.ball_file(), self.path("a.stl"),
                      "--attracting-points", self.path("bad.txt"))
 
     def test_edges_as_an_array_or_a_file(self):

@@ -74,9 +74,11 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
     identifier = {"explicit": EXPLICIT, "implicit": IMPLICIT}.get(syntax, syntax)
     direction = np.asarray(direction)
     values = {"series": "1.2.3", "description": "head", "samples": 1, "slope": None,
-              "intercept": None, **changes}
+              "intercept": None, "frames": None, "kind": None,
+              "bits": 16, **changes}
     position = np.asarray(origin) + direction[:, 2] * spacing[2] * number
     elements = [
+        (0x0008, 0x0016, "UI", values["kind"]),
         (0x0008, 0x103E, "LO", values["description"]),
         # A nested sequence of undefined length, which the reader must step over.
         (0x0008, 0x1140, "SQ", struct.pack("<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF)
@@ -86,10 +88,11 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
         (0x0020, 0x0032, "DS", decimal(position)),
         (0x0020, 0x0037, "DS", decimal([*direction[:, 0], *direction[:, 1]])),
         (0x0028, 0x0002, "US", values["samples"]),
+        (0x0028, 0x0008, "IS", values["frames"]),
         (0x0028, 0x0010, "US", pixels.shape[0]),
         (0x0028, 0x0011, "US", pixels.shape[1]),
         (0x0028, 0x0030, "DS", decimal([spacing[1], spacing[0]])),
-        (0x0028, 0x0100, "US", 16),
+        (0x0028, 0x0100, "US", values["bits"]),
         (0x0028, 0x0103, "US", 1 if pixels.dtype.kind == "i" else 0),
         (0x0028, 0x1052, "DS", values["intercept"]),
         (0x0028, 0x1053, "DS", values["slope"]),

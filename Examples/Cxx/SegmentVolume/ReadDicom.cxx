@@ -6,6 +6,7 @@
 // by its position and orientation (DICOM PS3.3, C.7.6.2).
 #include "ReadVolume.h"
 
+#include "DicomHeader.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
@@ -35,6 +36,7 @@ struct Slice
   Vector3 Down;
   Vector3 Spacing; ///< between columns, between rows; the thickness
   std::string Study;
+  std::string Series;
   vtkSmartPointer<vtkImageData> Image;
 };
 
@@ -51,19 +53,57 @@ double Decimal(double number)
   return value;
 }
 
-Slice ReadSlice(const std::string& file)
+/// @throws Failure if the file has not what vtkDICOMImageReader takes for granted.
+void CheckPixels(const DicomHeader& header)
+{
+  if (!header.HasPixels)
+  {
+    throw Failure("has no pixels: it is cut off, or no slice; replace it, or take it out of the "
+                  "folder");
+  }
+  if (header.Frames > 1)
+  {
+    throw Failure(NumberText(header.Frames) + " frames; files of several frames are not read");
+  }
+  if (header.Bits != 8 && header.Bits != 16)
+  {
+    throw Failure(NumberText(header.Bits) + " bits per pixel; 8 and 16 are read");
+  }
+  if (header.NeededBytes() == 0)
+  {
+    throw Failure("lacks its rows or columns: it is damaged, or no slice");
+  }
+  if (header.PixelBytes < header.NeededBytes())
+  {
+    throw Failure("the pixels are cut off: " + std::to_string(header.PixelBytes) + " bytes, " +
+      std::to_string(header.NeededBytes()) + " needed; copy the file again");
+  }
+}
+
+/// The header of a slice, or of something that is no image at all.
+DicomHeader ReadHeader(const std::string& file)
+{
+  try
+  {
+    const DicomHeader header = ReadDicomHeader(file);
+    if (!header.IsOtherThanImage())
+    {
+      CheckPixels(header);
+    }
+    return header;
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(file + ": " + failure.what());
+  }
+}
+
+Slice ReadSlice(const std::string& file, const DicomHeader& header)
 {
   vtkNew<vtkDICOMImageReader> reader;
   reader->SetFileName(file.c_str());
   VtkMessages messages;
   messages.UpdateReader(reader, file);
-  const std::string syntax = reader->GetTransferSyntaxUID() ? reader->GetTransferSyntaxUID() : "";
-  if (syntax.find("1.2.840.10008.1.2.4") != std::string::npos ||
-    syntax.find("1.2.840.10008.1.2.5") != std::string::npos)
-  {
-    throw Failure(file + ": compressed (transfer syntax " + syntax +
-      "); uncompress the series first, for example with gdcmconv --raw");
-  }
   Slice slice;
   slice.File = file;
   const float* position = reader->GetImagePositionPatient();
@@ -77,6 +117,7 @@ Slice ReadSlice(const std::string& file)
   // The file has the distance of the rows first, and so has VTK's reader.
   const double* spacing = reader->GetPixelSpacing();
   slice.Spacing = { Decimal(spacing[1]), Decimal(spacing[0]), Decimal(spacing[2]) };
+  slice.Series = header.Series;
   slice.Study = reader->GetStudyUID() ? reader->GetStudyUID() : "";
   slice.Image = reader->GetOutput();
   if (!slice.Image->GetPointData()->GetScalars())
@@ -88,8 +129,8 @@ Slice ReadSlice(const std::string& file)
 
 void CheckFits(const Slice& slice, const Slice& first)
 {
-  const bool isSameSeries = slice.Study == first.Study && Dot(slice.Across, first.Across) > 0.999 &&
-    Dot(slice.Down, first.Down) > 0.999;
+  const bool isSameSeries = slice.Study == first.Study && slice.Series == first.Series &&
+    Dot(slice.Across, first.Across) > 0.999 && Dot(slice.Down, first.Down) > 0.999;
   const bool isSameSize = std::equal(slice.Image->GetDimensions(), slice.Image->GetDimensions() + 2,
                             first.Image->GetDimensions()) &&
     std::abs(slice.Spacing[0] - first.Spacing[0]) < 1e-3 &&
@@ -97,8 +138,10 @@ void CheckFits(const Slice& slice, const Slice& first)
   if (!isSameSeries || !isSameSize)
   {
     throw Failure(slice.File + ": its " +
-      (isSameSize ? "study or orientation" : "size or pixel spacing") + " differs from that of " +
-      first.File + "; one series per folder is needed");
+      (!isSameSize                       ? "size or pixel spacing"
+          : slice.Series != first.Series ? "series"
+                                         : "study or orientation") +
+      " differs from that of " + first.File + "; one series per folder is needed");
   }
 }
 
@@ -176,7 +219,12 @@ vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
   int type = 0;
   for (const std::string& file : files)
   {
-    slices.push_back(ReadSlice(file));
+    const DicomHeader header = ReadHeader(file);
+    if (header.IsOtherThanImage())
+    {
+      continue;
+    }
+    slices.push_back(ReadSlice(file, header));
     CheckFits(slices.back(), slices.front());
     vtkDataArray* pixels = slices.back().Image->GetPointData()->GetScalars();
     if (pixels->GetNumberOfComponents() != 1)
@@ -190,6 +238,10 @@ vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
       (pixels->GetDataTypeMin() < 0 &&
         pixels->GetDataTypeSize() == vtkDataArray::GetDataTypeSize(type));
     type = isWider ? pixels->GetDataType() : type;
+  }
+  if (slices.empty())
+  {
+    throw Failure("no DICOM image there");
   }
   VolumePlacement placement;
   const Vector3 normal = Cross(slices[0].Across, slices[0].Down);

@@ -5,6 +5,7 @@
 // here: https://teem.sourceforge.net/nrrd/format.html.
 #include "ReadVolume.h"
 
+#include "Inflate.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
@@ -13,7 +14,6 @@
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkType.h>
-#include <vtk_zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <sstream>
 
@@ -118,38 +117,12 @@ int TypeOf(const std::string& name)
   return found->second;
 }
 
-/// The bytes that the gzip stream unpacks to, `limit` at most.
-std::string Unzipped(const std::string& data, std::size_t limit)
+/// What the packed data give, which is to be `count` bytes.
+std::string Unzipped(const std::string& data, std::size_t count)
 {
-  z_stream stream;
-  std::memset(&stream, 0, sizeof(stream));
-  if (inflateInit2(&stream, 47) != Z_OK) // 32: zlib or gzip, by its head; 15: the largest window
-  {
-    throw Failure("zlib cannot be used");
-  }
-  std::string unpacked(limit, '\0');
-  const std::size_t piece = std::numeric_limits<uInt>::max() / 2;
-  std::size_t in = 0;
-  std::size_t out = 0;
-  int status = Z_OK;
-  while (status == Z_OK && out < limit)
-  {
-    const std::size_t inSize = std::min(piece, data.size() - in);
-    const std::size_t outSize = std::min(piece, limit - out);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data() + in));
-    stream.avail_in = static_cast<uInt>(inSize);
-    stream.next_out = reinterpret_cast<Bytef*>(&unpacked[out]);
-    stream.avail_out = static_cast<uInt>(outSize);
-    status = inflate(&stream, Z_NO_FLUSH);
-    in += inSize - stream.avail_in;
-    out += outSize - stream.avail_out;
-  }
-  inflateEnd(&stream);
-  if (status != Z_OK && status != Z_STREAM_END)
-  {
-    throw Failure("the gzip data are damaged");
-  }
-  unpacked.resize(out);
+  std::istringstream packed(data);
+  std::string unpacked(count, '\0');
+  Inflate(packed, count, unpacked.data());
   return unpacked;
 }
 

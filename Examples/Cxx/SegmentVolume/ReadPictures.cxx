@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVolume.h"
 
+#include "CheckInputs.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
@@ -98,6 +99,19 @@ std::regex ExpressionOf(const std::string& pattern)
   }
   return std::regex(expression);
 }
+
+/// The reader of many files does not tell in which one it failed. @throws Failure that does.
+void FindDamaged(const std::vector<std::string>& files)
+{
+  for (const std::string& file : files)
+  {
+    auto reader = vtkSmartPointer<vtkImageReader2>::Take(
+      vtkImageReader2Factory::CreateImageReader2(file.c_str()));
+    reader->SetFileName(file.c_str());
+    VtkMessages messages;
+    messages.UpdateReader(reader, file);
+  }
+}
 }
 
 std::vector<std::string> FilesOf(const std::string& folder)
@@ -155,6 +169,14 @@ vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files
     {
       throw Failure(file + ": not a picture that VTK's readers know");
     }
+    try
+    {
+      CheckPicture(file);
+    }
+    catch (const Failure& failure)
+    {
+      throw Failure(file + ": " + failure.what());
+    }
     VtkMessages messages;
     messages.ListenTo(reader);
     reader->SetFileName(file.c_str());
@@ -179,7 +201,15 @@ vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files
   reader->SetFileNames(names);
   reader->SetDataSpacing(1.0, 1.0, 1.0);
   VtkMessages messages;
-  messages.UpdateReader(reader, files.front());
+  try
+  {
+    messages.UpdateReader(reader, files.front());
+  }
+  catch (const Failure&)
+  {
+    FindDamaged(files);
+    throw;
+  }
   return reader->GetOutput();
 }
 }

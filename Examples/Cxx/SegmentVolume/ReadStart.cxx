@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadStart.h"
 
+#include "BinaryFile.h"
+#include "CheckInputs.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
@@ -9,6 +11,7 @@
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
 #include <vtkDoubleArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
@@ -20,6 +23,7 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -46,7 +50,35 @@ std::string SuffixOf(const std::string& name)
   return suffix;
 }
 
-vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
+/// STL; one that has been cut off between two triangles looks whole to VTK's reader.
+vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
+{
+  const vtkSmartPointer<vtkPolyData> mesh = ReadWith<vtkSTLReader>(name);
+  BinaryFile file(name);
+  const bool isText = file.Size() < 84 || file.Text(0, 5) == "solid";
+  const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
+  if (file.Size() < 84 + 50 * triangles)
+  {
+    throw Failure(name + ": the file is cut off: it has " + std::to_string(file.Size()) +
+      " bytes, its header asks for " + std::to_string(84 + 50 * triangles));
+  }
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> ReadPly(const std::string& name)
+{
+  try
+  {
+    CheckPly(name); // VTK's reader would go on with what memory holds
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(name + ": " + failure.what());
+  }
+  return ReadWith<vtkPLYReader>(name);
+}
+
+vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 {
   const std::string suffix = SuffixOf(name);
   if (!std::filesystem::exists(name))
@@ -63,17 +95,39 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   }
   if (suffix == ".stl")
   {
-    return ReadWith<vtkSTLReader>(name);
+    return ReadStl(name);
   }
   if (suffix == ".ply")
   {
-    return ReadWith<vtkPLYReader>(name);
+    return ReadPly(name);
   }
   if (suffix == ".obj")
   {
     return ReadWith<vtkOBJReader>(name);
   }
   throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");
+}
+
+/// The mesh, whose polygons have points that are there.
+vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
+{
+  vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
+  vtkNew<vtkIdList> corners;
+  vtkCellArray* polygons = mesh->GetPolys();
+  for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+  {
+    polygons->GetCellAtId(i, corners);
+    for (vtkIdType c = 0; c < corners->GetNumberOfIds(); ++c)
+    {
+      if (corners->GetId(c) < 0 || corners->GetId(c) >= mesh->GetNumberOfPoints())
+      {
+        throw Failure(name + ": is damaged: a polygon has point " +
+          std::to_string(corners->GetId(c)) + ", there are " +
+          std::to_string(mesh->GetNumberOfPoints()));
+      }
+    }
+  }
+  return mesh;
 }
 
 /// Points, and what comes with each.
@@ -84,7 +138,36 @@ struct PointList
   vtkNew<vtkDoubleArray> Radii;
 };
 
-/// Lines of three numbers, or up to `columns`.
+/// The words of a line, between blanks and commas, without a comment.
+std::vector<std::string> WordsOf(std::string line)
+{
+  line.resize(std::min(line.find('#'), line.size()));
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream words(line);
+  std::vector<std::string> texts;
+  for (std::string word; words >> word;)
+  {
+    texts.push_back(word);
+  }
+  return texts;
+}
+
+/// Whether these are names of columns, such as x, "y" or Weight: no numbers, mistyped or not.
+bool IsHeading(const std::vector<std::string>& words)
+{
+  const auto isName = [](const std::string& word)
+  {
+    std::string lower = word;
+    lower.erase(std::remove(lower.begin(), lower.end(), '"'), lower.end());
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return !lower.empty() && std::isalpha(static_cast<unsigned char>(lower[0])) != 0 &&
+      lower != "nan" && lower.compare(0, 3, "inf") != 0;
+  };
+  return std::all_of(words.begin(), words.end(), isName);
+}
+
+/// Lines of three numbers, or up to `columns`; the first that is not empty may be a heading.
 void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
 {
   std::ifstream file(name);
@@ -93,20 +176,18 @@ void ReadPointLines(const std::string& name, std::size_t columns, PointList& lis
     throw Failure(name + ": cannot be opened");
   }
   std::string line;
+  bool isFirst = true;
   for (int number = 1; std::getline(file, line); ++number)
   {
-    line.resize(std::min(line.find('#'), line.size()));
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    std::vector<std::string> texts;
-    for (std::string word; words >> word;)
+    const std::string mark = "\xEF\xBB\xBF"; // of UTF-8, which some programs write
+    const bool isMarked = number == 1 && line.compare(0, mark.size(), mark) == 0;
+    const std::vector<std::string> texts = WordsOf(isMarked ? line.substr(mark.size()) : line);
+    if (texts.empty() || (isFirst && IsHeading(texts)))
     {
-      texts.push_back(word);
-    }
-    if (texts.empty())
-    {
+      isFirst = isFirst && texts.empty();
       continue;
     }
+    isFirst = false;
     try
     {
       if (texts.size() < 3 || texts.size() > columns)
@@ -121,10 +202,7 @@ void ReadPointLines(const std::string& name, std::size_t columns, PointList& lis
     }
     catch (const UsageError& error)
     {
-      if (number > 1)
-      {
-        throw Failure(name + ", line " + NumberText(number) + ": " + error.what());
-      }
+      throw Failure(name + ", line " + NumberText(number) + ": " + error.what());
     }
   }
 }

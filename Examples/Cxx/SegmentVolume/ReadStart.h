@@ -13,8 +13,8 @@ namespace tool
 {
 /// The points of a file as vertices: of a mesh (as ReadSurface), or of the lines "x y z", separated
 /// by blanks or commas, of a .txt, .csv or .xyz file; '#' begins a comment, and a first line
-/// without numbers is a heading. World coordinates. @throws Failure if it cannot be read or has no
-/// points.
+/// of names alone ("x,y,z") is a heading. World coordinates. @throws Failure if it cannot be read
+/// or has no points.
 vtkSmartPointer<vtkPolyData> ReadSeeds(const std::string& name);
 
 /// Points that are known to belong to the object, as ReadSeeds, but a fourth and fifth number of a

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVolume.h"
 
+#include "CheckInputs.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
@@ -32,6 +33,8 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <new>
 #include <sstream>
 #include <utility>
 
@@ -41,10 +44,10 @@ namespace
 {
 using Image = vtkSmartPointer<vtkImageData>;
 
-Image ImageOf(vtkAlgorithm* reader, const std::string& name)
+Image ImageOf(vtkAlgorithm* reader, const std::string& name, bool hasTrustedWarnings = true)
 {
   VtkMessages messages;
-  messages.UpdateReader(reader, name);
+  messages.UpdateReader(reader, name, hasTrustedWarnings);
   auto* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!image)
   {
@@ -73,10 +76,36 @@ Image ReadIfItsFormat(const std::string& name)
   return ImageOf(reader, name);
 }
 
+/// MetaIO prints what it misses, and goes on: an error, unless the file is known to be whole.
+Image ReadMetaVoxels(const std::string& name, bool isWhole)
+{
+  std::ostringstream printed;
+  std::streambuf* output = std::cerr.rdbuf(printed.rdbuf());
+  Image image;
+  try
+  {
+    image = ReadIfItsFormat<vtkMetaImageReader>(name);
+  }
+  catch (...)
+  {
+    std::cerr.rdbuf(output);
+    throw;
+  }
+  std::cerr.rdbuf(output);
+  if (!isWhole && !printed.str().empty())
+  {
+    std::string text = printed.str();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    throw Failure("cannot be read (" + text + ")");
+  }
+  return image;
+}
+
 /// MetaImage; VTK's reader drops the directions of the axes, which are in the header's text.
 Image ReadMeta(const std::string& name)
 {
-  Image image = ReadIfItsFormat<vtkMetaImageReader>(name);
+  const bool isWhole = CheckMeta(name);
+  Image image = ReadMetaVoxels(name, isWhole);
   std::ifstream file(name, std::ios::binary);
   std::string line;
   while (std::getline(file, line) && line.compare(0, 15, "ElementDataFile") != 0)
@@ -130,8 +159,10 @@ Image ReadNifti(const std::string& name)
   {
     throw Failure("not a NIfTI or Analyze file");
   }
+  CheckNifti(name);
   reader->SetFileName(name.c_str());
-  Image image = ImageOf(reader, name);
+  // It warns where sform and qform differ in handedness, of which both are served below.
+  Image image = ImageOf(reader, name, false);
   if (reader->GetTimeDimension() > 1)
   {
     throw Failure(NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");
@@ -166,10 +197,17 @@ Image ReadNifti(const std::string& name)
   return image;
 }
 
+Image ReadMrc(const std::string& name)
+{
+  CheckMrc(name);
+  return ReadWith<vtkMRCReader>(name);
+}
+
 #ifdef VOLUMIC_HAS_MINC
 /// MINC in its world coordinates, with the real values.
 Image ReadMinc(const std::string& name)
 {
+  CheckNetcdf(name);
   vtkNew<vtkMINCImageReader> reader;
   reader->SetFileName(name.c_str());
   reader->RescaleRealValuesOn();
@@ -219,6 +257,11 @@ Image ReadByContent(const std::string& name)
   {
     throw Failure(name + ": not a format that VTK's readers know");
   }
+  if (reader->IsA("vtkNIFTIImageReader"))
+  {
+    return ReadNifti(name);
+  }
+  CheckPicture(name);
   reader->SetFileName(name.c_str());
   return ImageOf(reader, name);
 }
@@ -246,8 +289,8 @@ Reader ChooseReader(const std::string& name)
 #ifdef VOLUMIC_HAS_MINC
     { ".mnc", ReadMinc },
 #endif
-    { ".mrc", ReadWith<vtkMRCReader> },
-    { ".ccp4", ReadWith<vtkMRCReader> },
+    { ".mrc", ReadMrc },
+    { ".ccp4", ReadMrc },
     { ".slc", ReadIfItsFormat<vtkSLCReader> },
     { ".dcm", ReadDicomFile },
     { ".dicom", ReadDicomFile },
@@ -300,6 +343,10 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
   catch (const std::filesystem::filesystem_error& error)
   {
     throw Failure(name + ": " + error.code().message());
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure(name + ": not enough memory to read it; crop it, or resample it to fewer voxels");
   }
   catch (const Failure& failure)
   {

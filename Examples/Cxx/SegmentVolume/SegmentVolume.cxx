@@ -3,6 +3,8 @@
 
 // From a volume to a closed surface: the program that is installed as `volumic`. See volumic.1, or
 //   volumic --help
+#include "InputFiles.h"
+#include "OutputChecks.h"
 #include "ParseNumbers.h"
 #include "ReadStart.h"
 #include "ReadVolume.h"
@@ -30,10 +32,11 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <unistd.h>
+#include <utility>
 
 namespace
 {
@@ -66,21 +69,44 @@ private:
   bool IsQuiet;
 };
 
-/// All that can be known to be wrong before the work begins.
-void CheckOutputs(const SegmentOptions& options)
+/// Whether the surfaces go into one .vtm rather than into a folder.
+bool IsBlocks(const std::string& name)
 {
+  return std::filesystem::path(name).extension() == ".vtm";
+}
+
+/// All that can be known to be wrong before the work begins.
+void CheckFiles(const SegmentOptions& options)
+{
+  std::vector<OutputName> outputs;
   for (const std::string& name : options.Surfaces)
   {
     CheckSurfaceName(name);
+    outputs.push_back({ name, OutputName::Kind::File, "" });
   }
-  for (const std::string& name : { options.History, options.Levels, options.Snapshots })
+  for (const auto& [name, prefix] :
+    { std::pair{ options.Levels, "level" }, std::pair{ options.Snapshots, "snapshot" } })
   {
-    CheckFolderOf(name);
+    outputs.push_back(
+      { name, IsBlocks(name) ? OutputName::Kind::Blocks : OutputName::Kind::Folder, prefix });
   }
-  if (options.Report != "-")
+  outputs.push_back({ options.History, OutputName::Kind::File, "" });
+  outputs.push_back({ options.Report == "-" ? "" : options.Report, OutputName::Kind::File, "" });
+  outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
+                  [](const OutputName& output) { return output.Name.empty(); }),
+    outputs.end());
+
+  std::vector<std::string> inputs = FilesOfVolume(options.Volume);
+  for (const std::string& file : FilesOfVolume(options.Edges))
   {
-    CheckFolderOf(options.Report);
+    inputs.push_back(file);
   }
+  for (const std::string& file :
+    { options.Seeds, options.InitialSurface, options.AttractingPoints })
+  {
+    inputs.push_back(file);
+  }
+  CheckOutputs(outputs, inputs);
 }
 
 vtkSmartPointer<vtkImageData> LoadVolume(const SegmentOptions& options, const Announcer& announcer)
@@ -172,39 +198,86 @@ int LevelOf(vtkPolyData* surface)
   return static_cast<int>(surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0));
 }
 
+/// Run what writes an output. The failure of one must not take the others with it.
+template <class Write>
+void Attempt(std::string& failures, const Write& write)
+{
+  try
+  {
+    write();
+  }
+  catch (const Failure& failure)
+  {
+    failures += (failures.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
+  }
+}
+
+/// @throws Failure if not all could be written, with a line for each file.
 void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
   const std::string remark = std::string("volumic " VOLUMIC_VERSION) +
     (results.IsFinished ? "" : ", UNFINISHED: " + StopReason(filter->GetOutput()));
+  std::string failures;
   for (const std::string& name : options.Surfaces)
   {
-    WriteSurface(filter->GetOutput(), name, remark);
+    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, remark); });
   }
-  if (!options.Levels.empty())
+  const auto writeSurfaces = [&](vtkMultiBlockDataSet* blocks, const std::string& name,
+                               const std::string& prefix, int (*numbers)(vtkPolyData*))
   {
-    WriteBlocks(filter->GetLevels(), options.Levels, "level", LevelOf);
-  }
-  if (!options.Snapshots.empty())
-  {
-    WriteBlocks(filter->GetSnapshots(), options.Snapshots, "snapshot");
-  }
+    if (IsBlocks(name))
+    {
+      WriteBlocks(blocks, name);
+    }
+    else if (!name.empty())
+    {
+      WriteFolder(blocks, name, prefix, numbers);
+    }
+  };
+  Attempt(failures, [&] { writeSurfaces(filter->GetLevels(), options.Levels, "level", LevelOf); });
+  Attempt(failures,
+    [&] { writeSurfaces(filter->GetSnapshots(), options.Snapshots, "snapshot", nullptr); });
   if (!options.History.empty())
   {
-    WriteTable(filter->GetHistory(), options.History);
+    Attempt(failures, [&] { WriteTable(filter->GetHistory(), options.History); });
   }
+  std::ostringstream report;
+  WriteReport(report, results);
   if (options.Report == "-")
   {
-    WriteReport(std::cout, results);
+    std::cout << report.str();
   }
   else if (!options.Report.empty())
   {
-    std::ofstream file(options.Report);
-    WriteReport(file, results);
-    if (!file.flush())
-    {
-      throw Failure(options.Report + ": cannot be written");
-    }
+    Attempt(failures, [&] { WriteText(report.str(), options.Report); });
+  }
+  if (!failures.empty())
+  {
+    throw Failure(failures);
+  }
+}
+
+/// Run a filter; of too little memory, whoever told of it, is said for which volume and what helps.
+FilterRun RunOnVolume(const SegmentOptions& options, vtkAlgorithm* filter, const std::string& title,
+  ProgressStyle style)
+{
+  const std::string help =
+    "a coarser level (--finest 1), or the volume cropped or resampled, needs less";
+  try
+  {
+    return RunFilter(filter, title, style);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure(options.Volume + ": not enough memory to segment it; " + help);
+  }
+  catch (const Failure& failure)
+  {
+    const std::string text = failure.what();
+    throw Failure(text.find("memory") == std::string::npos
+        ? text
+        : options.Volume + ": not enough memory to segment it; " + help);
   }
 }
 
@@ -212,7 +285,7 @@ ExitCode Segment(
   const SegmentOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
 {
   const Announcer announcer(options);
-  CheckOutputs(options);
+  CheckFiles(options);
   const vtkSmartPointer<vtkImageData> volume = LoadVolume(options, announcer);
   SetStart(options, filter);
   SetEdges(options, volume, filter);
@@ -220,7 +293,7 @@ ExitCode Segment(
   {
     vtkNew<vtkOtsuThreshold> otsu;
     otsu->SetInputData(volume);
-    RunFilter(otsu, "Otsu's threshold", ProgressStyle::None);
+    RunOnVolume(options, otsu, "Otsu's threshold", ProgressStyle::None);
     filter->SetIsoValue(otsu->GetThreshold());
     announcer.Say("iso-value " + NumberText(filter->GetIsoValue()) +
       " by Otsu's threshold; choose another one with --iso");
@@ -233,13 +306,14 @@ ExitCode Segment(
   CatchInterrupts();
   pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
   pyramid->SetInputData(volume);
-  const FilterRun pyramidRun = RunFilter(pyramid, "Building the pyramid", announcer.Style);
+  const FilterRun pyramidRun =
+    RunOnVolume(options, pyramid, "Building the pyramid", announcer.Style);
   filter->SetInputConnection(pyramid->GetOutputPort());
   if (pyramidRun.IsInterrupted)
   {
     throw Failure("interrupted before there was a surface; nothing is written");
   }
-  const FilterRun run = RunFilter(filter, "Evolving the surface", announcer.Style);
+  const FilterRun run = RunOnVolume(options, filter, "Evolving the surface", announcer.Style);
   for (const std::string& warning : run.Warnings)
   {
     announcer.Say("warning: " + warning);
@@ -294,7 +368,14 @@ ExitCode Run(int argc, char* argv[])
       break;
   }
   ApplyProperties(options, filters);
-  return Segment(options, pyramid, filter);
+  try
+  {
+    return Segment(options, pyramid, filter);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure(options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
+  }
 }
 }
 
@@ -308,7 +389,12 @@ int main(int argc, char* argv[])
   }
   try
   {
-    return Run(argc, argv);
+    const ExitCode code = Run(argc, argv);
+    if (!std::cout.flush())
+    {
+      throw Failure("the standard output cannot be written; is its disk full?");
+    }
+    return code;
   }
   catch (const tool::UsageError& error)
   {

@@ -7,7 +7,12 @@
 #include <vtkAlgorithm.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
 
 namespace tool
 {
@@ -17,7 +22,10 @@ namespace
 std::string PlainMessage(const std::string& text)
 {
   const std::size_t colon = text.find("): ");
-  const std::string message = colon == std::string::npos ? text : text.substr(colon + 3);
+  const bool hasPlaceOnly = text.compare(0, 20, "Generic Warning: In ") == 0;
+  const std::string message = hasPlaceOnly ? text.substr(std::min(text.find('\n'), text.size()))
+    : colon == std::string::npos           ? text
+                                           : text.substr(colon + 3);
   std::string plain;
   for (const char c : message)
   {
@@ -38,6 +46,16 @@ std::string PlainMessage(const std::string& text)
   return plain;
 }
 
+/// Keep an error, but not the executive's that its algorithm failed, which has said why.
+void KeepError(const std::string& text, std::vector<std::string>& errors)
+{
+  const bool isEcho = text.find("returned failure for request") != std::string::npos;
+  if (!isEcho || errors.empty())
+  {
+    errors.push_back(isEcho ? "it failed" : text);
+  }
+}
+
 class MessageObserver : public vtkCommand
 {
 public:
@@ -46,11 +64,64 @@ public:
   void Execute(vtkObject*, unsigned long event, void* data) override
   {
     const std::string text = PlainMessage(data ? static_cast<const char*>(data) : "");
-    (event == vtkCommand::ErrorEvent ? this->Messages->Errors : this->Messages->Warnings)
-      .push_back(text);
+    if (event == vtkCommand::ErrorEvent)
+    {
+      KeepError(text, this->Messages->Errors);
+    }
+    else
+    {
+      this->Messages->Warnings.push_back(text);
+    }
   }
 
   VtkMessages* Messages = nullptr;
+};
+
+/// Takes what VTK prints for objects that nobody listens to, such as the parts of a reader.
+class OutputCatcher : public vtkOutputWindow
+{
+public:
+  static OutputCatcher* New() { return new OutputCatcher; }
+
+  void DisplayErrorText(const char* text) override
+  {
+    KeepError(Plain(text), this->Messages->Errors);
+  }
+  void DisplayWarningText(const char* text) override
+  {
+    this->Messages->Warnings.push_back(Plain(text));
+  }
+  void DisplayGenericWarningText(const char* text) override { this->DisplayWarningText(text); }
+
+  VtkMessages* Messages = nullptr;
+
+private:
+  static std::string Plain(const char* text) { return PlainMessage(text ? text : ""); }
+};
+
+/// From here to its end, what VTK would print is among the messages.
+class CaughtOutput
+{
+public:
+  explicit CaughtOutput(VtkMessages& messages)
+    : Former(vtkOutputWindow::GetInstance()), Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
+  {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it prints what it hands on
+    vtkNew<OutputCatcher> catcher;
+    catcher->Messages = &messages;
+    vtkOutputWindow::SetInstance(catcher);
+  }
+  ~CaughtOutput()
+  {
+    vtkOutputWindow::SetInstance(this->Former);
+    vtkLogger::SetStderrVerbosity(this->Verbosity);
+  }
+  CaughtOutput(const CaughtOutput&) = delete;
+  CaughtOutput& operator=(const CaughtOutput&) = delete;
+
+private:
+  vtkSmartPointer<vtkOutputWindow> Former;
+  vtkLogger::Verbosity Verbosity;
 };
 }
 
@@ -66,10 +137,15 @@ void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
   }
 }
 
-void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name)
+void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted)
 {
   this->ListenTo(reader);
-  reader->Update();
+  this->Catch([&] { reader->Update(); });
+  if (trusted)
+  {
+    // What a reader warns of are data that it lacked and made up.
+    this->Errors.insert(this->Errors.end(), this->Warnings.begin(), this->Warnings.end());
+  }
   if (!this->Errors.empty() || reader->GetErrorCode() != 0)
   {
     const std::string reason = this->JoinedErrors();
@@ -77,12 +153,19 @@ void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name)
   }
 }
 
+void VtkMessages::Catch(const std::function<void()>& action)
+{
+  const CaughtOutput caught(*this);
+  action();
+}
+
 std::string VtkMessages::JoinedErrors() const
 {
   std::string joined;
-  for (const std::string& error : this->Errors)
+  for (auto error = this->Errors.begin(); error != this->Errors.end(); ++error)
   {
-    joined += (joined.empty() ? "" : "; ") + error;
+    const bool isNew = std::find(this->Errors.begin(), error, *error) == error;
+    joined += !isNew ? "" : (joined.empty() ? "" : "; ") + *error;
   }
   return joined;
 }

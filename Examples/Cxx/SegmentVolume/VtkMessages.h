@@ -3,6 +3,7 @@
 #ifndef VtkMessages_h
 #define VtkMessages_h
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,14 @@ public:
   /// Listen to an algorithm and its executive. This object must outlive their runs.
   void ListenTo(vtkAlgorithm* algorithm);
 
-  /// Update the algorithm. @throws Failure "NAME: cannot be ... (errors)" if it reports an error.
-  void UpdateReader(vtkAlgorithm* reader, const std::string& name);
+  /// Update the reader of the file. @throws Failure "NAME: cannot be read (reasons)" if it, or an
+  /// object within it, reports an error; or warns, unless its warnings are not `trusted`.
+  void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true);
 
+  /// Run the action; what VTK would print meanwhile, for objects that nobody listens to, is kept.
+  void Catch(const std::function<void()>& action);
+
+  /// Each error once, with semicolons between.
   std::string JoinedErrors() const;
 };
 }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WriteResults.h"
 
+#include "CheckInputs.h"
+#include "CheckWritten.h"
+#include "OutputFiles.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
@@ -27,9 +30,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <new>
 
 namespace tool
 {
@@ -39,17 +45,46 @@ namespace fs = std::filesystem;
 
 /// Run a writer whose input and file are set.
 template <class Writer>
-void Run(Writer* writer, const std::string& name)
+void Run(Writer* writer)
 {
   VtkMessages messages;
   messages.ListenTo(writer);
-  writer->Write();
-  std::error_code none;
-  if (!messages.Errors.empty() || writer->GetErrorCode() != 0 || fs::file_size(name, none) == 0 ||
-    none)
+  messages.Catch([&] { writer->Write(); });
+  if (!messages.Errors.empty() || writer->GetErrorCode() != 0)
   {
     const std::string reason = messages.JoinedErrors();
-    throw Failure(name + ": cannot be written" + (reason.empty() ? "" : " (" + reason + ")"));
+    throw Failure("cannot be written (" + (reason.empty() ? "is the disk full?" : reason) + ")");
+  }
+}
+
+/// Why the file cannot be written.
+std::string ReasonOf(const std::exception& error)
+{
+  const bool isOfMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return isOfMemory ? "cannot be written (not enough memory)" : error.what();
+}
+
+/// Have `write` write to a path beside the file, which takes the file's place if all went well.
+template <class Write>
+void WriteBeside(const std::string& name, const Write& write)
+{
+  std::string beside;
+  try
+  {
+    OutputFile file(name);
+    beside = fs::path(file.Path()).parent_path().string() + "/";
+    write(file.Path());
+    file.Publish();
+  }
+  catch (const std::exception& error)
+  {
+    std::string reason = ReasonOf(error);
+    for (std::size_t at = reason.find(beside); !beside.empty() && at != std::string::npos;
+         at = reason.find(beside))
+    {
+      reason.erase(at, beside.size()); // the place is of no interest to the user
+    }
+    throw Failure(name + ": " + reason);
   }
 }
 
@@ -59,16 +94,18 @@ void WriteWith(vtkPolyData* surface, const std::string& name, const std::string&
   vtkNew<Writer> writer;
   writer->SetInputData(surface);
   writer->SetFileName(name.c_str());
-  Run(writer.Get(), name);
+  Run(writer.Get());
 }
 
 void WriteLegacy(vtkPolyData* surface, const std::string& name, const std::string&)
 {
   vtkNew<vtkPolyDataWriter> writer;
   writer->SetInputData(surface);
-  writer->SetFileName(name.c_str());
   writer->SetFileTypeToBinary();
-  Run(writer.Get(), name);
+  writer->WriteToOutputStringOn();
+  Run(writer.Get());
+  WriteBytes(
+    name, writer->GetOutputString(), static_cast<std::size_t>(writer->GetOutputStringLength()));
 }
 
 void WriteStl(vtkPolyData* surface, const std::string& name, const std::string& remark)
@@ -84,7 +121,7 @@ void WriteStl(vtkPolyData* surface, const std::string& name, const std::string& 
     head->InsertNextValue(i < remark.size() ? static_cast<unsigned char>(remark[i]) : ' ');
   }
   writer->SetBinaryHeader(head);
-  Run(writer.Get(), name);
+  Run(writer.Get());
 }
 
 void WritePly(vtkPolyData* surface, const std::string& name, const std::string& remark)
@@ -93,7 +130,7 @@ void WritePly(vtkPolyData* surface, const std::string& name, const std::string& 
   writer->SetInputData(surface);
   writer->SetFileName(name.c_str());
   writer->AddComment(remark);
-  Run(writer.Get(), name);
+  Run(writer.Get());
 }
 
 void WriteByu(vtkPolyData* surface, const std::string& name, const std::string&)
@@ -101,7 +138,7 @@ void WriteByu(vtkPolyData* surface, const std::string& name, const std::string&)
   vtkNew<vtkBYUWriter> writer;
   writer->SetInputData(surface);
   writer->SetGeometryFileName(name.c_str());
-  Run(writer.Get(), name);
+  Run(writer.Get());
 }
 
 /// VTK's writer counts what it has written on the standard output, where a report may go.
@@ -120,90 +157,171 @@ void WriteFacet(vtkPolyData* surface, const std::string& name, const std::string
   std::cout.rdbuf(output); // clears the errors too
 }
 
-using Writer = void (*)(vtkPolyData*, const std::string& name, const std::string& remark);
-
-Writer FindWriter(const std::string& name)
+/// A file of fixed size: a head, and the triangles.
+template <int Head, int Triangle>
+void CheckTriangles(const std::string& path, vtkPolyData* surface)
 {
-  static const std::map<std::string, Writer> writers = {
-    { ".vtp", WriteWith<vtkXMLPolyDataWriter> },
-    { ".vtk", WriteLegacy },
-    { ".stl", WriteStl },
-    { ".ply", WritePly },
-    { ".obj", WriteWith<vtkOBJWriter> },
-    { ".iv", WriteWith<vtkIVWriter> },
-    { ".g", WriteByu },
-    { ".geo", WriteWith<vtkHoudiniPolyDataWriter> },
-    { ".facet", WriteFacet },
-    { ".tri", WriteWith<vtkMCubesWriter> },
+  CheckSize(path, Head + static_cast<std::uint64_t>(Triangle) * surface->GetNumberOfPolys());
+}
+
+/// A text of a line for each point and triangle, and some more.
+template <int More>
+void CheckText(const std::string& path, vtkPolyData* surface)
+{
+  CheckLines(path,
+    More + static_cast<std::uint64_t>(surface->GetNumberOfPoints() + surface->GetNumberOfPolys()));
+}
+
+void CheckObj(const std::string& path, vtkPolyData* surface)
+{
+  const vtkIdType normals =
+    surface->GetPointData()->GetNormals() ? surface->GetNumberOfPoints() : 0;
+  CheckLines(path,
+    static_cast<std::uint64_t>(
+      1 + surface->GetNumberOfPoints() + normals + surface->GetNumberOfPolys()));
+}
+
+/// A text with two points in a line.
+template <int More>
+void CheckPairs(const std::string& path, vtkPolyData* surface)
+{
+  CheckLines(path,
+    More +
+      static_cast<std::uint64_t>(
+        (surface->GetNumberOfPoints() + 1) / 2 + surface->GetNumberOfPolys()));
+}
+
+void CheckVtp(const std::string& path, vtkPolyData*)
+{
+  CheckXml(path);
+}
+
+void CheckWrittenPly(const std::string& path, vtkPolyData*)
+{
+  try
+  {
+    CheckPly(path);
+  }
+  catch (const Failure&)
+  {
+    throw Failure("cannot be written (not all of it was; is the disk full?)");
+  }
+}
+
+struct Format
+{
+  void (*Write)(vtkPolyData*, const std::string& path, const std::string& remark);
+  /// Whether the disk took it all; none where that was seen at once.
+  void (*Check)(const std::string& path, vtkPolyData*);
+};
+
+const Format* FindFormat(const std::string& name)
+{
+  static const std::map<std::string, Format> formats = {
+    { ".vtp", { WriteWith<vtkXMLPolyDataWriter>, CheckVtp } },
+    { ".vtk", { WriteLegacy, nullptr } },
+    { ".stl", { WriteStl, CheckTriangles<84, 50> } },
+    { ".ply", { WritePly, CheckWrittenPly } },
+    { ".obj", { WriteWith<vtkOBJWriter>, CheckObj } },
+    { ".iv", { WriteWith<vtkIVWriter>, CheckPairs<14> } },
+    { ".g", { WriteByu, CheckPairs<2> } },
+    { ".geo", { WriteWith<vtkHoudiniPolyDataWriter>, CheckText<7> } },
+    { ".facet", { WriteFacet, CheckText<8> } },
+    { ".tri", { WriteWith<vtkMCubesWriter>, CheckTriangles<0, 72> } },
   };
   std::string suffix = fs::path(name).extension().string();
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found = writers.find(suffix);
-  return found == writers.end() ? nullptr : found->second;
+  const auto found = formats.find(suffix);
+  return found == formats.end() ? nullptr : &found->second;
 }
-}
-
-void CheckFolderOf(const std::string& name)
-{
-  const fs::path folder = fs::path(name).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder))
-  {
-    throw Failure(name + ": there is no folder " + folder.string());
-  }
 }
 
 void CheckSurfaceName(const std::string& name)
 {
-  if (!FindWriter(name))
+  if (!FindFormat(name))
   {
     throw UsageError(name +
       ": no surface format has this suffix; known are .vtp .vtk .stl .ply "
       ".obj .iv .g .geo .facet .tri");
   }
-  CheckFolderOf(name);
 }
 
 void WriteSurface(vtkPolyData* surface, const std::string& name, const std::string& remark)
 {
-  FindWriter(name)(surface, name, remark);
+  const Format* format = FindFormat(name);
+  WriteBeside(name,
+    [&](const std::string& path)
+    {
+      format->Write(surface, path, remark);
+      if (format->Check)
+      {
+        format->Check(path, surface);
+      }
+    });
 }
 
-void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
+void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name)
+{
+  WriteBeside(name,
+    [&](const std::string& path)
+    {
+      vtkNew<vtkXMLMultiBlockDataWriter> writer;
+      writer->SetInputData(blocks);
+      writer->SetFileName(path.c_str());
+      Run(writer.Get());
+      CheckXml(path);
+      CheckXml(fs::path(path).replace_extension().string());
+    });
+}
+
+void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
   int (*numbers)(vtkPolyData*))
 {
-  if (fs::path(name).extension() == ".vtm")
-  {
-    vtkNew<vtkXMLMultiBlockDataWriter> writer;
-    writer->SetInputData(blocks);
-    writer->SetFileName(name.c_str());
-    Run(writer.Get(), name);
-    return;
-  }
   std::error_code failed;
-  fs::create_directories(name, failed);
-  if (failed)
+  const bool isNew = fs::create_directories(name, failed);
+  try
   {
-    throw Failure(name + ": " + failed.message());
-  }
-  for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
-  {
-    auto* surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i));
-    if (surface && surface->GetNumberOfPoints() > 0)
+    StagedFiles files(name);
+    for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
     {
-      const std::string number = std::to_string(numbers ? numbers(surface) : static_cast<int>(i));
-      const fs::path file = fs::path(name) / (prefix + "-" + number + ".vtp");
-      WriteWith<vtkXMLPolyDataWriter>(surface, file.string(), "");
+      auto* surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i));
+      if (surface && surface->GetNumberOfPoints() > 0)
+      {
+        const std::string number = std::to_string(numbers ? numbers(surface) : static_cast<int>(i));
+        const std::string path = files.Folder() + "/" + prefix + "-" + number + ".vtp";
+        WriteWith<vtkXMLPolyDataWriter>(surface, path, "");
+        CheckXml(path);
+      }
     }
+    files.Publish();
+  }
+  catch (const std::exception& error)
+  {
+    if (isNew)
+    {
+      fs::remove(name, failed); // only if it is empty
+    }
+    throw Failure(name + ": " + ReasonOf(error));
   }
 }
 
 void WriteTable(vtkTable* table, const std::string& name)
 {
-  vtkNew<vtkDelimitedTextWriter> writer;
-  writer->SetInputData(table);
-  writer->SetFileName(name.c_str());
-  writer->SetFieldDelimiter(",");
-  Run(writer.Get(), name);
+  WriteBeside(name,
+    [&](const std::string& path)
+    {
+      vtkNew<vtkDelimitedTextWriter> writer;
+      writer->SetInputData(table);
+      writer->SetFileName(path.c_str());
+      writer->SetFieldDelimiter(",");
+      Run(writer.Get());
+      CheckLines(path, 1 + static_cast<std::uint64_t>(table->GetNumberOfRows()));
+    });
+}
+
+void WriteText(const std::string& text, const std::string& name)
+{
+  WriteBeside(name, [&](const std::string& path) { WriteBytes(path, text.data(), text.size()); });
 }
 }

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BinaryFile.h"
+
+#include "ToolErrors.h"
+
+#include <filesystem>
+#include <limits>
+
+namespace tool
+{
+BinaryFile::BinaryFile(const std::string& name) : File(name, std::ios::binary)
+{
+  std::error_code failed;
+  this->Bytes = std::filesystem::file_size(name, failed);
+  if (failed || !this->File)
+  {
+    throw Failure("cannot be opened");
+  }
+}
+
+std::string BinaryFile::Text(std::uint64_t at, std::uint64_t count)
+{
+  if (at > this->Bytes || count > this->Bytes - at)
+  {
+    throw Failure("the file is cut off: it ends at byte " + std::to_string(this->Bytes) +
+      ", which is before what its header tells of; copy it again");
+  }
+  std::string text(count, '\0');
+  this->File.seekg(static_cast<std::streamoff>(at));
+  this->File.read(text.data(), static_cast<std::streamsize>(count));
+  return text;
+}
+
+std::uint64_t BinaryFile::Number(std::uint64_t at, int bytes)
+{
+  return NumberOf(this->Text(at, static_cast<std::uint64_t>(bytes)), this->IsBig);
+}
+
+std::int64_t BinaryFile::Signed(std::uint64_t at, int bytes)
+{
+  const std::uint64_t number = this->Number(at, bytes);
+  return bytes == 2 ? static_cast<std::int16_t>(number) : static_cast<std::int32_t>(number);
+}
+
+std::uint64_t NumberOf(const std::string& bytes, bool isBig)
+{
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+  {
+    number = number << 8 | static_cast<unsigned char>(bytes[isBig ? i : bytes.size() - 1 - i]);
+  }
+  return number;
+}
+
+std::uint64_t Times(std::uint64_t a, std::uint64_t b)
+{
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  return a != 0 && b > most / a ? most : a * b;
+}
+
+void NeedBytes(std::uint64_t there, std::uint64_t needed)
+{
+  if (there < needed)
+  {
+    throw Failure("the file is cut off: it has " + std::to_string(there) +
+      " bytes of voxels, its header asks for " + std::to_string(needed) + "; copy it again");
+  }
+}
+}

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CheckWritten.h"
+
+#include "ToolErrors.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+namespace tool
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+void Refuse(const std::string& reason)
+{
+  throw Failure("cannot be written (" + reason + "; is the disk full?)");
+}
+
+std::uint64_t SizeOf(const std::string& path)
+{
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(path, failed);
+  return failed ? 0 : size;
+}
+}
+
+void CheckSize(const std::string& path, std::uint64_t bytes)
+{
+  const std::uint64_t size = SizeOf(path);
+  if (size != bytes)
+  {
+    Refuse(std::to_string(size) + " of " + std::to_string(bytes) + " bytes were");
+  }
+}
+
+void CheckLines(const std::string& path, std::uint64_t lines)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> piece(1 << 16);
+  std::uint64_t found = 0;
+  char last = ' ';
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())), file.gcount() > 0)
+  {
+    const auto end = piece.begin() + file.gcount();
+    found += static_cast<std::uint64_t>(std::count(piece.begin(), end, '\n'));
+    last = *(end - 1);
+  }
+  if (found < lines || last != '\n')
+  {
+    Refuse(std::to_string(found) + " of " + std::to_string(lines) + " lines were");
+  }
+}
+
+void CheckXml(const std::string& path)
+{
+  if (fs::is_directory(path))
+  {
+    for (const auto& entry : fs::directory_iterator(path))
+    {
+      CheckXml(entry.path().string());
+    }
+    return;
+  }
+  const std::string end = "</VTKFile>";
+  const std::uint64_t size = SizeOf(path);
+  const std::uint64_t tail = std::min<std::uint64_t>(size, end.size() + 2);
+  std::string found(tail, ' ');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(size - tail));
+  file.read(found.data(), static_cast<std::streamsize>(tail));
+  if (found.find(end) == std::string::npos)
+  {
+    Refuse("only " + std::to_string(size) + " bytes of it were");
+  }
+}
+}

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef Inflate_h
+#define Inflate_h
+
+#include <cstdint>
+#include <istream>
+#include <string>
+
+namespace tool
+{
+/**
+ * Unpack zlib or gzip data to their end, which alone tells whether they are what was packed: the
+ * checksum stands there. The data must give `count` bytes; they go to `bytes`, or nowhere if that
+ * is null. @throws Failure, without a name, if they are damaged, cut off or of another size.
+ */
+void Inflate(std::istream& packed, std::uint64_t count, char* bytes);
+
+/// The first bytes that a gzip file unpacks to, or those of a file that is not packed; `count` at
+/// most. The checksum of a packed file is looked at. @throws Failure if it is damaged or cut off.
+std::string GzipHead(const std::string& name, std::size_t count);
+}
+
+#endif

@@ -1,0 +1,356 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`volumic` refuses a volume that has been cut off or damaged, and names the file."""
+
+import gzip
+import importlib.util
+import os
+import resource
+import struct
+import sys
+import unittest
+
+import numpy as np
+from vtkmodules.vtkIOImage import (
+    vtkBMPWriter, vtkJPEGWriter, vtkMetaImageWriter, vtkPNGWriter, vtkPNMWriter, vtkTIFFWriter)
+from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+from tool_test_case import ISO, ORIGIN, SIZE, SPACING, ToolTestCase, ball, make_image
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "Python"))
+import medical_files  # pylint: disable=wrong-import-position
+
+
+def noisy_ball(dtype="i2"):
+    """Noise does not pack well: damage in packed voxels is seldom damage of the packing."""
+    noise = np.random.default_rng(5).integers(0, 4, ball().shape)
+    return (ball() + noise).astype(dtype)
+
+
+class DamageTest(ToolTestCase):
+    def content(self, writer, name, image=None):
+        with open(self.write(writer, name, image or make_image(noisy_ball())), "rb") as file:
+            return file.read()
+
+    def refused_file(self, name, content, reason):
+        """The file, by its name, for this reason, in one line."""
+        process = self.run_tool(self.write_bytes(name, content), self.path("out.stl"), "--iso", ISO,
+                                status=1)
+        self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
+        self.assertFalse(os.path.exists(self.path("out.stl")))
+
+    def accepted_file(self, name, content):
+        self.run_tool(self.write_bytes(name, content), self.path("ok.stl"), "--iso", ISO)
+
+    def cut(self, name, content, reason, rests=(0.5, -10)):
+        """The whole file is taken, but not this share, or all but so many bytes."""
+        self.accepted_file(name, content)
+        for rest in rests:
+            with self.subTest(name, rest=rest):
+                count = int(len(content) * rest) if 0 < rest < 1 else rest
+                self.refused_file(name, content[:count], reason)
+
+    def flipped(self, name, content, reason, start, times=8):
+        """With one bit of the data turned over it is refused, wherever that is."""
+        generator = np.random.default_rng(6)
+        for _ in range(times):
+            damaged = bytearray(content)
+            place = int(generator.integers(start, len(content)))
+            damaged[place] ^= 1 << int(generator.integers(8))
+            with self.subTest(name, place=place):
+                self.refused_file(name, bytes(damaged), reason)
+
+
+class FilesTest(DamageTest):
+    def test_raw_meta_image(self):
+        writer = vtkMetaImageWriter()
+        writer.SetCompression(False)
+        content = self.content(writer, "a.mha")
+        self.cut("a.mha", content, "cut off: it has [0-9]+ bytes of voxels, its header asks for")
+        self.cut("b.mha", content.replace(b"ElementSpacing", b"HeaderSize = -1\nElementSpacing"),
+                 "cut off", rests=(0.5,))
+
+    def test_packed_meta_image(self):
+        content = self.content(vtkMetaImageWriter(), "a.mha")
+        self.assertIn(b"CompressedData = True", content)
+        self.cut("a.mha", content, "packed data are cut off", rests=(0.5, -10, -1))
+        self.flipped("a.mha", content, "packed data", content.index(b"LOCAL") + 10, times=25)
+
+    def test_meta_image_in_two_files(self):
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        data = noisy_ball().tobytes()
+        self.write_bytes("a.raw", data)
+        self.accepted_file("a.mhd", header.replace(b"LOCAL", b"a.raw"))
+        self.write_bytes("a.raw", data[:-10])
+        self.refused_file("a.mhd", header.replace(b"LOCAL", b"a.raw"), "cut off")
+        os.remove(self.path("a.raw"))
+        self.refused_file("a.mhd", header.replace(b"LOCAL", b"a.raw"), "a.raw cannot be opened")
+
+    def test_meta_image_in_a_file_for_each_slice(self):
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        for k, plane in enumerate(noisy_ball()):
+            self.write_bytes(f"{k + 1}.raw", plane.tobytes())
+        names = "".join(f"{k + 1}.raw\n" for k in range(SIZE[2])).encode()
+        listed = header.replace(b"LOCAL", b"LIST") + names
+        pattern = header.replace(b"LOCAL", f"%d.raw 1 {SIZE[2]} 1".encode())
+        self.accepted_file("a.mhd", listed)
+        self.accepted_file("b.mhd", pattern)
+        self.refused_file("a.mhd", listed[:-8], "lists 17 files for 18 slices")
+        self.write_bytes("7.raw", b"half")
+        self.refused_file("a.mhd", listed, "7.raw is cut off: it has 4 bytes, 1144 are needed")
+        self.refused_file("b.mhd", pattern, "not read completely")
+        os.remove(self.path("7.raw"))
+        self.refused_file("a.mhd", listed, "7.raw cannot be opened")
+
+    def test_meta_image_as_text(self):
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        text = " ".join(map(str, ball().ravel())).encode()
+        header = header.replace(b"BinaryData = True", b"BinaryData = False")
+        self.cut("a.mha", header + text + b"\n", "it has [0-9]+ values, its header asks for 10296")
+
+    def test_legacy_vtk(self):
+        for name in ("FileTypeToBinary", "FileTypeToASCII"):
+            writer = vtkStructuredPointsWriter()
+            getattr(writer, "Set" + name)()
+            self.cut("a.vtk", self.content(writer, "a.vtk"), "Error reading")
+
+    def test_vtk_xml(self):
+        content = self.content(vtkXMLImageDataWriter(), "a.vti")
+        self.cut("a.vti", content, "cannot be read", rests=(0.5, -100))
+
+    def test_nrrd(self):
+        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
+        packed = gzip.compress(noisy_ball().tobytes())
+        content = header + b"\n" + packed
+        self.cut("a.nrrd", content, "packed data are cut off", rests=(0.5, -10, -1))
+        self.flipped("a.nrrd", content, "packed data", len(header) + 11, times=25)
+        more = header + b"\n" + gzip.compress(noisy_ball().tobytes() + b"more")
+        self.refused_file("a.nrrd", more, "give more than the 20592 bytes")
+        data = noisy_ball().tobytes()
+        self.accepted_file("b.nrrd", header + b"\n" + gzip.compress(data[:99])
+                           + gzip.compress(data[99:]))
+        raw = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "raw", "little")
+        self.cut("c.nrrd", raw + b"\n" + data, "bytes of voxels, 20592 needed")
+
+    def test_nifti(self):
+        content = medical_files.nifti(noisy_ball(), SPACING)
+        self.cut("a.nii", content, "truncated")
+        packed = gzip.compress(content)
+        self.cut("a.nii.gz", packed, "damaged or cut off", rests=(0.5, -10, -1))
+        self.flipped("a.nii.gz", packed, "damaged or cut off|not a NIfTI", 400)
+        for kind, order in ((999, "<"), (0, "<"), (1536, "<"), (999, ">")):
+            with self.subTest(kind, order=order):
+                header = bytearray(content)
+                if order == ">":
+                    struct.pack_into(">i", header, 0, 348)
+                    struct.pack_into(">8h", header, 40, 3, *SIZE, 1, 1, 1, 1)
+                struct.pack_into(order + "h", header, 70, kind)
+                self.refused_file("b.nii", bytes(header), f"the data type {kind} is none of")
+                self.refused_file("b.nii.gz", gzip.compress(header), f"the data type {kind} is")
+
+    def test_nifti_in_two_files(self):
+        content = bytearray(medical_files.nifti(noisy_ball(), SPACING))
+        content[344:348] = b"ni1\0"
+        struct.pack_into("<f", content, 108, 0)
+        data = gzip.compress(content[352:])
+        self.write_bytes("a.img.gz", data)
+        self.write_bytes("a.hdr", content[:348])
+        self.accepted_file("a.img.gz", data)
+        self.refused_file("a.img.gz", data[:-1], "damaged or cut off")
+        struct.pack_into("<h", content, 70, 999)
+        self.write_bytes("a.hdr", content[:348])
+        self.refused_file("a.img.gz", data, "the data type 999 is none of")
+
+    def test_mrc(self):
+        header = bytearray(1024)
+        struct.pack_into("<10i", header, 0, *SIZE, 1, 0, 0, 0, *SIZE)
+        struct.pack_into("<6f", header, 40, *(SIZE * SPACING), 90, 90, 90)
+        struct.pack_into("<3i", header, 64, 1, 2, 3)
+        header[208:214] = b"MAP \x44\x44"
+        self.cut("a.mrc", bytes(header) + noisy_ball().tobytes(), "it has [0-9]+ bytes of voxels")
+        struct.pack_into("<i", header, 12, 77)
+        self.refused_file("a.mrc", bytes(header) + noisy_ball().tobytes(), "mode 77 is no type")
+
+    @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
+    def test_minc(self):
+        from vtkmodules.vtkIOMINC import vtkMINCImageWriter
+        content = self.content(vtkMINCImageWriter(), "a.mnc")
+        self.cut("a.mnc", content, "cut off: it has [0-9]+ bytes of voxels|cut off", (0.5, -10, 90))
+
+    def test_pages_of_a_picture(self):
+        content = self.content(vtkTIFFWriter(), "a.tif", make_image(noisy_ball("u2")))
+        self.cut("a.tif", content, "cut off", rests=(0.3, 0.5, 0.9, -200))
+
+    def test_pages_in_a_ring(self):
+        content = bytearray(self.content(vtkTIFFWriter(), "a.tif",
+                                         make_image(noisy_ball("u2")[:1])))
+        page, = struct.unpack_from("<I", content, 4)
+        count, = struct.unpack_from("<H", content, page)
+        struct.pack_into("<I", content, page + 2 + 12 * count, page)
+        self.refused_file("a.tif", content, "its pages form a ring")
+
+    def test_pictures(self):
+        for writer, suffix in ((vtkPNGWriter, "png"), (vtkTIFFWriter, "tif"), (vtkPNMWriter, "pgm"),
+                               (vtkBMPWriter, "bmp"), (vtkJPEGWriter, "jpg")):
+            os.makedirs(self.path(suffix))
+            for k, plane in enumerate(noisy_ball("u2") if suffix in ("png", "tif")
+                                      else (noisy_ball() // 5).astype("u1")):
+                content = self.content(writer(), f"{suffix}/{k:02}.{suffix}",
+                                       make_image(plane[np.newaxis]))
+            with self.subTest(suffix):
+                self.write_bytes(f"{suffix}/17.{suffix}", content[:len(content) * 2 // 3])
+                process = self.run_tool(self.path(suffix), self.path("out.stl"), "--component", "0",
+                                        "--iso", ISO / (1 if suffix in ("png", "tif") else 5),
+                                        status=1)
+                self.assertRegex(process.stderr, rf"17\.{suffix}")
+
+    def test_too_little_memory(self):
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        file = self.write_bytes("large.mha", header.replace(b"26 22 18", b"1024 1024 1024"))
+        os.truncate(file, len(header) + (2 << 30) + 100)
+        process = self.run_tool(file, self.path("a.stl"), status=1, preexec_fn=lambda:
+                                resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)))
+        self.assertRegex(process.stderr,
+                         "^volumic: .*large.mha: not enough memory to read it; crop it")
+
+    def test_too_little_memory_later(self):
+        """Each limit ends with a surface or with the name of the volume and what helps."""
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        file = self.write_bytes("large.mha", header.replace(b"26 22 18", b"256 256 256"))
+        with open(file, "r+b") as stream:
+            stream.truncate(len(header) + 3 + (2 << 24))
+            stream.seek(len(header) + 3 + (1 << 24))
+            stream.write(b"\xe8\x03" * (1 << 22))
+        told = set()
+        for megabytes in (330, 280, 230):
+            limit = megabytes << 20
+            process = self.run_tool(
+                file, self.path("a.stl"), "--iso", "500.5", "--threads", "1", "-q",
+                status=None, preexec_fn=lambda size=limit: resource.setrlimit(
+                    resource.RLIMIT_AS, (size, size)))
+            if process.returncode != 0:
+                self.assertRegex(process.stderr, "(?m)^volumic: .*large.mha: not enough memory to "
+                                 "(read|segment) it.*(crop|--finest)")
+                told.add(process.stderr)
+        self.assertGreater(len(told), 0, "all limits were large enough")
+
+
+class MeshesTest(DamageTest):
+    """As surfaces they would be open, as points fewer, and VTK's reader of .ply ends the program."""
+
+    def setUp(self):
+        super().setUp()
+        names = [self.path(f"a.{suffix}") for suffix in ("vtp", "vtk", "stl", "ply", "obj")]
+        self.run_tool(self.ball_file(), *names, "--iso", ISO)
+
+    def refused_mesh(self, name, reason):
+        for option in ("--initial-surface", "--seeds", "--attracting-points"):
+            with self.subTest(name, option=option):
+                self.refused(f"{name}.*({reason})", self.path("ball.vti"), "--iso", ISO, option,
+                             self.path(name), "--report", os.devnull)
+
+    def test_cut_off(self):
+        for suffix, rests in (("vtp", (0.5, -100)), ("vtk", (0.5, -100)), ("ply", (0.2, 0.7, -1)),
+                              ("stl", (0.5, -50, -1))):
+            with open(self.path(f"a.{suffix}"), "rb") as file:
+                content = file.read()
+            for rest in rests:
+                self.write_bytes(f"b.{suffix}",
+                                 content[:int(len(content) * rest) if rest > 0 else rest])
+                self.refused_mesh(f"b.{suffix}", "cannot be read|the file is cut off")
+
+    def test_polygon_file_as_text(self):
+        head = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+                "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n")
+        self.write_bytes("c.ply", head.encode())
+        self.refused_mesh("c.ply", "the file is cut off: it ends in element 4 of 4")
+        self.write_bytes("c.ply", head.encode() + b"3 0 3 9\n")
+        self.refused_mesh("c.ply", "is damaged: a polygon has point 9, there are 4")
+
+
+class SeriesTest(DamageTest):
+    def slice(self, k, **changes):
+        return medical_files.dicom_slice(noisy_ball()[k], k, SPACING, ORIGIN, np.eye(3), **changes)
+
+    def series(self, **changes):
+        os.makedirs(self.path("series"), exist_ok=True)
+        for k in range(SIZE[2]):
+            self.write_bytes(f"series/IM{k:02}", self.slice(k, **changes))
+
+    def refused_series(self, reason):
+        process = self.run_tool(self.path("series"), self.path("out.stl"), "--iso", ISO, status=1)
+        self.assertRegex(process.stderr, f"^volumic: .*({reason})[^\n]*\n$")
+        self.assertFalse(os.path.exists(self.path("out.stl")))
+
+    def test_slices_that_are_cut_off(self):
+        for syntax in ("explicit", "implicit"):
+            self.series(syntax=syntax)
+            self.run_tool(self.path("series"), self.path("ok.stl"), "--iso", ISO)
+            content = self.slice(7, syntax=syntax)
+            for rest in (-1, -500, -1144, -1150, 300, 200, 140):
+                with self.subTest(syntax, rest=rest):
+                    self.write_bytes("series/IM07", content[:rest])
+                    self.refused_series("IM07: .*(cut off|header|no pixels)")
+
+    def test_the_last_slice_ends_between_two_elements(self):
+        """Without it the series would be shorter, but even."""
+        self.series()
+        content = self.slice(17)
+        end = content.index(struct.pack("<HH", 0x28, 0x10))
+        self.write_bytes("series/IM17", content[:end])
+        self.refused_series("IM17: has no pixels: it is cut off, or no slice")
+
+    def test_pixels_that_are_fewer_than_the_rows(self):
+        self.series()
+        content = self.slice(7)
+        rows = content.index(struct.pack("<HH", 0x28, 0x10)) + 8
+        more = content[:rows] + struct.pack("<H", 40) + content[rows + 2:]
+        self.write_bytes("series/IM07", more)
+        self.refused_series("IM07: the pixels are cut off: 1144 bytes, 2080 needed")
+
+    def test_two_series_of_one_study(self):
+        self.series()
+        for k in range(1, SIZE[2], 2):
+            self.write_bytes(f"series/IM{k:02}", self.slice(k, series="1.2.4"))
+        self.refused_series("IM01: its series differs from that of .*IM00; one series per folder")
+
+    def test_several_frames(self):
+        self.series()
+        self.write_bytes("series/IM03", self.slice(3, frames="2"))
+        self.refused_series("IM03: 2 frames")
+
+    def test_headers_that_make_no_sense(self):
+        self.series()
+        for changes, reason in (({"bits": 32}, "32 bits per pixel"), ({"bits": 0}, "0 bits per"),
+                                ({"frames": "1A"}, "the number of frames is '1A'")):
+            self.write_bytes("series/IM03", self.slice(3, **changes))
+            self.refused_series("IM03: .*" + reason)
+
+    def test_sequences_without_end(self):
+        self.series()
+        content = self.slice(3)
+        place = content.index(struct.pack("<HH", 0x0008, 0x1140)) + 12
+        deep = content[:place] + struct.pack("<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF) * 300000
+        self.write_bytes("series/IM03", deep)
+        self.refused_series("IM03: its header is damaged: sequences within sequences")
+
+    def test_packed_slices(self):
+        for syntax in ("1.2.840.10008.1.2.1.99", "1.2.840.10008.1.2.4.70"):
+            self.series()
+            self.write_bytes("series/IM03", self.slice(3, syntax=syntax))
+            self.refused_series(f"IM03: compressed .transfer syntax {syntax}")
+
+    def test_reports_and_directories_are_no_slices(self):
+        self.series()
+        for name, kind in (("DICOMDIR", "1.2.840.10008.1.3.10"),
+                           ("SR", "1.2.840.10008.5.1.4.1.1.88.11")):
+            content = self.slice(0, kind=kind)
+            self.write_bytes(f"series/{name}", content[:content.index(
+                struct.pack("<HH", 0x28, 0x02))])
+        self.run_tool(self.path("series"), self.path("ok.stl"), "--iso", ISO)
+
+
+if __name__ == "__main__":
+    unittest.main()

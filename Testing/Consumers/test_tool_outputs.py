@@ -1,0 +1,389 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `volumic` writes takes its place when it is whole, and never that of an input."""
+
+import contextlib
+import json
+import os
+import random
+import shutil
+import stat
+import subprocess
+import tempfile
+import time
+import unittest
+
+from limited_files import largest_file
+from tool_test_case import ISO, PROGRAM, ToolTestCase
+
+SURFACES = ("vtp", "vtk", "stl", "ply", "obj", "iv", "g", "geo", "facet", "tri")
+OLD = b"an older result"
+
+
+def nobody():
+    """A preexec_fn: the rights of nobody, if we have root's, for whom nothing is forbidden."""
+    if os.geteuid() == 0:
+        os.setgroups([])
+        os.setgid(65534)
+        os.setuid(65534)
+
+
+class OutputsTest(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        self.volume = self.ball_file()
+
+    def segment(self, *arguments, **options):
+        return self.run_tool(self.volume, "--iso", ISO, "--levels", 2, "-q", *arguments, **options)
+
+    def content(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def without_rests(self, *names):
+        """No file but these, the volume and those of earlier calls is in the folder."""
+        self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(".")], [])
+        for name in names:
+            self.assertIn(name, os.listdir(self.folder))
+
+
+class FullDiskTest(OutputsTest):
+    def old_survives_limit(self, name, limit, *arguments):
+        self.write_bytes(name, OLD)
+        process = self.segment(*arguments, status=1, preexec_fn=largest_file(limit))
+        self.assertRegex(process.stderr, f"^volumic: .*{name}: cannot be written .*")
+        self.assertEqual(self.content(name), OLD)
+        self.without_rests(name)
+
+    def test_a_surface_that_lacks_its_last_byte_or_more(self):
+        for suffix in SURFACES:
+            name = f"a.{suffix}"
+            self.segment(self.path(name))
+            whole = os.path.getsize(self.path(name))
+            for limit in (whole - 1, whole // 2):
+                with self.subTest(name, limit=limit):
+                    self.old_survives_limit(name, limit, self.path(name))
+
+    def test_history_report_and_levels(self):
+        for option, name in (("--history", "h.csv"), ("--report", "r.json"),
+                             ("--levels-output", "l.vtm"), ("--snapshots", "s.vtm")):
+            self.segment(option, self.path(name))
+            whole = os.path.getsize(self.path(name))
+            # A limit on the .vtm alone is none on the larger files of its blocks, nor can be.
+            for limit in (whole - 100, whole // 2) if not name.endswith("vtm") else (1000,):
+                with self.subTest(name, limit=limit):
+                    self.old_survives_limit(name, limit, option, self.path(name))
+
+    def test_folder_of_levels(self):
+        self.segment("--levels-output", self.path("levels"))
+        whole = self.content("levels/level-0.vtp")
+        process = self.segment("--levels-output", self.path("levels"), status=1,
+                               preexec_fn=largest_file(len(whole) - 1))
+        self.assertIn("levels: cannot be written", process.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("levels"))), ["level-0.vtp", "level-1.vtp"])
+        self.assertEqual(self.content("levels/level-0.vtp"), whole)
+        self.segment("--levels-output", self.path("new/levels"), status=1,
+                     preexec_fn=largest_file(1000))
+        self.assertFalse(os.path.exists(self.path("new/levels")))
+
+    def test_other_outputs_are_written_all_the_same(self):
+        process = self.segment(self.path("a.obj"), "--history", self.path("h.csv"), "--report",
+                               self.path("r.json"), status=1, preexec_fn=largest_file(20000))
+        self.assertRegex(process.stderr, r"^volumic: \S*a.obj: cannot be written[^\n]*\n$")
+        self.assertFalse(os.path.exists(self.path("a.obj")))
+        self.without_rests("h.csv", "r.json")
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_devices(self):
+        for option in ("--history", "--report"):
+            process = self.segment(option, "/dev/full", status=1)
+            self.assertIn("/dev/full: cannot be written (No space left", process.stderr)
+            self.assertTrue(stat.S_ISCHR(os.stat("/dev/full").st_mode), "it was replaced")
+        self.assertIn("\"Iteration\",", self.segment("--history", "/dev/stdout").stdout)
+        self.segment("--report", "/dev/null")
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_standard_output(self):
+        for arguments in ([self.volume, "--iso", str(ISO), "--report", "-"], ["--help"],
+                          ["--version"], ["--list-properties"]):
+            with self.subTest(arguments[-1]), open("/dev/full", "w", encoding="utf-8") as full:
+                process = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE,
+                                         text=True, check=False)
+                self.assertEqual(process.returncode, 1)
+                self.assertIn("the standard output cannot be written", process.stderr)
+
+    def test_a_disk_that_is_full_in_truth(self):
+        disk = self.path("disk")
+        os.mkdir(disk)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=128k", "tmpfs", disk], check=False,
+                          capture_output=True).returncode != 0:
+            self.skipTest("mounting a small disk needs root's rights")
+        try:
+            for suffix in SURFACES:
+                with self.subTest(suffix):
+                    for name in os.listdir(disk):
+                        os.remove(os.path.join(disk, name))
+                    self.write_bytes(f"disk/a.{suffix}", OLD)
+                    self.write_bytes("disk/rest", bytes(120 << 10))
+                    self.segment(self.path(f"disk/a.{suffix}"), status=1)
+                    self.assertEqual(self.content(f"disk/a.{suffix}"), OLD)
+                    self.assertEqual(sorted(os.listdir(disk)), [f"a.{suffix}", "rest"])
+        finally:
+            subprocess.run(["umount", disk], check=True)
+
+
+class KilledTest(OutputsTest):
+    def test_the_old_file_or_the_new_one_is_there(self):
+        names = [f"{i}.{end}" for i in range(3) for end in ("obj", "vtp", "stl", "ply", "tri")]
+        paths = [self.path(name) for name in names]
+        self.segment(*paths)
+        new = {name: self.content(name) for name in names}
+        random.seed(1)
+        were_old = 0
+        for _ in range(12):
+            for name in names:
+                self.write_bytes(name, OLD)
+            with subprocess.Popen([PROGRAM, self.volume, *paths, "--iso", str(ISO), "--levels",
+                                   "2", "-q"]) as process:
+                # The trial of the folder comes first, then a hidden folder for each file.
+                while process.poll() is None and not self.hidden_files():
+                    pass
+                time.sleep(random.uniform(0, 0.03))
+                process.kill()
+            for name in names:
+                self.assertIn(self.content(name), (OLD, new[name]), name)
+                were_old += self.content(name) == OLD
+            for hidden in self.hidden_folders():
+                shutil.rmtree(hidden)
+        self.assertGreater(were_old, 0, "all were killed after they had written")
+
+    def hidden_folders(self):
+        return [self.path(n) for n in os.listdir(self.folder) if n.startswith(".volumic-")]
+
+    def hidden_files(self):
+        found = []
+        for folder in self.hidden_folders():
+            with contextlib.suppress(FileNotFoundError):
+                found += os.listdir(folder)
+        return found
+
+    def test_runs_at_the_same_time(self):
+        commands = [[PROGRAM, self.volume, self.path("a.obj"), "--iso", str(ISO), "--levels", "2",
+                     "-q", "--levels-output", self.path("l.vtm")] for _ in range(4)]
+        processes = [subprocess.Popen(command) for command in commands]
+        self.assertEqual([process.wait() for process in processes], [0] * 4)
+        together = self.content("a.obj")
+        self.segment(self.path("a.obj"))
+        self.assertEqual(self.content("a.obj"), together)
+        self.without_rests("l", "l.vtm")
+
+
+class PlacesTest(OutputsTest):
+    """All that is refused is so before the volume, which is no image here, is read."""
+
+    def setUp(self):
+        super().setUp()
+        self.no_image = self.write_bytes("no image.vti", b"nothing")
+
+    def refused_at_once(self, reason, *arguments, **options):
+        process = self.run_tool(self.no_image, *arguments, status=1, **options)
+        self.assertRegex(process.stderr, reason)
+        self.assertNotRegex(process.stderr, "no image.vti: (?!cannot be written)")
+        self.without_rests()
+
+    def test_folders_and_missing_folders(self):
+        os.mkdir(self.path("b.vtp"))
+        self.refused_at_once("b.vtp: cannot be written: it is a folder", self.path("b.vtp"))
+        self.refused_at_once("b.vtp: cannot be written: it is a folder", "--history",
+                             self.path("b.vtp"))
+        for arguments in ([self.path("c/a.stl")], ["--history", self.path("c/h.csv")],
+                          ["--levels-output", self.path("c/l.vtm")]):
+            self.refused_at_once("there is no folder .*/c", *arguments)
+        os.symlink(self.path("c/a.stl"), self.path("link.stl"))
+        self.refused_at_once("link.stl: there is no folder .*/c", self.path("link.stl"))
+        self.write_bytes("file", b"")
+        self.refused_at_once("file is no folder", "--levels-output", self.path("file/levels"))
+        self.refused_at_once("is no folder", "--levels-output", self.path("file"))
+        os.symlink("nowhere", self.path("loose"))
+        self.refused_at_once("loose is no folder", "--levels-output", self.path("loose/levels"))
+        self.write_bytes("l", b"")
+        self.refused_at_once("l is no folder", "--levels-output", self.path("l.vtm"))
+
+    def as_nobody(self, reason, *arguments):
+        os.chmod(self.folder, 0o755)
+        if subprocess.run([PROGRAM, "--version"], preexec_fn=nobody, check=False,
+                          capture_output=True).returncode != 0:
+            self.skipTest("nobody may not run the program")
+        self.refused_at_once(reason, *arguments, preexec_fn=nobody)
+
+    def test_folders_that_cannot_be_written_to(self):
+        os.mkdir(self.path("locked"), mode=0o555)
+        reason = "cannot be written .the folder .*locked: Permission denied"
+        self.as_nobody(reason, self.path("locked/a.stl"))
+        self.as_nobody(reason, "--report", self.path("locked/r.json"))
+        self.as_nobody(reason, "--levels-output", self.path("locked"))
+        self.as_nobody(reason, "--snapshots", self.path("locked/new/ones"))
+
+    def test_folders_that_cannot_be_looked_into(self):
+        os.mkdir(self.path("closed"), mode=0o700)
+        os.mkdir(self.path("closed/inner"))
+        for arguments in ([self.path("closed/inner/a.stl")], ["--levels-output",
+                                                              self.path("closed/inner/l")]):
+            self.as_nobody("cannot be written: Permission denied", *arguments)
+
+    def test_files_that_are_write_protected(self):
+        os.mkdir(self.path("open"))
+        os.chmod(self.path("open"), 0o777)
+        os.chmod(self.write_bytes("open/a.stl", OLD), 0o444)
+        self.as_nobody("a.stl: cannot be written: Permission denied", self.path("open/a.stl"))
+        self.assertEqual(self.content("open/a.stl"), OLD)
+
+    def test_inputs_are_not_replaced(self):
+        os.link(self.no_image, self.path("hard.json"))
+        os.symlink("no image.vti", self.path("soft.csv"))
+        before = self.content("no image.vti")
+        for arguments in (["--report", self.no_image], ["--history", self.no_image],
+                          ["--report", self.path("hard.json")],
+                          ["--history", self.path("soft.csv")]):
+            with self.subTest(arguments):
+                self.refused_at_once("cannot be written: it is the input .*no image.vti",
+                                     *arguments)
+        process = self.run_tool("no image.vti", "--report", "./no image.vti", status=1,
+                                cwd=self.folder)
+        self.assertIn("it is the input", process.stderr)
+        self.assertEqual(self.content("no image.vti"), before)
+
+    def test_nor_are_other_inputs(self):
+        self.write_bytes("start.stl", OLD)
+        self.refused_at_once("input .*start.stl", self.path("start.stl"), "--initial-surface",
+                             self.path("start.stl"))
+        self.write_bytes("seeds.csv", b"1,2,3")
+        self.refused_at_once("input .*seeds.csv", "--history", self.path("seeds.csv"), "--seeds",
+                             self.path("seeds.csv"))
+        self.refused_at_once("input .*seeds.csv", "--history", self.path("seeds.csv"),
+                             "--attracting-points", self.path("seeds.csv"))
+        edges = self.write_bytes("edges.vti", b"")
+        self.refused_at_once("input .*edges.vti", "--report", edges, "--edges", edges)
+        os.mkdir(self.path("levels"))
+        level = self.write_bytes("levels/level-2.vtp", OLD)
+        self.refused_at_once("level-2.vtp would be replaced, which is the input",
+                             "--initial-surface", level, "--levels-output", self.path("levels"))
+        self.write_bytes("levels/levels_0.vtp", OLD)
+        self.refused_at_once("levels_0.vtp would be replaced, which is the input",
+                             "--initial-surface", self.path("levels/levels_0.vtp"),
+                             "--levels-output", self.path("levels.vtm"))
+
+    def test_the_other_files_of_a_volume(self):
+        for header, text, data in (
+                ("a.mhd", b"ObjectType = Image\nElementDataFile = a.raw\n", "a.raw"),
+                ("b.mhd", b"ElementDataFile = LIST\n b1.raw\nb2.raw\n", "b2.raw"),
+                ("c.mhd", b"ElementDataFile = c%02d.raw 1 3 1\n", "c02.raw"),
+                ("d.nhdr", b"NRRD0004\nData File: d.gz\n", "d.gz"),
+                ("e.pvti", b"<VTKFile>\n<Piece Source=\"e_0.vti\"/>", "e_0.vti"),
+                ("f.img", b"", "f.hdr"), ("series", None, "series/IM1")):
+            with self.subTest(header):
+                if text is None:
+                    os.mkdir(self.path(header))
+                    self.write_bytes(data, bytes(128) + b"DICM")
+                else:
+                    self.write_bytes(header, text)
+                    self.write_bytes(data, OLD)
+                before = self.content(data)
+                process = self.run_tool(self.path(header), "--report", self.path(data), status=1)
+                self.assertIn("it is the input", process.stderr)
+                self.assertEqual(self.content(data), before)
+
+    def test_outputs_that_are_one_file(self):
+        os.symlink("b.vtp", self.path("c.vtp"))
+        for arguments in ([self.path("a.vtp"), self.path("a.vtp")],
+                          [self.path("b.vtp"), self.path("c.vtp")],
+                          [self.path("a.vtp"), "--history", self.path("./a.vtp")],
+                          ["--report", self.path("r"), "--history", self.path("r")],
+                          ["--levels-output", self.path("l.vtm"), "--snapshots",
+                           self.path("l.vtm")],
+                          [self.path("l/level-0.vtp"), "--levels-output", self.path("l")],
+                          [self.path("l/l_0.vtp"), "--levels-output", self.path("l.vtm")]):
+            with self.subTest(arguments):
+                os.makedirs(self.path("l"), exist_ok=True)
+                self.refused_at_once("would take the same place", *arguments)
+
+
+class WrittenTest(OutputsTest):
+    def test_links_are_followed(self):
+        os.mkdir(self.path("there"))
+        self.write_bytes("there/a.stl", OLD)
+        os.symlink("there/a.stl", self.path("link.stl"))
+        os.symlink(self.path("there/new.stl"), self.path("loose.stl"))
+        self.segment(self.path("link.stl"), self.path("loose.stl"))
+        self.assertTrue(os.path.islink(self.path("link.stl")))
+        self.assertEqual(self.content("there/a.stl"), self.content("there/new.stl"))
+        self.assertEqual(sorted(os.listdir(self.path("there"))), ["a.stl", "new.stl"])
+
+    def test_permissions(self):
+        os.chmod(self.write_bytes("old.stl", OLD), 0o640)
+        if os.geteuid() == 0:
+            os.chown(self.path("old.stl"), 1234, 4321)
+        self.segment(self.path("old.stl"), self.path("new.stl"), "--levels-output", self.path("l"),
+                     "--report", self.path("r.json"), preexec_fn=lambda: os.umask(0o027))
+        modes = {n: stat.S_IMODE(os.stat(self.path(n)).st_mode)
+                 for n in ("old.stl", "new.stl", "r.json", "l", "l/level-0.vtp")}
+        self.assertEqual(modes, {"old.stl": 0o640, "new.stl": 0o640, "r.json": 0o640, "l": 0o750,
+                                 "l/level-0.vtp": 0o640})
+        if os.geteuid() == 0:
+            facts = os.stat(self.path("old.stl"))
+            self.assertEqual((facts.st_uid, facts.st_gid), (1234, 4321))
+
+    def test_names_with_blanks_relative_ones_and_other_disks(self):
+        with tempfile.TemporaryDirectory(dir="/dev/shm" if os.path.isdir("/dev/shm") else None) \
+                as other:
+            self.segment("my surface.stl", "sub folder/../b.stl", os.path.join(other, "c.stl"),
+                         "--levels-output", "the levels.vtm", cwd=self.make("sub folder"))
+            self.assertEqual(os.listdir(other), ["c.stl"])
+        self.without_rests("my surface.stl", "b.stl", "the levels.vtm")
+        self.assertIn(b"the levels/the levels_0", self.content("the levels.vtm"))
+        self.assertEqual(len(os.listdir(self.path("the levels"))), 2)
+
+    def make(self, name):
+        os.mkdir(self.path(name))
+        return self.folder
+
+    def test_files_of_others_in_the_folder_stay(self):
+        os.mkdir(self.path("l"))
+        self.write_bytes("l/mine", OLD)
+        self.segment("--levels-output", self.path("l.vtm"))
+        self.segment("--levels-output", self.path("l"), "--snapshots", self.path("l"))
+        self.assertEqual(self.content("l/mine"), OLD)
+
+    def test_a_pipe_gets_the_whole_file(self):
+        os.mkfifo(self.path("pipe.stl"))
+        with subprocess.Popen(["cat", self.path("pipe.stl")], stdout=subprocess.PIPE) as reader:
+            self.segment(self.path("pipe.stl"))
+            read = reader.stdout.read()
+        self.segment(self.path("a.stl"))
+        self.assertEqual(read, self.content("a.stl"))
+
+    def test_what_a_first_run_wrote_beside_the_slices_is_no_input_of_the_second(self):
+        os.mkdir(self.path("series"))
+        self.write_bytes("series/IM1", bytes(128) + b"DICM")
+        surface = self.write_bytes("series/a.stl", OLD)
+        for volume in ("series", "series/IM1"):
+            process = self.run_tool(self.path(volume), surface, status=1)
+            self.assertIn("IM1: has no pixels", process.stderr)
+
+    def test_a_name_that_is_not_utf_8(self):
+        name = os.path.join(os.fsencode(self.folder), b"\xe9t\xe9 \xed\xa0\x80.vti")
+        with open(name, "wb") as file:
+            file.write(self.content("ball.vti"))
+        process = subprocess.run([PROGRAM, name, "--report", "-", "-q"], check=True,
+                                 capture_output=True)
+        report = json.loads(process.stdout.decode("utf-8"))
+        self.assertEqual(report["input"]["name"], "\ufffdt\ufffd \ufffd\ufffd\ufffd.vti")
+        os.rename(name, self.path("\u00e9t\u00e9 \U0001f9b4.vti"))
+        self.volume = self.path("\u00e9t\u00e9 \U0001f9b4.vti")
+        report = json.loads(self.segment("--report", "-").stdout)
+        self.assertEqual(report["input"]["name"], "\u00e9t\u00e9 \U0001f9b4.vti")
+
+
+if __name__ == "__main__":
+    unittest.main()

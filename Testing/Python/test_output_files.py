@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scripts keep an older file until the new one is whole, and never replace what they read."""
+
+import os
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+from examples_path import EXAMPLES
+from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
+
+sys.path.insert(0, EXAMPLES)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Consumers"))
+# pylint: disable=wrong-import-position
+from limited_files import largest_file
+from output_files import beside, check_output
+
+OLD = b"an older result"
+
+
+class OutputFilesTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write_bytes(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content)
+        return self.path(name)
+
+    def content(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def without_rests(self):
+        self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(".")], [])
+
+
+class BesideTest(OutputFilesTest):
+    def test_an_exception_leaves_the_old_file(self):
+        path = self.write_bytes("a.stl", OLD)
+        with self.assertRaises(KeyError):
+            with beside(path) as written:
+                with open(written, "wb") as file:
+                    file.write(b"half")
+                raise KeyError
+        self.assertEqual(self.content("a.stl"), OLD)
+        self.without_rests()
+
+    def test_so_does_a_kill(self):
+        path = self.write_bytes("a.stl", OLD)
+        code = (f"import sys, time; sys.path.insert(0, {EXAMPLES!r});"
+                "from output_files import beside\n"
+                f"with beside({path!r}) as written, open(written, 'wb', buffering=0) as file:\n"
+                "    file.write(b'half'); print('half', flush=True); time.sleep(60)")
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
+            process.stdout.readline()
+            self.assertEqual(self.content("a.stl"), OLD)
+            process.send_signal(signal.SIGKILL)
+        self.assertEqual(self.content("a.stl"), OLD)
+
+    def test_links_and_permissions(self):
+        os.mkdir(self.path("there"))
+        os.chmod(self.write_bytes("there/a", OLD), 0o640)
+        os.symlink("there/a", self.path("link"))
+        with beside(self.path("link")) as written, open(written, "wb") as file:
+            file.write(b"new")
+        self.assertTrue(os.path.islink(self.path("link")))
+        self.assertEqual(self.content("there/a"), b"new")
+        self.assertEqual(stat.S_IMODE(os.stat(self.path("there/a")).st_mode), 0o640)
+        mask = os.umask(0o027)
+        try:
+            with beside(self.path("new")) as written, open(written, "wb") as file:
+                file.write(b"new")
+        finally:
+            os.umask(mask)
+        self.assertEqual(stat.S_IMODE(os.stat(self.path("new")).st_mode), 0o640)
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_devices_are_not_replaced(self):
+        with self.assertRaisesRegex(OSError, "/dev/full cannot be written .No space left"):
+            with beside("/dev/full") as written, open(written, "wb") as file:
+                file.write(b"new")
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/full").st_mode))
+
+    def test_inputs(self):
+        scan = self.write_bytes("scan", OLD)
+        os.link(scan, self.path("hard"))
+        os.symlink(scan, self.path("soft"))
+        for name in (scan, self.path("hard"), self.path("soft")):
+            with self.assertRaisesRegex(OSError, "it would replace the input .*scan"):
+                check_output(name, [scan])
+        os.mkdir(self.path("levels"))
+        block = self.write_bytes("levels/levels_0.vti", OLD)
+        with self.assertRaisesRegex(OSError, "it would replace the input .*levels_0.vti"):
+            check_output(self.path("levels.vtm"), [block])
+
+
+class ScriptsTest(OutputFilesTest):
+    def setUp(self):
+        super().setUp()
+        self.ring = write_volume(self.path("ring.mha"), ring_voxels()[::2, ::2, ::2], RING_SPACING)
+
+    def refused(self, reason, run):
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertRegex(run.stderr + run.stdout, reason)
+        self.assertNotIn("Traceback", run.stderr)
+        self.without_rests()
+
+    def segment(self, output, *options, **settings):
+        return run_script("segment.py", self.ring, output, "--iso", str(RING_ISO), *options,
+                          **settings)
+
+    def test_a_full_disk(self):
+        for suffix in ("stl", "ply", "obj", "vtp"):
+            path = self.path(f"a.{suffix}")
+            self.assertEqual(self.segment(path).returncode, 0)
+            limit = os.path.getsize(path) - 1
+            self.write_bytes(f"a.{suffix}", OLD)
+            with self.subTest(suffix):
+                self.refused(f"a.{suffix} cannot be written",
+                             self.segment(path, preexec_fn=largest_file(limit)))
+                self.assertEqual(self.content(f"a.{suffix}"), OLD)
+
+    def test_the_scan_itself(self):
+        scan = self.content("ring.mha")
+        os.link(self.ring, self.path("surface.stl"))
+        self.refused("it would replace the input", self.segment(self.path("surface.stl")))
+        self.assertEqual(self.content("ring.mha"), scan)
+
+    def test_a_volume_is_not_converted_into_itself(self):
+        volume = self.path("a.vti")
+        self.assertEqual(run_script("read_volume.py", self.ring, volume).returncode, 0)
+        before = self.content("a.vti")
+        self.refused("it would replace the input", run_script("read_volume.py", volume, volume))
+        self.assertEqual(self.content("a.vti"), before)
+        self.refused("a.vti cannot be written", run_script(
+            "read_volume.py", self.ring, volume, preexec_fn=largest_file(len(before) // 2)))
+        self.assertEqual(self.content("a.vti"), before)
+
+    def test_arrays(self):
+        voxels, mesh = self.path("v.npy"), self.write_bytes("m.npz", OLD)
+        np.save(voxels, ring_voxels()[::2, ::2, ::2])
+        arguments = ("numpy_arrays.py", voxels, mesh, "--iso", str(RING_ISO))
+        self.refused("m.npz cannot be written", run_script(
+            *arguments, preexec_fn=largest_file(3000)))
+        self.assertEqual(self.content("m.npz"), OLD)
+        self.refused("no such folder", run_script(
+            "numpy_arrays.py", voxels, self.path("none/m.npz")))
+
+    def batch(self, **settings):
+        os.makedirs(self.path("scans"), exist_ok=True)
+        write_volume(self.path("scans/ring.mha"), ring_voxels()[::2, ::2, ::2], RING_SPACING)
+        return run_script("batch.py", self.path("scans"), "--output", self.path("out"), "--iso",
+                          str(RING_ISO), "--format", "stl", **settings)
+
+    def test_a_table(self):
+        self.assertEqual(self.batch().returncode, 0)
+        table, surface = self.content("out/results.csv"), self.content("out/ring.stl")
+        self.refused("ring.stl cannot be written", self.batch(
+            preexec_fn=largest_file(len(surface) - 1)))
+        self.assertEqual(self.content("out/ring.stl"), surface)
+        self.assertIn(b"ring.mha,failed", self.content("out/results.csv"))
+        self.write_bytes("out/results.csv", table)
+        self.refused("results.csv cannot be written", self.batch(preexec_fn=largest_file(50)))
+        self.assertEqual(self.content("out/results.csv"), table)
+
+    def test_a_table_is_whole_when_killed(self):
+        self.assertEqual(self.batch().returncode, 0)
+        script = os.path.join(EXAMPLES, "batch.py")
+        with subprocess.Popen([sys.executable, script, self.path("scans"), "--output",
+                               self.path("out"), "--iso", str(RING_ISO)],
+                              stdout=subprocess.PIPE) as process:
+            process.stdout.read(8)  # it has begun with the first volume
+            process.kill()
+        # The old one, or the new one if that was quicker.
+        self.assertEqual(self.content("out/results.csv").count(b"\n"), 2)
+        self.assertIn(b"ring.mha,ok", self.content("out/results.csv"))
+
+
+if __name__ == "__main__":
+    unittest.main()
