@@ -50,8 +50,8 @@ descriptions=()
 originals=()
 replacements=()
 
-# Seconds after which the tests count as caught in an endless loop.
-time_limit=300
+# Seconds after which the tests count as caught in an endless loop; less once they have been timed.
+time_limit=600
 
 # ---- The list ----------------------------------------------------------------------------------
 
@@ -196,7 +196,9 @@ install_packages "${tool_packages[@]}" "${test_packages[@]}" "${needed[@]}"
 copy_sources
 run_step "Configuring a copy of the sources" mutate-configure configure_copy
 run_step "Building the tests of the core" mutate-build build_copy
+started=$SECONDS
 run_step "Running them on the unbroken core" mutate-tests run_unbroken
+time_limit=$((30 + 5 * (SECONDS - started)))
 tried=0
 for i in "${!files[@]}"; do
   if is_selected "$i"; then
