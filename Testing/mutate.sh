@@ -105,82 +105,107 @@ check_list()
   [ "$lost" -eq 0 ] || fail "$lost of ${#files[@]} mutations have no place in the sources: mend $list."
 }
 
-# ---- The copy ----------------------------------------------------------------------------------
+# ---- The copies --------------------------------------------------------------------------------
 
-copy= # a folder of its own, removed at the end
-remove_copy() { [ -z "$copy" ] || rm -rf "$copy"; }
+# Each worker breaks and builds a copy of its own: a mutation compiles one file, mostly.
+copies= # a temporary folder, removed at the end
+workers=$(job_count)
+remove_copies() { [ -z "$copies" ] || rm -rf "$copies"; }
 
 copy_sources()
 {
-  copy=$(mktemp -d)
-  trap remove_copy EXIT
-  mkdir "$copy/sources"
-  tar -C "$root" --exclude=./build --exclude=./.git -cf - . | tar -C "$copy/sources" -xf -
+  local worker
+  for ((worker = 0; worker < workers; ++worker)); do
+    mkdir -p "$copies/$worker/sources"
+    tar -C "$root" --exclude=./build --exclude=./.git -cf - . | tar -C "$copies/$worker/sources" -xf -
+  done
 }
 
-configure_copy()
+configure_copies()
 {
-  local prefix directory=()
+  local prefix directory=() worker
   prepare_vtk
   prefix=$(vtk_prefix)
   if [ -n "$prefix" ]; then
     directory=(-DVTK_DIR="$(echo "$prefix/usr/lib/$(multiarch)"/cmake/vtk-*)")
   fi
-  # Optimised a little: compiled once and run once.
-  cmake -S "$copy/sources" -B "$copy/build" -G Ninja -DCMAKE_BUILD_TYPE=None \
-    -DCMAKE_CXX_FLAGS=-O1 -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF -DVOLUMIC_BUILD_TESTING=ON \
-    -DVOLUMIC_BUILD_TOOL=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF -DVOLUMIC_WRAP_PYTHON=OFF \
-    -DPython3_EXECUTABLE="$(vtk_python)" "${directory[@]}"
+  copy_sources
+  for ((worker = 0; worker < workers; ++worker)); do
+    # Optimised a little: compiled once and run once.
+    cmake -S "$copies/$worker/sources" -B "$copies/$worker/build" -G Ninja \
+      -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF \
+      -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_TOOL=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF \
+      -DVOLUMIC_WRAP_PYTHON=OFF -DPython3_EXECUTABLE="$(vtk_python)" "${directory[@]}"
+  done
 }
 
-build_copy() { cmake --build "$copy/build" --target TestCore -j "$(job_count)"; }
+# build_copy WORKER
+build_copy() { cmake --build "$copies/$1/build" --target TestCore -j 1; }
 
-# run_tests FILTER: whether they pass; what they print goes to $copy/tests.
+build_copies()
+{
+  local worker processes=()
+  for ((worker = 0; worker < workers; ++worker)); do
+    build_copy "$worker" &
+    processes+=($!)
+  done
+  for worker in "${processes[@]}"; do
+    wait "$worker"
+  done
+}
+
+# run_tests WORKER FILTER: whether they pass; what they print goes to the file tests.
 run_tests()
 {
-  GTEST_FAIL_FAST=1 timeout "$time_limit" "$copy/build/bin/TestCore" "--gtest_filter=$1" \
-    > "$copy/tests" 2>&1 < /dev/null
+  GTEST_FAIL_FAST=1 timeout "$time_limit" "$copies/$1/build/bin/TestCore" "--gtest_filter=$2" \
+    > "$copies/$1/tests" 2>&1 < /dev/null
 }
 
-# The test that failed, or that ran when the program died.
+run_unbroken()
+{
+  run_tests 0 '*' || { cat "$copies/0/tests"; return 1; }
+}
+
+# killer WORKER: the test that failed, or that ran when the program died.
 killer()
 {
   local name
-  name=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).* ms).*/\1/p' "$copy/tests" | head -n 1)
+  name=$(sed -n 's/^\[  FAILED  \] \([^ ,]*\).* ms).*/\1/p' "$copies/$1/tests" | head -n 1)
   if [ -z "$name" ]; then
-    name="$(sed -n 's/^\[ RUN      \] //p' "$copy/tests" | tail -n 1) (crashed or too slow)"
+    name="$(sed -n 's/^\[ RUN      \] //p' "$copies/$1/tests" | tail -n 1) (crashed or too slow)"
   fi
   echo "$name"
 }
 
 # ---- Mutations ---------------------------------------------------------------------------------
 
-survivors=()
-broken=()
-
-# try_mutation INDEX: one line of the report.
+# try_mutation WORKER INDEX: one line of the report.
 try_mutation()
 {
-  local i=$1 source=$copy/sources/Filters/Core/${files[$1]} started=$SECONDS verdict
+  local worker=$1 i=$2 started=$SECONDS verdict
+  local source=$copies/$worker/sources/Filters/Core/${files[$i]}
   mutated "$i" > "$source"
-  if ! build_copy > "$logs/mutate-build.log" 2>&1 < /dev/null; then
-    verdict="DOES NOT COMPILE"
-    broken+=("${files[$i]}: ${descriptions[$i]}")
-    grep -m 1 'error:' "$logs/mutate-build.log" || true
-  elif ! run_tests "${suites[$i]}" || ! run_tests '*'; then
-    verdict="killed by $(killer)"
+  if ! build_copy "$worker" > "$copies/$worker/log" 2>&1 < /dev/null; then
+    verdict="DOES NOT COMPILE: $(grep -m 1 'error:' "$copies/$worker/log")"
+  elif ! run_tests "$worker" "${suites[$i]}" || ! run_tests "$worker" '*'; then
+    verdict="killed by $(killer "$worker")"
   else
-    verdict="SURVIVED"
-    survivors+=("${files[$i]}: ${descriptions[$i]}")
+    verdict=SURVIVED
   fi
   # Compiled together with the next mutation.
   cp "$root/Filters/Core/${files[$i]}" "$source"
   say "${files[$i]}: ${descriptions[$i]}: $verdict ($((SECONDS - started)) s)"
 }
 
-run_unbroken()
+# work WORKER: the mutations that no other worker has begun, in the order of the list.
+work()
 {
-  run_tests '*' || { cat "$copy/tests"; return 1; }
+  local i
+  for i in "${!files[@]}"; do
+    if is_selected "$i" && mkdir "$copies/begun-$i" 2> /dev/null; then
+      try_mutation "$1" "$i"
+    fi
+  done
 }
 
 read_list
@@ -193,27 +218,28 @@ check_system
 plan_steps 4
 mapfile -t needed < <(vtk_packages)
 install_packages "${tool_packages[@]}" "${test_packages[@]}" "${needed[@]}"
-copy_sources
-run_step "Configuring a copy of the sources" mutate-configure configure_copy
-run_step "Building the tests of the core" mutate-build build_copy
+copies=$(mktemp -d)
+trap remove_copies EXIT
+run_step "Configuring copies of the sources" mutate-configure configure_copies
+run_step "Building the tests of the core" mutate-build build_copies
 started=$SECONDS
 run_step "Running them on the unbroken core" mutate-tests run_unbroken
 time_limit=$((30 + 5 * (SECONDS - started)))
-tried=0
-for i in "${!files[@]}"; do
-  if is_selected "$i"; then
-    try_mutation "$i"
-    tried=$((tried + 1))
-  fi
-done
 
+processes=()
+for ((worker = 0; worker < workers; ++worker)); do
+  work "$worker" > >(tee -a "$copies/report") &
+  processes+=($!)
+done
+wait "${processes[@]}"
+
+report=$logs/mutate-report.log
+sort "$copies/report" > "$report"
+count() { grep -c "$1" "$report" || true; }
+survived=$(count ': SURVIVED (')
+broken=$(count ': DOES NOT COMPILE')
 say ""
-say "$tried mutations after $SECONDS s: $((tried - ${#survivors[@]} - ${#broken[@]})) killed," \
-  "${#survivors[@]} survived, ${#broken[@]} did not compile."
-for name in "${survivors[@]}"; do
-  say "  survived: $name"
-done
-for name in "${broken[@]}"; do
-  say "  does not compile: $name"
-done
-[ ${#survivors[@]} -eq 0 ] && [ ${#broken[@]} -eq 0 ] && [ "$tried" -gt 0 ]
+say "$(count '') mutations after $SECONDS s: $(count ': killed by ') killed, $survived survived," \
+  "$broken did not compile."
+grep -E ': SURVIVED \(|: DOES NOT COMPILE' "$report" || true
+[ "$(count ': killed by ')" -gt 0 ] && [ "$survived" -eq 0 ] && [ "$broken" -eq 0 ]

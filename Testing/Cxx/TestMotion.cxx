@@ -80,6 +80,12 @@ TEST(Motion, TheStepIsShortenedSoThatNoVertexGoesTooFar)
     EXPECT_LT(step, 0.5 * largest * stage.Options.Friction);
     EXPECT_GT(step, 0);
     EXPECT_LE(step * stage.FastestSpeed(), largest + 1e-4);
+    // By how much: as the speed at the end of the longest step asks for.
+    Stage flying = Flying(100.f);
+    flying.Options.MaximumStep = largest;
+    const double longest = largest * flying.Options.Friction / 0.5;
+    const double speed = 100. / (1 + flying.Options.Friction * longest);
+    EXPECT_NEAR(flying.Push(), largest / speed, 1e-3 * largest / speed);
   }
 }
 
