@@ -4,6 +4,7 @@
 // What has come near is merged where the image wants it, nearest first.
 #include "RemeshTestTools.h"
 #include "Remesher.h"
+#include "SurfaceEvolution.h"
 
 #include <gtest/gtest.h>
 
@@ -228,4 +229,23 @@ TEST(Merging, ClosesAFoldByAFlipWhereTheImageWantsIt)
   EXPECT_EQ(FlipsOfAFold(-1, true), 0) << "not one in the background";
   EXPECT_EQ(FlipsOfAFold(-1, false), 1) << "a ridge in the background is cut off";
   EXPECT_EQ(FlipsOfAFold(1, false), 0);
+}
+
+TEST(Merging, AnEvolutionAsksTheImage)
+{
+  // Seeds grow in two balls whose surfaces come nearer to each other than lambda delta.
+  const TestVolume volume = MakeVolume(34,
+    [](double x, double y, double z)
+    {
+      return Soft(
+        std::min(Distance(x, y, z, 8.5, 16, 16) - 7, Distance(x, y, z, 23.6, 16, 16) - 7));
+    });
+  SequentialExecutor threads;
+  Monitor silent;
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  SurfaceEvolution evolution(options, threads, silent);
+  evolution.StartSeeds(volume.Image, 0, { { 8.5, 16, 16 }, { 23.6, 16, 16 } });
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 2u);
 }

@@ -110,8 +110,7 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
   {
     radius += Distance(p[0], p[1], p[2], 14, 14, 14) / static_cast<double>(surface.Points.size());
   }
-  EXPECT_LT(radius, 7.4);
-  EXPECT_GT(radius, 6.6);
+  EXPECT_NEAR(radius, 7, 0.08);
 }
 
 TEST(SurfaceResult, HasEvenTriangles)
@@ -172,6 +171,26 @@ TEST(SurfaceStart, EnclosesTheWholeImage)
     }
     EXPECT_NEAR(angle, 4 * 3.14159265, 1e-3) << "corner " << i;
   }
+}
+
+TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
+{
+  const TestVolume fine = BallVolume(32, 10);
+  TestVolume coarse = MakeVolume(18, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 9, 9, 9) - 10. * 18 / 32); });
+  coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
+  coarse.Image.Unit = std::sqrt(3.);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.StartEnclosing(coarse.Image, 1);
+  evolution.Run();
+  const SurfaceResult before = evolution.Result();
+  evolution.Divide(fine.Image, 0);
+  const SurfaceResult after = evolution.Result();
+  // Hardly an edge has to be split besides.
+  const double share = static_cast<double>(after.Triangles.size()) /
+    static_cast<double>(before.Triangles.size());
+  EXPECT_NEAR(share, 3, 0.05);
+  EXPECT_NEAR(before.Delta / after.Delta, std::sqrt(3.), 1e-6);
 }
 
 TEST(SurfaceStart, SeedsKeepClearOfEachOther)
