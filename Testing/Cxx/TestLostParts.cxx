@@ -146,6 +146,21 @@ TEST(LostParts, LeavesPartsUnderTheMinimumSize)
   EXPECT_TRUE(none.Surface.Triangles.empty());
 }
 
+TEST(LostParts, WhatLiesAtTheSurfaceIsNotLost)
+{
+  // The surface has not quite arrived: a skin of the object is outside of it, or background inside.
+  for (const double radius : { 11.8, 14.2 })
+  {
+    const TestVolume volume = MakeVolume(48, [radius](double x, double y, double z)
+      { return Soft(Distance(x, y, z, 18, 24, 24) - radius); });
+    const Field field(volume.Image, Half(), Threads);
+    SurfaceState state;
+    Fill(state);
+    EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 1, Threads).Found, 0);
+    EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 1, Threads).Found, 0);
+  }
+}
+
 TEST(LostParts, FindsNothingWhereTheSurfaceHasAll)
 {
   const TestVolume volume = MakeVolume(48, [](double x, double y, double z)

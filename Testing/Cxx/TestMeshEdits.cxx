@@ -112,6 +112,16 @@ TEST(SurfaceMeshInvalid, RefusesATwistedSurface)
   EXPECT_THROW(mesh.Append(twisted), std::invalid_argument);
 }
 
+TEST(SurfaceMeshInvalid, RefusesASurfaceThatIsThereTwice)
+{
+  // Every fan closes and begins anew.
+  IndexedSurface twice = Icosahedron({ 0, 0, 0 }, 1);
+  const IndexedSurface once = twice;
+  twice.Triangles.insert(twice.Triangles.end(), once.Triangles.begin(), once.Triangles.end());
+  SurfaceMesh mesh;
+  EXPECT_THROW(mesh.Append(twice), std::invalid_argument);
+}
+
 TEST(SurfaceMeshInvalid, RefusesAPointWhereTwoFansTouch)
 {
   // Two icosahedra with one point in common.

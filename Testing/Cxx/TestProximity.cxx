@@ -410,6 +410,24 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   EXPECT_EQ(proximity.Pairs().size(), pairs);
 }
 
+TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
+{
+  // Edges under lambda delta whose ends look in very different directions.
+  IndexedSurface octahedron;
+  const double r = 1.2 / std::sqrt(2.);
+  octahedron.Points = { { r, 0, 0 }, { -r, 0, 0 }, { 0, r, 0 }, { 0, -r, 0 }, { 0, 0, r },
+    { 0, 0, -r } };
+  octahedron.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  SurfaceState state = MakeState(octahedron, 1);
+  state.UpdateShape(All(state), Threads);
+  ASSERT_TRUE(state.AreOpposed(0, 2));
+  Proximity proximity;
+  proximity.Examine(state, All(state), Threads);
+  EXPECT_TRUE(proximity.Pairs().empty());
+  EXPECT_EQ(state.Near[0], 1) << "though edits must be verified there";
+}
+
 TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
 {
   // A vertex pushed through the faces on the far side of its own star.

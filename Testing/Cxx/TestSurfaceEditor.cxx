@@ -102,7 +102,7 @@ TEST(SurfaceEditor, CollapseMakesNoLongEdges)
 
 TEST(SurfaceEditor, CollapseTurnsFacesLittle)
 {
-  for (const float height : { 0.15f, 0.7f })
+  for (const float height : { 0.15f, 1.1f })
   {
     Workbench bench(0.7); // Far from the longest legal edges.
     const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
@@ -115,11 +115,12 @@ TEST(SurfaceEditor, CollapseTurnsFacesLittle)
 TEST(SurfaceEditor, CollapseMakesNoSlivers)
 {
   // Nearly onto an edge of the rim.
-  Workbench bench(Fine);
+  Workbench bench(0.7);
   const Ring& ring = bench.State.Mesh.Rings[bench.V];
   const Vector rim = (bench.At(ring.Item[2]) + bench.At(ring.Item[3])) * 0.5f;
-  const Vector place = rim + (bench.At(bench.V) - rim) * 0.03f;
-  EXPECT_FALSE(bench.Editor.CollapseTo(bench.V, bench.W, place, Care::Smooth));
+  const Vector inward = bench.At(bench.V) - rim;
+  EXPECT_FALSE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.03f, Care::Smooth));
+  EXPECT_TRUE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.3f, Care::Smooth));
 }
 
 TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoreTestTools.h"
+#include "EdgeFlip.h"
 #include "Executor.h"
 #include "SurfacePolish.h"
 
@@ -157,6 +158,24 @@ TEST(SurfacePolish, StaysOnTheIsopotential)
       }
     }
     EXPECT_LT(worst[true], 0.7 * worst[false]) << "mean distance, seed " << seed;
+  }
+}
+
+TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
+{
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.7);
+  const int u = 40;
+  const int v = mesh.Rings[u].Item[0];
+  EdgeFlip::Of(mesh, u, v).Apply(mesh);
+  ASSERT_FALSE(mesh.AreNeighbours(u, v));
+  SurfaceState state = MakeState(mesh);
+  SequentialExecutor executor;
+  SurfacePolish(state, nullptr, true, executor).Run();
+  EXPECT_TRUE(state.Mesh.AreNeighbours(u, v));
+  EXPECT_EQ(state.Counts.Flips, 1);
+  for (int w = 0; w < mesh.Size(); ++w)
+  {
+    EXPECT_EQ(Length(state.Mesh.Position[w] - mesh.Position[w]), 0);
   }
 }
 
