@@ -170,6 +170,43 @@ TEST(EdgeAttraction, LeadsToTheRidgeFromBothSidesWhateverTheScale)
   }
 }
 
+TEST(EdgeAttraction, IsFullAtHalfTheTypicalSlopeOfTheEdges)
+{
+  // Slopes of 2 in a slab, flat elsewhere: flat places do not count in what is typical.
+  for (const double width : { 5., 12. })
+  {
+    TestVolume volume = MakeVolume(33, [width](double, double, double z)
+      { return 2 * std::min(std::max(z - 10, 0.), width); });
+    volume.Image.Edges = volume.Values.data();
+    const EdgeAttraction edges(volume.Image, Threads);
+    const auto at = [&edges](float cosine)
+    { return edges.Along(Vector(16, 16, 12.5f), Vector(0, std::sqrt(1 - cosine * cosine), cosine)); };
+    EXPECT_FLOAT_EQ(at(1), 1) << "bounded";
+    EXPECT_FLOAT_EQ(at(-1), -1);
+    EXPECT_NEAR(at(0.25f), 0.5, 0.08);
+  }
+}
+
+TEST(EdgeAttraction, MeasuresSlopesInTheWorkspace)
+{
+  // The same edges, in voxels of any length.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    TestVolume volume = MakeVolume(17, [axis](double x, double y, double z)
+      {
+        const double t = axis == 0 ? x : (axis == 1 ? y : z);
+        return std::min(std::max(t - 5, 0.), 6.);
+      });
+    volume.Image.Edges = volume.Values.data();
+    volume.Image.Step[axis] = 4;
+    const EdgeAttraction edges(volume.Image, Threads);
+    Vector place(8, 8, 8);
+    (axis == 0 ? place.X : (axis == 1 ? place.Y : place.Z)) = 32;
+    Vector normal(axis == 0 ? 0.25f : 0.f, axis == 1 ? 0.25f : 0.f, axis == 2 ? 0.25f : 0.f);
+    EXPECT_NEAR(edges.Along(place, normal), 0.5, 0.06) << "along axis " << axis;
+  }
+}
+
 TEST(EdgeAttraction, IsNothingWhereTheMapIsFlat)
 {
   TestVolume volume = MakeVolume(17, [](double, double, double) { return 7.; });

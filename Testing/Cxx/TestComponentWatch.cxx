@@ -172,3 +172,99 @@ TEST(ComponentWatch, DeletesSmallOnesAndKeepsCount)
   EXPECT_EQ(watch.NumberOfComponents(), 1) << "counted afresh";
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
+
+namespace
+{
+/** Whether a ball, or a cavity, of so many vertices is deleted where the field is so. */
+bool IsDeleted(double edge, double value, bool isCavity)
+{
+  SurfaceState state;
+  const IndexedSurface ball = DividedIcosahedron({ 30, 0, 0 }, 2, edge);
+  Fill(state, { Ball({ 0, 0, 0 }, 10), isCavity ? [&ball] {
+                 IndexedSurface turned = ball;
+                 for (Triangle& t : turned.Triangles)
+                 {
+                   std::swap(t[1], t[2]);
+                 }
+                 return turned;
+               }()
+                                                : ball });
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  watch.Label(state, executor);
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    state.Value[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
+  }
+  const bool deleted = watch.DeleteDoomed(state);
+  EXPECT_EQ(watch.NumberOfComponents(), deleted ? 1 : 2);
+  EXPECT_EQ(state.EulerCharacteristic, deleted ? 2 : 4);
+  EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
+  return deleted;
+}
+}
+
+TEST(ComponentWatch, DeletesTinyOnesWhollyOnTheWrongSide)
+{
+  constexpr double tiny = 3;   // 12 vertices
+  constexpr double larger = 2; // 32 vertices
+  EXPECT_TRUE(IsDeleted(tiny, -1, false)) << "an island in the background";
+  EXPECT_FALSE(IsDeleted(tiny, 1, false)) << "an island of the object";
+  EXPECT_TRUE(IsDeleted(tiny, 1, true)) << "a cavity in the object";
+  EXPECT_FALSE(IsDeleted(tiny, -1, true)) << "a cavity of the background";
+  EXPECT_FALSE(IsDeleted(larger, -1, false)) << "it may still reach the object";
+  EXPECT_FALSE(IsDeleted(larger, 1, true));
+}
+
+TEST(ComponentWatch, DeletesWhatHasHardlyAnyVertices)
+{
+  SurfaceState state;
+  IndexedSurface tetrahedron;
+  tetrahedron.Points = { { 30, 0, 0 }, { 32, 0, 0 }, { 30, 2, 0 }, { 30, 0, 2 } };
+  tetrahedron.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
+  Fill(state, { Ball({ 0, 0, 0 }, 10), tetrahedron });
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  watch.Label(state, executor);
+  EXPECT_TRUE(watch.DeleteDoomed(state));
+  EXPECT_EQ(watch.NumberOfComponents(), 1);
+}
+
+TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
+{
+  SurfaceState state;
+  const IndexedSurface large = Ball({ 0, 0, 0 }, 10);
+  Fill(state, { large, Ball({ 30, 0, 0 }, 4) });
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  watch.Label(state, executor);
+  for (const float size : { 0.2f, -0.2f })
+  {
+    for (int v = static_cast<int>(large.Points.size()); v < state.Mesh.Size(); ++v)
+    {
+      const Vector way = Normalized(state.Mesh.Position[v] - Vector(30, 0, 0));
+      state.MoveTo(v, Vector(30, 0, 0) + way * (size > 0 ? size : -0.4f));
+    }
+    EXPECT_EQ(watch.DeleteDoomed(state), size < 0) << "its volume has changed sign";
+  }
+  EXPECT_EQ(watch.NumberOfComponents(), 1);
+}
+
+TEST(ComponentWatch, LabelsComponentsOfManyBlocks)
+{
+  // Vertices are labelled in blocks side by side; these components lie across several.
+  SurfaceState state;
+  state.Mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 10, 0.3));
+  state.Mesh.Append(DividedIcosahedron({ 30, 0, 0 }, 10, 0.3));
+  ASSERT_GT(state.Mesh.Size(), 40000);
+  state.Delta = 1;
+  state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
+  SequentialExecutor executor;
+  ComponentWatch watch;
+  watch.Label(state, executor);
+  EXPECT_EQ(watch.NumberOfComponents(), 2);
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    ASSERT_EQ(state.Component[v], state.Mesh.Position[v].X < 15 ? 0 : 1);
+  }
+}

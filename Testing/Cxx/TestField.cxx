@@ -5,7 +5,11 @@
 
 #include <gtest/gtest.h>
 
+<<<<<<< HEAD
 #include <functional>
+=======
+#include <algorithm>
+>>>>>>> teeth
 #include <stdexcept>
 
 using namespace volumic;
@@ -57,12 +61,13 @@ TEST(Field, GradientInterpolatesCentralDifferences)
 
 TEST(Field, GradientIsPerLengthOfTheWorkspace)
 {
-  TestVolume volume = MakeVolume(8, [](double x, double, double z) { return x + z; });
-  volume.Image.Step = { 2., 1., 4. };
+  TestVolume volume = MakeVolume(8, [](double x, double y, double z) { return x + y + z; });
+  volume.Image.Step = { 2., 5., 4. };
   const Field field(volume.Image, WithIso(0.), Threads);
-  const Field::Sample sample = field.At(Vector(6, 3, 12));
-  EXPECT_NEAR(sample.Value, 3 + 3, 1e-5);
+  const Field::Sample sample = field.At(Vector(6, 10, 12));
+  EXPECT_NEAR(sample.Value, 3 + 2 + 3, 1e-5);
   EXPECT_NEAR(sample.Gradient.X, 0.5, 1e-5);
+  EXPECT_NEAR(sample.Gradient.Y, 0.2, 1e-5);
   EXPECT_NEAR(sample.Gradient.Z, 0.25, 1e-5);
 }
 
@@ -134,6 +139,41 @@ TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
   }
 }
 
+TEST(Field, ReplicatesOnEverySide)
+{
+  const TestVolume volume = MakeVolume(8, [](double x, double y, double z)
+    { return x + 10 * y + 100 * z; });
+  SurfaceOptions options = WithIso(0.);
+  options.BorderValue = Border::Replicate;
+  const Field field(volume.Image, options, Threads);
+  const float far[3] = { -30, 4, 30 };
+  const float near[3] = { 0, 4, 7 };
+  for (int i = 0; i < 27; ++i)
+  {
+    const int x = i % 3;
+    const int y = i / 3 % 3;
+    const int z = i / 9;
+    const float value = near[x] + 10 * near[y] + 100 * near[z];
+    EXPECT_FLOAT_EQ(field.ValueAt(Vector(far[x], far[y], far[z])), value);
+    EXPECT_FLOAT_EQ(field.At(Vector(far[x], far[y], far[z])).Value, value);
+  }
+}
+
+TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
+{
+  // The object lies as far above the iso-value as the background below it, or less, or more.
+  const TestVolume volume = MakeVolume(8, [](double x, double, double)
+    { return x < 4 ? 0. : 100.; });
+  for (const double iso : { 99., 50., 1. })
+  {
+    const Field field(volume.Image, WithIso(iso), Threads);
+    const float expected = static_cast<float>(-std::max(iso, 100 - iso));
+    EXPECT_FLOAT_EQ(field.ValueAt(Vector(4, 4, 20)), expected);
+    EXPECT_FLOAT_EQ(field.ValueAt(Vector(-1, 4, 4)), expected);
+    EXPECT_FLOAT_EQ(field.At(Vector(4, -20, 4)).Value, expected);
+  }
+}
+
 TEST(Field, KnowsHowSteepTheSurfaceIs)
 {
   const TestVolume volume = MakeVolume(16, [](double x, double, double) { return 3 * x; });
@@ -142,6 +182,7 @@ TEST(Field, KnowsHowSteepTheSurfaceIs)
   EXPECT_FLOAT_EQ(field.Highest(), 25);
 }
 
+<<<<<<< HEAD
 TEST(Field, KnowsHowSteepTheSurfaceIsAlongEveryAxis)
 {
   const std::function<double(double, double, double)> ramps[3] = {
@@ -155,6 +196,23 @@ TEST(Field, KnowsHowSteepTheSurfaceIsAlongEveryAxis)
     volume.Image.Step[axis] = 2.;
     const Field field(volume.Image, WithIso(20.), Threads);
     EXPECT_NEAR(field.TypicalSlope(), 1.5, 1e-4) << "axis " << axis;
+=======
+TEST(Field, KnowsHowSteepTheSurfaceIsWhereItLies)
+{
+  // What is steeper, or flatter, elsewhere does not count; lengths are those of the workspace.
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    TestVolume volume = MakeVolume(16, [axis](double x, double y, double)
+      {
+        const double t = axis == 0 ? x : y;
+        return t < 8 ? 5 * t : (t < 12 ? 40. : 1000 * t);
+      });
+    volume.Image.Step = { 1., 1., 1. };
+    volume.Image.Step[axis] = 2.5;
+    const Field field(volume.Image, WithIso(17.), Threads);
+    EXPECT_NEAR(field.TypicalSlope(), 2, 1e-4) << "along axis " << axis;
+    EXPECT_FLOAT_EQ(field.Lowest(), -17);
+>>>>>>> teeth
   }
 }
 

@@ -1,60 +1,33 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CoreTestTools.h"
-#include "Dynamics.h"
-#include "Executor.h"
+// What forces act on a vertex, and how strong they are: seen in the velocities after one step of rest.
+#include "DynamicsTestTools.h"
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <cmath>
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-
-struct Stage
+/** The speed of a vertex on which the force acts in a step, in delta per unit of time. */
+double SpeedUnder(double force, const SurfaceOptions& options, double step)
 {
-  TestVolume Volume;
-  SurfaceOptions Options;
-  SurfaceState State;
-  std::vector<int> All;
+  return force * step / (1 + options.Friction * step);
+}
 
-  /** A ball of radius 8 about (16, 16, 16), a sphere of the radius given about the same place. */
-  explicit Stage(double radius, float delta = 1)
-    : Volume(MakeVolume(33, [](double x, double y, double z)
-        { return 8.5 - Distance(x, y, z, 16, 16, 16); }))
-  {
-    this->Options.IsoValue = 0.5;
-    this->State.Mesh.Append(DividedIcosahedron({ 16, 16, 16 }, radius, 1.6 * delta));
-    this->State.Delta = delta;
-    this->State.Reset(Vector(0, 0, 0), Vector(33, 33, 33));
-    this->All.resize(this->State.Mesh.Size());
-    std::iota(this->All.begin(), this->All.end(), 0);
-    this->State.UpdateShape(this->All, Threads);
-  }
-
-  /** Velocities after one step of rest. */
-  void Push()
-  {
-    const Field field(this->Volume.Image, this->Options, Threads);
-    Dynamics dynamics(field, this->Options, Threads);
-    dynamics.Accelerate(this->State, this->All, {});
-    dynamics.Displace(this->State, this->All);
-  }
-
-  double MeanSpeedOutward() const
-  {
-    double sum = 0;
-    for (int v : this->All)
-    {
-      sum += Dot(this->State.Velocity[v],
-        Normalized(this->State.Before[v] - Vector(16, 16, 16)));
-    }
-    return sum / static_cast<double>(this->All.size());
-  }
-};
+/** Edges that are all `edge` long. */
+IndexedSurface Octahedron(double edge)
+{
+  const double r = edge / std::sqrt(2.);
+  IndexedSurface surface;
+  surface.Points = { { 16 + r, 16, 16 }, { 16 - r, 16, 16 }, { 16, 16 + r, 16 },
+    { 16, 16 - r, 16 }, { 16, 16, 16 + r }, { 16, 16, 16 - r } };
+  surface.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  return surface;
+}
 }
 
 TEST(Forces, IsopotentialPushesInFromOutsideAndOutFromInside)
@@ -84,30 +57,39 @@ TEST(Forces, IsopotentialVanishesOnTheIsopotential)
   EXPECT_NEAR(stage.MeanSpeedOutward(), 0, 0.03);
 }
 
-TEST(Forces, IsopotentialIsBounded)
+TEST(Forces, IsopotentialGrowsToItsBoundOverThreeQuartersOfDelta)
 {
+  // However much the image differs between object and background.
   for (const double contrast : { 1., 1e4 })
   {
-    Stage stage(12);
-    for (float& x : stage.Volume.Values)
+    for (const double way : { 0.3, -0.3, 0.6, 3. })
     {
-      x = static_cast<float>((x - 0.5) * contrast);
+      Stage stage(8 + way);
+      for (float& x : stage.Volume.Values)
+      {
+        x = static_cast<float>((x - 0.5) * contrast);
+      }
+      stage.Options.IsoValue = 0;
+      stage.Options.TensionWeight = 0;
+      stage.Options.ElasticityWeight = 0;
+      const double step = stage.Push();
+      const double force = -std::min(way / 0.75, 1.);
+      EXPECT_NEAR(stage.MeanSpeedOutward(), SpeedUnder(force, stage.Options, step), 0.02) << way;
     }
-    stage.Options.IsoValue = 0;
-    stage.Push();
-    EXPECT_GE(stage.MeanSpeedOutward(), -1. / stage.Options.Friction - 1e-3);
   }
 }
 
-TEST(Forces, NoVertexGoesFurtherThanTheLargestStep)
+TEST(Forces, IsopotentialIsSoftOnPlateaus)
 {
+  // The background lies a little under the iso-value: no reason to go at full speed.
   Stage stage(12);
-  stage.Options.IsopotentialWeight = 50;
-  stage.Push();
-  for (int v : stage.All)
-  {
-    EXPECT_LE(Length(stage.State.Mesh.Position[v] - stage.State.Before[v]), 0.5 + 1e-4);
-  }
+  stage.Volume = MakeVolume(33, [](double x, double y, double z)
+    { return Distance(x, y, z, 16, 16, 16) < 8 ? 1. : 0.49; });
+  const double step = stage.Push();
+  // Floor of the gradient: .15 times the slope of .51 (a voxel) at the boundary.
+  const double force = -0.01 / (0.15 * 0.51 * 0.75);
+  EXPECT_NEAR(
+    stage.MeanSpeedOutward(), SpeedUnder(force, stage.Options, step), 0.1 * std::abs(force));
 }
 
 TEST(Forces, InternalForcesAddUpToNothing)
@@ -118,7 +100,7 @@ TEST(Forces, InternalForcesAddUpToNothing)
   {
     stage.State.Mesh.Position[v] += Vector(0.1f * (v % 3), 0.07f * (v % 5), -0.05f * (v % 4));
   }
-  stage.State.UpdateShape(stage.All, Threads);
+  stage.UpdateShape();
   stage.Options.IsopotentialWeight = 0;
   stage.Options.TensionWeight = 1;
   stage.Options.ElasticityWeight = 1;
@@ -139,11 +121,68 @@ TEST(Forces, TensionPullsAnOutlierBack)
   Stage stage(8);
   stage.Options.IsopotentialWeight = 0;
   stage.Options.ElasticityWeight = 0;
-  const Vector outward = Normalized(stage.State.Mesh.Position[0] - Vector(16, 16, 16));
+  const Vector outward = stage.OutwardAt(0);
   stage.State.Mesh.Position[0] += outward;
-  stage.State.UpdateShape(stage.All, Threads);
+  stage.UpdateShape();
   stage.Push();
   EXPECT_LT(Dot(stage.State.Velocity[0], outward), 0);
+}
+
+TEST(Forces, TensionIsThePullToTheBarycentreLessItsReaction)
+{
+  Stage stage(Octahedron(1.6), 1);
+  stage.Options.TensionWeight = 0.2;
+  stage.State.Mesh.Position[0] += Vector(0.5f, 0, 0);
+  stage.UpdateShape();
+  const double step = stage.Push();
+  // Its four neighbours are pulled by a quarter of what it sticks out, and hand a quarter of that
+  // on to each of their own.
+  const double pull = -(1.6 / std::sqrt(2.) + 0.5);
+  const double force = 0.2 * (pull - 4 * 0.25 * (0.25 * 0.5));
+  EXPECT_NEAR(stage.State.Velocity[0].X, SpeedUnder(force, stage.Options, step), 1e-5);
+}
+
+TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
+{
+  for (const float delta : { 1.f, 2.f })
+  {
+    for (const double length : { 1.2, 1.6, 2.2 })
+    {
+      Stage stage(Octahedron(length * delta), delta);
+      stage.Options.ElasticityWeight = 0.1;
+      const double step = stage.Push();
+      // Four springs at 45 degrees to the way to the centre.
+      const double force = 0.1 * 4 * (1.6 - length) * std::sqrt(0.5);
+      EXPECT_NEAR(
+        stage.MeanSpeedOutward(), delta * SpeedUnder(force, stage.Options, step), 1e-5 * delta)
+        << "edges of " << length << " delta";
+    }
+  }
+}
+
+TEST(Forces, AreTheSameAtEveryScale)
+{
+  // The same scene twice as large, as at a coarser level: everything is twice as fast.
+  Stage fine(10);
+  Stage coarse(20, 2);
+  coarse.State.Mesh.Position = fine.State.Mesh.Position;
+  for (Stage* stage : { &fine, &coarse })
+  {
+    for (int v : stage->All)
+    {
+      Vector& p = stage->State.Mesh.Position[v];
+      p += Vector(0.1f * (v % 3), 0.07f * (v % 5), -0.05f * (v % 4));
+      p *= stage->State.Delta;
+    }
+    stage->Volume.Image.Step = { stage->State.Delta, stage->State.Delta, stage->State.Delta };
+    stage->UpdateShape();
+    stage->Push();
+  }
+  ASSERT_EQ(fine.All.size(), coarse.All.size());
+  for (int v : fine.All)
+  {
+    EXPECT_LT(Length(fine.State.Velocity[v] * 2.f - coarse.State.Velocity[v]), 1e-4);
+  }
 }
 
 TEST(Forces, GradientForceDescendsThePotential)
@@ -166,5 +205,44 @@ TEST(Forces, GradientForceDescendsThePotential)
     {
       EXPECT_LT(stage.MeanSpeedOutward(), -0.05);
     }
+  }
+}
+
+TEST(Forces, GradientForceIsBoundedAndLooksAtTheImageNotAtTheObject)
+{
+  // Up to radius 12 the potential falls outward, whatever is above or below the iso-value.
+  for (const bool bright : { true, false })
+  {
+    Stage stage(8.3);
+    stage.Volume = MakeVolume(33, [](double x, double y, double z)
+      {
+        const double r = Distance(x, y, z, 16, 16, 16);
+        return r < 12 ? 1000. - r * r * r : -728.;
+      });
+    stage.Options.ObjectIsBright = bright;
+    stage.Options.IsoValue = 300;
+    stage.Options.IsopotentialWeight = 0;
+    stage.Options.TensionWeight = 0;
+    stage.Options.ElasticityWeight = 0;
+    stage.Options.GradientWeight = 0.7;
+    const double step = stage.Push();
+    EXPECT_NEAR(stage.MeanSpeedOutward(), SpeedUnder(0.7, stage.Options, step), 0.02);
+  }
+}
+
+TEST(Forces, MapOfEdgesPullsToTheRidge)
+{
+  for (const double radius : { 7., 9. })
+  {
+    Stage stage(radius);
+    const TestVolume map = MakeVolume(33, [](double x, double y, double z)
+      {
+        const double way = Distance(x, y, z, 16, 16, 16) - 8;
+        return std::exp(-0.5 * way * way);
+      });
+    stage.Volume.Image.Edges = map.Values.data();
+    stage.Options.IsopotentialWeight = 0;
+    stage.Options.EdgeAttractionWeight = 2;
+    EXPECT_GT(stage.Push() * (8 - radius) * stage.MeanSpeedOutward(), 0.2);
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "AxisOperator.h"
 #include "LevelReduction.h"
 
 #include <gtest/gtest.h>
@@ -82,6 +83,40 @@ TEST(LevelReduction, IsTheSameBitsForAnyChunks)
     const auto found = Reduce(voxels, levels, scrambled);
     EXPECT_EQ(std::memcmp(found.data(), expected.data(), expected.size() * sizeof(expected[0])), 0)
       << "chunks of " << chunk;
+  }
+}
+
+TEST(LevelReduction, IsTheProductOfTheOperatorsAlongTheAxes)
+{
+  // Voxels of three different lengths: the offset of the kernel is U_0 = 1 along each axis, which
+  // is less than a voxel where voxels are longer.
+  const auto levels = TwoLevels({ 13, 11, 9 }, { 1, 1.3, 2.5 });
+  const auto voxels = RandomVoxels<double>(levels[0].NumberOfVoxels());
+  SequentialExecutor executor;
+  const auto found = Reduce(voxels, levels, executor);
+  const LevelSize& in = levels[0].Size;
+  const LevelSize& out = levels[1].Size;
+  const AxisOperator x(in[0], out[0], 1.);
+  const AxisOperator y(in[1], out[1], 1. / 1.3);
+  const AxisOperator z(in[2], out[2], 1. / 2.5);
+  for (std::int64_t i = 0; i < levels[1].NumberOfVoxels(); ++i)
+  {
+    const std::int64_t place[3] = { i % out[0], i / out[0] % out[1], i / out[0] / out[1] };
+    double sum = 0;
+    for (int c = 0; c < z.NumberOfTaps(); ++c)
+    {
+      for (int b = 0; b < y.NumberOfTaps(); ++b)
+      {
+        for (int a = 0; a < x.NumberOfTaps(); ++a)
+        {
+          const std::int64_t voxel = x.First(place[0]) + a +
+            in[0] * (y.First(place[1]) + b + in[1] * (z.First(place[2]) + c));
+          sum += x.Weights(place[0])[a] * y.Weights(place[1])[b] * z.Weights(place[2])[c] *
+            voxels[voxel];
+        }
+      }
+    }
+    EXPECT_NEAR(found[i], sum, 1e-10) << "voxel " << i;
   }
 }
 

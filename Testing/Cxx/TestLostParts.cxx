@@ -43,6 +43,23 @@ void Fill(SurfaceState& state)
   state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
 }
 
+/** Far enough from the surface, all of them count. */
+int VoxelsOfTheLostBall(const Field& field)
+{
+  int count = 0;
+  for (int k = 0; k < 48; ++k)
+  {
+    for (int j = 0; j < 48; ++j)
+    {
+      for (int i = 34; i < 48; ++i)
+      {
+        count += field.Voxel(i, j, k) > 0;
+      }
+    }
+  }
+  return count;
+}
+
 double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
 {
   double nearest = std::numeric_limits<double>::max();
@@ -120,10 +137,28 @@ TEST(LostParts, LeavesPartsUnderTheMinimumSize)
   Fill(state);
   // A ball of radius 4 has 257 voxels.
   EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 250, Threads).Found, 1);
+  EXPECT_EQ(FindLostParts(state, field, PartKind::Object, VoxelsOfTheLostBall(field), Threads).Found, 1);
+  EXPECT_EQ(
+    FindLostParts(state, field, PartKind::Object, VoxelsOfTheLostBall(field) + 1, Threads).Found, 0);
   const LostPartCover none = FindLostParts(state, field, PartKind::Object, 265, Threads);
   EXPECT_EQ(none.Found, 0);
   EXPECT_EQ(none.Covered, 0);
   EXPECT_TRUE(none.Surface.Triangles.empty());
+}
+
+TEST(LostParts, WhatLiesAtTheSurfaceIsNotLost)
+{
+  // The surface has not quite arrived: a skin of the object is outside of it, or background inside.
+  for (const double radius : { 11.8, 14.2 })
+  {
+    const TestVolume volume = MakeVolume(48, [radius](double x, double y, double z)
+      { return Soft(Distance(x, y, z, 18, 24, 24) - radius); });
+    const Field field(volume.Image, Half(), Threads);
+    SurfaceState state;
+    Fill(state);
+    EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 1, Threads).Found, 0);
+    EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 1, Threads).Found, 0);
+  }
 }
 
 TEST(LostParts, FindsNothingWhereTheSurfaceHasAll)

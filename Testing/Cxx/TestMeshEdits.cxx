@@ -8,7 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <initializer_list>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 using namespace volumic;
 
@@ -48,6 +52,50 @@ TEST(SurfaceMesh, KeepsItsShapeWhenRenumbered)
   EXPECT_NEAR(ComputeFeatures(mesh.ToIndexed()).Volume, volume, 1e-3);
 }
 
+TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
+{
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
+  const int other = mesh.Append(Icosahedron({ 20, 0, 0 }, 3));
+  for (const int from : { 0, 33, 100 })
+  {
+    // Edges to all others, ring by ring.
+    std::vector<int> edges(mesh.Size(), -1);
+    std::vector<int> list(1, from);
+    edges[from] = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+    {
+      const Ring& ring = mesh.Rings[list[i]];
+      for (int k = 0; k < ring.Count; ++k)
+      {
+        if (edges[ring.Item[k]] < 0)
+        {
+          edges[ring.Item[k]] = edges[list[i]] + 1;
+          list.push_back(ring.Item[k]);
+        }
+      }
+    }
+    for (int v = 0; v < mesh.Size(); ++v)
+    {
+      if (v != from)
+      {
+        EXPECT_EQ(mesh.AreStrangers(from, v), v >= other || edges[v] >= 4) << edges[v];
+      }
+    }
+  }
+}
+
+TEST(SurfaceMesh, UsesThePlacesOfRemovedVerticesAgain)
+{
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
+  const int size = mesh.Size();
+  EdgeCollapse{ 30, mesh.Rings[30].Item[0] }.Apply(mesh);
+  EXPECT_EQ(mesh.NumberOfVertices(), size - 1);
+  EdgeSplit{ 50, mesh.Rings[50].Item[0] }.Apply(mesh, Vector(0, 0, 7));
+  EXPECT_EQ(mesh.NumberOfVertices(), size);
+  EXPECT_EQ(mesh.Size(), size);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+}
+
 TEST(SurfaceMeshInvalid, RefusesAnOpenSurface)
 {
   IndexedSurface open = Icosahedron({ 0, 0, 0 }, 1);
@@ -62,6 +110,31 @@ TEST(SurfaceMeshInvalid, RefusesATwistedSurface)
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
   SurfaceMesh mesh;
   EXPECT_THROW(mesh.Append(twisted), std::invalid_argument);
+}
+
+TEST(SurfaceMeshInvalid, RefusesASurfaceThatIsThereTwice)
+{
+  // Every fan closes and begins anew.
+  IndexedSurface twice = Icosahedron({ 0, 0, 0 }, 1);
+  const IndexedSurface once = twice;
+  twice.Triangles.insert(twice.Triangles.end(), once.Triangles.begin(), once.Triangles.end());
+  SurfaceMesh mesh;
+  EXPECT_THROW(mesh.Append(twice), std::invalid_argument);
+}
+
+TEST(SurfaceMeshInvalid, RefusesAPointWhereTwoFansTouch)
+{
+  // Two icosahedra with one point in common.
+  IndexedSurface pinched = Icosahedron({ 0, 0, 0 }, 1);
+  const IndexedSurface other = Icosahedron({ 5, 0, 0 }, 1);
+  pinched.Points.insert(pinched.Points.end(), other.Points.begin() + 1, other.Points.end());
+  for (const Triangle& t : other.Triangles)
+  {
+    const auto moved = [](int v) { return v == 0 ? 9 : v + 11; };
+    pinched.Triangles.push_back({ moved(t[0]), moved(t[1]), moved(t[2]) });
+  }
+  SurfaceMesh mesh;
+  EXPECT_THROW(mesh.Append(pinched), std::invalid_argument);
 }
 
 TEST(EdgeFlip, JoinsTheOppositeVertices)
@@ -93,6 +166,53 @@ TEST(EdgeFlip, IsIllegalOnATetrahedron)
 {
   const SurfaceMesh mesh = Tetrahedron();
   EXPECT_FALSE(EdgeFlip::Of(mesh, 0, 1).IsLegal(mesh));
+}
+
+namespace
+{
+/** A double cone: `sides` neighbours at either tip, 0 and 1; the rest in order about them. */
+SurfaceMesh DoubleCone(int sides)
+{
+  IndexedSurface cone;
+  cone.Points = { { 0, 0, 2 }, { 0, 0, -2 } };
+  for (int i = 0; i < sides; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / sides;
+    cone.Points.push_back({ 3 * std::cos(a), 3 * std::sin(a), 0 });
+  }
+  for (int i = 0; i < sides; ++i)
+  {
+    cone.Triangles.push_back({ 0, 2 + i, 2 + (i + 1) % sides });
+    cone.Triangles.push_back({ 1, 2 + (i + 1) % sides, 2 + i });
+  }
+  SurfaceMesh mesh;
+  mesh.Append(cone);
+  return mesh;
+}
+}
+
+TEST(EdgeFlip, IsIllegalWhereARingIsFull)
+{
+  // A flip of an edge of the belt would join the tips. Seen from either side.
+  for (const int u : { 4, 5 })
+  {
+    EXPECT_TRUE(EdgeFlip::Of(DoubleCone(14), u, 9 - u).IsLegal(DoubleCone(14)));
+    EXPECT_FALSE(EdgeFlip::Of(DoubleCone(15), u, 9 - u).IsLegal(DoubleCone(15)));
+  }
+  // One full ring is enough.
+  SurfaceMesh mesh = DoubleCone(15);
+  mesh.Rings[1].Count = 14;
+  EXPECT_FALSE(EdgeFlip::Of(mesh, 4, 5).IsLegal(mesh));
+  EXPECT_FALSE(EdgeFlip::Of(mesh, 5, 4).IsLegal(mesh));
+}
+
+TEST(EdgeSplit, IsIllegalWhereARingIsFull)
+{
+  EXPECT_TRUE((EdgeSplit{ 4, 5 }).IsLegal(DoubleCone(14)));
+  SurfaceMesh mesh = DoubleCone(15);
+  mesh.Rings[1].Count = 14;
+  EXPECT_FALSE((EdgeSplit{ 4, 5 }).IsLegal(mesh));
+  EXPECT_FALSE((EdgeSplit{ 5, 4 }).IsLegal(mesh));
 }
 
 TEST(EdgeSplit, AddsAVertexOfValenceFourAndKeepsTheSurface)
@@ -142,6 +262,46 @@ TEST(EdgeCollapse, IsBlockedByAThirdCommonNeighbour)
   const EdgeCollapse collapse{ 0, 1 };
   EXPECT_EQ(collapse.ThirdCommonNeighbour(mesh), 2);
   EXPECT_FALSE(collapse.IsLegal(mesh));
+}
+
+TEST(EdgeCollapse, NamesTheShortestOfSeveralCyclesOfThree)
+{
+  // Flat rings of three about an edge: a third common neighbour far off, and one near.
+  for (const bool nearFirst : { true, false })
+  {
+    SurfaceMesh mesh;
+    mesh.Position = { Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, -1, 0),
+      nearFirst ? Vector(0.5f, 0, 2) : Vector(0.5f, 0, 5),
+      nearFirst ? Vector(0.5f, 0, 5) : Vector(0.5f, 0, 2) };
+    mesh.Rings.resize(6);
+    const auto fill = [&mesh](int v, std::initializer_list<int> neighbours)
+    {
+      for (int w : neighbours)
+      {
+        mesh.Rings[v].Item[mesh.Rings[v].Count++] = w;
+      }
+    };
+    fill(0, { 1, 2, 4, 5, 3 });
+    fill(1, { 0, 3, 5, 4, 2 });
+    EXPECT_EQ((EdgeCollapse{ 0, 1 }).ThirdCommonNeighbour(mesh), nearFirst ? 4 : 5);
+  }
+}
+
+TEST(EdgeCollapse, NeverLeavesTwoNeighboursToAVertex)
+{
+  // The vertex opposite to the edge has three.
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
+  const int u = 3;
+  const int v = mesh.Rings[u].Item[1];
+  const int m = EdgeSplit{ u, v }.Apply(mesh, Vector(0, 0, 0));
+  EdgeFlip::Of(mesh, m, u).Apply(mesh);
+  ASSERT_EQ(mesh.Rings[m].Count, 3);
+  const Ring ring = mesh.Rings[m];
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_FALSE((EdgeCollapse{ ring.Item[i], ring.Next(i) }).IsLegal(mesh));
+    EXPECT_FALSE((EdgeCollapse{ ring.Next(i), ring.Item[i] }).IsLegal(mesh));
+  }
 }
 
 TEST(VertexRemoval, TakesWhatWasSetIntoAFace)

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -93,6 +95,33 @@ TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
   EXPECT_FALSE(TrianglesMeet(line, behind, 1e-4));
 }
 
+TEST(TriangleTests, FindsACrossingWhicheverHasTheEdge)
+{
+  // The second pierces the first with an edge; seen from the second, no edge of its own is met.
+  const NamedTriangle large = Named(0, { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 });
+  const NamedTriangle small = Named(3, { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 1 });
+  EXPECT_TRUE(TrianglesMeet(large, small, 1e-9));
+  EXPECT_TRUE(TrianglesMeet(small, large, 1e-9));
+}
+
+TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
+{
+  // However the plane lies: the flat test leaves one coordinate out.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto turned = [axis](double a, double b)
+    {
+      return axis == 0 ? VectorD(0, a, b) : (axis == 1 ? VectorD(b, 0, a) : VectorD(a, b, 0));
+    };
+    const NamedTriangle large = Named(0, turned(-9, -9), turned(9, -9), turned(0, 9));
+    const NamedTriangle small = Named(3, turned(0, 0), turned(1, 0), turned(0, 1));
+    EXPECT_TRUE(TrianglesMeet(large, small, 1e-9)) << axis;
+    EXPECT_TRUE(TrianglesMeet(small, large, 1e-9)) << axis;
+    const NamedTriangle beside = Named(3, turned(8, 8), turned(9, 8), turned(8, 9));
+    EXPECT_FALSE(TrianglesMeet(large, beside, 1e-9)) << axis;
+  }
+}
+
 TEST(TriangleTests, AllowsSharedCornersAndEdgesOnly)
 {
   const NamedTriangle f = { { 0, 1, 2 }, { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 } } };
@@ -131,6 +160,34 @@ TEST(VertexGrid, FindsAllWithinTheRadius)
       }
     }
   }
+}
+
+TEST(VertexGrid, FindsVerticesWhereTheyHaveMovedTo)
+{
+  VertexGrid grid;
+  grid.Reset(Vector(0, 0, 0), Vector(20, 20, 20), 1.f);
+  grid.Insert(0, Vector(3, 3, 3));
+  grid.Insert(1, Vector(3, 3, 3));
+  grid.Move(0, Vector(15, 4, 9));
+  const auto within = [&grid](const Vector& place)
+  {
+    std::set<int> found;
+    grid.Visit(place, 0.5f, [&](int w) { found.insert(w); });
+    return found;
+  };
+  EXPECT_EQ(within(Vector(15, 4, 9)), std::set<int>{ 0 });
+  EXPECT_EQ(within(Vector(3, 3, 3)), std::set<int>{ 1 });
+}
+
+TEST(VertexGrid, CostsNoMemoryWithoutLimit)
+{
+  // 10^12 cells, if they were as asked for.
+  VertexGrid grid;
+  grid.Reset(Vector(0, 0, 0), Vector(1e4f, 1e4f, 1e4f), 1.f);
+  grid.Insert(0, Vector(9e3f, 1, 1));
+  int found = 0;
+  grid.Visit(Vector(9e3f, 1, 1), 1.f, [&](int) { ++found; });
+  EXPECT_EQ(found, 1);
 }
 
 TEST(Proximity, FindsNothingOnASmoothSphere)
@@ -216,4 +273,185 @@ TEST(NewFacesMeet, SeesWhatIsThereButNotWhatGoes)
     1000, VectorD(p) * 1.1 + side, VectorD(p) * 0.9 + side, VectorD(p) * 0.9 + side * 2.) };
   EXPECT_TRUE(NewFacesMeet(state, through, GoneFaces()));
   EXPECT_FALSE(NewFacesMeet(state, through, { { 9 }, 1, false }));
+}
+
+TEST(NewFacesMeet, SeesNewFacesThatMeetEachOther)
+{
+  SurfaceState state = MakeState(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
+  state.UpdateShape(All(state), Threads);
+  const NamedTriangle flat = Named(1000, { 10, 0, 0 }, { 12, 0, 0 }, { 10, 2, 0 });
+  const NamedTriangle across = Named(2000, { 10.5, 0.5, -1 }, { 10.5, 0.5, 1 }, { 11, 0.5, 1 });
+  const NamedTriangle beside = Named(2000, { 10.5, 0.5, 1 }, { 10.5, 0.5, 2 }, { 11, 0.5, 2 });
+  EXPECT_TRUE(NewFacesMeet(state, { flat, across }, GoneFaces()));
+  EXPECT_FALSE(NewFacesMeet(state, { flat, beside }, GoneFaces()));
+}
+
+TEST(NewFacesMeet, SeesTheMiddleOfTheLargestLegalTriangle)
+{
+  // All its corners are lambda delta away from where a needle passes through it.
+  IndexedSurface surface;
+  const double lambda = constraint::NearestOthers;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / 3;
+    surface.Points.push_back({ lambda * std::cos(a), lambda * std::sin(a), 0 });
+  }
+  surface.Points.push_back({ 0, 0, -2 });
+  surface.Triangles = { { 0, 1, 2 }, { 0, 3, 1 }, { 1, 3, 2 }, { 2, 3, 0 } };
+  const SurfaceState state = MakeState(surface, 1);
+  const std::vector<NamedTriangle> needle = { Named(
+    1000, { 0, 0, 0.3 }, { 0, 0, -0.3 }, { 0.02, 0.02, 0.3 }) };
+  EXPECT_TRUE(NewFacesMeet(state, needle, GoneFaces()));
+  const std::vector<NamedTriangle> above = { Named(
+    1000, { 0, 0, 0.3 }, { 0, 0, 0.1 }, { 0.02, 0.02, 0.3 }) };
+  EXPECT_FALSE(NewFacesMeet(state, above, GoneFaces()));
+}
+
+TEST(NewFacesMeet, OfAnEdgeTakesAwayTheTwoFacesOnly)
+{
+  GoneFaces edge{ { 4, 5 }, 2, true };
+  EXPECT_TRUE(edge.Contains({ 4, 5, 6 }));
+  EXPECT_TRUE(edge.Contains({ 5, 9, 4 }));
+  EXPECT_FALSE(edge.Contains({ 4, 6, 7 }));
+  GoneFaces stars{ { 4, 5 }, 2, false };
+  EXPECT_TRUE(stars.Contains({ 4, 6, 7 }));
+  EXPECT_FALSE(stars.Contains({ 8, 6, 7 }));
+}
+
+TEST(Proximity, ToldRoomIsThere)
+{
+  // However two balls lie: while neither has moved by half of its slack they do not meet.
+  for (double distance = 12.2; distance < 13.6; distance += 0.1)
+  {
+    IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
+    const int second = static_cast<int>(surface.Points.size());
+    Add(surface, DividedIcosahedron({ distance, 0.3, 0.2 }, 6, 1.7));
+    SurfaceState state = MakeState(surface, 1);
+    const std::vector<int> all = All(state);
+    state.UpdateShape(all, Threads);
+    Proximity proximity;
+    proximity.Examine(state, all, Threads);
+    if (!proximity.Meetings().empty())
+    {
+      continue;
+    }
+    // The stars that have least room come nearer to each other by all but what they are told.
+    for (int v = 0; v < second; ++v)
+    {
+      for (int w = second; w < state.Mesh.Size(); ++w)
+      {
+        const float room = std::min(state.Slack[v], state.Slack[w]);
+        if (SquaredDistance(state.Mesh.Position[v], state.Mesh.Position[w]) > 4 || room <= 0)
+        {
+          continue;
+        }
+        IndexedSurface moved;
+        const auto addStar = [&](int centre, double way)
+        {
+          const Ring& ring = state.Mesh.Rings[centre];
+          for (int i = 0; i < ring.Count; ++i)
+          {
+            const int n = static_cast<int>(moved.Points.size());
+            for (int x : { centre, ring.Item[i], ring.Next(i) })
+            {
+              const Vector& p = state.Mesh.Position[x];
+              moved.Points.push_back({ p.X + way, p.Y, p.Z });
+            }
+            moved.Triangles.push_back({ n, n + 1, n + 2 });
+          }
+        };
+        addStar(v, 0.499 * room);
+        const std::size_t first = moved.Triangles.size();
+        addStar(w, -0.499 * room);
+        for (std::size_t i = 0; i < first; ++i)
+        {
+          for (std::size_t j = first; j < moved.Triangles.size(); ++j)
+          {
+            const auto named = [&moved](std::size_t t)
+            {
+              NamedTriangle triangle;
+              for (int k = 0; k < 3; ++k)
+              {
+                const Point& p = moved.Points[moved.Triangles[t][k]];
+                triangle.Name[k] = moved.Triangles[t][k];
+                triangle.Corner[k] = VectorD(p[0], p[1], p[2]);
+              }
+              return triangle;
+            };
+            ASSERT_FALSE(TrianglesMeet(named(i), named(j), 1e-9)) << "at distance " << distance;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
+{
+  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
+  const int second = static_cast<int>(surface.Points.size());
+  Add(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
+  SurfaceState state = MakeState(surface, 1);
+  const std::vector<int> all = All(state);
+  state.UpdateShape(all, Threads);
+  Proximity proximity;
+  proximity.Examine(state, all, Threads);
+  const std::size_t pairs = proximity.Pairs().size();
+  ASSERT_GT(pairs, 3u);
+  for (const Proximity::ClosePair& pair : proximity.Pairs())
+  {
+    EXPECT_EQ(state.Near[pair.V], 1);
+    EXPECT_EQ(state.Near[pair.W], 1);
+    EXPECT_NE(pair.V < second, pair.W < second) << "never neighbours along the surface";
+  }
+  proximity.Examine(state, { 0 }, Threads);
+  EXPECT_EQ(proximity.Pairs().size(), pairs);
+  proximity.Examine(state, all, Threads);
+  EXPECT_EQ(proximity.Pairs().size(), pairs);
+}
+
+TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
+{
+  // Edges under lambda delta whose ends look in very different directions.
+  IndexedSurface octahedron;
+  const double r = 1.2 / std::sqrt(2.);
+  octahedron.Points = { { r, 0, 0 }, { -r, 0, 0 }, { 0, r, 0 }, { 0, -r, 0 }, { 0, 0, r },
+    { 0, 0, -r } };
+  octahedron.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  SurfaceState state = MakeState(octahedron, 1);
+  state.UpdateShape(All(state), Threads);
+  ASSERT_TRUE(state.AreOpposed(0, 2));
+  Proximity proximity;
+  proximity.Examine(state, All(state), Threads);
+  EXPECT_TRUE(proximity.Pairs().empty());
+  EXPECT_EQ(state.Near[0], 1) << "though edits must be verified there";
+}
+
+TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
+{
+  // A vertex pushed through the faces on the far side of its own star.
+  SurfaceState state = MakeState(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
+  const std::vector<int> all = All(state);
+  const int v = 40;
+  const Ring& ring = state.Mesh.Rings[v];
+  const Vector p = state.Mesh.Position[v];
+  // The neighbour is laid over the centre and beyond the opposite edge of the star.
+  const Vector q = state.Mesh.Position[ring.Item[0]];
+  state.MoveTo(ring.Item[0], p + (p - q) * 0.6f + Normalized(p) * 0.05f);
+  state.UpdateShape(all, Threads);
+  ASSERT_GT(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0);
+  Proximity proximity;
+  proximity.Examine(state, all, Threads);
+  EXPECT_FALSE(proximity.Meetings().empty());
+  for (const Proximity::Meeting& meeting : proximity.Meetings())
+  {
+    for (const std::array<int, 3>& face : { meeting.First, meeting.Second })
+    {
+      for (int corner : face)
+      {
+        EXPECT_EQ(state.Slack[corner], 0) << "no room";
+      }
+    }
+  }
 }

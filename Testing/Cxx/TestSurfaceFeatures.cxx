@@ -75,3 +75,46 @@ TEST(SurfaceFeatures, CountsHandles)
   const double exact = 2 * 3.14159265 * 3.14159265 * 5 * 4;
   EXPECT_NEAR(features.Volume, exact, 0.02 * exact);
 }
+
+TEST(SurfaceFeatures, InertiaIsThatAboutTheCentroidInAnyPosition)
+{
+  // A tetrahedron of three perpendicular legs, far from the origin: the moments of a simplex are
+  // known, also those off the diagonal.
+  const double leg[3] = { 2, 3, 5 };
+  const Point at = { 100, -50, 7 };
+  IndexedSurface surface;
+  surface.Points = { at, { at[0] + leg[0], at[1], at[2] }, { at[0], at[1] + leg[1], at[2] },
+    { at[0], at[1], at[2] + leg[2] } };
+  surface.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
+  const ComponentFeatures found = ComputeFeatures(surface).Components.at(0);
+  const double volume = leg[0] * leg[1] * leg[2] / 6;
+  EXPECT_NEAR(found.Volume, volume, 1e-9);
+  double about[3][3]; // Covariances times the volume.
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(found.Centroid[i], at[i] + leg[i] / 4, 1e-9);
+    for (int j = 0; j < 3; ++j)
+    {
+      about[i][j] = volume * leg[i] * leg[j] * ((i == j ? 1. / 10 : 1. / 20) - 1. / 16);
+    }
+  }
+  EXPECT_NEAR(found.Inertia[0], about[1][1] + about[2][2], 1e-8);
+  EXPECT_NEAR(found.Inertia[1], about[0][0] + about[2][2], 1e-8);
+  EXPECT_NEAR(found.Inertia[2], about[0][0] + about[1][1], 1e-8);
+  // xy, yz, xz with the sign of the tensor.
+  EXPECT_NEAR(found.Inertia[3], -about[0][1], 1e-8);
+  EXPECT_NEAR(found.Inertia[4], -about[1][2], 1e-8);
+  EXPECT_NEAR(found.Inertia[5], -about[0][2], 1e-8);
+}
+
+TEST(SurfaceFeatures, TheCentroidOfWhatEnclosesNothingIsThatOfItsArea)
+{
+  IndexedSurface pillow; // Two squares back to back.
+  pillow.Points = { { 10, 0, 0 }, { 12, 0, 0 }, { 12, 2, 0 }, { 10, 2, 0 } };
+  pillow.Triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 2, 1 }, { 0, 3, 2 } };
+  const ComponentFeatures found = ComputeFeatures(pillow).Components.at(0);
+  EXPECT_NEAR(found.Volume, 0, 1e-12);
+  EXPECT_NEAR(found.Area, 8, 1e-12);
+  EXPECT_NEAR(found.Centroid[0], 11, 1e-12);
+  EXPECT_NEAR(found.Centroid[1], 1, 1e-12);
+}

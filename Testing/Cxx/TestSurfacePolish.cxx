@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoreTestTools.h"
+#include "EdgeFlip.h"
 #include "Executor.h"
 #include "SurfacePolish.h"
 
@@ -145,4 +146,70 @@ TEST(SurfacePolish, PushesStrangersApart)
   EXPECT_GT(nearest(), 1.42); // lambda = 1.443
   EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), 4);
+}
+
+TEST(SurfacePolish, StaysOnTheIsopotential)
+{
+  for (unsigned seed = 1; seed <= 3; ++seed)
+  {
+    const TestVolume volume = MakeVolume(33, [](double x, double y, double z)
+      { return 8 - Distance(x, y, z, 16, 16, 16); });
+    SequentialExecutor executor;
+    const Field field(volume.Image, SurfaceOptions(), executor);
+    double worst[2] = { 0, 0 };
+    for (const bool snap : { false, true })
+    {
+      SurfaceMesh mesh = ShakenSphere(seed);
+      for (Vector& p : mesh.Position)
+      {
+        p += Vector(16, 16, 16);
+      }
+      SurfaceState state;
+      state.Mesh = mesh;
+      state.Delta = 1;
+      state.Reset(Vector(0, 0, 0), Vector(33, 33, 33));
+      std::vector<int> all(mesh.Size());
+      std::iota(all.begin(), all.end(), 0);
+      state.UpdateShape(all, executor);
+      SurfacePolish(state, snap ? &field : nullptr, false, executor).Run();
+      EXPECT_EQ(ShapeOf(state).EdgesOutside, 0);
+      for (int v = 0; v < state.Mesh.Size(); ++v)
+      {
+        if (state.Mesh.IsAlive(v))
+        {
+          worst[snap] += std::abs(field.ValueAt(state.Mesh.Position[v])) / state.Mesh.Size();
+        }
+      }
+    }
+    EXPECT_LT(worst[true], 0.7 * worst[false]) << "mean distance, seed " << seed;
+  }
+}
+
+TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
+{
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.7);
+  const int u = 40;
+  const int v = mesh.Rings[u].Item[0];
+  EdgeFlip::Of(mesh, u, v).Apply(mesh);
+  ASSERT_FALSE(mesh.AreNeighbours(u, v));
+  SurfaceState state = MakeState(mesh);
+  SequentialExecutor executor;
+  SurfacePolish(state, nullptr, true, executor).Run();
+  EXPECT_TRUE(state.Mesh.AreNeighbours(u, v));
+  EXPECT_EQ(state.Counts.Flips, 1);
+  for (int w = 0; w < mesh.Size(); ++w)
+  {
+    EXPECT_EQ(Length(state.Mesh.Position[w] - mesh.Position[w]), 0);
+  }
+}
+
+TEST(SurfacePolish, LeavesAnEvenMeshAsItIs)
+{
+  SurfaceState state = MakeState(MakeSphere({ 0, 0, 0 }, 8, 1.7));
+  ASSERT_EQ(ShapeOf(state).EdgesOutside, 0);
+  ASSERT_GT(ShapeOf(state).WorstRatio, 0.82);
+  const std::vector<Vector> before = state.Mesh.Position;
+  SequentialExecutor executor;
+  SurfacePolish(state, nullptr, true, executor).Run();
+  EXPECT_TRUE(state.Touched.empty());
 }

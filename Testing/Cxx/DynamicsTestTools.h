@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicDynamicsTestTools_h
+#define volumicDynamicsTestTools_h
+
+#include "CoreTestTools.h"
+#include "Dynamics.h"
+#include "Executor.h"
+#include "Proximity.h"
+#include "SurfaceState.h"
+
+#include <numeric>
+#include <vector>
+
+namespace volumic
+{
+/** A surface in an image, ready for forces to act on it. */
+struct Stage
+{
+  TestVolume Volume;
+  SurfaceOptions Options;
+  SurfaceState State;
+  std::vector<int> All;
+  SequentialExecutor Threads;
+
+  /** A surface in an image that the test fills in later, or that does not matter: no forces. */
+  Stage(const IndexedSurface& surface, float delta)
+    : Volume(MakeVolume(33, [](double, double, double) { return 0.; }))
+  {
+    this->Options.IsopotentialWeight = 0;
+    this->Options.TensionWeight = 0;
+    this->Options.ElasticityWeight = 0;
+    this->State.Mesh.Append(surface);
+    this->State.Delta = delta;
+    this->State.Reset(Vector(-40, -40, -40), Vector(80, 80, 80));
+    this->All.resize(this->State.Mesh.Size());
+    std::iota(this->All.begin(), this->All.end(), 0);
+    this->UpdateShape();
+  }
+
+  /**
+   * A ball of radius 8 about (16, 16, 16), a sphere of the radius given about the same place; all
+   * forces at their defaults.
+   */
+  explicit Stage(double radius, float delta = 1)
+    : Stage(DividedIcosahedron({ 16, 16, 16 }, radius, 1.6 * delta), delta)
+  {
+    this->Volume = MakeVolume(33, [](double x, double y, double z)
+      { return 8.5 - Distance(x, y, z, 16, 16, 16); });
+    this->Options = SurfaceOptions();
+    this->Options.IsoValue = 0.5;
+  }
+
+  void UpdateShape() { this->State.UpdateShape(this->All, this->Threads); }
+
+  /** A step of the evolution: velocities and displacements. */
+  double Push(const std::vector<Proximity::ClosePair>& pairs = {})
+  {
+    const Field field(this->Volume.Image, this->Options, this->Threads);
+    Dynamics dynamics(field, this->Options, this->Threads);
+    dynamics.Accelerate(this->State, this->All, pairs);
+    dynamics.Displace(this->State, this->All);
+    return dynamics.TimeStep();
+  }
+
+  /** A pass of smoothing: velocities only. */
+  void Relax(bool snap, const std::vector<Proximity::ClosePair>& pairs = {})
+  {
+    const Field field(this->Volume.Image, this->Options, this->Threads);
+    Dynamics dynamics(field, this->Options, this->Threads);
+    dynamics.Relax(this->State, this->All, pairs, snap);
+  }
+
+  Vector OutwardAt(int v) const
+  {
+    return Normalized(this->State.Mesh.Position[v] - Vector(16, 16, 16));
+  }
+
+  /** Mean over the vertices of what they do along the radius from (16, 16, 16). */
+  double MeanSpeedOutward() const
+  {
+    double sum = 0;
+    for (int v : this->All)
+    {
+      sum += Dot(this->State.Velocity[v], this->OutwardAt(v));
+    }
+    return sum / static_cast<double>(this->All.size());
+  }
+
+  double FastestSpeed() const
+  {
+    double fastest = 0;
+    for (int v : this->All)
+    {
+      fastest = std::max(fastest, static_cast<double>(Length(this->State.Velocity[v])));
+    }
+    return fastest;
+  }
+};
+}
+
+#endif

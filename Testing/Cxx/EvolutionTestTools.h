@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicEvolutionTestTools_h
+#define volumicEvolutionTestTools_h
+
+#include "CoreTestTools.h"
+#include "SurfaceEvolution.h"
+
+#include <functional>
+#include <vector>
+
+namespace volumic
+{
+/** A ball in the middle of a cube of n voxels; the iso-value is .5. */
+inline TestVolume BallVolume(int n, double radius)
+{
+  return MakeVolume(n, [n, radius](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - radius); });
+}
+
+inline SurfaceOptions IsoHalf()
+{
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  return options;
+}
+
+/** Calls back after every iteration. */
+class Observer final : public Monitor
+{
+public:
+  explicit Observer(std::function<void(const Status&)> look)
+    : Look(std::move(look))
+  {
+  }
+  bool Continue(const Status& status) override
+  {
+    this->Look(status);
+    return true;
+  }
+
+private:
+  std::function<void(const Status&)> Look;
+};
+
+/** Lengths of all edges, each twice. */
+inline std::vector<double> EdgeLengths(const IndexedSurface& surface)
+{
+  std::vector<double> lengths;
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& a = surface.Points[t[k]];
+      const Point& b = surface.Points[t[(k + 1) % 3]];
+      lengths.push_back(Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
+    }
+  }
+  return lengths;
+}
+}
+
+#endif

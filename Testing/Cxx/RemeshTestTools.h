@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRemeshTestTools_h
+#define volumicRemeshTestTools_h
+
+#include "CoreTestTools.h"
+#include "Executor.h"
+#include "Field.h"
+#include "SurfaceOptions.h"
+#include "SurfaceState.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+inline void AddSurface(IndexedSurface& to, const IndexedSurface& more)
+{
+  const int first = static_cast<int>(to.Points.size());
+  to.Points.insert(to.Points.end(), more.Points.begin(), more.Points.end());
+  for (const Triangle& t : more.Triangles)
+  {
+    to.Triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
+  }
+}
+
+inline IndexedSurface InsideOut(IndexedSurface surface)
+{
+  for (Triangle& t : surface.Triangles)
+  {
+    std::swap(t[1], t[2]);
+  }
+  return surface;
+}
+
+/** A live surface without neighbourhood in an evolution; delta is 1. */
+struct Bench
+{
+  SurfaceState State;
+  SequentialExecutor Threads;
+
+  explicit Bench(const IndexedSurface& surface)
+  {
+    this->State.Mesh.Append(surface);
+    this->State.Delta = 1;
+    this->State.Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
+    this->UpdateShape();
+  }
+
+  std::vector<int> All() const
+  {
+    std::vector<int> all;
+    for (int v = 0; v < this->State.Mesh.Size(); ++v)
+    {
+      if (this->State.Mesh.IsAlive(v))
+      {
+        all.push_back(v);
+      }
+    }
+    return all;
+  }
+
+  void UpdateShape() { this->State.UpdateShape(this->All(), this->Threads); }
+
+  void MoveTo(int v, const Vector& place)
+  {
+    this->State.MoveTo(v, place);
+    this->UpdateShape();
+  }
+
+  /** Lengths of all edges, twice each. */
+  std::vector<float> Edges() const
+  {
+    std::vector<float> edges;
+    const SurfaceMesh& mesh = this->State.Mesh;
+    for (int v : this->All())
+    {
+      for (int i = 0; i < mesh.Rings[v].Count; ++i)
+      {
+        edges.push_back(Length(mesh.Position[mesh.Rings[v].Item[i]] - mesh.Position[v]));
+      }
+    }
+    return edges;
+  }
+  float Longest() const
+  {
+    const std::vector<float> edges = this->Edges();
+    return *std::max_element(edges.begin(), edges.end());
+  }
+  float Shortest() const
+  {
+    const std::vector<float> edges = this->Edges();
+    return *std::min_element(edges.begin(), edges.end());
+  }
+
+  /** Of the vertices [from, to). */
+  int Nearest(const Vector& place, int from, int to) const
+  {
+    const std::vector<Vector>& position = this->State.Mesh.Position;
+    int best = from;
+    for (int v = from; v < to; ++v)
+    {
+      if (SquaredDistance(position[v], place) < SquaredDistance(position[best], place))
+      {
+        best = v;
+      }
+    }
+    return best;
+  }
+
+  /** What must hold after any edits. */
+  bool IsSound() const
+  {
+    return DescribeBrokenInvariant(this->State.Mesh).empty() &&
+      CountSelfIntersections(this->State.Mesh.ToIndexed(), 1) == 0 &&
+      this->State.Mesh.CountEulerCharacteristic() == this->State.EulerCharacteristic;
+  }
+};
+}
+
+#endif

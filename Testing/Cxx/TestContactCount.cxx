@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Which pairs count as contacts that remain, and which vertices as held by them.
+#include "RemainingContacts.h"
+#include "RemeshTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace volumic;
+
+namespace
+{
+/** Two balls of radius 4 about (16, 16, 16), whose nearest vertices are a gap apart, along x. */
+struct TwoBalls : Bench
+{
+  explicit TwoBalls(double gap)
+    : Bench(Surface(gap))
+    , Second(this->State.Mesh.Size() / 2)
+  {
+  }
+
+  static IndexedSurface Surface(double gap)
+  {
+    // Mirror images of each other: the first vertices face each other.
+    IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, 4, 1.6);
+    const auto right = std::max_element(ball.Points.begin(), ball.Points.end(),
+      [](const Point& a, const Point& b) { return a[0] < b[0]; });
+    const double end = (*right)[0];
+    for (Point& p : ball.Points)
+    {
+      p = { p[0] - end - gap / 2 + 16, p[1] + 16, p[2] + 16 };
+    }
+    IndexedSurface mirrored = InsideOut(ball);
+    for (Point& p : mirrored.Points)
+    {
+      p[0] = 32 - p[0];
+    }
+    AddSurface(ball, mirrored);
+    return ball;
+  }
+
+  RemainingContacts Find(double value)
+  {
+    const TestVolume volume = MakeVolume(33, [value](double x, double, double)
+      { return value + (x < 3 ? 1. : 0.); }); // With a slope of 1 somewhere.
+    const Field field(volume.Image, SurfaceOptions(), this->Threads);
+    return FindRemainingContacts(this->State, field, this->Threads);
+  }
+
+  int Second; ///< First vertex of the second ball.
+};
+}
+
+TEST(ContactCount, ArePairsNearerThanLambdaDeltaAndFarAlongTheSurface)
+{
+  for (const double gap : { 1.0, 1.3, 1.5 })
+  {
+    TwoBalls balls(gap);
+    const RemainingContacts found = balls.Find(-0.5);
+    std::vector<std::array<int, 2>> expected;
+    const SurfaceMesh& mesh = balls.State.Mesh;
+    for (int v = 0; v < mesh.Size(); ++v)
+    {
+      for (int w = v + 1; w < mesh.Size(); ++w)
+      {
+        const bool strangers = mesh.AreStrangers(v, w);
+        if (strangers && SquaredDistance(mesh.Position[v], mesh.Position[w]) < 1.44337f * 1.44337f)
+        {
+          expected.push_back({ v, w });
+        }
+      }
+    }
+    EXPECT_EQ(found.Pairs, expected) << gap;
+    EXPECT_EQ(found.Pairs.empty(), gap > 1.45);
+  }
+}
+
+TEST(ContactCount, AVertexIsHeldWhereItHasNotArrivedAndFacesAnother)
+{
+  // Up to 1.15 lambda delta = 1.66; the floor of the slope is .15, a tenth of it .015.
+  for (const double gap : { 1.5, 1.9 })
+  {
+    for (const double value : { -0.5, -0.01 })
+    {
+      TwoBalls balls(gap);
+      const RemainingContacts found = balls.Find(value);
+      const long held = std::count(found.Held.begin(), found.Held.end(), 1);
+      EXPECT_EQ(held > 0, gap < 1.6 && value < -0.1) << gap << ' ' << value;
+      EXPECT_LT(held, 12);
+    }
+  }
+  // One behind the other, both outward: nothing holds them.
+  IndexedSurface nested = DividedIcosahedron({ 16, 16, 16 }, 6, 1.6);
+  AddSurface(nested, DividedIcosahedron({ 16, 16, 16 }, 7.3, 1.6));
+  TwoBalls bench(1.);
+  static_cast<Bench&>(bench) = Bench(nested);
+  const RemainingContacts found = bench.Find(-0.5);
+  EXPECT_FALSE(found.Pairs.empty());
+  EXPECT_EQ(std::count(found.Held.begin(), found.Held.end(), 1), 0);
+}

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Vertices at rest are skipped until something near them changes.
+#include "DynamicsTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace volumic;
+
+namespace
+{
+/** A sphere whose vertices the tests move by hand, and fall asleep when they do not. */
+class Freezing : public ::testing::Test
+{
+protected:
+  Freezing()
+    : Actors(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1)
+    , TheField(this->Actors.Volume.Image, this->Actors.Options, this->Actors.Threads)
+    , Motion(this->TheField, this->Actors.Options, this->Actors.Threads)
+    , Neighbour(this->Actors.State.Mesh.Rings[Mover].Item[0])
+  {
+  }
+
+  bool IsAwake(int v) const { return this->Actors.State.Awake[v] != 0; }
+  int CountAwake() const
+  {
+    const auto& awake = this->Actors.State.Awake;
+    return static_cast<int>(std::count_if(awake.begin(), awake.end(), [](int x) { return x; }));
+  }
+
+  /** An iteration in which one vertex is moved by some way along a direction. */
+  void Iterate(const Vector& way = Vector())
+  {
+    SurfaceState& s = this->Actors.State;
+    std::vector<int> awake;
+    for (int v : this->Actors.All)
+    {
+      if (s.Awake[v])
+      {
+        awake.push_back(v);
+        s.Before[v] = s.Mesh.Position[v];
+      }
+    }
+    s.MoveTo(Mover, s.Mesh.Position[Mover] + way);
+    this->Motion.Freeze(s, awake, this->Actors.All);
+  }
+
+  static constexpr int Mover = 30;
+  Stage Actors;
+  Field TheField;
+  Dynamics Motion;
+  int Neighbour;
+};
+}
+
+TEST_F(Freezing, TakesFiveIterationsOfRest)
+{
+  this->Actors.State.Velocity[7] = Vector(0.1f, 0, 0);
+  for (int i = 0; i < 4; ++i)
+  {
+    this->Iterate();
+    EXPECT_EQ(this->CountAwake(), static_cast<int>(this->Actors.All.size())) << i;
+  }
+  this->Iterate();
+  EXPECT_EQ(this->CountAwake(), 0);
+  EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "what sleeps does not move";
+}
+
+TEST_F(Freezing, IsLeftOutOnRequest)
+{
+  this->Actors.Options.FreezeMotionlessVertices = false;
+  for (int i = 0; i < 10; ++i)
+  {
+    this->Iterate();
+  }
+  EXPECT_EQ(this->CountAwake(), static_cast<int>(this->Actors.All.size()));
+}
+
+TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursAwake)
+{
+  for (int i = 0; i < 10; ++i)
+  {
+    this->Iterate(this->Actors.OutwardAt(Mover) * 0.05f);
+  }
+  EXPECT_TRUE(this->IsAwake(Mover));
+  for (int w : this->Actors.All)
+  {
+    EXPECT_EQ(this->IsAwake(w), w == Mover || this->Actors.State.Mesh.AreNeighbours(Mover, w));
+  }
+}
+
+TEST_F(Freezing, SleepingNeighboursAreWokenByMotion)
+{
+  for (int i = 0; i < 5; ++i)
+  {
+    this->Iterate();
+  }
+  ASSERT_FALSE(this->IsAwake(this->Neighbour));
+  this->Actors.State.Awake[Mover] = 1;
+  this->Iterate(this->Actors.OutwardAt(Mover) * 0.05f);
+  EXPECT_TRUE(this->IsAwake(this->Neighbour));
+  EXPECT_EQ(this->CountAwake(), 1 + this->Actors.State.Mesh.Rings[Mover].Count);
+  for (int i = 0; i < 4; ++i)
+  {
+    this->Iterate();
+    EXPECT_TRUE(this->IsAwake(this->Neighbour)) << "its patience starts afresh";
+  }
+}
+
+TEST_F(Freezing, SlowMotionIsMotion)
+{
+  // A hundredth of delta is not visible at once, but it adds up.
+  for (int i = 0; i < 20; ++i)
+  {
+    this->Iterate(this->Actors.OutwardAt(Mover) * 0.01f);
+  }
+  EXPECT_TRUE(this->IsAwake(Mover));
+}
+
+TEST_F(Freezing, OneMotionDoesNotKeepAVertexAwakeForEver)
+{
+  this->Iterate(this->Actors.OutwardAt(Mover) * 0.2f);
+  for (int i = 0; i < 5; ++i)
+  {
+    EXPECT_TRUE(this->IsAwake(Mover));
+    this->Iterate();
+  }
+  EXPECT_FALSE(this->IsAwake(Mover));
+}
+
+TEST_F(Freezing, SlidingAlongTheSurfaceCountsOnlyWhenItLeadsFar)
+{
+  const Vector along = Normalized(Cross(this->Actors.OutwardAt(Mover), Vector(1, 0, 0)));
+  Stage& stage = this->Actors;
+  const Vector start = stage.State.Mesh.Position[Mover];
+  for (int i = 0; i < 6; ++i)
+  {
+    this->Iterate(along * (i % 2 == 0 ? 0.1f : -0.1f));
+  }
+  EXPECT_FALSE(this->IsAwake(Mover)) << "to and fro";
+  ASSERT_LT(Length(stage.State.Mesh.Position[Mover] - start), 1e-5);
+  stage.State.Awake[Mover] = 1;
+  this->Iterate(along * 0.4f);
+  EXPECT_TRUE(this->IsAwake(this->Neighbour));
+}
+
+TEST_F(Freezing, EditsWake)
+{
+  for (int i = 0; i < 5; ++i)
+  {
+    this->Iterate();
+  }
+  ASSERT_FALSE(this->IsAwake(Mover));
+  this->Actors.State.Touch(Mover);
+  EXPECT_TRUE(this->IsAwake(Mover));
+  EXPECT_EQ(this->Actors.State.Touched, std::vector<int>{ Mover });
+}

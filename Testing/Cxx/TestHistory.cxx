@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the history tells is what the surface does.
+#include "EvolutionTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+Monitor Silent;
+
+template <typename Value>
+long Sum(const std::vector<HistoryRow>& rows, Value HistoryRow::*column)
+{
+  return std::accumulate(rows.begin(), rows.end(), 0L,
+    [column](long sum, const HistoryRow& row) { return sum + static_cast<long>(row.*column); });
+}
+}
+
+TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
+{
+  const TestVolume volume = BallVolume(40, 8);
+  for (const double friction : { 3., 5. })
+  {
+    SurfaceOptions options = IsoHalf();
+    options.Friction = friction;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    evolution.StartEnclosing(volume.Image, 0);
+    ASSERT_EQ(evolution.Run(), StopReason::Converged);
+    const std::vector<HistoryRow>& rows = evolution.History();
+    ASSERT_GT(rows.size(), 40u);
+    // Forces and friction balance long before the object is reached.
+    const double speed = evolution.Result().Delta / friction;
+    EXPECT_NEAR(rows[20].KineticEnergy, 0.5 * speed * speed, 0.05 * speed * speed);
+    EXPECT_LT(rows.back().KineticEnergy, 0.01 * speed * speed);
+    EXPECT_NEAR(rows[20].TimeStep, 0.5 * friction, 0.05 * friction);
+  }
+}
+
+TEST(History, RowsTellTheStateAfterTheirIteration)
+{
+  const TestVolume volume = BallVolume(28, 7);
+  const SurfaceEvolution* watched = nullptr;
+  int looks = 0;
+  Observer observer([&](const Monitor::Status& status)
+    {
+      ++looks;
+      const SurfaceResult surface = watched->Result();
+      const SurfaceFeatures features = ComputeFeatures(surface);
+      const HistoryRow& row = watched->History().back();
+      SCOPED_TRACE("iteration " + std::to_string(looks));
+      EXPECT_EQ(row.Iteration, looks);
+      EXPECT_EQ(status.Iteration, looks);
+      EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
+      EXPECT_EQ(status.Vertices, row.Vertices);
+      EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
+      EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
+      const std::vector<double> lengths = EdgeLengths(surface);
+      const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.);
+      EXPECT_NEAR(row.MeanEdgeLength, sum / static_cast<double>(lengths.size()), 1e-4);
+      EXPECT_GT(row.TimeStep, 0);
+      EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
+    });
+  SurfaceEvolution evolution(IsoHalf(), Threads, observer);
+  watched = &evolution;
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_GT(looks, 20);
+}
+
+TEST(History, VerticesFallAsleepAsTheyArriveIfAllowedTo)
+{
+  const TestVolume volume = BallVolume(32, 10);
+  for (const bool freeze : { true, false })
+  {
+    SurfaceOptions options = IsoHalf();
+    options.FreezeMotionlessVertices = freeze;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    const auto vertices = [&evolution]() { return evolution.Result().Points.size(); };
+    evolution.StartEnclosing(volume.Image, 0);
+    const std::size_t first = vertices();
+    evolution.Run();
+    const std::vector<HistoryRow>& rows = evolution.History();
+    EXPECT_EQ(rows.front().ActiveVertices, static_cast<int>(first));
+    EXPECT_GT(rows[rows.size() / 4].ActiveVertices, 0.99 * rows[rows.size() / 4].Vertices);
+    const SurfaceResult surface = evolution.Result();
+    const double motionless =
+      std::accumulate(surface.Motionless.begin(), surface.Motionless.end(), 0.) /
+      static_cast<double>(vertices());
+    const double active = 1. * rows.back().ActiveVertices / rows.back().Vertices;
+    if (freeze)
+    {
+      EXPECT_LT(active, 0.5);
+      EXPECT_GT(motionless, 0.5);
+    }
+    else
+    {
+      EXPECT_GT(active, 0.99);
+      EXPECT_LT(motionless, 0.02);
+    }
+  }
+}
+
+TEST(History, NoVertexSleepsOnTheWay)
+{
+  const TestVolume volume = BallVolume(32, 10);
+  SurfaceOptions options = IsoHalf();
+  options.MaximumNumberOfIterations = 12;
+  SurfaceEvolution evolution(options, Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
+  const SurfaceResult surface = evolution.Result();
+  EXPECT_LT(std::accumulate(surface.Motionless.begin(), surface.Motionless.end(), 0),
+    static_cast<int>(surface.Points.size()) / 50);
+}
+
+TEST(History, CountsOfMergesAndCutsExplainTheTopology)
+{
+  // Two seeds grow around a ring.
+  const TestVolume volume = MakeVolume(40,
+    [](double x, double y, double z)
+    {
+      const double q = std::sqrt((x - 20) * (x - 20) + (y - 20) * (y - 20)) - 11;
+      return Soft(std::sqrt(q * q + (z - 20) * (z - 20)) - 5);
+    });
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.StartSeeds(volume.Image, 0, { { 9, 20, 20 }, { 31, 20, 20 } });
+  const std::size_t start = evolution.Result().Points.size();
+  evolution.Run();
+  const std::vector<HistoryRow>& rows = evolution.History();
+  EXPECT_EQ(4 + 2 * (Sum(rows, &HistoryRow::Cuts) - Sum(rows, &HistoryRow::Merges)), 0);
+  EXPECT_GE(Sum(rows, &HistoryRow::Merges), 2);
+  // A merge takes two vertices.
+  const long explained = static_cast<long>(start) + Sum(rows, &HistoryRow::Splits) -
+    Sum(rows, &HistoryRow::Collapses) - 2 * Sum(rows, &HistoryRow::Merges) +
+    3 * Sum(rows, &HistoryRow::Cuts);
+  long last = 0;
+  for (const HistoryRow& row : rows)
+  {
+    EXPECT_LE(row.ActiveVertices, row.Vertices + row.Collapses + 2 * row.Merges);
+    last = row.Vertices;
+  }
+  // The polish at the end edits a few more, which no row counts.
+  EXPECT_NEAR(explained, last, 0.1 * last);
+  EXPECT_GT(Sum(rows, &HistoryRow::Flips), 50);
+}
+
+TEST(History, ALevelRestsAsSoonAsItsVolumeDoes)
+{
+  const TestVolume volume = BallVolume(32, 10);
+  std::vector<std::size_t> iterations;
+  for (const double tolerance : { 0.05, 5e-4, 0. })
+  {
+    SurfaceOptions options = IsoHalf();
+    options.ConvergenceTolerance = tolerance;
+    std::vector<double> volumes;
+    const SurfaceEvolution* watched = nullptr;
+    Observer observer([&](const Monitor::Status&)
+      { volumes.push_back(ComputeFeatures(watched->Result()).Volume); });
+    SurfaceEvolution evolution(options, Threads, observer);
+    watched = &evolution;
+    evolution.StartEnclosing(volume.Image, 0);
+    EXPECT_EQ(evolution.Run(), StopReason::Converged);
+    const double delta = evolution.Result().Delta;
+    // By the words of SurfaceOptions::ConvergenceTolerance.
+    std::size_t expected = 25;
+    for (; expected < volumes.size(); expected += 5)
+    {
+      const double last = volumes[expected - 1];
+      const double limit = std::max(delta * delta * delta, tolerance * last);
+      if (std::abs(last - volumes[expected - 11]) < limit &&
+        std::abs(last - volumes[expected - 21]) < limit)
+      {
+        break;
+      }
+    }
+    EXPECT_EQ(volumes.size(), expected) << "tolerance " << tolerance;
+    iterations.push_back(volumes.size());
+  }
+  EXPECT_LT(iterations.front(), iterations.back());
+}

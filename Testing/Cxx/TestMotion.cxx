@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Newton's law with friction, the time step, and how far a vertex may go.
+#include "DynamicsTestTools.h"
+
+#include <gtest/gtest.h>
+
+using namespace volumic;
+
+namespace
+{
+/** All vertices fly outward at a speed, with no force. */
+Stage Flying(float speed)
+{
+  Stage stage(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1);
+  for (int v : stage.All)
+  {
+    stage.State.Velocity[v] = stage.OutwardAt(v) * speed;
+  }
+  return stage;
+}
+}
+
+TEST(Motion, FrictionSlowsDown)
+{
+  for (const double friction : { 0.5, 3., 8. })
+  {
+    Stage stage = Flying(0.1f);
+    stage.Options.Friction = friction;
+    const double step = stage.Push();
+    ASSERT_GT(step, 0);
+    EXPECT_NEAR(stage.MeanSpeedOutward(), 0.1 / (1 + friction * step), 1e-5);
+  }
+}
+
+TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
+{
+  for (const double friction : { 1.5, 3., 8. })
+  {
+    Stage stage(15.);
+    stage.Options.Friction = friction;
+    stage.Options.TensionWeight = 0;
+    stage.Options.ElasticityWeight = 0;
+    // Pushed as long as the force is at its bound.
+    double step = 0;
+    for (int i = 0; i < 10; ++i)
+    {
+      step = stage.Push();
+      stage.UpdateShape();
+    }
+    EXPECT_NEAR(stage.MeanSpeedOutward(), -1 / friction, 0.02 / friction);
+    EXPECT_NEAR(step, 0.5 * friction, 1e-5) << "in a step, the largest displacement";
+  }
+}
+
+TEST(Motion, TheStepFollowsTheForcesThatDrive)
+{
+  for (const double weight : { 1., 4. })
+  {
+    Stage stage(15.);
+    stage.Options.TensionWeight = 0;
+    stage.Options.ElasticityWeight = 0;
+    stage.Options.IsopotentialWeight = weight;
+    EXPECT_NEAR(stage.Push(), 0.5 * 3 / weight, 0.01);
+  }
+}
+
+TEST(Motion, TheStepIsShortenedSoThatNoVertexGoesTooFar)
+{
+  // One vertex is torn at: all wait for it, so that the surface keeps its shape in time.
+  for (const double largest : { 0.5, 0.2 })
+  {
+    Stage stage(8.);
+    stage.Options.MaximumStep = largest;
+    stage.Options.ElasticityWeight = 20;
+    stage.State.Mesh.Position[0] += stage.OutwardAt(0) * 3.f;
+    stage.UpdateShape();
+    const double step = stage.Push();
+    EXPECT_LT(step, 0.5 * largest * stage.Options.Friction);
+    EXPECT_GT(step, 0);
+    EXPECT_LE(step * stage.FastestSpeed(), largest + 1e-4);
+    // By how much: as the speed at the end of the longest step asks for.
+    Stage flying = Flying(100.f);
+    flying.Options.MaximumStep = largest;
+    const double longest = largest * flying.Options.Friction / 0.5;
+    const double speed = 100. / (1 + flying.Options.Friction * longest);
+    EXPECT_NEAR(flying.Push(), largest / speed, 1e-3 * largest / speed);
+  }
+}
+
+TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
+{
+  // Contacts may have made it faster than what the step was chosen for.
+  for (const double largest : { 0.5, 0.2 })
+  {
+    Stage stage(12.);
+    stage.Options.MaximumStep = largest;
+    const Field field(stage.Volume.Image, stage.Options, stage.Threads);
+    Dynamics dynamics(field, stage.Options, stage.Threads);
+    dynamics.Accelerate(stage.State, stage.All, {});
+    stage.State.Velocity[3] *= 100.f;
+    stage.State.Velocity[4] *= 0.1f;
+    const std::vector<Vector> before = stage.State.Mesh.Position;
+    dynamics.Displace(stage.State, stage.All);
+    for (int v : stage.All)
+    {
+      const Vector way = stage.State.Mesh.Position[v] - before[v];
+      const double speed = Length(stage.State.Velocity[v]);
+      EXPECT_NEAR(Length(way), std::min(speed * dynamics.TimeStep(), largest), 1e-5);
+      EXPECT_GT(Dot(way, stage.State.Velocity[v]), 0);
+      EXPECT_NEAR(stage.State.Moved[v], Length(way), 1e-5);
+      EXPECT_EQ(Length(stage.State.Before[v] - before[v]), 0) << "to go back to";
+    }
+  }
+}

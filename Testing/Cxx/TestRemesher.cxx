@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Which edges are split, collapsed and flipped; lengths in delta.
+#include "EdgeFlip.h"
+#include "EdgeSplit.h"
+#include "RemeshTestTools.h"
+#include "Remesher.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace volumic;
+
+namespace
+{
+/** Three pairs of opposite corners; all edges are `edge` long. */
+IndexedSurface Octahedron(double edge)
+{
+  const double r = edge / std::sqrt(2.);
+  IndexedSurface surface;
+  surface.Points = { { r, 0, 0 }, { -r, 0, 0 }, { 0, r, 0 }, { 0, -r, 0 }, { 0, 0, r },
+    { 0, 0, -r } };
+  surface.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  return surface;
+}
+
+/** A sphere with edges of 1.1 to 1.25. */
+IndexedSurface FineSphere()
+{
+  return DividedIcosahedron({ 0, 0, 0 }, 10.2, 1.3);
+}
+
+/** Splits an edge at u and flips it away, which leaves a vertex of valence 3. */
+int SetIntoAFace(SurfaceState& s, int u)
+{
+  const int v = s.Mesh.Rings[u].Item[1];
+  const int m =
+    EdgeSplit{ u, v }.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f);
+  EdgeFlip::Of(s.Mesh, m, u).Apply(s.Mesh);
+  const Ring& ring = s.Mesh.Rings[m];
+  s.Mesh.Position[m] = (s.Mesh.Position[ring.Item[0]] + s.Mesh.Position[ring.Item[1]] +
+                         s.Mesh.Position[ring.Item[2]]) * (1.f / 3);
+  s.Adopt(m, u);
+  return m;
+}
+}
+
+TEST(Remesher, SplitsUntilNoEdgeIsLongerThanTwoAndAHalfDelta)
+{
+  for (const double edge : { 2.6, 12. })
+  {
+    Bench bench(Octahedron(edge));
+    std::vector<int> all = bench.All();
+    Remesher(bench.State, nullptr, true).Split(all);
+    EXPECT_LE(bench.Longest(), 2.5f) << "from edges of " << edge;
+    EXPECT_TRUE(bench.IsSound());
+    EXPECT_EQ(bench.State.Counts.Splits, bench.State.Mesh.NumberOfVertices() - 6);
+    EXPECT_EQ(all.size(), bench.All().size()) << "the new ones are listed";
+    const double volume = edge * edge * edge * std::sqrt(2.) / 3;
+    EXPECT_NEAR(ComputeFeatures(bench.State.Mesh.ToIndexed()).Volume, volume, 1e-4 * volume);
+  }
+}
+
+TEST(Remesher, DoesNotSplitLegalEdges)
+{
+  Bench bench(Octahedron(2.49));
+  std::vector<int> all = bench.All();
+  Remesher(bench.State, nullptr, true).Split(all);
+  EXPECT_EQ(bench.State.Counts.Splits, 0);
+}
+
+TEST(Remesher, CollapsesEdgesShorterThanDelta)
+{
+  Bench bench(FineSphere());
+  const int w = bench.State.Mesh.Rings[40].Item[0];
+  const Vector p = bench.State.Mesh.Position[40];
+  bench.MoveTo(w, p + (bench.State.Mesh.Position[w] - p) * 0.4f);
+  ASSERT_LT(bench.Shortest(), 1);
+  const int before = bench.State.Mesh.NumberOfVertices();
+  Remesher(bench.State, nullptr, true).Collapse(bench.All());
+  EXPECT_EQ(bench.State.Counts.Collapses, before - bench.State.Mesh.NumberOfVertices());
+  EXPECT_EQ(bench.State.Counts.Collapses, 1);
+  EXPECT_GE(bench.Shortest(), 1);
+  EXPECT_TRUE(bench.IsSound());
+}
+
+TEST(Remesher, LeavesEdgesOfDeltaAndMore)
+{
+  Bench bench(FineSphere());
+  ASSERT_GT(bench.Shortest(), 1.f);
+  ASSERT_LT(bench.Shortest(), 1.2f);
+  std::fill(bench.State.Wants.begin(), bench.State.Wants.end(), SurfaceState::Longer);
+  Remesher(bench.State, nullptr, true).Collapse(bench.All());
+  EXPECT_EQ(bench.State.Counts.Collapses, 0);
+}
+
+TEST(Remesher, TakesAwayVerticesOfValenceThreeWithoutMovingOthers)
+{
+  Bench bench(FineSphere());
+  const std::vector<Vector> before = bench.State.Mesh.Position;
+  const int m = SetIntoAFace(bench.State, 40);
+  ASSERT_EQ(bench.State.Mesh.Rings[m].Count, 3);
+  bench.UpdateShape();
+  Remesher(bench.State, nullptr, true).Collapse({ m });
+  EXPECT_FALSE(bench.State.Mesh.IsAlive(m));
+  EXPECT_EQ(bench.State.Mesh.NumberOfVertices(), static_cast<int>(before.size()));
+  for (std::size_t v = 0; v < before.size(); ++v)
+  {
+    EXPECT_EQ(Length(bench.State.Mesh.Position[v] - before[v]), 0);
+  }
+}
+
+TEST(Remesher, CutsThroughATubeOfThreeUnlessTheTopologyMustStay)
+{
+  for (const bool topologyChanges : { true, false })
+  {
+    Bench bench(MakeTorus({ 0, 0, 0 }, 5, 0.5, 18, 3));
+    ASSERT_LT(bench.Shortest(), 1);
+    Remesher(bench.State, nullptr, topologyChanges).Collapse(bench.All());
+    if (topologyChanges)
+    {
+      EXPECT_GT(bench.State.Counts.Cuts, 0);
+      EXPECT_GE(bench.State.EulerCharacteristic, 2) << "the ring is open";
+    }
+    else
+    {
+      EXPECT_EQ(bench.State.Counts.Cuts, 0);
+      EXPECT_EQ(bench.State.EulerCharacteristic, 0);
+    }
+    EXPECT_TRUE(bench.IsSound());
+  }
+}
+
+TEST(Remesher, FlipsWhatIsNotDelaunayAndNothingElse)
+{
+  Bench bench(FineSphere());
+  std::fill(bench.State.Wants.begin(), bench.State.Wants.end(), SurfaceState::Flip);
+  Remesher(bench.State, nullptr, true).Flip(bench.All());
+  EXPECT_EQ(bench.State.Counts.Flips, 0) << "all edges are the shorter ones";
+  const int u = 40;
+  const int v = bench.State.Mesh.Rings[u].Item[0];
+  EdgeFlip::Of(bench.State.Mesh, u, v).Apply(bench.State.Mesh);
+  ASSERT_FALSE(bench.State.Mesh.AreNeighbours(u, v));
+  bench.UpdateShape();
+  Remesher(bench.State, nullptr, true).Flip(bench.All());
+  EXPECT_EQ(bench.State.Counts.Flips, 1);
+  EXPECT_TRUE(bench.State.Mesh.AreNeighbours(u, v));
+  EXPECT_TRUE(bench.IsSound());
+}
+
+TEST(Remesher, SmoothsWhatIsStuckButNotAtOnce)
+{
+  for (const int rollBacks : { 0, 2, 5, 6 })
+  {
+    Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 2.1));
+    ASSERT_GT(bench.Shortest(), 1.3f) << "nothing to collapse";
+    const Vector before = bench.State.Mesh.Position[40];
+    bench.State.Stuck[40] = static_cast<std::uint8_t>(rollBacks);
+    bench.State.Velocity[40] = Vector(1, 0, 0);
+    Remesher(bench.State, nullptr, true).Unstick(bench.All());
+    const double way = Length(bench.State.Mesh.Position[40] - before);
+    if (rollBacks < 6)
+    {
+      EXPECT_EQ(way, 0) << rollBacks;
+      EXPECT_EQ(bench.State.Stuck[40], rollBacks);
+    }
+    else
+    {
+      EXPECT_GT(way, 0.01);
+      EXPECT_EQ(bench.State.Stuck[40], 0);
+      EXPECT_EQ(Length(bench.State.Velocity[40]), 0);
+    }
+    EXPECT_EQ(bench.State.Mesh.NumberOfVertices(), static_cast<int>(bench.State.Awake.size()));
+  }
+}
+
+TEST(Remesher, EditsWakeWhatTheyTouch)
+{
+  Bench bench(FineSphere());
+  const int w = bench.State.Mesh.Rings[40].Item[0];
+  const Vector p = bench.State.Mesh.Position[40];
+  bench.MoveTo(w, p + (bench.State.Mesh.Position[w] - p) * 0.4f);
+  std::fill(bench.State.Awake.begin(), bench.State.Awake.end(), std::uint8_t(0));
+  Remesher(bench.State, nullptr, true).Collapse(bench.All());
+  const SurfaceState& s = bench.State;
+  const int kept = s.Mesh.IsAlive(40) ? 40 : w;
+  EXPECT_TRUE(s.Awake[kept]);
+  for (int v : bench.All())
+  {
+    EXPECT_EQ(s.Awake[v] != 0, v == kept || s.Mesh.AreNeighbours(v, kept));
+  }
+}

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Every check of a given surface and of a live one, each with a surface that only it refuses.
+#include "CoreTestTools.h"
+#include "RemeshTestTools.h"
+#include "SurfaceCheck.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+std::string ErrorOf(const IndexedSurface& surface)
+{
+  try
+  {
+    CheckInitialSurface(surface);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+std::string OutsideErrorOf(const IndexedSurface& surface)
+{
+  const TestVolume volume = MakeVolume(20, [](double, double, double) { return 0.; });
+  LevelImage image = volume.Image;
+  image.Step = { 1, 1, 2 }; // 20 x 20 x 40
+  try
+  {
+    CheckOverlapsImage(surface, image);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+#define EXPECT_SAYS(error, words) EXPECT_NE((error).find(words), std::string::npos) << (error)
+
+IndexedSurface Ball(double x = 0, double radius = 2)
+{
+  return Icosahedron({ x, 0, 0 }, radius);
+}
+}
+
+TEST(SurfaceCheck, TakesWhatIsClosedOrientedAndFreeOfIntersections)
+{
+  EXPECT_EQ(ErrorOf(Ball()), "");
+  EXPECT_EQ(ErrorOf(MakeTorus({ 0, 0, 0 }, 5, 2, 20, 10)), "");
+  IndexedSurface hollow = Ball(0, 4);
+  AddSurface(hollow, InsideOut(Ball()));
+  AddSurface(hollow, Ball(10));
+  EXPECT_EQ(ErrorOf(hollow), "") << "cavities and several components are legal";
+  IndexedSurface loose = Ball();
+  loose.Points.push_back({ 9, 9, 9 });
+  EXPECT_EQ(ErrorOf(loose), "") << "points without triangles do no harm";
+}
+
+TEST(SurfaceCheck, RefusesIndicesAndCoordinatesOutOfRange)
+{
+  EXPECT_SAYS(ErrorOf({}), "is empty");
+  for (const int corner : { -1, 12, std::numeric_limits<int>::max() })
+  {
+    IndexedSurface surface = Ball();
+    surface.Triangles[7][1] = corner;
+    EXPECT_SAYS(ErrorOf(surface), "triangle 7 with point " + std::to_string(corner));
+  }
+  for (const double x : { std::nan(""), HUGE_VAL, -HUGE_VAL })
+  {
+    IndexedSurface surface = Ball();
+    surface.Points[5][2] = x;
+    EXPECT_SAYS(ErrorOf(surface), "not finite at point 5");
+  }
+}
+
+TEST(SurfaceCheck, RefusesTrianglesThatUseAPointTwice)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    IndexedSurface surface = Ball();
+    surface.Triangles[4][k] = surface.Triangles[4][(k + 1) % 3];
+    EXPECT_SAYS(ErrorOf(surface), "degenerate triangle (number 4");
+  }
+}
+
+TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
+{
+  IndexedSurface open = Ball();
+  open.Triangles.erase(open.Triangles.begin() + 3);
+  EXPECT_SAYS(ErrorOf(open), "is open: 3 edges");
+  // Two tetrahedra that share an edge, though no triangle: every edge else has two triangles.
+  IndexedSurface hinge;
+  hinge.Points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0.6, 1, 0.5 }, { -1, 0, 0 },
+    { -0.6, -1, 0.5 } };
+  hinge.Triangles = { { 0, 3, 2 }, { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 5, 4 },
+    { 0, 4, 1 }, { 0, 1, 5 }, { 1, 4, 5 } };
+  EXPECT_SAYS(ErrorOf(hinge), "1 edges have more than two triangles");
+  IndexedSurface twisted = Ball();
+  std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
+  EXPECT_SAYS(ErrorOf(twisted), "is not oriented: 3 edges");
+}
+
+TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
+{
+  // Two balls with one point in common.
+  IndexedSurface surface = Ball();
+  AddSurface(surface, Ball(10));
+  for (Triangle& t : surface.Triangles)
+  {
+    for (int& corner : t)
+    {
+      corner = corner == 12 + 10 ? 9 : corner;
+    }
+  }
+  surface.Points[9] = { 5, 0, 0 };
+  EXPECT_SAYS(ErrorOf(surface), "at 1 points several fans of triangles touch");
+}
+
+TEST(SurfaceCheck, RefusesWhatIsInsideOutOrEnclosesNothing)
+{
+  EXPECT_SAYS(ErrorOf(InsideOut(Ball())), "is inside out");
+  IndexedSurface mostly = InsideOut(Ball(0, 4));
+  AddSurface(mostly, Ball(10));
+  EXPECT_SAYS(ErrorOf(mostly), "is inside out");
+  IndexedSurface pillow; // Two triangles, back to back.
+  pillow.Points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+  pillow.Triangles = { { 0, 1, 2 }, { 0, 2, 1 } };
+  EXPECT_SAYS(ErrorOf(pillow), "encloses no volume");
+}
+
+TEST(SurfaceCheck, RefusesIntersectionsAndCountsThemOnce)
+{
+  IndexedSurface crossing = Ball();
+  AddSurface(crossing, Ball(2.3));
+  const int pairs = CountSelfIntersections(crossing);
+  EXPECT_GT(pairs, 5);
+  EXPECT_SAYS(ErrorOf(crossing), "intersects itself: " + std::to_string(pairs) + " pairs");
+  // By brute force.
+  int expected = 0;
+  for (std::size_t i = 0; i < 20; ++i)
+  {
+    for (std::size_t j = 20; j < 40; ++j)
+    {
+      IndexedSurface two;
+      two.Points = crossing.Points;
+      two.Triangles = { crossing.Triangles[i], crossing.Triangles[j] };
+      expected += CountSelfIntersections(two);
+    }
+  }
+  EXPECT_EQ(pairs, expected);
+  EXPECT_EQ(CountSelfIntersections(crossing, 3), 3);
+  EXPECT_EQ(CountSelfIntersections(Ball()), 0);
+}
+
+TEST(SurfaceCheck, RefusesWhatLiesOutsideTheImage)
+{
+  EXPECT_EQ(OutsideErrorOf(Icosahedron({ 10, 10, 20 }, 3)), "");
+  EXPECT_EQ(OutsideErrorOf(Icosahedron({ -2, 10, 20 }, 3)), "") << "partly";
+  EXPECT_EQ(OutsideErrorOf(Icosahedron({ 10, 10, 38 }, 3)), "");
+  EXPECT_SAYS(OutsideErrorOf(Icosahedron({ -10, 10, 20 }, 3)), "along axis 0");
+  EXPECT_SAYS(OutsideErrorOf(Icosahedron({ 10, 30, 20 }, 3)), "along axis 1");
+  EXPECT_SAYS(OutsideErrorOf(Icosahedron({ 10, 10, 50 }, 3)), "along axis 2");
+}
+
+TEST(SurfaceCheck, FindsEveryBrokenInvariantOfALiveMesh)
+{
+  const SurfaceMesh good = MakeSphere({ 0, 0, 0 }, 3, 1);
+  ASSERT_EQ(DescribeBrokenInvariant(good), "");
+  {
+    SurfaceMesh mesh = good;
+    mesh.Rings[5].Count = 2;
+    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "has 2 neighbours");
+  }
+  {
+    SurfaceMesh mesh = good;
+    mesh.Position[5].Y = std::nanf("");
+    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "not finite");
+  }
+  for (const int stranger : { -1, 0, good.Size() })
+  {
+    SurfaceMesh mesh = good;
+    mesh.Rings[0].Item[0] = stranger;
+    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "which is none");
+  }
+  {
+    SurfaceMesh mesh = good;
+    const int w = mesh.Rings[0].Item[0];
+    mesh.RemoveVertex(w);
+    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "which is none") << "it has died";
+  }
+  {
+    // 0 comes first: its ring is looked at before anything that it disagrees with.
+    SurfaceMesh mesh = good;
+    mesh.Rings[0].Item[3] = mesh.Rings[0].Item[1];
+    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "twice");
+  }
+  {
+    SurfaceMesh mesh = good;
+    std::swap(mesh.Rings[0].Item[0], mesh.Rings[0].Item[1]);
+    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "disagree");
+  }
+  {
+    SurfaceMesh mesh = good;
+    mesh.RemoveVertex(mesh.AddVertex(Vector()));
+    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+    mesh.AddVertex(Vector());
+    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "free list");
+  }
+}

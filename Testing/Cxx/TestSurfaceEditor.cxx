@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What each edit refuses: illegal lengths, slivers, faces that turn over, and intersections.
+#include "EdgeFlip.h"
+#include "EdgeSplit.h"
+#include "Proximity.h"
+#include "RemeshTestTools.h"
+#include "SurfaceEditor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace volumic;
+
+namespace
+{
+using Care = SurfaceEditor::Care;
+
+/** Six corners, so far from the centre along each axis. */
+IndexedSurface Octahedron(const Point& centre, double x, double y, double z)
+{
+  IndexedSurface surface;
+  surface.Points = { { x, 0, 0 }, { -x, 0, 0 }, { 0, y, 0 }, { 0, -y, 0 }, { 0, 0, z },
+    { 0, 0, -z } };
+  for (Point& p : surface.Points)
+  {
+    p = { p[0] + centre[0], p[1] + centre[1], p[2] + centre[2] };
+  }
+  surface.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  return surface;
+}
+
+/** A sphere, and something small near a place of it, perhaps. */
+struct Workbench : Bench
+{
+  explicit Workbench(double edge)
+    : Bench(DividedIcosahedron({ 0, 0, 0 }, 10.2, edge))
+    , Editor(this->State)
+  {
+    std::fill(this->State.Near.begin(), this->State.Near.end(), std::uint8_t(0));
+  }
+
+  /** Sets a small octahedron and marks what is near it, as examinations do. */
+  void Obstruct(const Vector& place, double size)
+  {
+    const int first = this->State.Mesh.Append(
+      Octahedron({ place.X, place.Y, place.Z }, size, size, size));
+    for (int v = first; v < this->State.Mesh.Size(); ++v)
+    {
+      this->State.Adopt(v, V);
+    }
+    this->State.EulerCharacteristic += 2;
+    this->UpdateShape();
+    for (int v = 0; v < this->State.Mesh.Size(); ++v)
+    {
+      this->State.Near[v] = Length(this->State.Mesh.Position[v] - place) < 4;
+    }
+    ASSERT_TRUE(this->IsSound());
+  }
+
+  const Vector& At(int v) const { return this->State.Mesh.Position[v]; }
+  Vector Outward(int v) const { return Normalized(this->At(v)); }
+
+  static constexpr int V = 40;
+  int W = this->State.Mesh.Rings[V].Item[0];
+  SurfaceEditor Editor;
+};
+
+constexpr double Fine = 1.3;   ///< Edges of 1.1 to 1.25.
+constexpr double Coarse = 2.2; ///< About 2.
+}
+
+TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
+{
+  Workbench bench(Coarse);
+  SurfaceState& s = bench.State;
+  s.Velocity[bench.V] = Vector(1, 0, 0);
+  s.Velocity[bench.W] = Vector(0, 3, 0);
+  s.Before[bench.V] = Vector(1, 2, 3);
+  s.Before[bench.W] = Vector(3, 2, 1);
+  const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
+  const int m = bench.Editor.Split(bench.V, bench.W);
+  ASSERT_GE(m, 0);
+  EXPECT_LT(Length(bench.At(m) - middle), 1e-6);
+  EXPECT_LT(Length(s.Velocity[m] - Vector(0.5f, 1.5f, 0)), 1e-6);
+  EXPECT_LT(Length(s.Before[m] - Vector(2, 2, 2)), 1e-6) << "where a roll back leads it";
+}
+
+TEST(SurfaceEditor, CollapseMakesNoLongEdges)
+{
+  Workbench fine(Fine);
+  EXPECT_TRUE(fine.Editor.Collapse(fine.V, fine.W, Care::Smooth));
+  EXPECT_TRUE(fine.IsSound());
+  Workbench coarse(Coarse);
+  EXPECT_FALSE(coarse.Editor.CollapseTo(
+    coarse.V, coarse.W, (coarse.At(coarse.V) + coarse.At(coarse.W)) * 0.5f, Care::Rough));
+  EXPECT_EQ(coarse.State.Counts.Collapses, 0);
+}
+
+TEST(SurfaceEditor, CollapseTurnsFacesLittle)
+{
+  for (const float height : { 0.15f, 1.1f })
+  {
+    Workbench bench(0.7); // Far from the longest legal edges.
+    const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
+    const Vector spike = middle + bench.Outward(bench.V) * height;
+    EXPECT_EQ(bench.Editor.CollapseTo(bench.V, bench.W, spike, Care::Smooth), height < 0.5f);
+    EXPECT_TRUE(bench.IsSound());
+  }
+}
+
+TEST(SurfaceEditor, CollapseMakesNoSlivers)
+{
+  // Nearly onto an edge of the rim.
+  Workbench bench(0.7);
+  const Ring& ring = bench.State.Mesh.Rings[bench.V];
+  const Vector rim = (bench.At(ring.Item[2]) + bench.At(ring.Item[3])) * 0.5f;
+  const Vector inward = bench.At(bench.V) - rim;
+  EXPECT_FALSE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.03f, Care::Smooth));
+  EXPECT_TRUE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.3f, Care::Smooth));
+}
+
+TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
+{
+  for (const bool obstructed : { false, true })
+  {
+    for (const bool collapse : { false, true })
+    {
+      for (const Care care : { Care::Smooth, Care::Rough })
+      {
+        Workbench bench(Fine);
+        const Vector start =
+          collapse ? (bench.At(bench.V) + bench.At(bench.W)) * 0.5f : bench.At(bench.V);
+        const Vector place = start + bench.Outward(bench.V) * 0.3f;
+        if (obstructed)
+        {
+          bench.Obstruct(start + bench.Outward(bench.V) * 0.5f, 0.3);
+        }
+        EXPECT_EQ(collapse ? bench.Editor.CollapseTo(bench.V, bench.W, place, care)
+                           : bench.Editor.Move(bench.V, place, care),
+          !obstructed);
+        EXPECT_TRUE(bench.IsSound());
+      }
+    }
+  }
+}
+
+TEST(SurfaceEditor, FlipForShapeKeepsToLegalLengths)
+{
+  Workbench fine(Fine);
+  EXPECT_TRUE(fine.Editor.FlipForShape(fine.V, fine.W));
+  Workbench coarse(Coarse);
+  EXPECT_FALSE(coarse.Editor.FlipForShape(coarse.V, coarse.W)) << "its edge would be 3.5 delta";
+}
+
+TEST(SurfaceEditor, FlipForShapeLeavesCreases)
+{
+  Bench bench(Octahedron({ 0, 0, 0 }, 1.2, 1.2, 1.2));
+  std::fill(bench.State.Near.begin(), bench.State.Near.end(), std::uint8_t(0));
+  EXPECT_FALSE(SurfaceEditor(bench.State).FlipForShape(0, 2));
+  EXPECT_TRUE(SurfaceEditor(bench.State).FlipForConstraint(0, 2)) << "though it is possible";
+}
+
+TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
+{
+  // The new edge lies deeper in the ball than the old one, and something tiny is there.
+  for (const bool obstructed : { false, true })
+  {
+    for (const bool forShape : { true, false })
+    {
+      Workbench bench(Fine);
+      const EdgeFlip flip = EdgeFlip::Of(bench.State.Mesh, bench.V, bench.W);
+      const Vector before = (bench.At(flip.U) + bench.At(flip.V)) * 0.5f;
+      const Vector after = (bench.At(flip.A) + bench.At(flip.B)) * 0.5f;
+      ASSERT_GT(Length(before), Length(after) + 0.02f);
+      if (obstructed)
+      {
+        bench.Obstruct(after, 0.01);
+      }
+      EXPECT_EQ(forShape ? bench.Editor.FlipForShape(bench.V, bench.W)
+                         : bench.Editor.FlipForConstraint(bench.V, bench.W),
+        !obstructed);
+      EXPECT_TRUE(bench.IsSound());
+    }
+  }
+}
+
+TEST(SurfaceEditor, RemovalKeepsClearOfWhatIsNear)
+{
+  // A vertex of valence 3 stands over a face like a tent, with something in it.
+  for (const bool obstructed : { false, true })
+  {
+    Workbench bench(Coarse);
+    SurfaceMesh& mesh = bench.State.Mesh;
+    const int m = EdgeSplit{ bench.V, bench.W }.Apply(mesh, Vector());
+    EdgeFlip::Of(mesh, m, bench.V).Apply(mesh);
+    ASSERT_EQ(mesh.Rings[m].Count, 3);
+    const Ring ring = mesh.Rings[m];
+    const Vector floor =
+      (bench.At(ring.Item[0]) + bench.At(ring.Item[1]) + bench.At(ring.Item[2])) * (1.f / 3);
+    mesh.Position[m] = floor + Normalized(floor) * 1.5f;
+    bench.State.Adopt(m, bench.V);
+    bench.UpdateShape();
+    if (obstructed)
+    {
+      bench.Obstruct(floor, 0.2);
+    }
+    EXPECT_EQ(bench.Editor.Remove(m), !obstructed);
+    EXPECT_TRUE(bench.IsSound());
+  }
+}
+
+TEST(SurfaceEditor, MoveKeepsToLegalLengthsAndTurnsFacesLittle)
+{
+  Workbench coarse(Coarse);
+  const Vector p = coarse.At(coarse.V);
+  const Vector along = Normalized(p - coarse.At(coarse.W));
+  EXPECT_TRUE(coarse.Editor.Move(coarse.V, p + along * 0.03f, Care::Smooth));
+  EXPECT_FALSE(coarse.Editor.Move(coarse.V, p + along * 0.8f, Care::Smooth)) << "an edge of 2.7";
+  for (const Care care : { Care::Smooth, Care::Rough })
+  {
+    Workbench bench(Fine);
+    const Vector spike = bench.At(bench.V) + bench.Outward(bench.V) * 1.4f;
+    EXPECT_EQ(bench.Editor.Move(bench.V, spike, care), care == Care::Rough);
+    EXPECT_TRUE(bench.IsSound());
+  }
+}
+
+TEST(SurfaceEditor, MergeNeitherSpansFarNorPassesThroughAnything)
+{
+  const auto merged = [](double gap, bool obstructed)
+  {
+    // Squares face each other along x.
+    IndexedSurface surface = Octahedron({ -1 - gap / 2, 0, 0 }, 1, 1, 1);
+    AddSurface(surface, Octahedron({ 1 + gap / 2, 0, 0 }, 1, 1, 1));
+    if (obstructed)
+    {
+      // A thin plate in the gap that reaches out of the rims.
+      AddSurface(surface, Octahedron({ 0, 0, 0 }, 0.1, 3, 3));
+    }
+    Bench bench(surface);
+    const bool done = SurfaceEditor(bench.State).Merge(0, 6 + 1);
+    EXPECT_TRUE(bench.IsSound());
+    EXPECT_EQ(bench.State.EulerCharacteristic, (obstructed ? 6 : 4) - (done ? 2 : 0));
+    return done;
+  };
+  EXPECT_TRUE(merged(0.5, false));
+  EXPECT_FALSE(merged(0.5, true));
+  EXPECT_TRUE(merged(1.5, false)) << "rungs of 3.5";
+  EXPECT_FALSE(merged(3, false)) << "rungs of 5";
+}
+
+TEST(SurfaceEditor, CutDrawsBothSidesApart)
+{
+  Bench bench(MakeTorus({ 0, 0, 0 }, 5, 0.5, 18, 3));
+  ASSERT_TRUE(SurfaceEditor(bench.State).Cut(0, 1, 2));
+  EXPECT_EQ(bench.State.EulerCharacteristic, 2);
+  EXPECT_TRUE(bench.IsSound());
+}
+
+TEST(SurfaceEditor, CutThatIsRefusedLeavesAllAsItWas)
+{
+  // A needle along the tube, where the two caps would be.
+  IndexedSurface surface = MakeTorus({ 0, 0, 0 }, 5, 0.5, 18, 3);
+  AddSurface(surface, Octahedron({ 5, 0, 0 }, 0.05, 0.8, 0.05));
+  Bench bench(surface);
+  ASSERT_TRUE(bench.IsSound());
+  const SurfaceMesh before = bench.State.Mesh;
+  EXPECT_FALSE(SurfaceEditor(bench.State).Cut(0, 1, 2));
+  EXPECT_TRUE(bench.IsSound());
+  EXPECT_EQ(bench.State.EulerCharacteristic, 2);
+  EXPECT_EQ(bench.State.Counts.Cuts, 0);
+  ASSERT_EQ(bench.State.Mesh.NumberOfVertices(), before.NumberOfVertices());
+  for (int v = 0; v < before.Size(); ++v)
+  {
+    EXPECT_EQ(Length(bench.State.Mesh.Position[v] - before.Position[v]), 0);
+    ASSERT_EQ(bench.State.Mesh.Rings[v].Count, before.Rings[v].Count);
+    for (int i = 0; i < before.Rings[v].Count; ++i)
+    {
+      EXPECT_EQ(bench.State.Mesh.Rings[v].Item[i], before.Rings[v].Item[i]);
+    }
+  }
+}

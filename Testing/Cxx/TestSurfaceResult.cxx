@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What an evolution hands over, and what it starts from.
+#include "EvolutionTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Threads;
+Monitor Silent;
+
+double MeanResidual(const SurfaceResult& surface)
+{
+  double sum = 0;
+  for (const float x : surface.Residual)
+  {
+    sum += std::abs(x);
+  }
+  return sum / static_cast<double>(surface.Residual.size());
+}
+
+void ExpectLegalEdges(const SurfaceResult& surface)
+{
+  const std::vector<double> lengths = EdgeLengths(surface);
+  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), surface.Delta * (1 - 1e-5));
+  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), surface.Delta * 2.5 * (1 + 1e-5));
+}
+}
+
+TEST(SurfaceResult, HasOutwardUnitNormalsAndTheFieldAtItsPoints)
+{
+  // The residual is that of the image, whichever side the object is on.
+  for (const bool bright : { true, false })
+  {
+    TestVolume volume = BallVolume(28, 8);
+    for (float& x : volume.Values)
+    {
+      x = bright ? x : 1 - x;
+    }
+    SurfaceOptions options = IsoHalf();
+    options.ObjectIsBright = bright;
+    options.SnapToIsoValue = false;
+    options.MaximumNumberOfIterations = 25;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    evolution.StartEnclosing(volume.Image, 0);
+    evolution.Run();
+    const SurfaceResult surface = evolution.Result();
+    ASSERT_EQ(surface.Normals.size(), surface.Points.size());
+    ASSERT_EQ(surface.Residual.size(), surface.Points.size());
+    ASSERT_GT(MeanResidual(surface), 0.01) << "it has not arrived";
+    for (std::size_t i = 0; i < surface.Points.size(); ++i)
+    {
+      const Point& p = surface.Points[i];
+      const auto& n = surface.Normals[i];
+      const double r = Distance(p[0], p[1], p[2], 14, 14, 14);
+      EXPECT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-4);
+      EXPECT_GT((n[0] * (p[0] - 14) + n[1] * (p[1] - 14) + n[2] * (p[2] - 14)) / r, 0.5);
+      const double field = Soft(r - 8) - 0.5;
+      EXPECT_NEAR(surface.Residual[i], bright ? field : -field, 0.15);
+    }
+  }
+}
+
+TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
+{
+  const TestVolume volume = BallVolume(28, 8);
+  double residual[2] = { 0, 0 };
+  for (const bool snap : { false, true })
+  {
+    SurfaceOptions options = IsoHalf();
+    options.SnapToIsoValue = snap;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    evolution.StartEnclosing(volume.Image, 0);
+    EXPECT_EQ(evolution.Run(), StopReason::Converged);
+    residual[snap] = MeanResidual(evolution.Result());
+    ExpectLegalEdges(evolution.Result());
+  }
+  EXPECT_LT(residual[true], 0.003);
+  EXPECT_GT(residual[false], 2 * residual[true]);
+}
+
+TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
+{
+  // The edge is half a voxel inside the isopotential: not to be left for it at the end.
+  TestVolume volume = BallVolume(28, 8);
+  const TestVolume map = MakeVolume(28, [](double x, double y, double z)
+    {
+      const double way = Distance(x, y, z, 14, 14, 14) - 7.;
+      return std::exp(-0.5 * way * way);
+    });
+  volume.Image.Edges = map.Values.data();
+  SurfaceOptions options = IsoHalf();
+  options.EdgeAttractionWeight = 4;
+  SurfaceEvolution evolution(options, Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  double radius = 0;
+  const SurfaceResult surface = evolution.Result();
+  for (const Point& p : surface.Points)
+  {
+    radius += Distance(p[0], p[1], p[2], 14, 14, 14) / static_cast<double>(surface.Points.size());
+  }
+  EXPECT_NEAR(radius, 7, 0.08);
+}
+
+TEST(SurfaceResult, HasEvenTriangles)
+{
+  const TestVolume volume = BallVolume(28, 8);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  evolution.Run();
+  const SurfaceResult surface = evolution.Result();
+  double worst = 1;
+  double mean = 0;
+  for (const Triangle& t : surface.Triangles)
+  {
+    double edge[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& a = surface.Points[t[k]];
+      const Point& b = surface.Points[t[(k + 1) % 3]];
+      edge[k] = Distance(a[0], a[1], a[2], b[0], b[1], b[2]);
+    }
+    const double ratio = (edge[0] + edge[1] - edge[2]) * (edge[1] + edge[2] - edge[0]) *
+      (edge[2] + edge[0] - edge[1]) / (edge[0] * edge[1] * edge[2]);
+    worst = std::min(worst, ratio);
+    mean += ratio / static_cast<double>(surface.Triangles.size());
+  }
+  EXPECT_GT(worst, 0.7);
+  EXPECT_GT(mean, 0.97);
+}
+
+TEST(SurfaceStart, EnclosesTheWholeImage)
+{
+  TestVolume volume = BallVolume(20, 6);
+  volume.Image.Size = { 40, 20, 10 }; // As many voxels.
+  volume.Image.Step = { 1, 1, 1.5 };
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  const SurfaceResult surface = evolution.Result();
+  const std::vector<double> lengths = EdgeLengths(surface);
+  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2.5 * surface.Delta);
+  EXPECT_EQ(CountSelfIntersections(surface), 0);
+  const SurfaceFeatures features = ComputeFeatures(surface);
+  EXPECT_EQ(features.EulerCharacteristic, 2);
+  // Every corner of the image is inside: seen from it, the surface is a whole sphere.
+  for (int i = 0; i < 8; ++i)
+  {
+    const Point corner = { i & 1 ? 39. : 0., i & 2 ? 19. : 0., i & 4 ? 13.5 : 0. };
+    double angle = 0;
+    for (const Triangle& t : surface.Triangles)
+    {
+      VectorD p[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        const Point& q = surface.Points[t[k]];
+        p[k] = Normalized(VectorD(q[0] - corner[0], q[1] - corner[1], q[2] - corner[2]));
+      }
+      angle += 2 * std::atan2(Dot(p[0], Cross(p[1], p[2])),
+        1 + Dot(p[0], p[1]) + Dot(p[1], p[2]) + Dot(p[2], p[0]));
+    }
+    EXPECT_NEAR(angle, 4 * 3.14159265, 1e-3) << "corner " << i;
+  }
+}
+
+TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
+{
+  const TestVolume fine = BallVolume(32, 10);
+  TestVolume coarse = MakeVolume(18, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 9, 9, 9) - 10. * 18 / 32); });
+  coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
+  coarse.Image.Unit = std::sqrt(3.);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.StartEnclosing(coarse.Image, 1);
+  evolution.Run();
+  const SurfaceResult before = evolution.Result();
+  evolution.Divide(fine.Image, 0);
+  const SurfaceResult after = evolution.Result();
+  // Hardly an edge has to be split besides.
+  const double share = static_cast<double>(after.Triangles.size()) /
+    static_cast<double>(before.Triangles.size());
+  EXPECT_NEAR(share, 3, 0.05);
+  EXPECT_NEAR(before.Delta / after.Delta, std::sqrt(3.), 1e-6);
+}
+
+TEST(SurfaceStart, SeedsKeepClearOfEachOther)
+{
+  const TestVolume volume = BallVolume(40, 16);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  // The second is too near to the first one, the last one lies in the background.
+  const std::vector<Point> places = { { 20, 20, 20 }, { 22, 20, 20 }, { 26, 20, 20 }, { 2, 2, 2 } };
+  EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, places), 2);
+  EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 2u);
+  ExpectLegalEdges(evolution.Result());
+}
+
+TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
+{
+  const TestVolume volume = BallVolume(40, 16);
+  for (const double radius : { 0., 0.1, 2., 5. })
+  {
+    SurfaceOptions options = IsoHalf();
+    options.SeedRadius = radius;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, { { 20, 20, 20 } }), 1);
+    const SurfaceResult surface = evolution.Result();
+    ExpectLegalEdges(surface);
+    const Point& p = surface.Points.front();
+    const double expected = radius == 0 ? 1.2 * surface.Delta : std::max(radius, 0.96 * surface.Delta);
+    EXPECT_NEAR(Distance(p[0], p[1], p[2], 20, 20, 20), expected, 1e-4);
+  }
+}
+
+TEST(SurfaceStart, WithoutPlacesSeedsFillTheObject)
+{
+  const TestVolume volume = BallVolume(40, 12);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  const int seeds = evolution.StartSeeds(volume.Image, 0, {});
+  EXPECT_GT(seeds, 100);
+  const SurfaceResult surface = evolution.Result();
+  EXPECT_EQ(static_cast<int>(ComputeFeatures(surface).Components.size()), seeds);
+  for (const Point& p : surface.Points)
+  {
+    EXPECT_LT(Distance(p[0], p[1], p[2], 20, 20, 20), 12 + 1.3 * surface.Delta);
+  }
+}
+
+TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
+{
+  struct Case
+  {
+    const char* Name;
+    double SurfaceOptions::*Option;
+    double TooLow;
+    double TooHigh;
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const Case& c : { Case{ "SamplingRatio", &SurfaceOptions::SamplingRatio, 0.6, 1.01 },
+         Case{ "TensionWeight", &SurfaceOptions::TensionWeight, -0.1, 1e7 },
+         Case{ "ElasticityWeight", &SurfaceOptions::ElasticityWeight, -0.1, 1e7 },
+         Case{ "IsopotentialWeight", &SurfaceOptions::IsopotentialWeight, -0.1, 1e7 },
+         Case{ "GradientWeight", &SurfaceOptions::GradientWeight, -0.1, 1e7 },
+         Case{ "PointAttractionWeight", &SurfaceOptions::PointAttractionWeight, -0.1, 1e7 },
+         Case{ "EdgeAttractionWeight", &SurfaceOptions::EdgeAttractionWeight, -0.1, 1e7 },
+         Case{ "Friction", &SurfaceOptions::Friction, 0., 1e7 },
+         Case{ "SeedRadius", &SurfaceOptions::SeedRadius, -1., 1e10 },
+         Case{ "ConvergenceTolerance", &SurfaceOptions::ConvergenceTolerance, -1e-9, 1.1 },
+         Case{ "MaximumStep", &SurfaceOptions::MaximumStep, 0., 0.51 } })
+  {
+    for (const double value : { c.TooLow, c.TooHigh, none })
+    {
+      SurfaceOptions options = IsoHalf();
+      options.*c.Option = value;
+      try
+      {
+        const SurfaceEvolution evolution(options, Threads, Silent);
+        ADD_FAILURE() << c.Name << " " << value << " was accepted";
+      }
+      catch (const std::invalid_argument& error)
+      {
+        EXPECT_EQ(std::string(error.what()).find(c.Name), 0u) << error.what();
+      }
+    }
+  }
+}
