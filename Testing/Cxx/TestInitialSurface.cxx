@@ -73,32 +73,6 @@ TEST(InitialSurface, EnclosingSurfaceIsARoundedBoxThroughTheCornersOfTheImage)
   }
 }
 
-TEST(InitialSurface, LimitValenceThinsOutCrowdedPointsOnly)
-{
-  IndexedSurface cone;
-  const int sides = 50;
-  cone.Points = { { 0, 0, 5 }, { 0, 0, -5 } };
-  for (int i = 0; i < sides; ++i)
-  {
-    const double a = 2 * 3.14159265358979 * i / sides;
-    cone.Points.push_back({ 4 * std::cos(a), 4 * std::sin(a), 0 });
-  }
-  for (int i = 0; i < sides; ++i)
-  {
-    cone.Triangles.push_back({ 0, 2 + i, 2 + (i + 1) % sides });
-    cone.Triangles.push_back({ 1, 2 + (i + 1) % sides, 2 + i });
-  }
-  cone.Points.push_back({ 99, 99, 99 });
-  ASSERT_EQ(LargestValence(cone), sides);
-  const IndexedSurface limited = LimitValence(cone);
-  EXPECT_LE(LargestValence(limited), 15);
-  EXPECT_NO_THROW(CheckInitialSurface(limited));
-  EXPECT_NEAR(ComputeFeatures(limited).Volume, ComputeFeatures(cone).Volume, 2) << "of 167";
-  const IndexedSurface sphere = DividedIcosahedron({ 0, 0, 0 }, 3, 1);
-  EXPECT_EQ(LimitValence(sphere).Points.size(), sphere.Points.size()) << "nothing to do";
-  EXPECT_EQ(LimitValence(sphere).Triangles.size(), sphere.Triangles.size());
-}
-
 TEST(InitialSurface, SeedsLieInTheObjectAndApart)
 {
   const TestVolume volume = Half();
