@@ -20,6 +20,7 @@ set(volumic_core_sources
   Field.cxx
   GivenSurface.cxx
   InitialSurface.cxx
+  LatticeInside.cxx
   LatticeSurface.cxx
   LevelReduction.cxx
   LostParts.cxx
@@ -57,6 +58,7 @@ set(volumic_core_headers
   Executor.h
   Field.h
   InitialSurface.h
+  LatticeInside.h
   LatticeSurface.h
   LevelImage.h
   LevelReduction.h
