@@ -9,8 +9,7 @@
 namespace volumic
 {
 LatticeInside::LatticeInside(const IndexedSurface& surface, double pitch)
-  : Surface(surface)
-  , Pitch(pitch)
+  : Surface(surface), Pitch(pitch)
 {
   // Points set off by odd fractions, so that rows hit no corner of a surface on round numbers.
   const double aside[3] = { 0.4142135623, 0.3819660113, 0.2360679775 };
@@ -31,8 +30,7 @@ LatticeInside::LatticeInside(const IndexedSurface& surface, double pitch)
     this->Count[k] = static_cast<std::int64_t>(std::ceil((high - this->Origin[k]) / pitch)) + 2;
   }
   this->Words = (this->Count[0] + 63) / 64;
-  this->Bits.assign(
-    static_cast<std::size_t>(2 * Kept * this->Count[1] * this->Words), 0);
+  this->Bits.assign(static_cast<std::size_t>(2 * Kept * this->Count[1] * this->Words), 0);
   this->FindCrossings(0);
   this->FindCrossings(1);
 }
@@ -90,7 +88,8 @@ void LatticeInside::FindCrossings(int kind)
       }
     }
   }
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b)
+  std::sort(crossings.begin(), crossings.end(),
+    [](const Crossing& a, const Crossing& b)
     { return a.Row != b.Row ? a.Row < b.Row : a.Where.X < b.Where.X; });
 }
 

@@ -26,8 +26,7 @@ class TetrahedraCutter
 {
 public:
   TetrahedraCutter(const IndexedSurface& surface, double pitch)
-    : Surface(surface)
-    , Lattice(surface, pitch)
+    : Surface(surface), Lattice(surface, pitch)
   {
     this->EdgeOf.reserve(7 * this->Lattice.NumberOfCrossings());
     this->AskedOf.reserve(5 * this->Lattice.NumberOfCrossings());
@@ -104,8 +103,8 @@ void TetrahedraCutter::CutAbout(const LatticePoint& own)
       about[turn].At[first] -= turn == 0 || turn == 3;
       about[turn].At[second] -= turn == 0 || turn == 1;
     }
-    const unsigned ends =
-      static_cast<unsigned>(this->Lattice.IsInside(own)) | static_cast<unsigned>(this->Lattice.IsInside(next)) << 1;
+    const unsigned ends = static_cast<unsigned>(this->Lattice.IsInside(own)) |
+      static_cast<unsigned>(this->Lattice.IsInside(next)) << 1;
     bool inside[4];
     for (int turn = 0; turn < 4; ++turn)
     {
@@ -114,8 +113,8 @@ void TetrahedraCutter::CutAbout(const LatticePoint& own)
     for (int turn = 0; turn < 4; ++turn)
     {
       const int after = (turn + 1) % 4;
-      const unsigned bits = ends | static_cast<unsigned>(inside[turn]) << 2 |
-        static_cast<unsigned>(inside[after]) << 3;
+      const unsigned bits =
+        ends | static_cast<unsigned>(inside[turn]) << 2 | static_cast<unsigned>(inside[after]) << 3;
       if (bits != 0 && bits != 15)
       {
         this->CutTetrahedron({ own, next, about[turn], about[after] }, bits);

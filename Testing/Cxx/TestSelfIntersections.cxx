@@ -77,8 +77,8 @@ NamedTriangle Rounded(const IndexedSurface& surface, int i)
   {
     triangle.Name[k] = surface.Triangles[i][k];
     const Point& p = surface.Points[triangle.Name[k]];
-    triangle.Corner[k] = VectorD(
-      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    triangle.Corner[k] =
+      VectorD(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
   }
   return triangle;
 }
