@@ -21,6 +21,7 @@ set(volumic_core_sources
   Field.cxx
   GivenSurface.cxx
   InitialSurface.cxx
+  LatticeInside.cxx
   LatticeSurface.cxx
   LevelReduction.cxx
   LostParts.cxx
@@ -64,6 +65,7 @@ set(volumic_core_headers
   ImageMargin.h
   InitialSurface.h
   Join.h
+  LatticeInside.h
   LatticeSurface.h
   LevelImage.h
   LevelReduction.h

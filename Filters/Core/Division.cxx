@@ -4,9 +4,7 @@
 
 namespace volumic
 {
-KeptEdges::KeptEdges(const SurfaceMesh& mesh)
-  : Mesh(mesh)
-  , FirstSlot(mesh.Rings.size() + 1, 0)
+KeptEdges::KeptEdges(const SurfaceMesh& mesh) : Mesh(mesh), FirstSlot(mesh.Rings.size() + 1, 0)
 {
   for (int v = 0; v < mesh.Size(); ++v)
   {

@@ -11,7 +11,7 @@
 
 namespace volumic
 {
-/** Edges of a mesh that a division is to leave where they are. The mesh must not change meanwhile. */
+/** Edges of a mesh that a division is to leave where they are. The mesh must stay as it is. */
 class KeptEdges
 {
 public:
@@ -20,7 +20,7 @@ public:
   void Keep(int u, int v);
   void KeepAllAt(int v);
   void KeepAll() { this->Flags.assign(this->Flags.size(), 1); }
-  /** Keeps more of them, all those of some vertices, so that no ring overflows after the division. */
+  /** Keeps more of them, all those of some vertices, so that no ring overflows by the division. */
   void MakeRoom();
 
   /** Of the edge from v to its neighbour i. */

@@ -30,7 +30,8 @@ enum class Mode
 
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
- * recovery), GivenSurface.cxx makes a given one ready, EvolutionIteration.cxx does one iteration, EvolutionRun.cxx a whole level.
+ * recovery), GivenSurface.cxx makes a given one ready, EvolutionIteration.cxx does one iteration,
+ * EvolutionRun.cxx a whole level.
  */
 struct SurfaceEvolution::Implementation
 {

@@ -43,6 +43,27 @@ EdgeLengths LengthsOf(const IndexedSurface& surface)
   return lengths;
 }
 
+IndexedSurface WithoutUnusedPoints(const IndexedSurface& surface)
+{
+  IndexedSurface result;
+  std::vector<int> place(surface.Points.size(), -1);
+  result.Triangles.reserve(surface.Triangles.size());
+  for (Triangle t : surface.Triangles)
+  {
+    for (int& corner : t)
+    {
+      if (place[corner] < 0)
+      {
+        place[corner] = static_cast<int>(result.Points.size());
+        result.Points.push_back(surface.Points[corner]);
+      }
+      corner = place[corner];
+    }
+    result.Triangles.push_back(t);
+  }
+  return result;
+}
+
 /** Whether no point has more neighbours than a ring can take. */
 bool FitsRings(const IndexedSurface& surface)
 {
@@ -109,7 +130,8 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
   constexpr double pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 }; // in delta
-  // Large surfaces get one of the coarsest that still shows parts of two edges, for the sake of time.
+  // Large surfaces get one of the coarsest that still shows parts of two edges, for the sake of
+  // time.
   constexpr double coarse = 2.;
   constexpr double large = 100000.; // delta^2
   const double delta = this->State.Delta;
@@ -120,8 +142,8 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
   {
     const double pitch = delta * (isLarge ? coarse : pitches[attempt]);
-    IndexedSurface mesh = RemeshOnLattice(
-      surface, pitch, attempt, this->Threads, [this](double share) { return this->GoOn(Monitor::Activity::Starting, 0.5 * share); });
+    IndexedSurface mesh = RemeshOnLattice(surface, pitch, attempt, this->Threads,
+      [this](double share) { return this->GoOn(Monitor::Activity::Starting, 0.5 * share); });
     if (this->Stopped)
     {
       return {};
@@ -142,8 +164,9 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   return best;
 }
 
-void SurfaceEvolution::Implementation::Take(const IndexedSurface& surface)
+void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
 {
+  const IndexedSurface surface = WithoutUnusedPoints(given);
   // A mesh that is near to the constraints is brought within them as it is, by the edits of an
   // iteration. They rely on edges that are not too long and rings that have room; where long edges,
   // slivers or fans deny them that, the same surface gets another mesh first.

@@ -23,8 +23,8 @@ namespace volumic
  * than it closed, and where two sheets meet at a sharp angle holes may stay open between them.
  *
  * @param pitch side of the lattice's cubes, in the unit of the points.
- * @param attempt which of ObliqueRotation::Count directions the lattice has: what one tears, another
- * may not.
+ * @param attempt which of ObliqueRotation::Count directions the lattice has: what one tears,
+ * another may not.
  * @param goOn told the share that is done now and then; when it says no the result is empty.
  * @return with no triangles also where everything is thinner than the lattice resolves.
  * `surface` must be closed and oriented, and the boundary of a volume.

@@ -30,12 +30,12 @@ public:
     const double y = q[2];
     const double z = q[3];
     const double n = w * w + x * x + y * y + z * z;
-    this->Rows = { { { (w * w + x * x - y * y - z * z) / n, 2. * (x * y - w * z) / n,
-                       2. * (x * z + w * y) / n },
-      { 2. * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n,
-        2. * (y * z - w * x) / n },
-      { 2. * (x * z - w * y) / n, 2. * (y * z + w * x) / n,
-        (w * w - x * x - y * y + z * z) / n } } };
+    this->Rows = {
+      { { (w * w + x * x - y * y - z * z) / n, 2. * (x * y - w * z) / n, 2. * (x * z + w * y) / n },
+        { 2. * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2. * (y * z - w * x) / n },
+        { 2. * (x * z - w * y) / n, 2. * (y * z + w * x) / n,
+          (w * w - x * x - y * y + z * z) / n } }
+    };
   }
 
   Point Apply(const Point& p) const

@@ -6,6 +6,7 @@
 #include "SurfaceFeatures.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace volumic
 {

@@ -20,8 +20,8 @@ NamedTriangle RoundedTriangle(const IndexedSurface& surface, int i)
     const int corner = surface.Triangles[i][k];
     const Point& p = surface.Points[corner];
     triangle.Name[k] = corner;
-    triangle.Corner[k] = VectorD(
-      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    triangle.Corner[k] =
+      VectorD(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
   }
   return triangle;
 }
@@ -31,10 +31,9 @@ class MeetingBox
 {
 public:
   MeetingBox(const NamedTriangle& triangle, double room)
-    : Normal(Cross(triangle.Corner[1] - triangle.Corner[0],
-        triangle.Corner[2] - triangle.Corner[0]))
-    , Origin(triangle.Corner[0])
-    , Room(room)
+    : Normal(
+        Cross(triangle.Corner[1] - triangle.Corner[0], triangle.Corner[2] - triangle.Corner[0])),
+      Origin(triangle.Corner[0]), Room(room)
   {
     for (int k = 0; k < 3; ++k)
     {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace volumic
 {
@@ -55,8 +56,7 @@ double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
 }
 
 TriangleTree::TriangleTree(const IndexedSurface& surface)
-  : Surface(surface)
-  , Places(surface.Triangles.size())
+  : Surface(surface), Places(surface.Triangles.size())
 {
   std::iota(this->Places.begin(), this->Places.end(), 0);
   std::vector<Point> centres;
@@ -113,9 +113,7 @@ int TriangleTree::Build(int begin, int end, const std::vector<Point>& centres)
   const auto first = this->Places.begin();
   std::nth_element(first + begin, first + middle, first + end,
     [&](int a, int b)
-    {
-      return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
-    });
+    { return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b; });
   this->Build(begin, middle, centres);
   const int second = this->Build(middle, end, centres);
   this->Nodes[at].Second = second;
@@ -144,8 +142,7 @@ double TriangleTree::SquaredDistance(const Point& place) const
     const Node& node = this->Nodes[branch.Node];
     if (node.Second >= 0)
     {
-      Branch closer{ branch.Node + 1,
-        SquaredDistanceToBox(place, this->Nodes[branch.Node + 1]) };
+      Branch closer{ branch.Node + 1, SquaredDistanceToBox(place, this->Nodes[branch.Node + 1]) };
       Branch further{ node.Second, SquaredDistanceToBox(place, this->Nodes[node.Second]) };
       if (closer.Squared > further.Squared)
       {

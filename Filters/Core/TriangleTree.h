@@ -21,15 +21,13 @@ public:
   {
     Point Low;
     Point High;
-    int Begin;    ///< Its triangles have these places in Order().
+    int Begin; ///< Of its triangles in the order of the tree.
     int End;
-    int Second;   ///< Node of the second half, the first one follows its parent; -1: a leaf.
-    int Largest;  ///< Of the indices of its triangles.
+    int Second;  ///< Node of the second half, the first one follows its parent; -1: a leaf.
+    int Largest; ///< Of the indices of its triangles.
   };
 
   explicit TriangleTree(const IndexedSurface& surface);
-
-  const std::vector<int>& Order() const { return this->Places; }
 
   /**
    * Calls visit(triangle) for the triangles of all leaves that are reached: below nodes for which

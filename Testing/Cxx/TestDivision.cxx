@@ -249,10 +249,10 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
 TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
 {
   // A body with a groove, which the division fills, and a blade in the groove. They meet in the
-  // middle of edges, far from all corners if the last of three divisions is the measure.
+  // middle of edges, far from all corners if the last of five divisions is the measure.
   IndexedSurface given;
   given.Points = { { -2.1, 0, 0.6 }, { 2.1, 0, 0.6 }, { 0, -1.2, 0 }, { 0, 1.2, 0 }, { 0, 0, -0.7 },
-    { 0, -1.2, 0.1 }, { 0, 1.2, 0.1 }, { 0.51, 0, 0.253 }, { -0.51, 0, 0.253 } };
+    { 0, -0.87, 0.1 }, { 0, 0.87, 0.1 }, { 0.51, 0, 0.253 }, { -0.51, 0, 0.253 } };
   given.Triangles = { { 0, 2, 3 }, { 1, 3, 2 }, { 0, 4, 2 }, { 2, 4, 1 }, { 1, 4, 3 }, { 3, 4, 0 },
     { 5, 6, 7 }, { 6, 5, 8 }, { 5, 7, 8 }, { 6, 8, 7 } };
   for (Point& p : given.Points)
@@ -281,7 +281,7 @@ TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
   evolution.StartSurface(volume.Image, 1, given);
   ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
   LevelImage fine = volume.Image;
-  fine.Unit = std::pow(3., -1.5);
+  fine.Unit = std::pow(3., -2.5);
   evolution.Divide(fine, 0);
   const SurfaceResult divided = evolution.Result();
   EXPECT_EQ(CountSelfIntersections(divided), 0);

@@ -30,8 +30,8 @@ SurfaceOptions Half()
 
 TestVolume Ball()
 {
-  return MakeVolume(
-    40, [](double x, double y, double z) { return Soft(Distance(x, y, z, 19.5, 19.5, 19.5) - 12.); });
+  return MakeVolume(40,
+    [](double x, double y, double z) { return Soft(Distance(x, y, z, 19.5, 19.5, 19.5) - 12.); });
 }
 
 /** As VTK's cylinder source makes it, triangulated: caps are fans of ears, sides long slivers. */
@@ -83,8 +83,8 @@ void Append(IndexedSurface& surface, const IndexedSurface& other, bool reversed 
   surface.Points.insert(surface.Points.end(), other.Points.begin(), other.Points.end());
   for (const Triangle& t : other.Triangles)
   {
-    surface.Triangles.push_back({ first + t[0], first + t[reversed ? 2 : 1],
-      first + t[reversed ? 1 : 2] });
+    surface.Triangles.push_back(
+      { first + t[0], first + t[reversed ? 2 : 1], first + t[reversed ? 1 : 2] });
   }
 }
 
@@ -184,7 +184,13 @@ TEST(GivenSurface, IsTakenAsItIsWhereItIsLegal)
   first.Run();
   const SurfaceResult rested = first.Result();
   SurfaceEvolution second(Half(), Threads, Silent);
-  second.StartSurface(volume.Image, 0, rested);
+  IndexedSurface withMore = rested;
+  withMore.Points.insert(withMore.Points.begin(), { 1, 2, 3 }); // Used by no triangle.
+  for (Triangle& t : withMore.Triangles)
+  {
+    t = { t[0] + 1, t[1] + 1, t[2] + 1 };
+  }
+  second.StartSurface(volume.Image, 0, withMore);
   const SurfaceResult again = second.Result();
   ASSERT_EQ(again.Points.size(), rested.Points.size());
   EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(rested).Volume, 1e-6);
@@ -302,7 +308,8 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
 
 TEST(Remesher, SplitsLongEdgesBetweenFullRings)
 {
-  // A double cone on a polygon of 15 sides, one of them long: both vertices opposite to it are full.
+  // A double cone on a polygon of 15 sides, one of them long: both vertices opposite to it are
+  // full.
   IndexedSurface cone;
   cone.Points = { { 0, 0, 0.8 }, { 0, 0, -0.8 } };
   constexpr int sides = Ring::Capacity;

@@ -268,8 +268,8 @@ void ExpectLegal(const SurfaceResult& surface, const char* when)
   EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u) << when << "\n" << Describe(verdict);
   EXPECT_LE(verdict.Lengths.Longest, 2.5001 * surface.Delta) << when << "\n" << Describe(verdict);
   EXPECT_GE(verdict.Lengths.Shortest, 0.2 * surface.Delta) << when << "\n" << Describe(verdict);
-  EXPECT_LE(verdict.Lengths.EdgesTooShort, verdict.Lengths.Edges / 50 + 3)
-    << when << "\n" << Describe(verdict);
+  EXPECT_LE(verdict.Lengths.EdgesTooShort, verdict.Lengths.Edges / 50 + 3) << when << "\n"
+                                                                           << Describe(verdict);
 }
 }
 
@@ -282,8 +282,8 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
   std::vector<float> values;
   for (int voxel = 0; voxel < Size * Size * Size; ++voxel)
   {
-    const double r = std::hypot(voxel % Size - Middle, voxel / Size % Size - Middle,
-      voxel / (Size * Size) - Middle);
+    const double r = std::hypot(
+      voxel % Size - Middle, voxel / Size % Size - Middle, voxel / (Size * Size) - Middle);
     values.push_back(static_cast<float>(std::clamp(0.5 + 0.5 * (12.0 - r), 0.0, 1.0)));
   }
   LevelImage image;
@@ -309,8 +309,7 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
     {
       // What decimation leaves may be broken, and shapes may be too flat; nothing else.
       const TopologyVerdict topology = JudgeTopology(Judged(given));
-      const bool isBroken =
-        !topology.Outward || JudgeIntersections(Judged(given)).Pairs > 0;
+      const bool isBroken = !topology.Outward || JudgeIntersections(Judged(given)).Pairs > 0;
       EXPECT_TRUE(isBroken || std::string(error.what()).find("too thin") != std::string::npos)
         << error.what();
       continue;
@@ -325,6 +324,6 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
 }
 
 INSTANTIATE_TEST_SUITE_P(Starts, GivenSurfaces,
-  ::testing::Values("Cylinders", "Cones", "Boxes", "Spheres", "Outlines", "DecimatedScans",
-    "DecimatedByQuadrics"),
+  ::testing::Values(
+    "Cylinders", "Cones", "Boxes", "Spheres", "Outlines", "DecimatedScans", "DecimatedByQuadrics"),
   [](const ::testing::TestParamInfo<const char*>& info) { return std::string(info.param); });

@@ -17,20 +17,6 @@ namespace
 {
 SequentialExecutor Threads;
 
-int LargestValence(const IndexedSurface& surface)
-{
-  std::map<int, int> triangles;
-  int largest = 0;
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int corner : t)
-    {
-      largest = std::max(largest, ++triangles[corner]);
-    }
-  }
-  return largest;
-}
-
 /** Object for x < 10. */
 TestVolume Half()
 {
