@@ -138,8 +138,8 @@ TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
 
 TEST(EndlessRuns, AStrongMapOfEdgesInNoiseCostsLittle)
 {
-  TestVolume volume = Noise(20, 3);
-  const TestVolume edges = Noise(20, 4);
+  TestVolume volume = Noise(14, 3);
+  const TestVolume edges = Noise(14, 4);
   volume.Image.Edges = edges.Values.data();
   for (const double weight : { 30., 1000. })
   {
