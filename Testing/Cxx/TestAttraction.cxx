@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 using namespace volumic;
@@ -75,6 +76,19 @@ TEST(PointAttraction, MakesABallOfItsRadiusHoweverDarkItIs)
         0.35 * radius)
         << iso;
     }
+  }
+}
+
+TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
+{
+  // 50 below the iso-value, with boundaries of 50 per voxel: V + e (2 |V| + 50 / 4), e = 1/2.
+  const TestVolume volume = Half();
+  const std::vector<float> bent =
+    PointAttraction({ { { 20, 16, 16 }, 1., 4. } }, 1.).Bend(volume.Image, HalfOptions(50), Threads);
+  for (const std::array<int, 3>& voxel : { std::array<int, 3>{ 24, 16, 16 }, { 20, 12, 16 },
+         { 20, 16, 20 } })
+  {
+    EXPECT_NEAR(bent[voxel[0] + 33 * (voxel[1] + 33 * voxel[2])], 50 - 50 + 0.5 * 112.5, 0.05);
   }
 }
 

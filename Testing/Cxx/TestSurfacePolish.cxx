@@ -188,9 +188,16 @@ TEST(SurfacePolish, StaysOnTheIsopotential)
 TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.7);
-  const int u = 40;
-  const int v = mesh.Rings[u].Item[0];
-  EdgeFlip::Of(mesh, u, v).Apply(mesh);
+  // Vertices are looked at in order of index: an end of the bad edge must be the first.
+  int u = 40;
+  EdgeFlip flip = EdgeFlip::Of(mesh, u, mesh.Rings[u].Item[0]);
+  while (std::min(flip.A, flip.B) > std::min(flip.U, flip.V))
+  {
+    ++u;
+    flip = EdgeFlip::Of(mesh, u, mesh.Rings[u].Item[0]);
+  }
+  const int v = flip.V;
+  flip.Apply(mesh);
   ASSERT_FALSE(mesh.AreNeighbours(u, v));
   SurfaceState state = MakeState(mesh);
   SequentialExecutor executor;
