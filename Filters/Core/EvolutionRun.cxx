@@ -144,7 +144,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     HistoryRow row;
     row.SecondsBefore = this->Book();
     row.AddedEulerCharacteristic = s.EulerCharacteristic -
-      (this->Rows.empty() ? 0 : this->Rows.back().RegularisedEulerCharacteristic);
+      (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
     this->Iterate(row, dynamics, remesher, Mode::Evolve);
     row.Seconds = this->Book();
     if (this->LastIterations == 0)
@@ -228,10 +228,8 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   {
     HistoryRow& last = this->Rows.back();
     last.PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
-    last.RegularisedVertices = s.Mesh.NumberOfVertices();
-    last.RegularisedMeanEdgeLength = this->MeanEdgeLength();
-    last.RegularisedEulerCharacteristic = s.EulerCharacteristic;
-    last.RegularisedComponents = this->Watch.NumberOfComponents();
+    this->FillCounts(last);
+    last.MeanEdgeLength = this->MeanEdgeLength();
     last.RegularisationCuts = this->SinceEvolved.Cuts + s.Counts.Cuts;
     last.RegularisationDeletions = this->SinceEvolved.Removed + s.Counts.Removed;
   }
