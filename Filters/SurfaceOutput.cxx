@@ -271,13 +271,13 @@ vtkSmartPointer<vtkTable> MakeHistory(
   AddColumn<vtkIntArray>(table, "AddedEulerCharacteristic", rows,
     [](const Row& r) { return r.AddedEulerCharacteristic; });
   AddColumn<vtkIntArray>(
-    table, "RegularisedVertices", rows, [](const Row& r) { return r.RegularisedVertices; });
-  AddColumn<vtkDoubleArray>(table, "RegularisedMeanEdgeLength", rows,
-    [unit](const Row& r) { return r.RegularisedMeanEdgeLength * unit; });
-  AddColumn<vtkIntArray>(table, "RegularisedEulerCharacteristic", rows,
-    [](const Row& r) { return r.RegularisedEulerCharacteristic; });
+    table, "IterationVertices", rows, [](const Row& r) { return r.IterationVertices; });
+  AddColumn<vtkDoubleArray>(table, "IterationMeanEdgeLength", rows,
+    [unit](const Row& r) { return r.IterationMeanEdgeLength * unit; });
+  AddColumn<vtkIntArray>(table, "IterationEulerCharacteristic", rows,
+    [](const Row& r) { return r.IterationEulerCharacteristic; });
   AddColumn<vtkIntArray>(
-    table, "RegularisedComponents", rows, [](const Row& r) { return r.RegularisedComponents; });
+    table, "IterationComponents", rows, [](const Row& r) { return r.IterationComponents; });
   AddColumn<vtkIntArray>(
     table, "RegularisationCuts", rows, [](const Row& r) { return r.RegularisationCuts; });
   AddColumn<vtkIntArray>(

@@ -68,16 +68,16 @@
  * the simulated time, squared), `MeanEdgeLength` (world units, for voxels that are cubes of the
  * smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those awake),
  * `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this iteration),
- * `EulerCharacteristic`, `Components` (as the iteration left them, like `Vertices`),
- * `RecoveredParts` (found before this iteration, see Recovery), `Deletions` (components deleted) and
+ * `EulerCharacteristic`, `Components`, `RecoveredParts` (found before this iteration, see Recovery), `Deletions` (components deleted) and
  * `DeletedGenus` (the sum of their genera), `AddedEulerCharacteristic` (of what was added before
- * it: the start, what encloses lost parts). `RegularisedVertices`, `RegularisedMeanEdgeLength`,
- * `RegularisedEulerCharacteristic`, `RegularisedComponents`: in the last row of a level what the
- * regularisation made of it, by `RegularisationCuts` and `RegularisationDeletions`; in other rows
- * the same as without it. `SecondsBefore`: since the row before (voxels, division, recovery; in the
+ * it: the start, what encloses lost parts). `Vertices`, `MeanEdgeLength`, `EulerCharacteristic` and
+ * `Components` of the last row of a level are those of its surface, as regularised, by
+ * `RegularisationCuts` and `RegularisationDeletions`; `IterationVertices`,
+ * `IterationMeanEdgeLength`, `IterationEulerCharacteristic` and `IterationComponents` tell what the
+ * iteration had left (in other rows the same). `SecondsBefore`: since the row before (voxels, division, recovery; in the
  * first row all since the run began); `SecondsAfter`: in the last row of a level, regularisation
  * and output. With these the level's rows add up to its `Seconds`, and levels to the run. Always
- * `EulerCharacteristic` = `RegularisedEulerCharacteristic` of the row before (first row: 0) +
+ * `IterationEulerCharacteristic` = `EulerCharacteristic` of the row before (first row: 0) +
  * `AddedEulerCharacteristic` + 2 (`Cuts` - `Merges` - `Deletions` + `DeletedGenus`).
  * With Profile, also what `Seconds` is made of: `ForcesSeconds`, `ContactSeconds`,
  * `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`, `TopologySeconds`; and

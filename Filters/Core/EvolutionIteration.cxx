@@ -308,9 +308,6 @@ void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
   row.Vertices = this->State.Mesh.NumberOfVertices();
   row.EulerCharacteristic = this->State.EulerCharacteristic;
   row.Components = this->Watch.NumberOfComponents();
-  row.RegularisedVertices = row.Vertices;
-  row.RegularisedEulerCharacteristic = row.EulerCharacteristic;
-  row.RegularisedComponents = row.Components;
 }
 
 void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
@@ -343,7 +340,10 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.KineticEnergy =
     std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / std::max(row.Vertices, 1);
   row.MeanEdgeLength = this->MeanEdgeLength();
-  row.RegularisedMeanEdgeLength = row.MeanEdgeLength;
+  row.IterationVertices = row.Vertices;
+  row.IterationMeanEdgeLength = row.MeanEdgeLength;
+  row.IterationEulerCharacteristic = row.EulerCharacteristic;
+  row.IterationComponents = row.Components;
 }
 
 double SurfaceEvolution::Implementation::MeanEdgeLength()

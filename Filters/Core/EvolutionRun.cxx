@@ -145,7 +145,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     HistoryRow row;
     row.SecondsBefore = this->Book();
     row.AddedEulerCharacteristic = s.EulerCharacteristic -
-      (this->Rows.empty() ? 0 : this->Rows.back().RegularisedEulerCharacteristic);
+      (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
     this->Iterate(row, dynamics, remesher, Mode::Evolve);
     row.Seconds = this->Book();
     if (this->LastIterations == 0)
@@ -305,10 +305,8 @@ void SurfaceEvolution::Implementation::FinishRow()
     return;
   }
   HistoryRow& last = this->Rows.back();
-  last.RegularisedVertices = this->State.Mesh.NumberOfVertices();
-  last.RegularisedMeanEdgeLength = this->MeanEdgeLength();
-  last.RegularisedEulerCharacteristic = this->State.EulerCharacteristic;
-  last.RegularisedComponents = this->Watch.NumberOfComponents();
+  this->FillCounts(last);
+  last.MeanEdgeLength = this->MeanEdgeLength();
   last.RegularisationCuts = this->SinceEvolved.Cuts;
   last.RegularisationDeletions = this->SinceEvolved.Removed;
 }

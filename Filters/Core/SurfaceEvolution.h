@@ -47,9 +47,9 @@ enum class Phase
  *
  * What happens to the Euler characteristic is explained row by row:
  *
- *   EulerCharacteristic = RegularisedEulerCharacteristic of the row before, 0 in the first,
+ *   IterationEulerCharacteristic = EulerCharacteristic of the row before, 0 in the first,
  *     + AddedEulerCharacteristic + 2 (Cuts - Merges - Deletions + DeletedGenus)
- *   RegularisedEulerCharacteristic = EulerCharacteristic
+ *   EulerCharacteristic = IterationEulerCharacteristic
  *     + 2 (RegularisationCuts - RegularisationDeletions)
  *
  * (and, if a regularisation should ever delete a component with handles, twice their number).
@@ -70,18 +70,19 @@ struct HistoryRow
   int Splits = 0;
   int Collapses = 0;
   int Flips = 0;
-  int EulerCharacteristic = 0; ///< As this iteration has left it, like Vertices and Components.
+  /** Like Vertices, MeanEdgeLength, Components: in the last row of a level as regularised. */
+  int EulerCharacteristic = 0;
   int Components = 0;
   int Recovered = 0; ///< Lost parts and cavities enclosed again before the first of a level.
   int Deletions = 0;    ///< Components deleted.
   int DeletedGenus = 0; ///< Sum of their genera.
   /** Of what came new before this iteration: the start, what encloses lost parts. */
   int AddedEulerCharacteristic = 0;
-  /** What the regularisation after the last iteration of a level has made; else the same. */
-  int RegularisedVertices = 0;
-  double RegularisedMeanEdgeLength = 0.;
-  int RegularisedEulerCharacteristic = 0;
-  int RegularisedComponents = 0;
+  /** What the iteration itself has left: the same but for the last one of a level. */
+  int IterationVertices = 0;
+  double IterationMeanEdgeLength = 0.;
+  int IterationEulerCharacteristic = 0;
+  int IterationComponents = 0;
   int RegularisationCuts = 0;
   int RegularisationDeletions = 0;
   double SecondsBefore = 0.; ///< Between the row before, or the start of the clock, and this one.

@@ -160,8 +160,8 @@ TEST(Cancelling, LeavesTheHistoryExplained)
   ASSERT_EQ(scene.Run(evolution), StopReason::Cancelled);
   const HistoryRow& last = evolution.History().back();
   const SurfaceFeatures features = ComputeFeatures(evolution.Result());
-  EXPECT_EQ(last.RegularisedVertices, static_cast<int>(evolution.Result().Points.size()));
-  EXPECT_EQ(last.RegularisedEulerCharacteristic, features.EulerCharacteristic);
+  EXPECT_EQ(last.Vertices, static_cast<int>(evolution.Result().Points.size()));
+  EXPECT_EQ(last.EulerCharacteristic, features.EulerCharacteristic);
 }
 
 TEST(Cancelling, EndsTheSearchForLostParts)

@@ -108,8 +108,8 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   const char* columns[] = { "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength",
     "Seconds", "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
     "EulerCharacteristic", "Components", "RecoveredParts", "Deletions", "DeletedGenus",
-    "AddedEulerCharacteristic", "RegularisedVertices", "RegularisedMeanEdgeLength",
-    "RegularisedEulerCharacteristic", "RegularisedComponents", "RegularisationCuts",
+    "AddedEulerCharacteristic", "IterationVertices", "IterationMeanEdgeLength",
+    "IterationEulerCharacteristic", "IterationComponents", "RegularisationCuts",
     "RegularisationDeletions", "SecondsBefore", "SecondsAfter" };
   ASSERT_EQ(history->GetNumberOfColumns(), 27);
   for (int c = 0; c < 27; ++c)
@@ -164,13 +164,16 @@ TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
     auto* left = vtkPolyData::SafeDownCast(snapshots->GetBlock(r + 3 - level));
     ASSERT_EQ(FieldOf(left, "Iteration"), r + 1);
     auto* block = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
-    EXPECT_EQ(value("Vertices").ToInt(), left->GetNumberOfPoints());
-    EXPECT_EQ(value("EulerCharacteristic").ToInt(), FieldOf(left, "EulerCharacteristic"));
-    vtkPolyData* regularised = isLast ? block : left;
-    EXPECT_EQ(value("RegularisedVertices").ToInt(), regularised->GetNumberOfPoints());
-    EXPECT_EQ(
-      value("RegularisedEulerCharacteristic").ToInt(), FieldOf(regularised, "EulerCharacteristic"));
-    EXPECT_EQ(value("RegularisedComponents").ToInt(), FieldOf(regularised, "NumberOfComponents"));
+    EXPECT_EQ(value("IterationVertices").ToInt(), left->GetNumberOfPoints());
+    EXPECT_EQ(value("IterationEulerCharacteristic").ToInt(), FieldOf(left, "EulerCharacteristic"));
+    EXPECT_EQ(value("IterationComponents").ToInt(), FieldOf(left, "NumberOfComponents"));
+    vtkPolyData* handedOn = isLast ? block : left;
+    EXPECT_EQ(value("Vertices").ToInt(), handedOn->GetNumberOfPoints());
+    EXPECT_EQ(value("EulerCharacteristic").ToInt(), FieldOf(handedOn, "EulerCharacteristic"));
+    EXPECT_EQ(value("Components").ToInt(), FieldOf(handedOn, "NumberOfComponents"));
+    const bool isRegularised =
+      value("MeanEdgeLength").ToDouble() != value("IterationMeanEdgeLength").ToDouble();
+    EXPECT_EQ(isRegularised, isLast);
     levels += isLast;
   }
   EXPECT_EQ(levels, 3);
@@ -292,7 +295,7 @@ TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)
     last = iteration;
     if (FieldOf(surface, "Iterations") > 0)
     {
-      EXPECT_EQ(filter->GetHistory()->GetValueByName(iteration - 1, "Vertices").ToInt(),
+      EXPECT_EQ(filter->GetHistory()->GetValueByName(iteration - 1, "IterationVertices").ToInt(),
         surface->GetNumberOfPoints());
       EXPECT_EQ(filter->GetHistory()->GetValueByName(iteration - 1, "Level").ToInt(),
         FieldOf(surface, "Level"));

@@ -76,18 +76,18 @@ void ExpectExplained(const std::vector<HistoryRow>& rows)
   for (const HistoryRow& row : rows)
   {
     SCOPED_TRACE("row " + std::to_string(row.Iteration));
-    EXPECT_EQ(row.EulerCharacteristic,
+    EXPECT_EQ(row.IterationEulerCharacteristic,
       before + row.AddedEulerCharacteristic +
         2 * (row.Cuts - row.Merges - row.Deletions + row.DeletedGenus));
-    EXPECT_EQ(row.RegularisedEulerCharacteristic,
-      row.EulerCharacteristic + 2 * (row.RegularisationCuts - row.RegularisationDeletions));
+    EXPECT_EQ(row.EulerCharacteristic,
+      row.IterationEulerCharacteristic + 2 * (row.RegularisationCuts - row.RegularisationDeletions));
     const bool isFirstOfLevel = row.Iteration == 1 || rows[row.Iteration - 2].Level != row.Level;
     if (!isFirstOfLevel)
     {
       EXPECT_EQ(row.AddedEulerCharacteristic, 0) << "nothing is added within a level";
       EXPECT_EQ(row.Recovered, 0);
     }
-    before = row.RegularisedEulerCharacteristic;
+    before = row.EulerCharacteristic;
   }
 }
 }
@@ -114,8 +114,8 @@ TEST(EvolutionHistory, ExplainsTheEulerCharacteristicRowByRow)
   }
   EXPECT_GE(cuts, 2) << "otherwise this test would show little";
   const SurfaceFeatures features = ComputeFeatures(evolution.Result());
-  EXPECT_EQ(rows.back().RegularisedEulerCharacteristic, features.EulerCharacteristic);
-  EXPECT_EQ(rows.back().RegularisedComponents, static_cast<int>(features.Components.size()));
+  EXPECT_EQ(rows.back().EulerCharacteristic, features.EulerCharacteristic);
+  EXPECT_EQ(rows.back().Components, static_cast<int>(features.Components.size()));
 }
 
 TEST(EvolutionHistory, TellsOfDeletedComponents)
@@ -183,12 +183,12 @@ TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisation
   const HistoryRow row = evolution.History().back();
   const std::size_t regularised = evolution.Result().Points.size();
   ASSERT_NE(last.Vertices, regularised) << "otherwise this test would show nothing";
-  EXPECT_EQ(row.Vertices, static_cast<int>(last.Vertices));
-  EXPECT_EQ(row.RegularisedVertices, static_cast<int>(regularised));
-  EXPECT_NE(row.MeanEdgeLength, row.RegularisedMeanEdgeLength);
+  EXPECT_EQ(row.IterationVertices, static_cast<int>(last.Vertices));
+  EXPECT_EQ(row.Vertices, static_cast<int>(regularised));
+  EXPECT_NE(row.MeanEdgeLength, row.IterationMeanEdgeLength);
   const HistoryRow& other = evolution.History()[evolution.History().size() - 2];
-  EXPECT_EQ(other.Vertices, other.RegularisedVertices);
-  EXPECT_EQ(other.MeanEdgeLength, other.RegularisedMeanEdgeLength);
+  EXPECT_EQ(other.Vertices, other.IterationVertices);
+  EXPECT_EQ(other.MeanEdgeLength, other.IterationMeanEdgeLength);
 }
 
 TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)

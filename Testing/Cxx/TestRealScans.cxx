@@ -62,11 +62,12 @@ void ExpectExplainedHistory(vtkTable* history, vtkMultiBlockDataSet* levels)
     const auto value = [&](const char* name) { return history->GetValueByName(row, name).ToInt(); };
     const int edits =
       value("Cuts") - value("Merges") - value("Deletions") + value("DeletedGenus");
-    EXPECT_EQ(value("EulerCharacteristic"), before + value("AddedEulerCharacteristic") + 2 * edits)
+    EXPECT_EQ(value("IterationEulerCharacteristic"),
+      before + value("AddedEulerCharacteristic") + 2 * edits)
       << "row " << row;
-    before = value("RegularisedEulerCharacteristic");
+    before = value("EulerCharacteristic");
     EXPECT_EQ(before,
-      value("EulerCharacteristic") +
+      value("IterationEulerCharacteristic") +
         2 * (value("RegularisationCuts") - value("RegularisationDeletions")))
       << "row " << row;
     if (value("Level") == level)
@@ -80,7 +81,7 @@ void ExpectExplainedHistory(vtkTable* history, vtkMultiBlockDataSet* levels)
     if (isLast)
     {
       EXPECT_EQ(before, FieldOf(surface, "EulerCharacteristic")) << "level " << level;
-      EXPECT_EQ(value("RegularisedVertices"), surface->GetNumberOfPoints()) << "level " << level;
+      EXPECT_EQ(value("Vertices"), surface->GetNumberOfPoints()) << "level " << level;
     }
   }
 }

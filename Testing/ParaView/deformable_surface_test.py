@@ -23,8 +23,8 @@ FIELDS = {"Level", "Delta", "Unit", "Iterations", "StopReason", "NumberOfCompone
 COLUMNS = ["Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds",
            "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
            "EulerCharacteristic", "Components", "RecoveredParts", "Deletions", "DeletedGenus",
-           "AddedEulerCharacteristic", "RegularisedVertices", "RegularisedMeanEdgeLength",
-           "RegularisedEulerCharacteristic", "RegularisedComponents", "RegularisationCuts",
+           "AddedEulerCharacteristic", "IterationVertices", "IterationMeanEdgeLength",
+           "IterationEulerCharacteristic", "IterationComponents", "RegularisationCuts",
            "RegularisationDeletions", "SecondsBefore", "SecondsAfter"]
 SURFACE, LEVELS, HISTORY = range(3)
 

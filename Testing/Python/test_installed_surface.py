@@ -23,8 +23,8 @@ HISTORY_COLUMNS = (
     "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds", "TimeStep",
     "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips", "EulerCharacteristic",
     "Components", "RecoveredParts", "Deletions", "DeletedGenus", "AddedEulerCharacteristic",
-    "RegularisedVertices", "RegularisedMeanEdgeLength", "RegularisedEulerCharacteristic",
-    "RegularisedComponents", "RegularisationCuts", "RegularisationDeletions", "SecondsBefore",
+    "IterationVertices", "IterationMeanEdgeLength", "IterationEulerCharacteristic",
+    "IterationComponents", "RegularisationCuts", "RegularisationDeletions", "SecondsBefore",
     "SecondsAfter")
 
 
@@ -135,7 +135,7 @@ class OutputsTest(SurfaceTest):
         self.assertEqual(history.GetNumberOfRows(), rows)
 
     def test_history_ends_with_edges_of_legal_length(self):
-        lengths = self.run_once.GetHistory().GetColumnByName("RegularisedMeanEdgeLength")
+        lengths = self.run_once.GetHistory().GetColumnByName("MeanEdgeLength")
         mean = lengths.GetTuple1(lengths.GetNumberOfTuples() - 1)
         delta = field(self.run_once.GetOutput(), "Delta")
         self.assertGreater(mean, delta)
