@@ -259,6 +259,13 @@ TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
   EXPECT_NE(text.find("finer level"), std::string::npos) << text;
 }
 
+TEST(GivenSurfaceInvalid, RefusesWhatVanishesWithinATriangleOrTwo)
+{
+  const std::string text = RefusalOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 1.0, 0.2));
+  EXPECT_NE(text.find("too small for this level"), std::string::npos) << text;
+  EXPECT_EQ(RefusalOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 3., 0.2)), "accepted");
+}
+
 TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
 {
   const IndexedSurface box = Box({ 5, 5, 5 }, { 35, 35, 35 });
