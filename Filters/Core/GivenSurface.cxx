@@ -217,6 +217,13 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   }
   this->Begin(fine);
   this->Adapt();
+  if (!this->Stopped && s.Mesh.NumberOfVertices() == 0)
+  {
+    Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
+      constraint::RestLength * s.Delta,
+      " voxels: none of it is left. Start at a finer level, give a larger surface, or check that "
+      "its coordinates are in the image's unit.");
+  }
   if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Delta))
   {
     Refuse("The initial surface could not be brought to edges between ", s.Delta, " and ",

@@ -214,6 +214,7 @@ class CancelAt final : public Monitor
 public:
   explicit CancelAt(int call) : Left(call) {}
   bool Continue(const Status&) override { return --this->Left >= 0; }
+  bool GoOn(const Status&) override { return --this->Left >= 0; }
   int Left;
 };
 }
@@ -257,6 +258,13 @@ TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
   const std::string text = RefusalOf(Box({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
   EXPECT_NE(text.find("too thin for this level"), std::string::npos) << text;
   EXPECT_NE(text.find("finer level"), std::string::npos) << text;
+}
+
+TEST(GivenSurfaceInvalid, RefusesWhatVanishesWithinATriangleOrTwo)
+{
+  const std::string text = RefusalOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 1.0, 0.2));
+  EXPECT_NE(text.find("too small for this level"), std::string::npos) << text;
+  EXPECT_EQ(RefusalOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 3., 0.2)), "accepted");
 }
 
 TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)

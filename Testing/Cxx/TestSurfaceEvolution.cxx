@@ -294,33 +294,6 @@ TEST(SurfaceEvolution, HandsOverASoundSurfaceWhenCancelled)
   EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
 }
 
-TEST(SurfaceEvolution, LeavesNoComponentInsideOut)
-{
-  // A ball in the ball, oriented as another object: such a one used to stay unless a cut was made
-  // just before a tenth iteration.
-  const TestVolume volume = Ball(32, 10);
-  IndexedSurface nested = DividedIcosahedron({ 16, 16, 16 }, 11, 1.5);
-  const IndexedSurface island = DividedIcosahedron({ 16, 16, 16 }, 5, 1.5);
-  const int first = static_cast<int>(nested.Points.size());
-  nested.Points.insert(nested.Points.end(), island.Points.begin(), island.Points.end());
-  for (const Triangle& t : island.Triangles)
-  {
-    nested.Triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
-  }
-  for (const bool cancels : { false, true })
-  {
-    SurfaceOptions options = Half();
-    options.MaximumNumberOfIterations = cancels ? 100 : 2;
-    CancelAfter monitor(cancels ? 2 : 1000);
-    SurfaceEvolution evolution(options, Threads, monitor);
-    evolution.StartSurface(volume.Image, 0, nested);
-    EXPECT_EQ(evolution.Run(), cancels ? StopReason::Cancelled : StopReason::IterationLimit);
-    EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
-    EXPECT_EQ(evolution.History().back().Components, 1) << "told as it is";
-    EXPECT_EQ(evolution.History().back().EulerCharacteristic, 2);
-  }
-}
-
 TEST(SurfaceEvolution, SaysWhenNothingIsLeft)
 {
   const TestVolume volume = MakeVolume(24, [](double, double, double) { return 0.; });
