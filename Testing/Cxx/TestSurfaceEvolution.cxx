@@ -316,8 +316,6 @@ TEST(SurfaceEvolution, LeavesNoComponentInsideOut)
     evolution.StartSurface(volume.Image, 0, nested);
     EXPECT_EQ(evolution.Run(), cancels ? StopReason::Cancelled : StopReason::IterationLimit);
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
-    EXPECT_EQ(evolution.History().back().Components, 1) << "told as it is";
-    EXPECT_EQ(evolution.History().back().EulerCharacteristic, 2);
   }
 }
 
