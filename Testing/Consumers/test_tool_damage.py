@@ -260,6 +260,14 @@ class MeshesTest(DamageTest):
                                  content[:int(len(content) * rest) if rest > 0 else rest])
                 self.refused_mesh(f"b.{suffix}", "cannot be read|the file is cut off")
 
+    def test_damaged_polygon_file(self):
+        with open(self.path("a.ply"), "rb") as file:
+            content = file.read()
+        self.write_bytes("b.ply", content[:-1] + b"\x7f")
+        self.refused_mesh("b.ply", "is damaged: a polygon has point 21[0-9]{8}, there are")
+        self.write_bytes("b.ply", content.replace(b"element vertex", b"element vertix"))
+        self.refused_mesh("b.ply", "has no points, or its header is damaged")
+
     def test_polygon_file_as_text(self):
         head = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                 "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"

@@ -24,6 +24,7 @@ struct Property
 
 struct Elements
 {
+  std::string Name;
   std::uint64_t Count = 0;
   std::vector<Property> Properties;
 };
@@ -70,6 +71,7 @@ Head ReadHead(std::istream& file)
     else if (word == "element")
     {
       head.Parts.emplace_back();
+      head.Parts.back().Name = type;
       words >> head.Parts.back().Count;
     }
     else if (word == "property" && !head.Parts.empty())
@@ -109,6 +111,20 @@ public:
     return this->File ? NumberOf(number, this->IsBig) : 0;
   }
 
+  /// Go behind the corners of a polygon, which must be among the points.
+  void CheckCorners(std::uint64_t count, int bytes, std::uint64_t points)
+  {
+    for (std::uint64_t i = 0; this->File && i < count; ++i)
+    {
+      const std::uint64_t corner = this->Count(bytes);
+      if (corner >= points && this->File)
+      {
+        throw Failure("is damaged: a polygon has point " + std::to_string(corner) + ", there are " +
+          std::to_string(points));
+      }
+    }
+  }
+
   void Skip(std::uint64_t count, int bytes)
   {
     std::string word;
@@ -139,13 +155,31 @@ void CheckPly(const std::string& name)
   std::ifstream file(name, std::ios::binary);
   const Head head = ReadHead(file);
   Body body(file, head.Format);
+  std::uint64_t points = 0;
+  for (const Elements& part : head.Parts)
+  {
+    points = part.Name == "vertex" ? part.Count : points;
+  }
+  if (points == 0)
+  {
+    throw Failure("has no points, or its header is damaged");
+  }
   for (const Elements& part : head.Parts)
   {
     for (std::uint64_t i = 0; !part.Properties.empty() && i < part.Count; ++i)
     {
       for (const Property& property : part.Properties)
       {
-        body.Skip(property.CountBytes > 0 ? body.Count(property.CountBytes) : 1, property.Bytes);
+        const bool isList = property.CountBytes > 0;
+        const std::uint64_t count = isList ? body.Count(property.CountBytes) : 1;
+        if (isList && part.Name == "face")
+        {
+          body.CheckCorners(count, property.Bytes, points);
+        }
+        else
+        {
+          body.Skip(count, property.Bytes);
+        }
       }
       if (!body.IsComplete())
       {

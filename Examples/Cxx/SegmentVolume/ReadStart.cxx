@@ -114,6 +114,10 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
   vtkNew<vtkIdList> corners;
   vtkCellArray* polygons = mesh->GetPolys();
+  if (!polygons->IsValid())
+  {
+    throw Failure(name + ": is damaged: its polygons overlap in the file");
+  }
   for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
   {
     polygons->GetCellAtId(i, corners);
