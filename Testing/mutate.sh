@@ -194,7 +194,8 @@ try_mutation()
   fi
   # Compiled together with the next mutation.
   cp "$root/Filters/Core/${files[$i]}" "$source"
-  say "${files[$i]}: ${descriptions[$i]}: $verdict ($((SECONDS - started)) s)"
+  say "${files[$i]}: ${descriptions[$i]}: $verdict ($((SECONDS - started)) s)" \
+    | tee -a "$copies/report"
 }
 
 # work WORKER: the mutations that no other worker has begun, in the order of the list.
@@ -226,9 +227,10 @@ started=$SECONDS
 run_step "Running them on the unbroken core" mutate-tests run_unbroken
 time_limit=$((30 + 5 * (SECONDS - started)))
 
+touch "$copies/report"
 processes=()
 for ((worker = 0; worker < workers; ++worker)); do
-  work "$worker" > >(tee -a "$copies/report") &
+  work "$worker" &
   processes+=($!)
 done
 wait "${processes[@]}"

@@ -45,8 +45,8 @@ struct Stage
   explicit Stage(double radius, float delta = 1)
     : Stage(DividedIcosahedron({ 16, 16, 16 }, radius, 1.6 * delta), delta)
   {
-    this->Volume = MakeVolume(33, [](double x, double y, double z)
-      { return 8.5 - Distance(x, y, z, 16, 16, 16); });
+    this->Volume = MakeVolume(
+      33, [](double x, double y, double z) { return 8.5 - Distance(x, y, z, 16, 16, 16); });
     this->Options = SurfaceOptions();
     this->Options.IsoValue = 0.5;
   }

@@ -14,7 +14,8 @@ namespace volumic
 /** A ball in the middle of a cube of n voxels; the iso-value is .5. */
 inline TestVolume BallVolume(int n, double radius)
 {
-  return MakeVolume(n, [n, radius](double x, double y, double z)
+  return MakeVolume(n,
+    [n, radius](double x, double y, double z)
     { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - radius); });
 }
 
@@ -29,10 +30,7 @@ inline SurfaceOptions IsoHalf()
 class Observer final : public Monitor
 {
 public:
-  explicit Observer(std::function<void(const Status&)> look)
-    : Look(std::move(look))
-  {
-  }
+  explicit Observer(std::function<void(const Status&)> look) : Look(std::move(look)) {}
   bool Continue(const Status& status) override
   {
     this->Look(status);

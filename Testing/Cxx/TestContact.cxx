@@ -29,10 +29,7 @@ int Nearest(const SurfaceMesh& mesh, const Vector& place, int from, int to)
 /** Two octahedra of radius 1.2 whose tips face each other along x. */
 struct Facing : Stage
 {
-  explicit Facing(double gap)
-    : Stage(Surface(gap), 1)
-  {
-  }
+  explicit Facing(double gap) : Stage(Surface(gap), 1) {}
 
   static IndexedSurface Surface(double gap)
   {
@@ -41,14 +38,15 @@ struct Facing : Stage
     for (const double x : { 10., 10. + 2 * r + gap })
     {
       const int n = static_cast<int>(surface.Points.size());
-      for (const Point& p : { Point{ x + r, 16, 16 }, Point{ x - r, 16, 16 }, Point{ x, 16 + r, 16 },
-             Point{ x, 16 - r, 16 }, Point{ x, 16, 16 + r }, Point{ x, 16, 16 - r } })
+      for (const Point& p :
+        { Point{ x + r, 16, 16 }, Point{ x - r, 16, 16 }, Point{ x, 16 + r, 16 },
+          Point{ x, 16 - r, 16 }, Point{ x, 16, 16 + r }, Point{ x, 16, 16 - r } })
       {
         surface.Points.push_back(p);
       }
-      for (const Triangle& t : { Triangle{ 0, 2, 4 }, Triangle{ 2, 1, 4 }, Triangle{ 1, 3, 4 },
-             Triangle{ 3, 0, 4 }, Triangle{ 2, 0, 5 }, Triangle{ 1, 2, 5 }, Triangle{ 3, 1, 5 },
-             Triangle{ 0, 3, 5 } })
+      for (const Triangle& t :
+        { Triangle{ 0, 2, 4 }, Triangle{ 2, 1, 4 }, Triangle{ 1, 3, 4 }, Triangle{ 3, 0, 4 },
+          Triangle{ 2, 0, 5 }, Triangle{ 1, 2, 5 }, Triangle{ 3, 1, 5 }, Triangle{ 0, 3, 5 } })
       {
         surface.Triangles.push_back({ t[0] + n, t[1] + n, t[2] + n });
       }
@@ -152,7 +150,8 @@ TEST(Contact, StopsSmoothingToo)
 
 namespace
 {
-/** A torus of small hole, or thin waist, through the place; `value` is what the image says there. */
+/** A torus of small hole, or thin waist, through the place; `value` is what the image says there.
+ */
 float SpeedAcross(bool hole, double value)
 {
   // Two opposite vertices of a waist of four; inward normals make a hole of it.

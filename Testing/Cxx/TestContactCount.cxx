@@ -16,11 +16,7 @@ namespace
 /** Two balls of radius 4 about (16, 16, 16), whose nearest vertices are a gap apart, along x. */
 struct TwoBalls : Bench
 {
-  explicit TwoBalls(double gap)
-    : Bench(Surface(gap))
-    , Second(this->State.Mesh.Size() / 2)
-  {
-  }
+  explicit TwoBalls(double gap) : Bench(Surface(gap)), Second(this->State.Mesh.Size() / 2) {}
 
   static IndexedSurface Surface(double gap)
   {
@@ -44,7 +40,8 @@ struct TwoBalls : Bench
 
   RemainingContacts Find(double value)
   {
-    const TestVolume volume = MakeVolume(33, [value](double x, double, double)
+    const TestVolume volume = MakeVolume(33,
+      [value](double x, double, double)
       { return value + (x < 3 ? 1. : 0.); }); // With a slope of 1 somewhere.
     const Field field(volume.Image, SurfaceOptions(), this->Threads);
     return FindRemainingContacts(this->State, field, this->Threads);

@@ -74,10 +74,8 @@ TEST(DeformableSurfaceProperties, FrictionSetsTheTimeStep)
 TEST(DeformableSurfaceProperties, ToleranceAndLimitEndALevel)
 {
   const auto usual = SurfaceWith([](vtkDeformableSurface&) {});
-  const auto rough =
-    SurfaceWith([](vtkDeformableSurface& f) { f.SetConvergenceTolerance(0.1); });
-  const auto cut =
-    SurfaceWith([](vtkDeformableSurface& f) { f.SetMaximumNumberOfIterations(7); });
+  const auto rough = SurfaceWith([](vtkDeformableSurface& f) { f.SetConvergenceTolerance(0.1); });
+  const auto cut = SurfaceWith([](vtkDeformableSurface& f) { f.SetMaximumNumberOfIterations(7); });
   EXPECT_LT(rough->GetHistory()->GetNumberOfRows(), usual->GetHistory()->GetNumberOfRows());
   EXPECT_EQ(StopReason(rough->GetOutput()), "converged");
   EXPECT_EQ(cut->GetHistory()->GetNumberOfRows(), 7);
@@ -87,8 +85,7 @@ TEST(DeformableSurfaceProperties, ToleranceAndLimitEndALevel)
 TEST(DeformableSurfaceProperties, FreezingAndSnappingCanBeLeftOut)
 {
   const auto usual = SurfaceWith([](vtkDeformableSurface&) {});
-  const auto awake =
-    SurfaceWith([](vtkDeformableSurface& f) { f.FreezeMotionlessVerticesOff(); });
+  const auto awake = SurfaceWith([](vtkDeformableSurface& f) { f.FreezeMotionlessVerticesOff(); });
   const auto share = [](vtkDeformableSurface* f)
   { return History(f, -1, "ActiveVertices") / History(f, -1, "Vertices"); };
   EXPECT_LT(share(usual), 0.5);

@@ -17,10 +17,10 @@ class Freezing : public ::testing::Test
 {
 protected:
   Freezing()
-    : Actors(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1)
-    , TheField(this->Actors.Volume.Image, this->Actors.Options, this->Actors.Threads)
-    , Motion(this->TheField, this->Actors.Options, this->Actors.Threads)
-    , Neighbour(this->Actors.State.Mesh.Rings[Mover].Item[0])
+    : Actors(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1),
+      TheField(this->Actors.Volume.Image, this->Actors.Options, this->Actors.Threads),
+      Motion(this->TheField, this->Actors.Options, this->Actors.Threads),
+      Neighbour(this->Actors.State.Mesh.Rings[Mover].Item[0])
   {
   }
 

@@ -50,7 +50,8 @@ TEST(History, RowsTellTheStateAfterTheirIteration)
   const TestVolume volume = BallVolume(28, 7);
   const SurfaceEvolution* watched = nullptr;
   int looks = 0;
-  Observer observer([&](const Monitor::Status& status)
+  Observer observer(
+    [&](const Monitor::Status& status)
     {
       ++looks;
       const SurfaceResult surface = watched->Result();

@@ -33,7 +33,8 @@ TEST(InitialSurface, DividedIcosahedraLieOnTheirSphere)
       EXPECT_NEAR(Distance(p[0], p[1], p[2], 1, 2, 3), 2.5, 1e-5);
     }
     EXPECT_NO_THROW(CheckInitialSurface(sphere));
-    const double perVertex = ComputeFeatures(sphere).Area / static_cast<double>(sphere.Points.size());
+    const double perVertex =
+      ComputeFeatures(sphere).Area / static_cast<double>(sphere.Points.size());
     EXPECT_LT(perVertex, std::sqrt(0.75) * edge * edge * 1.1) << "edges of " << edge;
   }
 }
@@ -62,8 +63,8 @@ TEST(InitialSurface, SeedsLieInTheObjectAndApart)
 {
   const TestVolume volume = Half();
   const Field field(volume.Image, SurfaceOptions(), Threads);
-  const std::vector<Point> chosen = ChooseSeeds(field,
-    { { 5, 5, 5 }, { 5, 5, 7.9 }, { 5, 5, 8.1 }, { 15, 5, 5 }, { 9, 12, 5 } }, 3);
+  const std::vector<Point> chosen = ChooseSeeds(
+    field, { { 5, 5, 5 }, { 5, 5, 7.9 }, { 5, 5, 8.1 }, { 15, 5, 5 }, { 9, 12, 5 } }, 3);
   const std::vector<Point> expected = { { 5, 5, 5 }, { 5, 5, 8.1 }, { 9, 12, 5 } };
   EXPECT_EQ(chosen, expected);
   EXPECT_THROW(ChooseSeeds(field, { { 5, 5, 25 } }, 3), std::invalid_argument);

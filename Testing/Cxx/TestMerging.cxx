@@ -25,14 +25,12 @@ struct Scene : Bench
   std::unique_ptr<Field> TheField;
   Proximity Near;
 
-  explicit Scene(const IndexedSurface& surface, const Image& image = nullptr)
-    : Bench(surface)
+  explicit Scene(const IndexedSurface& surface, const Image& image = nullptr) : Bench(surface)
   {
     if (image)
     {
       this->Volume = MakeVolume(33, image);
-      this->TheField =
-        std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
+      this->TheField = std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
     }
     this->Near.Examine(this->State, this->All(), this->Threads);
   }
@@ -183,7 +181,8 @@ TEST(Merging, LeavesWhatIsFartherThanLambdaDelta)
     const int half = scene.State.Mesh.Size() / 2;
     const int v = scene.Nearest(Vector(16, 16, 16), 0, half);
     const int w = scene.Nearest(Vector(16, 16, 16), half, 2 * half);
-    const float squared = SquaredDistance(scene.State.Mesh.Position[v], scene.State.Mesh.Position[w]);
+    const float squared =
+      SquaredDistance(scene.State.Mesh.Position[v], scene.State.Mesh.Position[w]);
     ASSERT_EQ(squared < 1.443f * 1.443f, gap < 1.45) << squared;
     EXPECT_EQ(scene.Merges({ { v, w, squared } }), gap < 1.45 ? 1 : 0);
   }

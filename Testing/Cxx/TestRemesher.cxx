@@ -37,12 +37,12 @@ IndexedSurface FineSphere()
 int SetIntoAFace(SurfaceState& s, int u)
 {
   const int v = s.Mesh.Rings[u].Item[1];
-  const int m =
-    EdgeSplit{ u, v }.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f);
+  const int m = EdgeSplit{ u, v }.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f);
   EdgeFlip::Of(s.Mesh, m, u).Apply(s.Mesh);
   const Ring& ring = s.Mesh.Rings[m];
   s.Mesh.Position[m] = (s.Mesh.Position[ring.Item[0]] + s.Mesh.Position[ring.Item[1]] +
-                         s.Mesh.Position[ring.Item[2]]) * (1.f / 3);
+                         s.Mesh.Position[ring.Item[2]]) *
+    (1.f / 3);
   s.Adopt(m, u);
   return m;
 }

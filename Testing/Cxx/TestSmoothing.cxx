@@ -88,7 +88,8 @@ TEST(Smoothing, LeavesVerticesWhereTheImageIsFlat)
 {
   // A twentieth of the slope that boundaries have.
   Stage stage(8.);
-  stage.Volume = MakeVolume(33, [](double x, double y, double z)
+  stage.Volume = MakeVolume(33,
+    [](double x, double y, double z)
     {
       const double r = Distance(x, y, z, 16, 16, 16);
       return r < 12 ? 20. - 0.05 * r : 0.;
@@ -100,7 +101,8 @@ TEST(Smoothing, LeavesVerticesWhereTheImageIsFlat)
 
 TEST(Smoothing, LeadsOntoTheEdgesOnRequest)
 {
-  const TestVolume map = MakeVolume(33, [](double x, double y, double z)
+  const TestVolume map = MakeVolume(33,
+    [](double x, double y, double z)
     {
       const double way = Distance(x, y, z, 16, 16, 16) - 8;
       return std::exp(-0.5 * way * way);

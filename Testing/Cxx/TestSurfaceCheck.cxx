@@ -103,8 +103,8 @@ TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
   IndexedSurface hinge;
   hinge.Points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0.6, 1, 0.5 }, { -1, 0, 0 },
     { -0.6, -1, 0.5 } };
-  hinge.Triangles = { { 0, 3, 2 }, { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 5, 4 },
-    { 0, 4, 1 }, { 0, 1, 5 }, { 1, 4, 5 } };
+  hinge.Triangles = { { 0, 3, 2 }, { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 5, 4 }, { 0, 4, 1 },
+    { 0, 1, 5 }, { 1, 4, 5 } };
   EXPECT_SAYS(ErrorOf(hinge), "1 edges have more than two triangles");
   IndexedSurface twisted = Ball();
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);

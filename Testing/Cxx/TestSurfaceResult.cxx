@@ -93,7 +93,8 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
 {
   // The edge is half a voxel inside the isopotential: not to be left for it at the end.
   TestVolume volume = BallVolume(28, 8);
-  const TestVolume map = MakeVolume(28, [](double x, double y, double z)
+  const TestVolume map = MakeVolume(28,
+    [](double x, double y, double z)
     {
       const double way = Distance(x, y, z, 14, 14, 14) - 7.;
       return std::exp(-0.5 * way * way);
@@ -166,8 +167,9 @@ TEST(SurfaceStart, EnclosesTheWholeImage)
         const Point& q = surface.Points[t[k]];
         p[k] = Normalized(VectorD(q[0] - corner[0], q[1] - corner[1], q[2] - corner[2]));
       }
-      angle += 2 * std::atan2(Dot(p[0], Cross(p[1], p[2])),
-        1 + Dot(p[0], p[1]) + Dot(p[1], p[2]) + Dot(p[2], p[0]));
+      angle += 2 *
+        std::atan2(
+          Dot(p[0], Cross(p[1], p[2])), 1 + Dot(p[0], p[1]) + Dot(p[1], p[2]) + Dot(p[2], p[0]));
     }
     EXPECT_NEAR(angle, 4 * 3.14159265, 1e-3) << "corner " << i;
   }
@@ -176,8 +178,8 @@ TEST(SurfaceStart, EnclosesTheWholeImage)
 TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
 {
   const TestVolume fine = BallVolume(32, 10);
-  TestVolume coarse = MakeVolume(18, [](double x, double y, double z)
-    { return Soft(Distance(x, y, z, 9, 9, 9) - 10. * 18 / 32); });
+  TestVolume coarse = MakeVolume(18,
+    [](double x, double y, double z) { return Soft(Distance(x, y, z, 9, 9, 9) - 10. * 18 / 32); });
   coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
   coarse.Image.Unit = std::sqrt(3.);
   SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
@@ -187,8 +189,8 @@ TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
   evolution.Divide(fine.Image, 0);
   const SurfaceResult after = evolution.Result();
   // Hardly an edge has to be split besides.
-  const double share = static_cast<double>(after.Triangles.size()) /
-    static_cast<double>(before.Triangles.size());
+  const double share =
+    static_cast<double>(after.Triangles.size()) / static_cast<double>(before.Triangles.size());
   EXPECT_NEAR(share, 3, 0.05);
   EXPECT_NEAR(before.Delta / after.Delta, std::sqrt(3.), 1e-6);
 }
@@ -216,7 +218,8 @@ TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
     const SurfaceResult surface = evolution.Result();
     ExpectLegalEdges(surface);
     const Point& p = surface.Points.front();
-    const double expected = radius == 0 ? 1.2 * surface.Delta : std::max(radius, 0.96 * surface.Delta);
+    const double expected =
+      radius == 0 ? 1.2 * surface.Delta : std::max(radius, 0.96 * surface.Delta);
     EXPECT_NEAR(Distance(p[0], p[1], p[2], 20, 20, 20), expected, 1e-4);
   }
 }
