@@ -121,15 +121,14 @@ TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
       EXPECT_EQ(StopReason(surface), "vanished");
       continue;
     }
-    const TriangleSurface indexed = ToTriangleSurface(surface, image);
-    const TopologyVerdict topology = JudgeTopology(indexed);
+    const TriangleSurface inWorld = ToTriangleSurface(surface);
+    const TopologyVerdict topology = JudgeTopology(inWorld);
     EXPECT_TRUE(topology.Closed && topology.Manifold && topology.Oriented);
-    EXPECT_EQ(JudgeIntersections(indexed).Pairs, 0u);
-    const double worldUnit = FieldOf(surface, "Unit") / std::pow(3.0, h / 2.0);
-    const LengthVerdict lengths = JudgeLengths(indexed, FieldOf(surface, "Delta") / worldUnit);
+    EXPECT_EQ(JudgeIntersections(inWorld).Pairs, 0u);
+    const LengthVerdict lengths = JudgeLengths(inWorld, FieldOf(surface, "Delta"));
     EXPECT_EQ(lengths.EdgesTooLong, 0u);
     EXPECT_LE(lengths.EdgesTooShort, 2u);
-    const ShapeVerdict shapes = JudgeShapes(indexed);
+    const ShapeVerdict shapes = JudgeShapes(inWorld);
     EXPECT_GT(shapes.Mean, 0.94);
     EXPECT_GT(shapes.Quantile01, 0.75);
     EXPECT_GT(shapes.Least, 0.4);

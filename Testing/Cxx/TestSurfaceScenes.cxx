@@ -40,14 +40,22 @@ double FieldOf(vtkPolyData* surface, const char* name)
   return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
 }
 
-/// The invariants that hold for every surface that is handed out, of any level.
-void ExpectInvariants(vtkPolyData* surface, vtkImageData* image, const std::string& where)
+/// In the space that the constraints speak of: the world, or index coordinates.
+TriangleSurface InMetric(vtkPolyData* surface, vtkImageData* image, int metric)
 {
-  // In index coordinates, which is where the constraints speak of.
-  const TriangleSurface indexed = ToTriangleSurface(surface, image);
-  const double worldUnit = FieldOf(surface, "Unit") / std::pow(3.0, FieldOf(surface, "Level") / 2);
+  return metric == vtkDeformableSurface::World ? ToTriangleSurface(surface)
+                                               : ToTriangleSurface(surface, image);
+}
+
+/// The invariants that hold for every surface that is handed out, of any level.
+void ExpectInvariants(
+  vtkPolyData* surface, vtkImageData* image, int metric, const std::string& where)
+{
+  const double worldUnit = metric == vtkDeformableSurface::World
+    ? 1.0
+    : FieldOf(surface, "Unit") / std::pow(3.0, FieldOf(surface, "Level") / 2);
   const double delta = FieldOf(surface, "Delta") / worldUnit;
-  const SurfaceVerdict verdict = JudgeSurface(indexed, delta);
+  const SurfaceVerdict verdict = JudgeSurface(InMetric(surface, image, metric), delta);
   EXPECT_TRUE(verdict.Topology.Closed) << where;
   EXPECT_TRUE(verdict.Topology.Manifold) << where;
   EXPECT_TRUE(verdict.Topology.Oriented) << where;
@@ -70,7 +78,7 @@ void ExpectInvariantsAtEveryLevel(vtkDeformableSurface* filter, vtkImageData* im
     auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
     if (surface && surface->GetNumberOfPoints() > 0)
     {
-      ExpectInvariants(surface, image, "level " + std::to_string(h));
+      ExpectInvariants(surface, image, filter->GetMetric(), "level " + std::to_string(h));
     }
   }
 }
@@ -106,11 +114,12 @@ SceneOptions Noisy()
 class SurfaceOfScene : public ::testing::TestWithParam<SceneKind>
 {
 protected:
-  void Run(const SceneOptions& options, bool withPyramid)
+  void Run(const SceneOptions& options, bool withPyramid, int metric = vtkDeformableSurface::World)
   {
     const Scene scene = MakeScene(GetParam(), options);
     const auto image = ToImage(scene);
     const auto filter = Segment(image, scene);
+    filter->SetMetric(metric);
     // What a scene says of its coarse levels is known for cubic voxels; a thin wall vanishes above.
     filter->SetCoarsestLevel(withPyramid ? scene.CoarsestFaithfulLevel : 0);
     filter->Update();
@@ -152,6 +161,13 @@ TEST_P(SurfaceOfScene, AnisotropicVoxels)
   SceneOptions options;
   options.Spacing = { 1.0, 1.0, 2.5 };
   this->Run(options, true);
+}
+
+TEST_P(SurfaceOfScene, AnisotropicVoxelsInTheMetricOfVoxels)
+{
+  SceneOptions options;
+  options.Spacing = { 1.0, 1.0, 2.5 };
+  this->Run(options, true, vtkDeformableSurface::Voxels);
 }
 
 INSTANTIATE_TEST_SUITE_P(
