@@ -5,6 +5,7 @@
 
     segment.py scan.nii.gz bone.stl --iso 226.5
     segment.py scan.nii.gz airways.ply --iso -500 --dark --set FinestLevel=1
+    segment.py scan.nii.gz bone.stl --iso 226.5 --set EdgeLength=2.5
 
 VOLUME is what read_volume.py can read. The suffix of OUTPUT tells its format: .stl (binary), .ply
 (binary, with normals), .obj or .vtp (VTK's, with all arrays and field data). A bar shows how far it
@@ -63,8 +64,9 @@ def segment(volume, output, iso, properties):
     """Read, segment, write; returns the exit code. Prints what it does."""
     check_surface_output(output, volume)
     image, iso = load_volume(volume, iso)
-    pyramid, _ = build_pyramid(image)
-    surface = prepare_surface(pyramid, iso, properties)
+    # The length of the edges decides on the pyramid, which is made by the filter then.
+    source = image if "EdgeLength" in properties else build_pyramid(image)[0]
+    surface = prepare_surface(source, iso, properties)
     try:
         run_surface(surface)
     except Interrupted:

@@ -15,6 +15,7 @@ import time
 import unittest
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkImageAlgorithm, vtkPolyDataAlgorithm
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
@@ -179,6 +180,21 @@ class RunTest(ToolTestCase):
         self.assertTrue(all(level["seconds"] > 0 for level in report["levels"]))
         self.assertEqual(sorted(os.listdir(self.path("levels"))),
                          ["level--1.vtp", "level-0.vtp", "level-1.vtp"])
+
+    def test_edge_length_makes_the_pyramid_for_it(self):
+        file = self.path("even.vtp")
+        report = self.report(self.ball_file(), file, "--iso", ISO, "--edge-length", "1.1",
+                             "--reduction-factor", "1.6")
+        self.assertTrue(all(level["seconds"] > 0 for level in report["levels"]))
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(file)
+        reader.Update()
+        points = vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
+        corners = vtk_to_numpy(reader.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        edges = np.linalg.norm(points[corners] - points[np.roll(corners, 1, axis=1)], axis=2)
+        self.assertAlmostEqual(edges.mean() / 1.1, 1, delta=0.15)
+        self.refused("EdgeLength is 0.01, but edges of this image can have mean lengths of",
+                     self.ball_file(), file, "--iso", ISO, "--edge-length", "0.01")
 
     def test_iso_value_by_otsu_is_told(self):
         process = self.run_tool(self.ball_file(), self.path("a.vtp"))

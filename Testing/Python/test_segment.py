@@ -116,6 +116,16 @@ class OptionsTest(SegmentTest):
         fields = read_surface(self.path("a.vtp")).GetFieldData()
         self.assertEqual(fields.GetArray("Level").GetValue(0), 1)
 
+    def test_the_length_of_edges_in_world_units(self):
+        for length in (0.9, 2.2):
+            run = self.segment("a.vtp", "--iso", str(RING_ISO), "--set", f"EdgeLength={length}")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            surface = read_surface(self.path("a.vtp"))
+            points = vtk_to_numpy(surface.GetPoints().GetData())
+            corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+            edges = points[corners] - points[np.roll(corners, 1, axis=1)]
+            self.assertAlmostEqual(np.linalg.norm(edges, axis=2).mean() / length, 1, delta=0.15)
+
     def test_the_limit_of_the_iterations_is_told(self):
         run = self.segment("a.stl", "--iso", str(RING_ISO), "--set", "MaximumNumberOfIterations=3")
         self.assertEqual(run.returncode, 3, run.stderr)

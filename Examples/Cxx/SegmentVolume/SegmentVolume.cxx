@@ -28,6 +28,7 @@
 #include <vtkSMPTools.h>
 #include <vtkTable.h>
 #include <vtkVersion.h>
+#include <vtkVolumeToSurface.h>
 
 #include <algorithm>
 #include <exception>
@@ -281,6 +282,30 @@ FilterRun RunOnVolume(const SegmentOptions& options, vtkAlgorithm* filter, const
   }
 }
 
+/// Gives the surface's filter its levels: a pyramid that is run here, or, where the length of the
+/// edges decides on the pyramid, the volume. @return the run of the pyramid, if there was one.
+FilterRun GiveLevels(const SegmentOptions& options, vtkImageData* volume, vtkImagePyramid* pyramid,
+  vtkDeformableSurface* filter, ProgressStyle style)
+{
+  if (auto* whole = vtkVolumeToSurface::SafeDownCast(filter))
+  {
+    whole->SetNumberOfLevels(pyramid->GetNumberOfLevels());
+    whole->SetMinimumLevelSize(pyramid->GetMinimumLevelSize());
+    whole->SetReductionFactor(pyramid->GetReductionFactor());
+    whole->SetInputData(volume);
+    return FilterRun();
+  }
+  pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
+  pyramid->SetInputData(volume);
+  const FilterRun run = RunOnVolume(options, pyramid, "Building the pyramid", style);
+  if (run.IsInterrupted)
+  {
+    throw Failure("interrupted before there was a surface; nothing is written");
+  }
+  filter->SetInputConnection(pyramid->GetOutputPort());
+  return run;
+}
+
 ExitCode Segment(
   const SegmentOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
 {
@@ -304,15 +329,7 @@ ExitCode Segment(
   }
 
   CatchInterrupts();
-  pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
-  pyramid->SetInputData(volume);
-  const FilterRun pyramidRun =
-    RunOnVolume(options, pyramid, "Building the pyramid", announcer.Style);
-  filter->SetInputConnection(pyramid->GetOutputPort());
-  if (pyramidRun.IsInterrupted)
-  {
-    throw Failure("interrupted before there was a surface; nothing is written");
-  }
+  const FilterRun pyramidRun = GiveLevels(options, volume, pyramid, filter, announcer.Style);
   const FilterRun run = RunOnVolume(options, filter, "Evolving the surface", announcer.Style);
   for (const std::string& warning : run.Warnings)
   {
@@ -349,10 +366,14 @@ ExitCode Segment(
 
 ExitCode Run(int argc, char* argv[])
 {
-  vtkNew<vtkImagePyramid> pyramid;
-  vtkNew<vtkDeformableSurface> filter;
-  const FilterPair filters{ pyramid, filter };
   const SegmentOptions options = ParseOptions(argc, argv);
+  vtkNew<vtkImagePyramid> pyramid;
+  vtkSmartPointer<vtkDeformableSurface> filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  if (options.HasProperty("EdgeLength"))
+  {
+    filter = vtkSmartPointer<vtkVolumeToSurface>::New();
+  }
+  const FilterPair filters{ pyramid, filter };
   switch (options.Task)
   {
     case SegmentOptions::Task::ShowHelp:
