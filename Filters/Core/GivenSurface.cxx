@@ -209,7 +209,7 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
     if (!(share > 0.5))
     {
       Refuse("The initial surface is too thin for this level, whose triangles have edges of about ",
-        constraint::RestLength * s.Delta, " voxels: they would hold ",
+        constraint::RestLength * s.Delta, " voxel distances: they would hold ",
         std::lround(100. * std::max(share, 0.)),
         " % of its volume. Start at a finer level, give a thicker surface, or check that its "
         "coordinates are in the image's unit.");
@@ -221,14 +221,14 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   {
     Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
       constraint::RestLength * s.Delta,
-      " voxels: none of it is left. Start at a finer level, give a larger surface, or check that "
+      " voxel distances: none of it is left. Start at a finer level, give a larger surface, or check that "
       "its coordinates are in the image's unit.");
   }
   if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Delta))
   {
     Refuse("The initial surface could not be brought to edges between ", s.Delta, " and ",
       constraint::LongestEdge * s.Delta,
-      " voxels without an intersection. Remesh it to such edges before it is given, or choose "
+      " voxel distances without an intersection. Remesh it to such edges before it is given, or choose "
       "another Initialization.");
   }
 }

@@ -119,7 +119,7 @@ std::vector<Point> ChooseSeeds(
       if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
       {
         throw std::invalid_argument(Join("Seed ", i, " lies outside the image: ", p[k],
-          " voxels along axis ", k, ", the image has ", image.Size[k] * image.Step[k], "."));
+          " voxel distances along axis ", k, ", the image has ", image.Size[k] * image.Step[k], "."));
       }
     }
     bool free = IsInside(field, p);

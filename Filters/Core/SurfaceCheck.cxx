@@ -264,7 +264,7 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   if (widest > most * widestImage)
   {
     Refuse("is too large for the image: it is " + Join(widest) +
-      " voxels wide, the image " + Join(widestImage) +
+      " voxel distances wide, the image " + Join(widestImage) +
       ". Are its coordinates in another unit than the image's, for example micrometres instead of "
       "millimetres? Scale it to the image's.");
   }
@@ -273,7 +273,7 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
     if (high[k] < 0. || low[k] > image.Size[k] * image.Step[k])
     {
       Refuse(Join("lies wholly outside the image: along axis ", k, " it runs from ", low[k], " to ",
-        high[k], " voxels, the image from 0 to ", image.Size[k] * image.Step[k],
+        high[k], " voxel distances, the image from 0 to ", image.Size[k] * image.Step[k],
         ". Check that both use the same space."));
     }
   }
