@@ -215,11 +215,6 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   return polyData;
 }
 
-void AddSeconds(vtkPolyData* surface, double seconds)
-{
-  AddField<vtkDoubleArray>(surface, "Seconds", seconds);
-}
-
 void SetStopReason(vtkPolyData* surface, const std::string& reason)
 {
   // Not into field data that a shallow copy may share.
@@ -234,10 +229,7 @@ vtkSmartPointer<vtkPolyData> MakeCancelled(int level)
   SurfaceDescription description;
   description.Level = level;
   description.StopReason = Describe(StopReason::Cancelled);
-  vtkSmartPointer<vtkPolyData> surface =
-    MakePolyData(SurfaceResult(), description, Workspace());
-  AddSeconds(surface, 0.0);
-  return surface;
+  return MakePolyData(SurfaceResult(), description, Workspace());
 }
 
 vtkSmartPointer<vtkTable> MakeHistory(

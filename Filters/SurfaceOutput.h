@@ -37,9 +37,6 @@ IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space);
 vtkSmartPointer<vtkPolyData> MakePolyData(
   const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space);
 
-/// What a level took, as field data.
-void AddSeconds(vtkPolyData* surface, double seconds);
-
 /// In the place of the one that it has; what it was copied from keeps its own.
 void SetStopReason(vtkPolyData* surface, const std::string& reason);
 

@@ -364,7 +364,7 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
   }
   this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
   this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
-  AddSeconds(this->Finest, evolution.EndLevel());
+  evolution.EndLevel();
   // With recovery a finer level may find again what has vanished.
   if (reason == StopReason::Vanished &&
     (level == this->LastLevel || !this->Settings.Options.RecoverLostParts))

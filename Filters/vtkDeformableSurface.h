@@ -52,7 +52,7 @@
  * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
  * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
- * `Area`, `Volume` (double), `Seconds` (double, all that the level took), `StopReason` (string:
+ * `Area`, `Volume` (double), `StopReason` (string:
  * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
  * in turn; finished like one that rests; `iteration limit`; `cancelled`; `vanished`),
  * `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of vertices nearer
@@ -60,7 +60,7 @@
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
- * density 1 about its centroid). A snapshot has neither `StopReason` nor `Seconds`, but `Iteration`
+ * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration`
  * (int): the number of the last row that the history had then.
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
@@ -74,9 +74,9 @@
  * `Components` of the last row of a level are those of its surface, as regularised, by
  * `RegularisationCuts` and `RegularisationDeletions`; `IterationVertices`,
  * `IterationMeanEdgeLength`, `IterationEulerCharacteristic` and `IterationComponents` tell what the
- * iteration had left (in other rows the same). `SecondsBefore`: since the row before (voxels, division, recovery; in the
- * first row all since the run began); `SecondsAfter`: in the last row of a level, regularisation
- * and output. With these the level's rows add up to its `Seconds`, and levels to the run. Always
+ * iteration had left (in other rows the same). `SecondsBefore`: since the row before (voxels,
+ * division, recovery; in the first row all since the run began); `SecondsAfter`: in the last row of
+ * a level, regularisation and output. With these rows add up to the run. Always
  * `IterationEulerCharacteristic` = `EulerCharacteristic` of the row before (first row: 0) +
  * `AddedEulerCharacteristic` + 2 (`Cuts` - `Merges` - `Deletions` + `DeletedGenus`).
  * With Profile, also what `Seconds` is made of: `ForcesSeconds`, `ContactSeconds`,

@@ -78,7 +78,7 @@ def run(arguments, results):
         "iso_value": iso,
         **surface_facts(finest),
         "component_features": component_facts(finest),
-        "levels": level_facts(levels),
+        "levels": level_facts(levels, history),
         "seconds": {"pyramid": pyramid_seconds, "surface": seconds},
         "warnings": warnings,
         "versions": versions(),

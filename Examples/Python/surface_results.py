@@ -135,15 +135,18 @@ def component_facts(surface):
             for c in range(len(arrays["area"]))]
 
 
-def level_facts(levels):
+def level_facts(levels, history):
     """One entry for each visited level, coarsest first, also where nothing was left of the surface.
 
-    The seconds that the levels took add up to those of the run.
+    The seconds that the levels took, as the history tells them, add up to those of the run.
     """
     blocks = [levels.GetBlock(b) for b in range(levels.GetNumberOfBlocks())]
-    facts = [{**surface_facts(surface),
-              "seconds": surface.GetFieldData().GetArray("Seconds").GetTuple1(0)}
-             for surface in blocks if surface is not None]
+    number = vtk_to_numpy(history.GetColumnByName("Level"))
+    seconds = sum(vtk_to_numpy(history.GetColumnByName(name))
+                  for name in ("SecondsBefore", "Seconds", "SecondsAfter"))
+    facts = [surface_facts(surface) for surface in blocks if surface is not None]
+    for level in facts:
+        level["seconds"] = float(seconds[number == level["level"]].sum())
     return sorted(facts, key=lambda level: -level["level"])
 
 

@@ -45,7 +45,7 @@ TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
     surface->GetNumberOfCells());
   for (const char* name : { "Level", "Delta", "Unit", "NumberOfComponents", "EulerCharacteristic",
          "Genus", "Area", "Volume", "Iterations", "ComponentArea", "ComponentVolume",
-         "ComponentGenus", "ComponentCentroid", "ComponentInertia", "Seconds" })
+         "ComponentGenus", "ComponentCentroid", "ComponentInertia" })
   {
     EXPECT_TRUE(surface->GetFieldData()->GetArray(name)) << name;
   }
@@ -198,16 +198,11 @@ TEST(DeformableSurfaceOutputs, SecondsOfRowsAndLevelsAddUpToThoseOfTheRun)
         history->GetValueByName(r, name).ToDouble();
     }
   }
-  double levels = 0.0;
-  for (unsigned int level = 0; level < 3; ++level)
-  {
-    auto* surface = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
-    EXPECT_NEAR(seconds[level], FieldOf(surface, "Seconds"), 1e-9 * seconds[level]);
-    levels += FieldOf(surface, "Seconds");
-  }
-  EXPECT_GT(levels, 0.0);
+  const double levels = seconds[0] + seconds[1] + seconds[2];
+  EXPECT_GT(std::min({ seconds[0], seconds[1], seconds[2] }), 0.0);
   EXPECT_LE(levels, run);
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Seconds"), seconds[0]);
+  EXPECT_TRUE(std::isnan(FieldOf(filter->GetOutput(), "Seconds")))
+    << "equal surfaces must be equal files";
   EXPECT_GT(history->GetValueByName(0, "SecondsBefore").ToDouble(), 0.0) << "the inner pyramid";
 }
 

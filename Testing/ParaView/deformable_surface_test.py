@@ -19,7 +19,7 @@ POINT_ARRAYS = {"Normals": "vtkFloatArray", "Residual": "vtkFloatArray",
 FIELDS = {"Level", "Delta", "Unit", "Iterations", "StopReason", "NumberOfComponents",
           "EulerCharacteristic", "Genus", "Area", "Volume", "ContactVertices", "RemainingContacts",
           "LostParts", "RecoveredParts", "LostCavities", "RecoveredCavities", "ComponentArea",
-          "ComponentVolume", "ComponentGenus", "ComponentCentroid", "ComponentInertia", "Seconds"}
+          "ComponentVolume", "ComponentGenus", "ComponentCentroid", "ComponentInertia"}
 COLUMNS = ["Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds",
            "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
            "EulerCharacteristic", "Components", "RecoveredParts", "Deletions", "DeletedGenus",

@@ -13,6 +13,8 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkVariant.h>
 #include <vtkVersion.h>
 
 #include <algorithm>
@@ -89,9 +91,26 @@ void WriteComponents(JsonWriter& json, vtkPolyData* surface)
   json.EndArray();
 }
 
+/// What a level took, by its rows.
+double SecondsOf(vtkTable* history, double level)
+{
+  double seconds = 0.0;
+  for (vtkIdType row = 0; row < history->GetNumberOfRows(); ++row)
+  {
+    if (history->GetValueByName(row, "Level").ToDouble() == level)
+    {
+      for (const char* column : { "SecondsBefore", "Seconds", "SecondsAfter" })
+      {
+        seconds += history->GetValueByName(row, column).ToDouble();
+      }
+    }
+  }
+  return seconds;
+}
+
 /// The visited levels from the coarsest to the finest; the surface may have vanished at one. Their
 /// seconds add up to those of the run.
-void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels)
+void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* history)
 {
   std::map<double, vtkPolyData*, std::greater<double>> surfaces;
   for (unsigned int block = 0; block < levels->GetNumberOfBlocks(); ++block)
@@ -109,7 +128,7 @@ void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels)
   {
     json.BeginObject();
     WriteSurfaceFacts(json, surface);
-    json.Member("seconds", surface->GetFieldData()->GetArray("Seconds")->GetComponent(0, 0));
+    json.Member("seconds", SecondsOf(history, level));
     json.EndObject();
   }
   json.EndArray();
@@ -145,7 +164,7 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   json.Member("finished", input.IsFinished);
   WriteSurfaceFacts(json, surface);
   WriteComponents(json, surface);
-  WriteLevels(json, filter->GetLevels());
+  WriteLevels(json, filter->GetLevels(), filter->GetHistory());
   json.Name("seconds");
   json.BeginObject();
   json.Member("pyramid", input.PyramidSeconds);
