@@ -80,7 +80,8 @@ struct StopAtText
         auto* self = static_cast<StopAtText*>(client);
         auto* filter = vtkAlgorithm::SafeDownCast(caller);
         const std::string text = filter->GetProgressText() ? filter->GetProgressText() : "";
-        self->After += self->Left <= 0;
+        // VTK 9.2 tells of the end, 1, where a filter was stopped, too.
+        self->After += self->Left <= 0 && filter->GetProgress() < 1.0;
         if (text.find(self->Part) != std::string::npos && --self->Left == 0)
         {
           filter->SetAbortExecute(1);
@@ -176,7 +177,10 @@ TEST(DeformableSurfaceProgress, CancellingEndsTheInnerPyramidWithinALevel)
   filter->Update();
   EXPECT_EQ(errors.Get(), "");
   EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
-  EXPECT_LT(listener.Shares.back(), 0.02) << "the pyramid's share";
+  for (const double share : listener.Shares)
+  {
+    EXPECT_TRUE(share < 0.02 || share == 1.0) << share << ", beyond the pyramid's share";
+  }
 }
 
 TEST(DeformableSurfaceProgress, CancellingEndsThePyramidOfTheMapOfEdges)

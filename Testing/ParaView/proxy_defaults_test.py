@@ -147,7 +147,8 @@ class ProxyDefaultsTest(unittest.TestCase):
                     self.assertEqual({domain.GetEntryValue(i) for i in entries}, choices)
                     self.assertGreater(len(choices), 1)
                     chosen.add(name)
-        self.assertEqual(chosen, {"BorderValue", "Initialization", "KeepComponents", "Recovery"})
+        self.assertEqual(chosen, {"BorderValue", "Initialization", "KeepComponents", "Metric",
+                                  "Recovery"})
 
     def test_every_property_is_documented(self):
         for group, element in self.elements:
