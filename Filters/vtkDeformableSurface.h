@@ -60,13 +60,13 @@
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
- * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration`
- * (int): the number of the last row that the history had then.
+ * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration` (int): the number
+ * of the last row that the history had then.
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
  * (mean over the vertices, along the normals, per unit of mass, in voxels of level 0 and units of
- * the simulated time, squared), `MeanEdgeLength` (world units, for voxels that are cubes of the
- * smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those awake),
+ * the simulated time, squared), `MeanEdgeLength` (world units; with Metric Voxels as if voxels
+ * were cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those awake),
  * `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this iteration),
  * `EulerCharacteristic`, `Components`, `RecoveredParts` (found before this iteration, see Recovery), `Deletions` (components deleted) and
  * `DeletedGenus` (the sum of their genera), `AddedEulerCharacteristic` (of what was added before
@@ -88,9 +88,8 @@
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever
  * triangles could meet, operations are verified by tests of the triangles and displacements that
  * make them meet are taken back; merges need the image's consent. Documentation/differences.md of
- * the sources names all that differs from the paper. The surface lives in a workspace where voxels
- * are cubes (section 5.2); the lengths that the constraints speak of are lengths there. Results are
- * the same bits for any number of threads.
+ * the sources names all that differs from the paper. The lengths that the constraints speak of are
+ * those of the workspace that Metric chooses. Results are the same bits for any number of threads.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. A
@@ -248,8 +247,8 @@ public:
   ///@{
   /**
    * Radius of the seeds in world units; 0, the default: 1.2 delta of the coarsest level. Less than
-   * 0.96 delta is taken as that, below which the edges of an icosahedron are too short. Lengths are
-   * those of the workspace, scaled so that the smallest voxel distance is right.
+   * 0.96 delta is taken as that, below which the edges of an icosahedron are too short. With
+   * Metric Voxels lengths are those of the workspace, right along the smallest voxel distance.
    */
   vtkSetMacro(SeedRadius, double);
   vtkGetMacro(SeedRadius, double);

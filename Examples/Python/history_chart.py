@@ -24,7 +24,7 @@ import render
 CURVES = (
     ("Seconds", "Duration of an iteration (ms)", 1000, False),
     ("KineticEnergy", "Mean kinetic energy along the normals", 1, True),
-    ("MeanEdgeLength", "Mean length of the edges (world units along the finest axis)", 1, False),
+    ("MeanEdgeLength", "Mean length of the edges (world units)", 1, False),
     ("Vertices", "Number of vertices", 1, False),
 )
 # From the coarsest level to the finest.
