@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace volumic;
 
@@ -244,5 +246,33 @@ TEST(Forces, MapOfEdgesPullsToTheRidge)
     stage.Options.IsopotentialWeight = 0;
     stage.Options.EdgeAttractionWeight = 2;
     EXPECT_GT(stage.Push() * (8 - radius) * stage.MeanSpeedOutward(), 0.2);
+  }
+}
+
+TEST(Forces, WhatKnowsNoBackgroundGivesWayToItBeyondTheMargin)
+{
+  // The image is flat out there, and so is the map of edges: neither pushes anywhere.
+  const TestVolume map = MakeVolume(33, [](double x, double, double) { return x < 16 ? 0. : 1.; });
+  for (const bool byEdges : { true, false })
+  {
+    Stage stage(DividedIcosahedron({ 16, 16, 16 }, 22, 1.6), 1);
+    stage.Volume.Image.Edges = map.Values.data();
+    (byEdges ? stage.Options.EdgeAttractionWeight : stage.Options.GradientWeight) = 0.7;
+    const std::vector<Vector> before = stage.State.Mesh.Position;
+    const double step = stage.Push();
+    int beyond = 0;
+    for (int v : stage.All)
+    {
+      // Two units beyond the outermost voxels the margin ends, after another one its ramp.
+      const Vector& p = before[v];
+      if (std::min({ p.X, p.Y, p.Z }) < -3.1 || std::max({ p.X, p.Y, p.Z }) > 35.1)
+      {
+        ++beyond;
+        ASSERT_NEAR(Dot(stage.State.Velocity[v], stage.State.Normal[v]),
+          -SpeedUnder(0.7, stage.Options, step), 1e-4)
+          << "by edges " << byEdges;
+      }
+    }
+    EXPECT_GT(beyond, 100);
   }
 }

@@ -298,7 +298,13 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
       EXPECT_EQ(DescribeBrokenInvariant(rings), "");
       const SurfaceFeatures features = ComputeFeatures(mesh);
       EXPECT_EQ(features.EulerCharacteristic, 2);
-      EXPECT_NEAR(features.Volume / ComputeFeatures(given).Volume, 1., 0.01 * pitch * pitch);
+      const SurfaceFeatures wanted = ComputeFeatures(given);
+      EXPECT_NEAR(features.Volume / wanted.Volume, 1., 0.01 * pitch * pitch);
+      for (int k = 0; k < 3; ++k)
+      {
+        EXPECT_NEAR(features.Components[0].Centroid[k], wanted.Components[0].Centroid[k], 0.1 * pitch)
+          << "turned back";
+      }
       for (const Triangle& t : mesh.Triangles)
       {
         for (int k = 0; k < 3; ++k)

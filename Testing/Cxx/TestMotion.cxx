@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace volumic;
 
@@ -105,6 +107,7 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
     stage.State.Velocity[3] *= 100.f;
     stage.State.Velocity[4] *= 0.1f;
     const std::vector<Vector> before = stage.State.Mesh.Position;
+    std::fill(stage.State.Before.begin(), stage.State.Before.end(), Vector()); // Of long ago.
     dynamics.Displace(stage.State, stage.All);
     for (int v : stage.All)
     {
