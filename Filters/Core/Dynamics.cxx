@@ -66,7 +66,7 @@ void Dynamics::SetPace()
   this->Longest = std::min(this->Longest, std::max(stable, this->Longest / Shortening));
   const float most =
     (4 + 2 * this->Drag * this->Longest) / (this->Longest * this->Longest) - outer;
-  this->InnerShare = inner > most ? std::max(most, 0.f) / inner : 1.f;
+  this->InnerShare = inner > 0 && inner > most ? std::max(most, 0.f) / inner : 1.f;
 }
 
 Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
