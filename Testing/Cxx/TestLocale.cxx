@@ -122,7 +122,7 @@ TEST_P(FilterLocale, SurfacesThatAreRefused)
   sphere->SetCenter(1234.5, 20, 20);
   this->Filter->SetInitializationToInputSurface();
   this->Filter->SetInitialSurfaceConnection(sphere->GetOutputPort());
-  this->ExpectError("along axis 0 it runs from 1234.01 to 1234.99 voxels");
+  this->ExpectError("along axis 0 it runs from 1234.01 to 1234.99 voxel distances");
   sphere->SetCenter(20, 20, 20);
   sphere->SetRadius(12);
   vtkNew<vtkReverseSense> reverse;
