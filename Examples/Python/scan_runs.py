@@ -65,10 +65,10 @@ class Scan:
         """
         for level in range(min(PAPERS_COARSEST, self.coarsest()), 0, -1):
             try:
-                return self.run(Recovery=0, CoarsestLevel=level), level
+                return self.run(Recovery=0, Metric=0, CoarsestLevel=level), level
             except FilterError as error:
                 print(f"  from level {level}: {error}")
-        return self.run(Recovery=0, CoarsestLevel=0), 0
+        return self.run(Recovery=0, Metric=0, CoarsestLevel=0), 0
 
     @functools.cached_property
     def iso_surface(self):
