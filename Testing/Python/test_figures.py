@@ -62,8 +62,8 @@ class FiguresTest(unittest.TestCase):
         # One run serves all pictures of the same properties: default and without the pyramid.
         self.assertEqual(run.stdout.count("default properties"), 1)
         self.assertEqual(run.stdout.count("SnapshotInterval"), 1)
-        self.assertEqual(run.stdout.count("Recovery 0, CoarsestLevel 3\n"), 1)
-        self.assertEqual(run.stdout.count("Recovery 0, CoarsestLevel 2\n"), 2)  # both vessels
+        self.assertEqual(run.stdout.count("Recovery 0, Metric 0, CoarsestLevel 3\n"), 1)
+        self.assertEqual(run.stdout.count("Recovery 0, Metric 0, CoarsestLevel 2\n"), 2)  # both vessels
 
     def test_one_picture_alone(self):
         with tempfile.TemporaryDirectory() as folder:
