@@ -64,25 +64,25 @@
  * of the last row that the history had then.
  *
  * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
- * (mean over the vertices, along the normals, per unit of mass, in voxels of level 0 and units of
- * the simulated time, squared), `MeanEdgeLength` (world units; with Metric Voxels as if voxels
- * were cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`, `ActiveVertices` (those awake),
- * `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of operations in this iteration),
- * `EulerCharacteristic`, `Components`, `RecoveredParts` (found before this iteration, see Recovery), `Deletions` (components deleted) and
- * `DeletedGenus` (the sum of their genera), `AddedEulerCharacteristic` (of what was added before
- * it: the start, what encloses lost parts). `Vertices`, `MeanEdgeLength`, `EulerCharacteristic` and
- * `Components` of the last row of a level are those of its surface, as regularised, by
- * `RegularisationCuts` and `RegularisationDeletions`; `IterationVertices`,
- * `IterationMeanEdgeLength`, `IterationEulerCharacteristic` and `IterationComponents` tell what the
- * iteration had left (in other rows the same). `SecondsBefore`: since the row before (voxels,
- * division, recovery; in the first row all since the run began); `SecondsAfter`: in the last row of
- * a level, regularisation and output. With these rows add up to the run. Always
- * `IterationEulerCharacteristic` = `EulerCharacteristic` of the row before (first row: 0) +
- * `AddedEulerCharacteristic` + 2 (`Cuts` - `Merges` - `Deletions` + `DeletedGenus`).
- * With Profile, also what `Seconds` is made of: `ForcesSeconds`, `ContactSeconds`,
- * `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`, `TopologySeconds`; and
- * `DivisionSeconds`, not in `Seconds`: what happens between two iterations (regularisation at the
- * end of a level, in the level's last row).
+ * (mean over the vertices, along the normals, per unit of mass, in smallest voxel distances of
+ * level 0 and units of the simulated time, squared), `MeanEdgeLength` (world units; with Metric
+ * Voxels as if voxels were cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`,
+ * `ActiveVertices` (those awake), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of
+ * operations in this iteration), `EulerCharacteristic`, `Components`, `RecoveredParts` (found
+ * before this iteration, see Recovery), `Deletions` (components deleted) and `DeletedGenus` (the
+ * sum of their genera), `AddedEulerCharacteristic` (of what was added before it: the start, what
+ * encloses lost parts). `Vertices`, `MeanEdgeLength`, `EulerCharacteristic` and `Components` of the
+ * last row of a level are those of its surface, as regularised, by `RegularisationCuts` and
+ * `RegularisationDeletions`; `IterationVertices`, `IterationMeanEdgeLength`,
+ * `IterationEulerCharacteristic` and `IterationComponents` tell what the iteration had left (in
+ * other rows the same). `SecondsBefore`: since the row before (voxels, division, recovery; in the
+ * first row all since the run began); `SecondsAfter`: in the last row of a level, regularisation
+ * and output. With these rows add up to the run. Always `IterationEulerCharacteristic` =
+ * `EulerCharacteristic` of the row before (first row: 0) + `AddedEulerCharacteristic` + 2 (`Cuts` -
+ * `Merges` - `Deletions` + `DeletedGenus`). With Profile, also what `Seconds` is made of:
+ * `ForcesSeconds`, `ContactSeconds`, `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`,
+ * `TopologySeconds`; and `DivisionSeconds`, not in `Seconds`: what happens between two iterations
+ * (regularisation at the end of a level, in the level's last row).
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever

@@ -28,8 +28,8 @@ struct LostPartCover
 /**
  * Looks for what coarser levels have lost (Documentation/differences.md): connected sets of at
  * least `minimumSize` voxels on the object's side outside the surface, or on the other side
- * inside it, all farther than two voxels from any vertex; and encloses them with a new surface,
- * which then shrinks onto them as the first one did onto the object.
+ * inside it, all farther than two units of the level from any vertex; and encloses them with a new
+ * surface, which then shrinks onto them as the first one did onto the object.
  *
  * It is the boundary of the truncated octahedra (CellLattice) that hold voxels of such parts and
  * keep clear of the surface as it is, with edges and distances that respect eq. (1). Seeds inside
