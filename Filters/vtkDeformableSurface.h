@@ -49,13 +49,15 @@
  * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest), `Contact` (unsigned char, 1
  * where walls or gaps are thinner than the triangles can hold, see FinestLevel: another part of the
  * surface, at least four edges away along it, keeps the vertex more than 0.1 Delta away from the
- * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
- * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
+ * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell arrays: `Component` (int, 0 = largest
+ * area) and, of the component that the triangle belongs to, `ComponentArea`, `ComponentVolume`
+ * (float) and `ComponentGenus` (int), so that filters of cells can choose components. Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
  * `Area`, `Volume` (double), `StopReason` (string:
  * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
  * in turn; finished like one that rests; `iteration limit`; `cancelled`; `vanished`),
- * `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of vertices nearer
+ * `ContactVertices` (int: those with `Contact`), `ResidualQuantile` (double: 98 % of the vertices
+ * have a `Residual` of at most this size), `RemainingContacts` (int: pairs of vertices nearer
  * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMDisplayInitializationHelper.h"
 
+#include "vtkSMVolumicSurfaceRepresentationProxy.h"
+
 #include <vtkObjectFactory.h>
 #include <vtkPVXMLElement.h>
 #include <vtkSMProperty.h>
@@ -71,6 +73,10 @@ void vtkSMDisplayInitializationHelper::PostInitializeProxy(
     }
   }
   proxy->UpdateVTKObjects();
+  if (auto* surface = vtkSMVolumicSurfaceRepresentationProxy::SafeDownCast(proxy))
+  {
+    surface->ChooseBlock();
+  }
 }
 
 //------------------------------------------------------------------------------
