@@ -75,7 +75,7 @@ void vtkSMDisplayInitializationHelper::PostInitializeProxy(
   proxy->UpdateVTKObjects();
   if (auto* surface = vtkSMVolumicSurfaceRepresentationProxy::SafeDownCast(proxy))
   {
-    surface->ChooseBlock();
+    surface->StartChoosingBlock();
   }
 }
 

@@ -125,13 +125,7 @@ void vtkSMVolumicSurfaceRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   this->Superclass::ViewUpdated(view);
   this->AdaptColors();
-  // Another block than chosen here is the user's choice.
-  vtkSMPropertyHelper selectors(this, "BlockSelectors", true);
-  if (!this->ChosenBlock.empty() && selectors.GetNumberOfElements() == 1 &&
-    selectors.GetAsString(0) == this->ChosenBlock)
-  {
-    this->ChooseBlock();
-  }
+  this->ChooseBlock();
 }
 
 //------------------------------------------------------------------------------
@@ -261,18 +255,30 @@ std::string vtkSMVolumicSurfaceRepresentationProxy::FindBlockToShow()
 }
 
 //------------------------------------------------------------------------------
+void vtkSMVolumicSurfaceRepresentationProxy::StartChoosingBlock()
+{
+  this->IsChoosingBlock = true;
+  this->ChooseBlock();
+}
+
+//------------------------------------------------------------------------------
 void vtkSMVolumicSurfaceRepresentationProxy::ChooseBlock()
 {
-  const std::string block = this->FindBlockToShow();
-  if (block.empty() || block == this->ChosenBlock || !this->GetProperty("BlockSelectors"))
+  vtkSMPropertyHelper selectors(this, "BlockSelectors", true);
+  // Other blocks than those chosen here, or given by ParaView, are the user's choice.
+  const std::string given = this->ChosenBlock.empty() ? "/" : this->ChosenBlock;
+  if (!this->IsChoosingBlock || selectors.GetNumberOfElements() != 1 ||
+    selectors.GetAsString(0) != given)
   {
     return;
   }
-  this->ChosenBlock = block;
-  vtkSMPropertyHelper selectors(this, "BlockSelectors");
-  selectors.SetNumberOfElements(1);
-  selectors.Set(0, block.c_str());
-  this->UpdateVTKObjects();
+  const std::string block = this->FindBlockToShow();
+  if (!block.empty() && block != this->ChosenBlock)
+  {
+    this->ChosenBlock = block;
+    selectors.Set(0, block.c_str());
+    this->UpdateVTKObjects();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -32,8 +32,8 @@ public:
   vtkTypeMacro(vtkSMVolumicSurfaceRepresentationProxy, vtkSMPVRepresentationProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Shows the block that the hint names; nothing without a hint or without blocks.
-  void ChooseBlock();
+  /// From now on, shows the block that the hint names, as long as nobody chooses others.
+  void StartChoosingBlock();
 
   void ViewUpdated(vtkSMProxy* view) override;
 
@@ -54,6 +54,7 @@ private:
   void AdaptColors();
   void AdaptResidualColors(vtkSMProxy* colors, vtkPVDataInformation* data);
   void AdaptComponentColors(vtkSMProxy* colors, vtkPVDataInformation* data);
+  void ChooseBlock();
   vtkPVDataInformation* GetInputInformation(const std::string& block = "");
   /// Empty if there is none.
   std::string FindBlockToShow();
@@ -62,6 +63,7 @@ private:
   double ResidualRange = -1.0;
   int LastComponent = -1;
   std::string ChosenBlock;
+  bool IsChoosingBlock = false;
 };
 
 #endif

@@ -63,7 +63,7 @@ void vtkVolumicHistoryRepresentation::PrepareForRendering()
   this->Superclass::PrepareForRendering();
   this->LogarithmicAxes = this->FindLogarithmicAxes();
   vtkChartRepresentation::MapOfTables tables;
-  if (this->LogarithmicAxes == 0 || !this->GetLocalOutput(tables))
+  if (!this->GetLocalOutput(tables))
   {
     return;
   }
@@ -74,12 +74,24 @@ void vtkVolumicHistoryRepresentation::PrepareForRendering()
     // A chart may show the curves of others as well.
     const bool isOurs = std::any_of(tables.begin(), tables.end(),
       [plot](const auto& table) { return table.second.first == plot->GetInput(); });
-    if (isOurs && plot->GetVisible())
+    if (!isOurs || !plot->GetVisible())
+    {
+      continue;
+    }
+    if (plot->GetInput()->GetNumberOfRows() < 2)
+    {
+      // VTK takes a line of one point for an error.
+      plot->SetVisible(false);
+    }
+    else if (plot->GetXAxis()->GetLogScale() || plot->GetYAxis()->GetLogScale())
     {
       LeaveOutWhatHasNoLogarithm(plot);
     }
   }
-  chart->RecalculateBounds();
+  if (this->LogarithmicAxes != 0)
+  {
+    chart->RecalculateBounds();
+  }
 }
 
 //------------------------------------------------------------------------------
