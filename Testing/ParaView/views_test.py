@@ -23,8 +23,8 @@ MORE_CURVES = ["Merges", "Cuts", "EulerCharacteristic", "Collapses", "Deletions"
 
 def ball(size, radius, centre=0.0):
     x = numpy.arange(size) - (size - 1) / 2 + 0.3
-    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 +
-                          (x[:, None, None] - centre)**2)
+    distance = numpy.sqrt((x[None, None, :] - centre)**2 + x[None, :, None]**2 +
+                          x[:, None, None]**2)
     return numpy.clip(50 + 100 * (radius - distance), 0, 100).astype(numpy.float32)
 
 
