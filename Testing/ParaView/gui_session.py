@@ -72,6 +72,14 @@ class Session:
         self._window = None
         self.output = ""
 
+    def add_macro(self, name, code):
+        """For windows from now on: Python code. Returns the event that runs it, in the window."""
+        folder = os.path.join(self._folder.name, ".config/ParaView/Macros")
+        os.makedirs(folder, exist_ok=True)
+        with open(os.path.join(folder, f"{name}.py"), "w", encoding="utf-8") as file:
+            file.write(code)
+        return event(f"{WINDOW}/menubar/menu_Macros", "activate", name)
+
     def play(self, events, timeout=240, python=""):
         """Play the events in a new window, which stays open. Returns whether all succeeded.
 
