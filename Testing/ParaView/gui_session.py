@@ -44,7 +44,9 @@ def start_screen(xvfb, size, options=()):
     read_end, write_end = os.pipe()
     server = subprocess.Popen(
         [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24", *options,
-         "-nolisten", "tcp"],
+         "-nolisten", "tcp",
+         # Without a client for a moment, it would be busy with itself when the next one comes.
+         "-noreset"],
         pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
         preexec_fn=end_with_parent)
     os.close(write_end)
