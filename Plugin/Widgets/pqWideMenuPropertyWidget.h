@@ -6,8 +6,9 @@
 #include <pqIntVectorPropertyWidget.h>
 
 /**
- * A menu with long entries, in a row of its own below its label: beside it, the panel would need more
- * width than ParaView gives it, and all else would be cut off at its right side.
+ * A menu with long entries that does not keep to the panel's column of labels, whose width is that of
+ * the longest word: with both, the panel would need more width than ParaView gives it, and all else
+ * would be cut off at its right side.
  *
  *   <IntVectorProperty panel_widget="WideMenu" ...>
  */
@@ -19,8 +20,6 @@ public:
   pqWideMenuPropertyWidget(
     vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
   ~pqWideMenuPropertyWidget() override;
-
-  bool isSingleRowItem() const override { return true; }
 
 private:
   Q_DISABLE_COPY(pqWideMenuPropertyWidget)
