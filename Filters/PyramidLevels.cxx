@@ -221,7 +221,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, Executor& executor)
   const int level = std::max(wanted, 0);
   vtkImageData* image = this->Images[level];
   const std::string name = "level " + std::to_string(level);
-  CheckSize(image, name, "Set CoarsestLevel to a finer level.");
+  CheckSize(image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
   const std::string notFinite =
     DescribeNotFiniteVoxels(this->Voxels[level], voxels, image, executor);

@@ -58,21 +58,21 @@ SurfaceSegmentation::SurfaceSegmentation(
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
 {
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
-  CheckEnumeration("BorderValue", settings.BorderValue, vtkDeformableSurface::Replicate);
+  CheckEnumeration("Border Value", settings.BorderValue, vtkDeformableSurface::Replicate);
   CheckEnumeration(
     "Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjectsAndCavities);
   if (settings.Options.MaximumNumberOfIterations < 1)
   {
-    Refuse("MaximumNumberOfIterations is ", settings.Options.MaximumNumberOfIterations,
+    Refuse("Maximum Number Of Iterations is ", settings.Options.MaximumNumberOfIterations,
       "; it must be at least 1.");
   }
   if (settings.SnapshotInterval < 0)
   {
-    Refuse("SnapshotInterval is ", settings.SnapshotInterval, "; it must be 0 (off) or more.");
+    Refuse("Snapshot Interval is ", settings.SnapshotInterval, "; it must be 0 (off) or more.");
   }
   if (settings.Options.SeedRadius < 0.0 || !std::isfinite(settings.Options.SeedRadius))
   {
-    Refuse("SeedRadius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
+    Refuse("Seed Radius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
   this->Settings.Options.BorderValue = static_cast<Border>(settings.BorderValue);
   this->Settings.Options.RecoverLostParts =
@@ -90,10 +90,10 @@ SurfaceSegmentation::~SurfaceSegmentation() = default;
 void SurfaceSegmentation::ReadComponentChoice()
 {
   CheckEnumeration(
-    "KeepComponents", this->Settings.KeepComponents, vtkDeformableSurface::LargeComponents);
+    "Keep Components", this->Settings.KeepComponents, vtkDeformableSurface::LargeComponents);
   if (!(this->Settings.MinimumComponentVolume >= 0.0))
   {
-    Refuse("MinimumComponentVolume is ", this->Settings.MinimumComponentVolume,
+    Refuse("Minimum Component Volume is ", this->Settings.MinimumComponentVolume,
       "; it must be 0 or more.");
   }
   this->Choice.Mode = this->Settings.KeepComponents;
@@ -104,8 +104,9 @@ void SurfaceSegmentation::ReadComponentChoice()
       this->Pyramid.GetWorkspace());
     if (this->Choice.Places.empty())
     {
-      Refuse("KeepComponents is 2, those at points, but there are none: give seeds to input port "
-             "1, or points known to belong to the object to input port 2.");
+      Refuse("Keep Components is \"At Points\", but there are none: give seeds to input port 1 "
+             "(Initial Surface), or points known to belong to the object to input port 2 "
+             "(Attracting Points).");
     }
   }
 }
@@ -124,7 +125,7 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   }
   catch (const std::invalid_argument& error)
   {
-    Refuse("Input port 2: ", error.what());
+    Refuse("Input port 2 (Attracting Points): ", error.what());
   }
   if (this->Settings.Options.EdgeAttractionWeight > 0.0)
   {
@@ -191,18 +192,18 @@ void SurfaceSegmentation::ChooseLevels()
   this->LastLevel = this->Settings.FinestLevel;
   if (this->Coarsest < 0 || this->Coarsest > last)
   {
-    Refuse("CoarsestLevel is ", this->Settings.CoarsestLevel,
+    Refuse("Coarsest Level is ", this->Settings.CoarsestLevel,
       ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
   }
   if (this->Settings.EdgeLength != 0.0 && this->LastLevel > this->Coarsest)
   {
-    Refuse("EdgeLength is ", this->Settings.EdgeLength, ", for which the finest level is ",
-      this->LastLevel, ", but CoarsestLevel is ", this->Settings.CoarsestLevel,
+    Refuse("Edge Length is ", this->Settings.EdgeLength, ", for which the finest level is ",
+      this->LastLevel, ", but Coarsest Level is ", this->Settings.CoarsestLevel,
       "; set it to that level, a coarser one, or -1 for the last.");
   }
   if (this->LastLevel < -1 || this->LastLevel > this->Coarsest)
   {
-    Refuse("FinestLevel is ", this->LastLevel, "; it must lie between 0 and the coarsest level, ",
+    Refuse("Finest Level is ", this->LastLevel, "; it must lie between 0 and the coarsest level, ",
       this->Coarsest, ", or be -1 for a last division beyond the image.");
   }
 }
@@ -219,13 +220,13 @@ void SurfaceSegmentation::CheckIsoValue()
   if (std::isnan(iso))
   {
     Refuse(
-      "IsoValue is not set. Set it to the value that parts the object from the background; the "
+      "Iso Value is not set. Set it to the value that parts the object from the background; the "
       "voxels range from ",
       range[0], " to ", range[1], ".");
   }
   if (iso <= range[0] || iso >= range[1])
   {
-    Refuse("IsoValue is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
+    Refuse("Iso Value is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
       "; set it between them.");
   }
 }
@@ -283,15 +284,16 @@ void SurfaceSegmentation::CheckObjectIsThere()
   }
   if (this->Settings.EdgeLength != 0.0 && this->Coarsest == this->LastLevel)
   {
-    Refuse("EdgeLength is ", this->Settings.EdgeLength, ", for which the finest level is ",
+    Refuse("Edge Length is ", this->Settings.EdgeLength, ", for which the finest level is ",
       this->LastLevel, ", but the object is too thin for it: no voxel is ",
-      this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",
-      this->Settings.Options.IsoValue, " there. Give a shorter EdgeLength.");
+      this->Settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ",
+      this->Settings.Options.IsoValue, " there. Give a shorter Edge Length.");
   }
   Refuse("the object has vanished at level ", this->Coarsest, ", the coarsest: no voxel is ",
-    this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",
-    this->Settings.Options.IsoValue, " there. It is too thin for that level; set CoarsestLevel to ",
-    level, ", where it is still there, or less.");
+    this->Settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ",
+    this->Settings.Options.IsoValue,
+    " there. It is too thin for that level; set Coarsest Level to ", level,
+    ", where it is still there, or less.");
 }
 
 void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
@@ -321,7 +323,7 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   {
     const bool isGiven = this->Settings.Initialization == vtkDeformableSurface::InputSurface ||
       this->Settings.Initialization == vtkDeformableSurface::Seeds;
-    Refuse(isGiven ? "Input port 1: " : "", error.what());
+    Refuse(isGiven ? "Input port 1 (Initial Surface): " : "", error.what());
   }
 }
 
@@ -335,7 +337,7 @@ void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::Los
       lost.Found == 1 ? "" : "s", " of the object that the surface lost at level ", level + 1, "; ",
       missing, missing == 1 ? " is" : " are", " not found again. ",
       this->Settings.Options.RecoverLostParts ? "They lie too close to the surface for one of their "
-                                                "own; a finer CoarsestLevel may keep more."
+                                                "own; a finer Coarsest Level may keep more."
                                               : "Turn Recovery on to find them."));
   }
 }
@@ -360,7 +362,7 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
   const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
   if (kept.Points.empty() && !surface.Points.empty())
   {
-    this->Settings.Warn(Join("Level ", level, ": KeepComponents leaves none of the components."));
+    this->Settings.Warn(Join("Level ", level, ": Keep Components leaves none of the components."));
   }
   this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
   this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
@@ -372,8 +374,8 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
       ": the object is too thin for it. ",
       this->Coarsest > 0
-        ? "Set CoarsestLevel to a finer level."
-        : "No level is finer: check IsoValue and ObjectIsBright, or resample the image."));
+        ? "Set Coarsest Level to a finer level."
+        : "No level is finer: check Iso Value and Object Is Bright, or resample the image."));
   }
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||

@@ -289,8 +289,8 @@ int vtkDeformableSurface::RequestData(
   {
     volumic::InitializeOutputs(outputVector);
     this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set FinestLevel to a "
-                  "coarser level, or crop the image.");
+    vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set Finest Level to "
+                  "a coarser level, or crop the image.");
   }
   catch (const std::exception& error)
   {

@@ -225,7 +225,7 @@ TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
     this->Filter->SetKeepComponents(startsFromSeeds ? 0 : 2);
     MessagesOf errors(this->Filter);
     this->Filter->Update();
-    EXPECT_TRUE(errors.Has("Input port 1: ")) << errors.Get();
+    EXPECT_TRUE(errors.Has("Input port 1 (Initial Surface): ")) << errors.Get();
     EXPECT_TRUE(errors.Has("no vertices")) << errors.Get();
   }
 }
@@ -240,7 +240,7 @@ TEST_F(DeformableSurfaceComponents, ASurfaceToStartFromHasNoSeeds)
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   MessagesOf errors(this->Filter);
   this->Filter->Update();
-  EXPECT_TRUE(errors.Has("KeepComponents is 2, those at points, but there are none")) << errors.Get();
+  EXPECT_TRUE(errors.Has("Keep Components is \"At Points\", but there are none")) << errors.Get();
 }
 
 TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
@@ -249,7 +249,7 @@ TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
   this->SetSeed(28.5, 27.0, 27.0);
   MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
   EXPECT_TRUE(this->Volumes().empty());
-  EXPECT_TRUE(warnings.Has("KeepComponents leaves none"));
+  EXPECT_TRUE(warnings.Has("Keep Components leaves none"));
 }
 
 TEST_F(DeformableSurfaceComponents, SizesAndPlacesAreThoseOfTheWorld)
@@ -277,10 +277,10 @@ TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
     EXPECT_TRUE(errors.Has(part)) << errors.Get();
   };
   this->Filter->SetKeepComponents(4);
-  refused("KeepComponents is 4");
+  refused("Keep Components is 4");
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   refused("input port 1");
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(-1.0);
-  refused("MinimumComponentVolume is -1");
+  refused("Minimum Component Volume is -1");
 }

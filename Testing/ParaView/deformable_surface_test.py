@@ -242,7 +242,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         return filter_
 
     def test_error_for_an_iso_value_out_of_range_and_the_way_out(self):
-        filter_ = self.check_error(["IsoValue", "1000", "range"], self.ball, IsoValue=1000.0)
+        filter_ = self.check_error(["Iso Value", "1000", "range"], self.ball, IsoValue=1000.0)
         filter_.IsoValue = 0.0
         self.check_ball(output(filter_), 0.2)
 
