@@ -21,5 +21,7 @@ endfunction ()
 
 if (PARAVIEW_USE_QT)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
+  volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
   volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
+  list(APPEND volumic_panel_sources Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h)
 endif ()
