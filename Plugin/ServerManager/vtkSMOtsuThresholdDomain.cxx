@@ -26,7 +26,7 @@ namespace
 vtkPVDataInformation* DataOf(vtkSMSourceProxy* producer, unsigned int port)
 {
   vtkPVDataInformation* data = producer->GetDataInformation(port);
-  if (!data || data->IsNull())
+  if (!data || data->GetNumberOfPoints() == 0)
   {
     producer->UpdatePipeline();
     data = producer->GetDataInformation(port);
@@ -84,13 +84,9 @@ vtkSMOtsuThresholdDomain::Choice vtkSMOtsuThresholdDomain::CurrentChoice(bool us
 //------------------------------------------------------------------------------
 double vtkSMOtsuThresholdDomain::ComputeThreshold(const Choice& choice)
 {
-  if (!choice.Producer)
-  {
-    return vtkMath::Nan();
-  }
-  vtkPVDataInformation* data = DataOf(choice.Producer, choice.Port);
-  // Before the data is known there is no array to choose.
-  if (!data || !choice.HasArray())
+  vtkPVDataInformation* data =
+    choice.HasArray() ? DataOf(choice.Producer, choice.Port) : nullptr;
+  if (!data)
   {
     return vtkMath::Nan();
   }
@@ -124,8 +120,26 @@ double vtkSMOtsuThresholdDomain::ComputeThreshold(const Choice& choice)
 }
 
 //------------------------------------------------------------------------------
+void vtkSMOtsuThresholdDomain::ChooseArray()
+{
+  const Choice choice = this->CurrentChoice();
+  vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
+  vtkPVDataInformation* data =
+    choice.Producer ? DataOf(choice.Producer, choice.Port) : nullptr;
+  if (data &&
+    !data->GetArrayInformation(choice.Array[4].c_str(), std::atoi(choice.Array[3].c_str())))
+  {
+    selection->ResetToDomainDefaults();
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkSMOtsuThresholdDomain::SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues)
 {
+  if (!useUncheckedValues)
+  {
+    this->ChooseArray();
+  }
   const Choice choice = this->CurrentChoice();
   const double threshold = this->ComputeThreshold(choice);
   vtkSMPropertyHelper value(property);
@@ -181,19 +195,14 @@ void vtkSMOtsuThresholdDomain::Follow(const Choice& choice)
   {
     return;
   }
-  vtkPVDataInformation* data = DataOf(choice.Producer, choice.Port);
-  const int association = std::atoi(choice.Array[3].c_str());
-  if (data && !data->GetArrayInformation(choice.Array[4].c_str(), association))
-  {
-    selection->ResetToDomainDefaults();
-    filter->UpdateProperty(filter->GetPropertyName(selection));
-  }
+  this->ChooseArray();
   // In a panel nothing is real before Apply.
   const bool isUnchecked = !(this->CurrentChoice(false) == this->CurrentChoice()) ||
     vtkSMPropertyHelper(property).GetAsDouble() != this->PresetValue;
   this->SetDefaultValues(property, isUnchecked);
   if (!isUnchecked && filter->GetObjectsCreated())
   {
+    filter->UpdateProperty(filter->GetPropertyName(selection));
     filter->UpdateProperty(filter->GetPropertyName(property));
   }
 }

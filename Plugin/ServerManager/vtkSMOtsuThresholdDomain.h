@@ -54,6 +54,8 @@ private:
     bool operator==(const Choice& other) const;
   };
   Choice CurrentChoice(bool useUnchecked = true);
+  /// Where none is chosen that the data has: what is known of the data may be from before its update.
+  void ChooseArray();
   /// NaN if there is none.
   double ComputeThreshold(const Choice& choice);
   void UpdateRange(const Choice& choice);
