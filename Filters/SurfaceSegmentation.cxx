@@ -4,12 +4,15 @@
 
 #include "Core/EdgeLengthPlan.h"
 #include "Core/Refuse.h"
+#include "GivenPositions.h"
 #include "HostThreads.h"
 #include "InitialSurfaces.h"
 #include "SurfaceOutput.h"
 #include "vtkDeformableSurface.h"
 
 #include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
@@ -35,12 +38,14 @@ void CheckEnumeration(const char* name, int value, int last)
 }
 
 /// The levels, with errors that name the port.
-PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int metric)
+PyramidLevels ReadLevels(
+  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
 {
-  CheckEnumeration("Metric", metric, vtkDeformableSurface::World);
+  CheckEnumeration("Metric", settings.Metric, vtkDeformableSurface::World);
   try
   {
-    return PyramidLevels(blocks, selection, static_cast<Metric>(metric));
+    return PyramidLevels(
+      blocks, selection, static_cast<Metric>(settings.Metric), settings.NaNIsBackground);
   }
   catch (const std::invalid_argument& error)
   {
@@ -52,7 +57,7 @@ PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection
 
 SurfaceSegmentation::SurfaceSegmentation(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), Pyramid(ReadLevels(blocks, selection, settings.Metric)),
+  : Settings(settings), Input(blocks), Pyramid(ReadLevels(blocks, selection, settings)),
     Finest(vtkSmartPointer<vtkPolyData>::New()),
     Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New()),
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
@@ -87,6 +92,18 @@ SurfaceSegmentation::SurfaceSegmentation(
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
 
+std::vector<Point> SurfaceSegmentation::SeedPositions() const
+{
+  return PositionsOf(this->Settings.SeedPositions, "Seed Positions", this->Pyramid.GetWorkspace(),
+    this->Pyramid.SizeOfLevel0());
+}
+
+std::vector<Point> SurfaceSegmentation::AttractingPositions() const
+{
+  return PositionsOf(this->Settings.AttractingPositions, "Attracting Positions",
+    this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
+}
+
 void SurfaceSegmentation::ReadComponentChoice()
 {
   CheckEnumeration(
@@ -102,30 +119,40 @@ void SurfaceSegmentation::ReadComponentChoice()
   {
     this->Choice.Places = PlacesOf(this->Settings.InitialSurface, this->Settings.AttractingPoints,
       this->Pyramid.GetWorkspace());
+    for (const std::vector<Point>& more : { this->SeedPositions(), this->AttractingPositions() })
+    {
+      this->Choice.Places.insert(this->Choice.Places.end(), more.begin(), more.end());
+    }
     if (this->Choice.Places.empty())
     {
-      Refuse("Keep Components is \"At Points\", but there are none: give seeds to input port 1 "
-             "(Initial Surface), or points known to belong to the object to input port 2 "
-             "(Attracting Points).");
+      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or Attracting "
+             "Positions, or give seeds to input port 1 (Initial Surface), or points known to belong "
+             "to the object to input port 2 (Attracting Points).");
     }
   }
 }
 
 void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
 {
+  std::vector<AttractingPoint> points;
   try
   {
-    std::vector<AttractingPoint> points = AttractingPointsOf(this->Settings.AttractingPoints,
-      this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
-    if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
-    {
-      this->Points = std::make_unique<PointAttraction>(
-        std::move(points), this->Settings.Options.PointAttractionWeight);
-    }
+    points = AttractingPointsOf(this->Settings.AttractingPoints, this->Pyramid.GetWorkspace(),
+      this->Pyramid.SizeOfLevel0());
   }
   catch (const std::invalid_argument& error)
   {
     Refuse("Input port 2 (Attracting Points): ", error.what());
+  }
+  for (const Point& place : this->AttractingPositions())
+  {
+    points.emplace_back();
+    points.back().Place = place;
+  }
+  if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
+  {
+    this->Points = std::make_unique<PointAttraction>(
+      std::move(points), this->Settings.Options.PointAttractionWeight);
   }
   if (this->Settings.Options.EdgeAttractionWeight > 0.0)
   {
@@ -135,12 +162,29 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   }
 }
 
+std::array<double, 2> SurfaceSegmentation::RangeOfLevel(int level) const
+{
+  try
+  {
+    return this->Pyramid.Range(level);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    Refuse("Input port 0: ", error.what());
+  }
+}
+
 LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
 {
   LevelImage image;
+  const double iso = this->Settings.Options.IsoValue;
+  const std::array<double, 2> range = this->RangeOfLevel(std::max(level, 0));
+  // As outside the image (Field.h): as far from the iso-value as any voxel is.
+  const double away = std::max(range[1] - iso, iso - range[0]);
+  const double background = this->Settings.Options.ObjectIsBright ? iso - away : iso + away;
   try
   {
-    image = this->Pyramid.Load(level, this->Settings.Options.IsoValue, threads);
+    image = this->Pyramid.Load(level, iso, background, threads);
   }
   catch (const std::invalid_argument& error)
   {
@@ -213,10 +257,25 @@ unsigned int SurfaceSegmentation::BlockOf(int level) const
   return static_cast<unsigned int>(level < 0 ? this->Pyramid.NumberOfLevels() : level);
 }
 
+void SurfaceSegmentation::WarnOfNaNs()
+{
+  vtkDataArray* counted = this->Input->GetFieldData()->GetArray("NaNVoxels");
+  const bool hasNone = counted && counted->GetTuple1(0) == 0.0;
+  // Image Pyramid tells it itself where it is a filter of the user's.
+  if (!hasNone && (!counted || this->Settings.LevelsAreOwn))
+  {
+    const std::string text = this->Pyramid.DescribeNaNsOfLevel0();
+    if (!text.empty())
+    {
+      this->Settings.Warn("Input port 0: " + text);
+    }
+  }
+}
+
 void SurfaceSegmentation::CheckIsoValue()
 {
   const double iso = this->Settings.Options.IsoValue;
-  const std::array<double, 2> range = this->Pyramid.Range(0);
+  const std::array<double, 2> range = this->RangeOfLevel(0);
   if (std::isnan(iso))
   {
     Refuse(
@@ -238,7 +297,7 @@ int SurfaceSegmentation::CoarsestLevelWithObject(int from)
   int level = from;
   for (; level > 0; --level)
   {
-    const std::array<double, 2> range = this->Pyramid.Range(level);
+    const std::array<double, 2> range = this->RangeOfLevel(level);
     if (bright ? range[1] > iso : range[0] < iso)
     {
       break;
@@ -299,13 +358,23 @@ void SurfaceSegmentation::CheckObjectIsThere()
 void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
 {
   const Workspace& space = this->Pyramid.GetWorkspace();
+  std::vector<Point> seeds;
+  if (this->Settings.Initialization == vtkDeformableSurface::Seeds)
+  {
+    seeds = this->SeedPositions();
+  }
+  const bool hasPositions = !seeds.empty();
   try
   {
     switch (this->Settings.Initialization)
     {
       case vtkDeformableSurface::Seeds:
-        evolution.StartSeeds(image, this->Coarsest, SeedsOf(this->Settings.InitialSurface, space));
+      {
+        const std::vector<Point> connected = SeedsOf(this->Settings.InitialSurface, space);
+        seeds.insert(seeds.begin(), connected.begin(), connected.end());
+        evolution.StartSeeds(image, this->Coarsest, seeds);
         break;
+      }
       case vtkDeformableSurface::IsoSurface:
         evolution.StartSurface(
           image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
@@ -323,7 +392,9 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   {
     const bool isGiven = this->Settings.Initialization == vtkDeformableSurface::InputSurface ||
       this->Settings.Initialization == vtkDeformableSurface::Seeds;
-    Refuse(isGiven ? "Input port 1 (Initial Surface): " : "", error.what());
+    const bool ofPositions = hasPositions && !this->Settings.InitialSurface;
+    Refuse(ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "",
+      error.what());
   }
 }
 
@@ -387,6 +458,7 @@ void SurfaceSegmentation::Run()
   this->ChooseLevels();
   this->CheckIsoValue();
   this->CheckObjectIsThere();
+  this->WarnOfNaNs();
   for (int level = std::min(this->LastLevel, 0); level < this->Pyramid.NumberOfLevels(); ++level)
   {
     this->Blocks->SetBlock(this->BlockOf(level), nullptr);

@@ -14,6 +14,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -22,6 +23,7 @@
 
 class vtkInformation;
 class vtkMultiBlockDataSet;
+class vtkPoints;
 class vtkPolyData;
 class vtkTable;
 
@@ -41,6 +43,8 @@ struct SegmentationSettings
   int KeepComponents = 0; ///< vtkDeformableSurface::KeepComponentsType, if it is one
   double MinimumComponentVolume = 0.0; ///< world units cubed
   int Metric = 0;         ///< vtkDeformableSurface::MetricType, if it is one
+  bool NaNIsBackground = true;
+  bool LevelsAreOwn = false; ///< they were made for this run: nobody was told of their NaN voxels
   double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
   bool EdgeLengthIsPlanned = false; ///< the levels were made for it, and what follows is set
   int CoarsestLevel = -1;
@@ -51,6 +55,8 @@ struct SegmentationSettings
   int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
   vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
   vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
+  vtkPoints* SeedPositions = nullptr;       ///< world, beside those of port 1; may be missing
+  vtkPoints* AttractingPositions = nullptr; ///< world, beside those of port 2; may be missing
   vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
 
   /// When the run began: what came before counts to the seconds of the first level.
@@ -86,9 +92,14 @@ private:
   void ChooseEdgeLength();
   void ChooseLevels();
   unsigned int BlockOf(int level) const;
+  /// Seed Positions and Attracting Positions in the workspace.
+  std::vector<Point> SeedPositions() const;
+  std::vector<Point> AttractingPositions() const;
   void ReadComponentChoice();
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
+  std::array<double, 2> RangeOfLevel(int level) const;
   LevelImage Load(int level, Executor& threads);
+  void WarnOfNaNs();
   void CheckIsoValue();
   /// At most `from`; 0 where no other level has any of the object.
   int CoarsestLevelWithObject(int from);
@@ -103,6 +114,7 @@ private:
   void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);
 
   SegmentationSettings Settings;
+  vtkMultiBlockDataSet* Input;
   PyramidLevels Pyramid;
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none

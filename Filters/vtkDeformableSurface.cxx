@@ -4,6 +4,8 @@
 
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
+#include "Core/Refuse.h"
+#include "InputImage.h"
 #include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
@@ -20,10 +22,12 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -36,17 +40,50 @@ namespace
 {
 /// Share of the progress that the pyramid takes where it is built here.
 constexpr double PyramidShare = 0.02;
+
+vtkSmartPointer<vtkPoints> NewPositions()
+{
+  auto positions = vtkSmartPointer<vtkPoints>::New();
+  positions->SetDataTypeToDouble();
+  return positions;
+}
+
+void CopyPosition(vtkPoints* positions, int index, double position[3])
+{
+  if (index >= 0 && index < positions->GetNumberOfPoints())
+  {
+    positions->GetPoint(index, position);
+    return;
+  }
+  std::fill(position, position + 3, vtkMath::Nan());
+}
+}
+
+//------------------------------------------------------------------------------
+vtkImageData* vtkDeformableSurface::TakeImage(vtkDataObject* input)
+{
+  try
+  {
+    return volumic::ImageOf(input);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    volumic::Refuse("Input port 0: ", error.what());
+  }
 }
 
 //------------------------------------------------------------------------------
 vtkDeformableSurface::vtkDeformableSurface()
 {
   const volumic::SurfaceOptions defaults;
+  this->SelectedComponent = -1;
+  this->NaNIsBackground = true;
   this->Metric = World;
   this->EdgeLength = 0.0;
   this->IsoValue = vtkMath::Nan();
   this->ObjectIsBright = defaults.ObjectIsBright;
   this->Initialization = EnclosingIcosahedron;
+  this->SeedPositions = NewPositions();
   this->SeedRadius = defaults.SeedRadius;
   this->CoarsestLevel = -1;
   this->FinestLevel = 0;
@@ -56,6 +93,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->IsopotentialWeight = defaults.IsopotentialWeight;
   this->GradientWeight = defaults.GradientWeight;
   this->PointAttractionWeight = defaults.PointAttractionWeight;
+  this->AttractingPositions = NewPositions();
   this->EdgeAttractionWeight = defaults.EdgeAttractionWeight;
   this->Friction = defaults.Friction;
   this->BorderValue = static_cast<int>(defaults.BorderValue);
@@ -85,8 +123,8 @@ int vtkDeformableSurface::FillInputPortInformation(int port, vtkInformation* inf
 {
   if (port == 0)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+    // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   }
   else
   {
@@ -125,6 +163,52 @@ void vtkDeformableSurface::SetAttractingPointsData(vtkDataObject* data)
   this->SetInputDataObject(2, data);
 }
 
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::AddSeedPosition(double x, double y, double z)
+{
+  this->SeedPositions->InsertNextPoint(x, y, z);
+  this->Modified();
+}
+
+void vtkDeformableSurface::ClearSeedPositions()
+{
+  this->SeedPositions->SetNumberOfPoints(0);
+  this->Modified();
+}
+
+int vtkDeformableSurface::GetNumberOfSeedPositions()
+{
+  return static_cast<int>(this->SeedPositions->GetNumberOfPoints());
+}
+
+void vtkDeformableSurface::GetSeedPosition(int index, double position[3])
+{
+  CopyPosition(this->SeedPositions, index, position);
+}
+
+void vtkDeformableSurface::AddAttractingPosition(double x, double y, double z)
+{
+  this->AttractingPositions->InsertNextPoint(x, y, z);
+  this->Modified();
+}
+
+void vtkDeformableSurface::ClearAttractingPositions()
+{
+  this->AttractingPositions->SetNumberOfPoints(0);
+  this->Modified();
+}
+
+int vtkDeformableSurface::GetNumberOfAttractingPositions()
+{
+  return static_cast<int>(this->AttractingPositions->GetNumberOfPoints());
+}
+
+void vtkDeformableSurface::GetAttractingPosition(int index, double position[3])
+{
+  CopyPosition(this->AttractingPositions, index, position);
+}
+
+//------------------------------------------------------------------------------
 vtkMultiBlockDataSet* vtkDeformableSurface::GetLevels()
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(1));
@@ -158,6 +242,7 @@ vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
   volume.SamplingRatio = this->SamplingRatio;
   volume.FactorBelowLevel0 = std::sqrt(3.0);
   volume.EdgeLengthIsPlanned = false;
+  volume.LevelsAreOwn = false;
   return volume;
 }
 
@@ -165,6 +250,8 @@ vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
 void vtkDeformableSurface::MakeLevels(
   vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume)
 {
+  pyramid->SetSelectedComponent(this->SelectedComponent);
+  pyramid->SetNaNIsBackground(this->NaNIsBackground);
   pyramid->SetNumberOfThreads(this->NumberOfThreads);
   if (this->EdgeLength != 0.0)
   {
@@ -175,6 +262,7 @@ void vtkDeformableSurface::MakeLevels(
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
+  volume.LevelsAreOwn = true;
   volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection,
     [this](double share) { return this->ShowPyramidProgress(share); });
 }
@@ -184,14 +272,10 @@ vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* 
 {
   Volume volume = this->VolumeAsSet();
   volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
-  if (auto* image = vtkImageData::SafeDownCast(input))
+  if (!volume.Levels)
   {
     vtkNew<vtkImagePyramid> pyramid;
-    this->MakeLevels(pyramid, image, volume);
-  }
-  else if (!volume.Levels)
-  {
-    throw std::invalid_argument("Input port 0: there is neither an image nor a pyramid.");
+    this->MakeLevels(pyramid, TakeImage(input), volume);
   }
   return volume;
 }
@@ -219,7 +303,7 @@ int vtkDeformableSurface::RequestData(
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
     vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    const double before = vtkImageData::SafeDownCast(input) ? PyramidShare : 0.0;
+    const double before = vtkMultiBlockDataSet::SafeDownCast(input) ? 0.0 : PyramidShare;
     if (before > 0.0)
     {
       this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
@@ -258,6 +342,8 @@ int vtkDeformableSurface::RequestData(
     settings.MinimumComponentVolume = this->MinimumComponentVolume;
     settings.CoarsestLevel = this->CoarsestLevel;
     settings.Metric = this->Metric;
+    settings.NaNIsBackground = this->NaNIsBackground;
+    settings.LevelsAreOwn = volume.LevelsAreOwn;
     settings.EdgeLength = this->EdgeLength;
     settings.EdgeLengthIsPlanned = volume.EdgeLengthIsPlanned;
     settings.FinestLevel = volume.FinestLevel;
@@ -267,6 +353,8 @@ int vtkDeformableSurface::RequestData(
     settings.SnapshotInterval = this->SnapshotInterval;
     settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
     settings.AttractingPoints = vtkPolyData::GetData(inputVector[2]);
+    settings.SeedPositions = this->SeedPositions;
+    settings.AttractingPositions = this->AttractingPositions;
     settings.EdgeSelection = this->GetInputArrayInformation(1);
     settings.Started = started;
 
@@ -305,11 +393,14 @@ int vtkDeformableSurface::RequestData(
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
+  os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
   os << indent << "Metric: " << this->Metric << endl;
   os << indent << "EdgeLength: " << this->EdgeLength << endl;
   os << indent << "IsoValue: " << this->IsoValue << endl;
   os << indent << "ObjectIsBright: " << this->ObjectIsBright << endl;
   os << indent << "Initialization: " << this->Initialization << endl;
+  os << indent << "SeedPositions: " << this->GetNumberOfSeedPositions() << endl;
   os << indent << "SeedRadius: " << this->SeedRadius << endl;
   os << indent << "CoarsestLevel: " << this->CoarsestLevel << endl;
   os << indent << "FinestLevel: " << this->FinestLevel << endl;
@@ -319,6 +410,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IsopotentialWeight: " << this->IsopotentialWeight << endl;
   os << indent << "GradientWeight: " << this->GradientWeight << endl;
   os << indent << "PointAttractionWeight: " << this->PointAttractionWeight << endl;
+  os << indent << "AttractingPositions: " << this->GetNumberOfAttractingPositions() << endl;
   os << indent << "EdgeAttractionWeight: " << this->EdgeAttractionWeight << endl;
   os << indent << "Friction: " << this->Friction << endl;
   os << indent << "BorderValue: " << this->BorderValue << endl;

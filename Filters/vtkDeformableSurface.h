@@ -15,17 +15,20 @@
  * @par Input:
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
  *   is built here with default settings. Of each level the array chosen by SetInputArrayToProcess()
- *   is used, by default the active point scalars: one component, any numeric type, finite values of
- *   at most 1e37 in size (the surface computes in single precision, after IsoValue was subtracted
- *   where that matters: 10^9 to 10^9 + 50 are fine). At least 8 voxels along each axis.
+ *   is used, by default the active point scalars: any numeric type, values of at most 1e37 in size
+ *   (the surface computes in single precision, after IsoValue was subtracted where that matters:
+ *   10^9 to 10^9 + 50 are fine). Of several components of an image SelectedComponent chooses one;
+ *   levels of a pyramid have one. NaN voxels are background, see NaNIsBackground, and so are blanked
+ *   ones, as vtkImagePyramid says; infinite ones are refused. At least 8 voxels along each axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components,
  *   cavities among them facing inward, at most five times as wide as the image; polygons are
  *   triangulated). Triangles may be of any size and shape: where they are not yet even and of the
  *   level's size the surface gets another mesh first, which may lose what is thinner than about two
- *   edges. With Initialization Seeds, the centres of the seeds. World coordinates.
+ *   edges. With Initialization Seeds, the centres of the seeds (see also SeedPositions). World
+ *   coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
- *   PointAttractionWeight. Point arrays, optional: `Weight` (any numeric type, at least 0, default
+ *   PointAttractionWeight and AttractingPositions. Point arrays, optional: `Weight` (any numeric type, at least 0, default
  *   1) and `Radius` (world units, default 0: automatic).
  * - Where points are meant, at both ports and for all purposes: the points of the vertices (vertex
  *   and polyvertex cells), each once; all points where there are no cells at all. Lines and
@@ -101,8 +104,9 @@
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
  * one that was cancelled, vtkErrorCode::UserError where something given is wrong,
  * vtkErrorCode::UnknownError where the memory does not suffice. Each run sets it anew. The message
- * comes with ErrorEvent; without an observer VTK prints it. Inputs that are missing or of another
- * type are refused by the pipeline before a run: by ErrorEvent of GetExecutive() only.
+ * comes with ErrorEvent; without an observer VTK prints it. A missing input, and inputs of another
+ * type at ports 1 and 2, are refused by the pipeline before a run: by ErrorEvent of GetExecutive()
+ * only.
  *
  * @par Cancelling:
  * AbortExecute is looked at several times a second, with each progress event: the surface as it is
@@ -123,13 +127,14 @@
 
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
-#include "vtkSmartPointer.h" // For the levels
+#include "vtkSmartPointer.h" // For the levels and lists of positions
 
 class vtkAlgorithmOutput;
 class vtkImageData;
 class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
+class vtkPoints;
 class vtkTable;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
@@ -177,6 +182,25 @@ public:
 
   ///@{
   /**
+   * Which component of an array of several is taken, of an image: 0 for the first one; -1, the
+   * default: the magnitude. An array of one component is taken as it is with either.
+   */
+  vtkSetMacro(SelectedComponent, int);
+  vtkGetMacro(SelectedComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Voxels that are NaN are background, whatever is around them, and a warning tells how many there
+   * are (for a pyramid, vtkImagePyramid's). Off: they are refused. Default: on.
+   */
+  vtkSetMacro(NaNIsBackground, bool);
+  vtkGetMacro(NaNIsBackground, bool);
+  vtkBooleanMacro(NaNIsBackground, bool);
+  ///@}
+
+  ///@{
+  /**
    * Which lengths are even where voxels are not cubes, the two ways of section 5.2 of the paper:
    * World (default): world lengths, so that triangles are well-shaped in millimetres, whatever the
    * slices' distance; Voxels: those of an affine space in which voxels are cubes, so that triangles
@@ -210,8 +234,8 @@ public:
   /**
    * Which components the outputs Surface and Levels hold, with their arrays and field data; the
    * evolution is the same. AllComponents (default); LargestComponent: that of the largest area;
-   * ComponentsAtPoints: those that enclose a seed of port 1 or a point of port 2, or pass it within
-   * the length of an edge (2.5 Delta); LargeComponents: those that enclose at least
+   * ComponentsAtPoints: those that enclose a seed of port 1, a point of port 2, or one of the
+   * SeedPositions or AttractingPositions, or pass it within the length of an edge (2.5 Delta); LargeComponents: those that enclose at least
    * MinimumComponentVolume (world units cubed, default 0). Cavities go with the component about
    * them: they are kept if it is.
    */
@@ -235,7 +259,7 @@ public:
   /**
    * What the surface starts from. EnclosingIcosahedron (default): an icosahedron about the image,
    * shrunk to a rounded box. Seeds: icosahedra of SeedRadius that grow inside the object, at the
-   * points of port 1, or on a grid if there are none. IsoSurface: the closed iso-surface of the
+   * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the closed iso-surface of the
    * coarsest level. InputSurface: the polygons of port 1.
    */
   vtkSetMacro(Initialization, int);
@@ -244,6 +268,19 @@ public:
   void SetInitializationToSeeds() { this->SetInitialization(Seeds); }
   void SetInitializationToIsoSurface() { this->SetInitialization(IsoSurface); }
   void SetInitializationToInputSurface() { this->SetInitialization(InputSurface); }
+  ///@}
+
+  ///@{
+  /**
+   * SeedPositions: centres of seeds, see Initialization, in world coordinates; none by default. They
+   * add to the points of port 1, and spare a source for them. One that lies outside the image by
+   * more than a voxel is an error; of those in the image the ones outside the object, or too near
+   * to another, are left out. An index that is none gives NaN.
+   */
+  void AddSeedPosition(double x, double y, double z);
+  void ClearSeedPositions();
+  int GetNumberOfSeedPositions();
+  void GetSeedPosition(int index, double position[3]);
   ///@}
 
   ///@{
@@ -343,8 +380,8 @@ public:
 
   ///@{
   /**
-   * How much the points of port 2, known to belong to the object, attract the surface (1 by
-   * default; 0: not at all); times the point's own `Weight`. Around a point the field is raised to
+   * How much the points of port 2 and the AttractingPositions, known to belong to the object,
+   * attract the surface (1 by default; 0: not at all); times the point's own `Weight`. Around a point the field is raised to
    * the object's side, the nearer the more, so that a point of weight 1 makes a ball of its
    * `Radius` part of the object even where the image is all background, and a surface that passes
    * nearer than that comes out to the point. Points near each other join: a few close a gap
@@ -355,6 +392,19 @@ public:
    */
   vtkSetMacro(PointAttractionWeight, double);
   vtkGetMacro(PointAttractionWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * AttractingPositions: points known to belong to the object, in world coordinates, of weight 1
+   * and automatic radius; none by default. They add to the points of port 2, see
+   * PointAttractionWeight. One that lies outside the image by more than a voxel is an error. An
+   * index that is none gives NaN.
+   */
+  void AddAttractingPosition(double x, double y, double z);
+  void ClearAttractingPositions();
+  int GetNumberOfAttractingPositions();
+  void GetAttractingPosition(int index, double position[3]);
   ///@}
 
   ///@{
@@ -538,9 +588,12 @@ protected:
     double SamplingRatio;
     double FactorBelowLevel0;  ///< unit of level 0 over that of level -1
     bool EdgeLengthIsPlanned;  ///< the levels were made for EdgeLength
+    bool LevelsAreOwn;         ///< the levels are no input
   };
   /// Without levels, the rest as the properties have it.
   Volume VolumeAsSet();
+  /// The image that an input which is no pyramid means. Errors are thrown as std::invalid_argument.
+  static vtkImageData* TakeImage(vtkDataObject* input);
   /// Makes the pyramid of an image, for EdgeLength if there is one.
   void MakeLevels(vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume);
   /// Makes the volume of the data of input port 0; its levels are null where ShowPyramidProgress()
@@ -549,11 +602,14 @@ protected:
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
   bool ShowPyramidProgress(double share);
 
+  int SelectedComponent;
+  bool NaNIsBackground;
   int Metric;
   double EdgeLength;
   double IsoValue;
   bool ObjectIsBright;
   int Initialization;
+  vtkSmartPointer<vtkPoints> SeedPositions;
   double SeedRadius;
   int CoarsestLevel;
   int FinestLevel;
@@ -563,6 +619,7 @@ protected:
   double IsopotentialWeight;
   double GradientWeight;
   double PointAttractionWeight;
+  vtkSmartPointer<vtkPoints> AttractingPositions;
   double EdgeAttractionWeight;
   double Friction;
   int BorderValue;

@@ -82,11 +82,19 @@ class Session:
             file.write(code)
         return event(f"{WINDOW}/menubar/menu_Macros", "activate", name)
 
-    def play(self, events, timeout=240, python=""):
+    @property
+    def display(self):
+        """Name of the screen, as other programs of X want it."""
+        return self._environment["DISPLAY"]
+
+    def play(self, events, timeout=240, python="", when_said=()):
         """Play the events in a new window, which stays open. Returns whether all succeeded.
 
         python: code that the window's own interpreter runs first; what it prints is in `output`.
+        when_said: pairs of a text and what is called, once, when the window has printed it, while
+        the events go on.
         """
+        waiting = list(when_said)
         script = os.path.join(self._folder.name, "events.xml")
         with open(script, "w", encoding="utf-8") as file:
             file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(events) +
@@ -113,6 +121,8 @@ class Session:
                 if not piece:
                     break
                 said += piece
+            while waiting and waiting[0][0].encode() in said:
+                waiting.pop(0)[1]()
         self.output = said.decode(errors="replace")
         return "Success =  true" in self.output
 

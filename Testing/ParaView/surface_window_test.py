@@ -37,12 +37,10 @@ simple.SetActiveView(next(v for v in simple.GetViews() if v.GetXMLName() == "Ren
 """
 
 
-def middle_of_the_wavelet():
+def iso_of_the_wavelet():
     """What the panel of Iso Value says for the volume of the tests."""
-    wavelet = simple.Wavelet()
-    wavelet.UpdatePipeline()
-    low, high = wavelet.PointData["RTData"].GetRange()
-    return repr((low + high) / 2)
+    testing.load_plugin()
+    return repr(simple.VolumetoSurface(simple.Wavelet()).IsoValue)
 
 
 class SurfaceWindowTest(window.WindowTestCase):
@@ -51,7 +49,7 @@ class SurfaceWindowTest(window.WindowTestCase):
         self.play(VOLUME + [
             SURFACE, gui.pause(500),
             gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
-            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()),
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             gui.check(f"{PROPERTIES}/ObjectIsBright/CheckBox", "checked", "true"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
@@ -119,11 +117,20 @@ class SurfaceWindowTest(window.WindowTestCase):
             gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
             gui.pause(300), window.shown("MinimumComponentVolume", True)], "surface-advanced")
 
+    def test_button_that_finds_the_iso_value_again(self):
+        for before in ([], [filter_of_the_menu("ImagePyramid"), APPLY]):
+            with self.subTest(pyramid=bool(before)):
+                self.play(VOLUME + before + [
+                    SURFACE, gui.event(ISO_VALUE, "set_string", "111"), gui.pause(500),
+                    gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(500),
+                    gui.check(ISO_VALUE, "text", iso_of_the_wavelet())], "surface-reset")
+                self.session.close_window()
+
     def test_after_image_pyramid(self):
         path, save = self.saved_state("pyramid-and-surface.pvsm")
         self.play(VOLUME + [
             filter_of_the_menu("ImagePyramid"), APPLY, SURFACE,
-            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()), APPLY, *save],
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save],
             "surface-of-pyramid")
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")
