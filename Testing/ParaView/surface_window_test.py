@@ -18,11 +18,11 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright")
-ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "Recovery", "MinimumPartSize",
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Recovery", "KeepComponents")
+ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
             "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
-            "BorderValue", "TopologyChanges", "SnapToIsoValue", "KeepComponents",
+            "BorderValue", "TopologyChanges", "SnapToIsoValue",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
             "NumberOfThreads", "SnapshotInterval", "Profile")
 
