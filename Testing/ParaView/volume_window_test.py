@@ -135,7 +135,7 @@ class VolumeWindowTest(window.WindowTestCase):
         self.session.close_window()
         self.play(VOLUME + [
             FILTER, APPLY, gui.pause(500), window.in_the_pipeline(0), gui.pause(500),
-            gui.event(f"{PROPERTIES}/Maximum/LineEdit0", "set_string", "511"),
+            gui.event(f"{PROPERTIES}/Maximum/DoubleLineEdit0", "set_string", "511"),
             APPLY, gui.pause(500), window.in_the_pipeline(0, 0), gui.pause(1000),
             window.value_range(*range_of_the_wavelet(Maximum=511))], "volume-range-changed")
 
