@@ -11,6 +11,8 @@
 #include "vtkDeformableSurface.h"
 
 #include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
@@ -36,12 +38,14 @@ void CheckEnumeration(const char* name, int value, int last)
 }
 
 /// The levels, with errors that name the port.
-PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int metric)
+PyramidLevels ReadLevels(
+  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
 {
-  CheckEnumeration("Metric", metric, vtkDeformableSurface::World);
+  CheckEnumeration("Metric", settings.Metric, vtkDeformableSurface::World);
   try
   {
-    return PyramidLevels(blocks, selection, static_cast<Metric>(metric));
+    return PyramidLevels(
+      blocks, selection, static_cast<Metric>(settings.Metric), settings.NaNIsBackground);
   }
   catch (const std::invalid_argument& error)
   {
@@ -53,7 +57,7 @@ PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection
 
 SurfaceSegmentation::SurfaceSegmentation(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), Pyramid(ReadLevels(blocks, selection, settings.Metric)),
+  : Settings(settings), Input(blocks), Pyramid(ReadLevels(blocks, selection, settings)),
     Finest(vtkSmartPointer<vtkPolyData>::New()),
     Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New()),
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
@@ -158,12 +162,29 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   }
 }
 
+std::array<double, 2> SurfaceSegmentation::RangeOfLevel(int level) const
+{
+  try
+  {
+    return this->Pyramid.Range(level);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    Refuse("Input port 0: ", error.what());
+  }
+}
+
 LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
 {
   LevelImage image;
+  const double iso = this->Settings.Options.IsoValue;
+  const std::array<double, 2> range = this->RangeOfLevel(std::max(level, 0));
+  // As outside the image (Field.h): as far from the iso-value as any voxel is.
+  const double away = std::max(range[1] - iso, iso - range[0]);
+  const double background = this->Settings.Options.ObjectIsBright ? iso - away : iso + away;
   try
   {
-    image = this->Pyramid.Load(level, this->Settings.Options.IsoValue, threads);
+    image = this->Pyramid.Load(level, iso, background, threads);
   }
   catch (const std::invalid_argument& error)
   {
@@ -236,10 +257,25 @@ unsigned int SurfaceSegmentation::BlockOf(int level) const
   return static_cast<unsigned int>(level < 0 ? this->Pyramid.NumberOfLevels() : level);
 }
 
+void SurfaceSegmentation::WarnOfNaNs()
+{
+  vtkDataArray* counted = this->Input->GetFieldData()->GetArray("NaNVoxels");
+  const bool hasNone = counted && counted->GetTuple1(0) == 0.0;
+  // Image Pyramid tells it itself where it is a filter of the user's.
+  if (!hasNone && (!counted || this->Settings.LevelsAreOwn))
+  {
+    const std::string text = this->Pyramid.DescribeNaNsOfLevel0();
+    if (!text.empty())
+    {
+      this->Settings.Warn("Input port 0: " + text);
+    }
+  }
+}
+
 void SurfaceSegmentation::CheckIsoValue()
 {
   const double iso = this->Settings.Options.IsoValue;
-  const std::array<double, 2> range = this->Pyramid.Range(0);
+  const std::array<double, 2> range = this->RangeOfLevel(0);
   if (std::isnan(iso))
   {
     Refuse(
@@ -261,7 +297,7 @@ int SurfaceSegmentation::CoarsestLevelWithObject(int from)
   int level = from;
   for (; level > 0; --level)
   {
-    const std::array<double, 2> range = this->Pyramid.Range(level);
+    const std::array<double, 2> range = this->RangeOfLevel(level);
     if (bright ? range[1] > iso : range[0] < iso)
     {
       break;
@@ -422,6 +458,7 @@ void SurfaceSegmentation::Run()
   this->ChooseLevels();
   this->CheckIsoValue();
   this->CheckObjectIsThere();
+  this->WarnOfNaNs();
   for (int level = std::min(this->LastLevel, 0); level < this->Pyramid.NumberOfLevels(); ++level)
   {
     this->Blocks->SetBlock(this->BlockOf(level), nullptr);

@@ -14,6 +14,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -42,6 +43,8 @@ struct SegmentationSettings
   int KeepComponents = 0; ///< vtkDeformableSurface::KeepComponentsType, if it is one
   double MinimumComponentVolume = 0.0; ///< world units cubed
   int Metric = 0;         ///< vtkDeformableSurface::MetricType, if it is one
+  bool NaNIsBackground = true;
+  bool LevelsAreOwn = false; ///< they were made for this run: nobody was told of their NaN voxels
   double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
   bool EdgeLengthIsPlanned = false; ///< the levels were made for it, and what follows is set
   int CoarsestLevel = -1;
@@ -94,7 +97,9 @@ private:
   std::vector<Point> AttractingPositions() const;
   void ReadComponentChoice();
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
+  std::array<double, 2> RangeOfLevel(int level) const;
   LevelImage Load(int level, Executor& threads);
+  void WarnOfNaNs();
   void CheckIsoValue();
   /// At most `from`; 0 where no other level has any of the object.
   int CoarsestLevelWithObject(int from);
@@ -109,6 +114,7 @@ private:
   void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);
 
   SegmentationSettings Settings;
+  vtkMultiBlockDataSet* Input;
   PyramidLevels Pyramid;
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none

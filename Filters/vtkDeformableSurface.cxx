@@ -4,6 +4,8 @@
 
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
+#include "Core/Refuse.h"
+#include "InputImage.h"
 #include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
@@ -58,9 +60,24 @@ void CopyPosition(vtkPoints* positions, int index, double position[3])
 }
 
 //------------------------------------------------------------------------------
+vtkImageData* vtkDeformableSurface::TakeImage(vtkDataObject* input)
+{
+  try
+  {
+    return volumic::ImageOf(input);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    volumic::Refuse("Input port 0: ", error.what());
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkDeformableSurface::vtkDeformableSurface()
 {
   const volumic::SurfaceOptions defaults;
+  this->SelectedComponent = -1;
+  this->NaNIsBackground = true;
   this->Metric = World;
   this->EdgeLength = 0.0;
   this->IsoValue = vtkMath::Nan();
@@ -106,8 +123,8 @@ int vtkDeformableSurface::FillInputPortInformation(int port, vtkInformation* inf
 {
   if (port == 0)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+    // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   }
   else
   {
@@ -225,6 +242,7 @@ vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
   volume.SamplingRatio = this->SamplingRatio;
   volume.FactorBelowLevel0 = std::sqrt(3.0);
   volume.EdgeLengthIsPlanned = false;
+  volume.LevelsAreOwn = false;
   return volume;
 }
 
@@ -232,6 +250,8 @@ vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
 void vtkDeformableSurface::MakeLevels(
   vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume)
 {
+  pyramid->SetSelectedComponent(this->SelectedComponent);
+  pyramid->SetNaNIsBackground(this->NaNIsBackground);
   pyramid->SetNumberOfThreads(this->NumberOfThreads);
   if (this->EdgeLength != 0.0)
   {
@@ -242,6 +262,7 @@ void vtkDeformableSurface::MakeLevels(
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
+  volume.LevelsAreOwn = true;
   volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection,
     [this](double share) { return this->ShowPyramidProgress(share); });
 }
@@ -251,14 +272,10 @@ vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* 
 {
   Volume volume = this->VolumeAsSet();
   volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
-  if (auto* image = vtkImageData::SafeDownCast(input))
+  if (!volume.Levels)
   {
     vtkNew<vtkImagePyramid> pyramid;
-    this->MakeLevels(pyramid, image, volume);
-  }
-  else if (!volume.Levels)
-  {
-    throw std::invalid_argument("Input port 0: there is neither an image nor a pyramid.");
+    this->MakeLevels(pyramid, TakeImage(input), volume);
   }
   return volume;
 }
@@ -286,7 +303,7 @@ int vtkDeformableSurface::RequestData(
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
     vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    const double before = vtkImageData::SafeDownCast(input) ? PyramidShare : 0.0;
+    const double before = vtkMultiBlockDataSet::SafeDownCast(input) ? 0.0 : PyramidShare;
     if (before > 0.0)
     {
       this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
@@ -325,6 +342,8 @@ int vtkDeformableSurface::RequestData(
     settings.MinimumComponentVolume = this->MinimumComponentVolume;
     settings.CoarsestLevel = this->CoarsestLevel;
     settings.Metric = this->Metric;
+    settings.NaNIsBackground = this->NaNIsBackground;
+    settings.LevelsAreOwn = volume.LevelsAreOwn;
     settings.EdgeLength = this->EdgeLength;
     settings.EdgeLengthIsPlanned = volume.EdgeLengthIsPlanned;
     settings.FinestLevel = volume.FinestLevel;
@@ -374,6 +393,8 @@ int vtkDeformableSurface::RequestData(
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
+  os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
   os << indent << "Metric: " << this->Metric << endl;
   os << indent << "EdgeLength: " << this->EdgeLength << endl;
   os << indent << "IsoValue: " << this->IsoValue << endl;

@@ -15,9 +15,11 @@
  * @par Input:
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
  *   is built here with default settings. Of each level the array chosen by SetInputArrayToProcess()
- *   is used, by default the active point scalars: one component, any numeric type, finite values of
- *   at most 1e37 in size (the surface computes in single precision, after IsoValue was subtracted
- *   where that matters: 10^9 to 10^9 + 50 are fine). At least 8 voxels along each axis.
+ *   is used, by default the active point scalars: any numeric type, values of at most 1e37 in size
+ *   (the surface computes in single precision, after IsoValue was subtracted where that matters:
+ *   10^9 to 10^9 + 50 are fine). Of several components of an image SelectedComponent chooses one;
+ *   levels of a pyramid have one. NaN voxels are background, see NaNIsBackground, and so are blanked
+ *   ones, as vtkImagePyramid says; infinite ones are refused. At least 8 voxels along each axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components,
  *   cavities among them facing inward, at most five times as wide as the image; polygons are
@@ -50,13 +52,15 @@
  * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest), `Contact` (unsigned char, 1
  * where walls or gaps are thinner than the triangles can hold, see FinestLevel: another part of the
  * surface, at least four edges away along it, keeps the vertex more than 0.1 Delta away from the
- * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
- * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
+ * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell arrays: `Component` (int, 0 = largest
+ * area) and, of the component that the triangle belongs to, `ComponentArea`, `ComponentVolume`
+ * (float) and `ComponentGenus` (int), so that filters of cells can choose components. Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
  * `Area`, `Volume` (double), `StopReason` (string:
  * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
  * in turn; finished like one that rests; `iteration limit`; `cancelled`; `vanished`),
- * `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of vertices nearer
+ * `ContactVertices` (int: those with `Contact`), `ResidualQuantile` (double: 98 % of the vertices
+ * have a `Residual` of at most this size), `RemainingContacts` (int: pairs of vertices nearer
  * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
  * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
@@ -100,8 +104,9 @@
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
  * one that was cancelled, vtkErrorCode::UserError where something given is wrong,
  * vtkErrorCode::UnknownError where the memory does not suffice. Each run sets it anew. The message
- * comes with ErrorEvent; without an observer VTK prints it. Inputs that are missing or of another
- * type are refused by the pipeline before a run: by ErrorEvent of GetExecutive() only.
+ * comes with ErrorEvent; without an observer VTK prints it. A missing input, and inputs of another
+ * type at ports 1 and 2, are refused by the pipeline before a run: by ErrorEvent of GetExecutive()
+ * only.
  *
  * @par Cancelling:
  * AbortExecute is looked at several times a second, with each progress event: the surface as it is
@@ -174,6 +179,25 @@ public:
     ComponentsAtPoints = 2,
     LargeComponents = 3
   };
+
+  ///@{
+  /**
+   * Which component of an array of several is taken, of an image: 0 for the first one; -1, the
+   * default: the magnitude. An array of one component is taken as it is with either.
+   */
+  vtkSetMacro(SelectedComponent, int);
+  vtkGetMacro(SelectedComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Voxels that are NaN are background, whatever is around them, and a warning tells how many there
+   * are (for a pyramid, vtkImagePyramid's). Off: they are refused. Default: on.
+   */
+  vtkSetMacro(NaNIsBackground, bool);
+  vtkGetMacro(NaNIsBackground, bool);
+  vtkBooleanMacro(NaNIsBackground, bool);
+  ///@}
 
   ///@{
   /**
@@ -564,9 +588,12 @@ protected:
     double SamplingRatio;
     double FactorBelowLevel0;  ///< unit of level 0 over that of level -1
     bool EdgeLengthIsPlanned;  ///< the levels were made for EdgeLength
+    bool LevelsAreOwn;         ///< the levels are no input
   };
   /// Without levels, the rest as the properties have it.
   Volume VolumeAsSet();
+  /// The image that an input which is no pyramid means. Errors are thrown as std::invalid_argument.
+  static vtkImageData* TakeImage(vtkDataObject* input);
   /// Makes the pyramid of an image, for EdgeLength if there is one.
   void MakeLevels(vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume);
   /// Makes the volume of the data of input port 0; its levels are null where ShowPyramidProgress()
@@ -575,6 +602,8 @@ protected:
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
   bool ShowPyramidProgress(double share);
 
+  int SelectedComponent;
+  bool NaNIsBackground;
   int Metric;
   double EdgeLength;
   double IsoValue;

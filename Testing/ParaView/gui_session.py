@@ -39,6 +39,24 @@ def pause(milliseconds):
     return event(WINDOW, "pause", str(milliseconds))
 
 
+def start_screen(xvfb, size, options=()):
+    """Start an X server. Returns its process and its name for DISPLAY."""
+    read_end, write_end = os.pipe()
+    server = subprocess.Popen(
+        [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24", *options,
+         "-nolisten", "tcp"],
+        pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
+        preexec_fn=end_with_parent)
+    os.close(write_end)
+    ready, _, _ = select.select([read_end], [], [], 30)
+    with os.fdopen(read_end) as answer:
+        number = answer.readline().strip() if ready else ""
+    if not number:
+        server.kill()
+        raise RuntimeError("Xvfb did not start")
+    return server, f":{number}"
+
+
 class Session:
     """Starts Xvfb and paraview; `play` returns when all events have been played or one failed."""
 
@@ -46,29 +64,13 @@ class Session:
         self._paraview = paraview
         self._plugin = plugin
         self._folder = tempfile.TemporaryDirectory(prefix="volumic-window-")
-        self._server, display = self._start_server(xvfb, size)
+        self._server, display = start_screen(xvfb, size, ("-fbdir", self._folder.name))
         # A home of its own: neither the user's settings nor a first start's dialogs play a part.
         self._environment = dict(os.environ, DISPLAY=display, QT_QPA_PLATFORM="xcb",
                                  HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name,
                                  LIBGL_ALWAYS_SOFTWARE="1")
         self._window = None
         self.output = ""
-
-    def _start_server(self, xvfb, size):
-        read_end, write_end = os.pipe()
-        server = subprocess.Popen(
-            [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24",
-             "-fbdir", self._folder.name, "-nolisten", "tcp"],
-            pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
-            preexec_fn=end_with_parent)
-        os.close(write_end)
-        ready, _, _ = select.select([read_end], [], [], 30)
-        with os.fdopen(read_end) as answer:
-            number = answer.readline().strip() if ready else ""
-        if not number:
-            server.kill()
-            raise RuntimeError("Xvfb did not start")
-        return server, f":{number}"
 
     @property
     def display(self):

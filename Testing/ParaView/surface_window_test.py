@@ -23,17 +23,30 @@ ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
             "NumberOfThreads", "SnapshotInterval", "Profile")
 
+# Tells which view becomes the active one, and has a shortcut's place for the test to make it so.
+ACTIVE_VIEWS = """
+from paraview import servermanager
+
+def tell(model, event):
+    view = model.GetCurrentProxy()
+    if view:
+        print("Active:", view.GetXMLName(), flush=True)
+
+manager = servermanager.ProxyManager().SMProxyManager
+manager.GetSelectionModel("ActiveView").AddObserver("CurrentChangedEvent", tell)
+"""
+
+
+def iso_of_the_wavelet():
+    """What the panel of Iso Value says for the volume of the tests."""
+    testing.load_plugin()
+    return repr(simple.VolumetoSurface(simple.Wavelet()).IsoValue)
+
 
 def range_of_the_wavelet():
     wavelet = simple.Wavelet()
     wavelet.UpdatePipeline()
     return wavelet.PointData["RTData"].GetRange()
-
-
-def middle_of_the_wavelet():
-    """What the panel of Iso Value says for the volume of the tests."""
-    low, high = range_of_the_wavelet()
-    return repr((low + high) / 2)
 
 
 class SurfaceWindowTest(window.WindowTestCase):
@@ -42,7 +55,7 @@ class SurfaceWindowTest(window.WindowTestCase):
         self.play(VOLUME + [
             SURFACE, gui.pause(500),
             gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
-            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()),
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             gui.check(f"{PROPERTIES}/ObjectIsBright/CheckBox", "checked", "true"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
@@ -51,11 +64,10 @@ class SurfaceWindowTest(window.WindowTestCase):
             "surface-applied")
         state = window.proxies_of(path)
         self.assertIn("DeformableSurface", state)
-        # Beside the surface, the history is a chart; neither levels nor a table are shown.
-        self.assertEqual(state.count("VolumicHistoryView"), 1)
-        self.assertEqual(state.count("VolumicHistoryRepresentation"), 1)
+        # The surface has the window for itself: no chart, no levels, no table.
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
-        self.assertNotIn("SpreadSheetView", state)
+        for other in ("VolumicHistoryView", "VolumicLevelsRepresentation", "SpreadSheetView"):
+            self.assertNotIn(other, state)
 
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.IsoValue, 150.0)
@@ -64,6 +76,25 @@ class SurfaceWindowTest(window.WindowTestCase):
                          "converged")
         displays = [d for d in simple.GetRepresentations().values() if d.Input == filter_]
         self.assertTrue(any(d.Visibility for d in displays), "the surface is shown")
+
+    def test_the_history_is_one_click_away(self):
+        path, save = self.saved_state("surface-history.pvsm")
+        again, save_again = self.saved_state("surface-history-again.pvsm")
+        # Its entry in the pipeline browser: wavelet, filter, port.
+        history = window.eye_of(0, 0, 2)
+        self.play(VOLUME + [
+            SURFACE, APPLY, *history, *save,
+            # The 3D view is active again, and the eye brings back the chart that there is.
+            ACTIVATE_3D, *history, *save_again, gui.pause(1500)],
+            "surface-history", python=ACTIVE_VIEWS)
+        for state in (window.proxies_of(path), window.proxies_of(again)):
+            self.assertEqual(state.count("VolumicHistoryView"), 1)
+            self.assertEqual(state.count("VolumicHistoryRepresentation"), 1)
+            self.assertEqual(state.count("RenderView"), 1)
+        # The surface's view was active until the eye was clicked.
+        self.assertRegex(self.session.output,
+                         r"(?s)Active: RenderView\n.*Active: VolumicHistoryView\n"
+                         r".*Active: RenderView\n.*Active: VolumicHistoryView\n")
 
     def test_advanced_panel(self):
         self.play(VOLUME + [
@@ -92,6 +123,15 @@ class SurfaceWindowTest(window.WindowTestCase):
             gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
             gui.pause(300), window.shown("MinimumComponentVolume", True)], "surface-advanced")
 
+    def test_button_that_finds_the_iso_value_again(self):
+        for before in ([], [filter_of_the_menu("ImagePyramid"), APPLY]):
+            with self.subTest(pyramid=bool(before)):
+                self.play(VOLUME + before + [
+                    SURFACE, gui.event(ISO_VALUE, "set_string", "111"), gui.pause(500),
+                    gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(500),
+                    gui.check(ISO_VALUE, "text", iso_of_the_wavelet())], "surface-reset")
+                self.session.close_window()
+
     def test_after_image_pyramid(self):
         path, save = self.saved_state("pyramid-and-surface.pvsm")
         self.play(VOLUME + [
@@ -100,7 +140,7 @@ class SurfaceWindowTest(window.WindowTestCase):
             APPLY, SURFACE, SHOW_ADVANCED, gui.pause(1000),
             window.last_level("FinestLevel", 3), window.last_level("CoarsestLevel", 3),
             window.value_range(*range_of_the_wavelet()),
-            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()), APPLY, *save],
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save],
             "surface-of-pyramid")
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")

@@ -84,8 +84,9 @@ class VolumeToSurfaceTest(unittest.TestCase):
         filter_ = simple.VolumetoSurface(testing.produce(image))
         self.assertEqual(filter_.Voxels[1], "density")
         preset = filter_.IsoValue
+        filter_.IsoValue = 99.0
         filter_.Voxels = ["POINTS", "other"]
-        self.assertEqual(filter_.IsoValue, preset)
+        self.assertEqual(filter_.IsoValue, 99.0)
         filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
         filter_.SMProxy.UpdateVTKObjects()
         self.assertAlmostEqual(filter_.IsoValue, preset * 10 - 7, delta=0.01)
