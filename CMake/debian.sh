@@ -21,7 +21,8 @@ mkdir -p "$logs"
 
 tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
-test_packages=(dpkg-dev libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri)
+test_packages=(dpkg-dev libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri
+  libxtst6)
 example_packages=(invesalius-examples)
 
 # Debian's own interpreter; another python3 (conda, pyenv) may be the first on PATH.

@@ -12,10 +12,12 @@ pqWideMenuPropertyWidget::pqWideMenuPropertyWidget(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
   : pqIntVectorPropertyWidget(property, proxy, parent)
 {
-  this->setShowLabel(false);
-  auto* row = qobject_cast<QBoxLayout*>(this->layout());
-  row->insertWidget(0, new QLabel(property->GetXMLLabel(), this));
-  row->setStretch(1, 1);
+  if (auto* row = qobject_cast<QBoxLayout*>(this->layout()))
+  {
+    this->setShowLabel(false);
+    row->insertWidget(0, new QLabel(property->GetXMLLabel(), this));
+    row->setStretch(1, 1);
+  }
 }
 
 pqWideMenuPropertyWidget::~pqWideMenuPropertyWidget() = default;

@@ -105,7 +105,10 @@ class OptionTableTest(ToolTestCase):
                  ["a", "b.stl", "--recovery", "all"]),
                 ("--spacing: .* are 2 numbers, not 3", ["a", "b.stl", "--spacing", "1,2"]),
                 ("--edge-attraction needs", ["a", "b.stl", "--edge-attraction", "1"]),
-                ("exclude each other", ["a", "b.stl", "--seeds", "c", "--initial-surface", "d"])):
+                ("exclude each other", ["a", "b.stl", "--seeds", "c", "--initial-surface", "d"]),
+                ("--seed-position: .* are 2 numbers", ["a", "b.stl", "--seed-position", "1,2"]),
+                ("exclude each other",
+                 ["a", "b.stl", "--seed-position", "1,2,3", "--initial-surface", "d"])):
             with self.subTest(arguments):
                 self.refused(reason, *arguments, status=2)
 
@@ -220,6 +223,24 @@ class RunTest(ToolTestCase):
         self.write_bytes("bad.txt", b"x y z\n1 2 3\n1 2\n")
         self.refused("bad.txt, line 3: not three numbers", self.ball_file(), self.path("a.stl"),
                      "--seeds", self.path("bad.txt"))
+
+    def test_positions_are_as_those_of_files(self):
+        centre, beside = ORIGIN + SPACING * CENTRE, ORIGIN + SPACING * [20, 5, 13]
+        texts = [",".join(map(str, place)) for place in (centre, beside)]
+        self.write_bytes("seeds.csv", texts[0].encode())
+        self.write_bytes("points.csv", texts[1].encode())
+        options = (self.ball_file(), "--iso", ISO, "--levels", "1")
+        by_files = self.report(*options, "--seeds", self.path("seeds.csv"), "--attracting-points",
+                               self.path("points.csv"))
+        by_places = self.report(*options, "--seed-position", texts[0], "--attracting-position",
+                                texts[1])
+        self.assertEqual(by_places["properties"]["Initialization"], "seeds")
+        # Points of files are in single precision.
+        self.assertEqual(by_places["components"], by_files["components"])
+        self.assertAlmostEqual(by_places["volume"], by_files["volume"], delta=1e-3)
+        # As often as they are given; one outside is named as the panel does.
+        self.refused("Seed Positions: point 1", self.ball_file(), self.path("a.stl"), "--iso", ISO,
+                     "--seed-position", texts[0], "--seed-position", "1e9,0,0")
 
     def test_a_limit_of_memory_is_answered_in_words(self):
         """Also with VTK's backend STDThread, which ends the program where it gets no thread."""

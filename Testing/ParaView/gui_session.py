@@ -87,14 +87,11 @@ class Session:
         """Name of the screen, as other programs of X want it."""
         return self._environment["DISPLAY"]
 
-    def play(self, events, timeout=240, python="", when_said=()):
+    def play(self, events, timeout=240, python=""):
         """Play the events in a new window, which stays open. Returns whether all succeeded.
 
         python: code that the window's own interpreter runs first; what it prints is in `output`.
-        when_said: pairs of a text and what is called, once, when the window has printed it, while
-        the events go on.
         """
-        waiting = list(when_said)
         script = os.path.join(self._folder.name, "events.xml")
         with open(script, "w", encoding="utf-8") as file:
             file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(events) +
@@ -110,21 +107,25 @@ class Session:
              "--plugins=Volumic", *options, f"--test-script={script}"],
             env=self._environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, preexec_fn=end_with_parent)
+        # It says no more than the latter when an event failed.
+        self.output = self._listen((b"Success = ", b"critical: In event"), timeout)
+        return "Success =  true" in self.output
+
+    def wait_for(self, text, timeout=60):
+        """After the events: wait till the window has printed the text; all it has said since."""
+        return self._listen((text.encode(),), timeout)
+
+    def _listen(self, ends, timeout):
         deadline = time.monotonic() + timeout
         said = b""
-        # It says no more than the latter when an event failed.
-        while not any(end in said for end in (b"Success = ", b"critical: In event")) \
-                and time.monotonic() < deadline:
+        while not any(end in said for end in ends) and time.monotonic() < deadline:
             ready, _, _ = select.select([self._window.stdout], [], [], 0.5)
             if ready:
                 piece = os.read(self._window.stdout.fileno(), 65536)
                 if not piece:
                     break
                 said += piece
-            while waiting and waiting[0][0].encode() in said:
-                waiting.pop(0)[1]()
-        self.output = said.decode(errors="replace")
-        return "Success =  true" in self.output
+        return said.decode(errors="replace")
 
     def screenshot(self, path):
         """Write the window, without the empty rest of the screen, as PNG; return its pixels."""

@@ -150,6 +150,44 @@ class ProxyDefaultsTest(unittest.TestCase):
         self.assertEqual(chosen, {"BorderValue", "Initialization", "KeepComponents", "Metric",
                                   "Recovery"})
 
+    def test_lists_of_positions_reach_the_object(self):
+        for name in ("DeformableSurface", "VolumeToSurface"):
+            proxy = self.new_proxy("filters", name)
+            for list_ in ("SeedPosition", "AttractingPosition"):
+                with self.subTest(proxy=name, property=list_):
+                    held = proxy.GetProperty(list_ + "s")
+                    object_ = proxy.GetClientSideObject()
+                    self.assertEqual(held.GetNumberOfElements(), 0)
+                    for numbers in ([1.5, 2, -3, 4, 5, 6e9], [7, 8, 9], []):
+                        held.SetNumberOfElements(len(numbers))
+                        for i, number in enumerate(numbers):
+                            held.SetElement(i, number)
+                        proxy.UpdateVTKObjects()
+                        found = []
+                        for i in range(getattr(object_, f"GetNumberOf{list_}s")()):
+                            place = [0.0, 0.0, 0.0]
+                            getattr(object_, f"Get{list_}")(i, place)
+                            found += place
+                        self.assertEqual(found, numbers)
+
+    def test_groups_of_the_panel(self):
+        """Each group holds what its label says; no property is in two."""
+        for name in ("DeformableSurface", "VolumeToSurface"):
+            proxy = self.new_proxy("filters", name)
+            groups = {}
+            for i in range(proxy.GetNumberOfPropertyGroups()):
+                group = proxy.GetPropertyGroup(i)
+                groups[group.GetXMLLabel()] = [
+                    proxy.GetPropertyName(group.GetProperty(j))
+                    for j in range(group.GetNumberOfProperties())]
+            members = [member for group in groups.values() for member in group]
+            self.assertEqual(len(members), len(set(members)))
+            forces = {m for m in members if m.endswith("Weight")} - {"PointAttractionWeight"}
+            self.assertEqual(set(groups["Forces"]), forces | {"EdgeMap", "Friction"})
+            self.assertIn("BorderValue", groups["Outside the Volume"])
+            self.assertEqual(groups["Levels"], ["FinestLevel", "CoarsestLevel"])
+            self.assertEqual(groups["Start"], ["Initialization", "SeedPositions", "SeedRadius"])
+
     def test_every_property_is_documented(self):
         for group, element in self.elements:
             for name, property_ in properties_of(self.new_proxy(group, element.get("name"))):

@@ -19,10 +19,10 @@ VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Recovery", "KeepComponents")
-ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
-            "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
+ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "SamplingRatio",
+            "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
-            "BorderValue", "TopologyChanges", "SnapToIsoValue",
+            "BorderValue", "TopologyChanges", "SnapToIsoValue", "AttractingPositions",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
             "NumberOfThreads", "SnapshotInterval", "Profile")
 
@@ -43,6 +43,12 @@ def iso_of_the_wavelet():
     return repr(simple.VolumetoSurface(simple.Wavelet()).IsoValue)
 
 
+def range_of_the_wavelet():
+    wavelet = simple.Wavelet()
+    wavelet.UpdatePipeline()
+    return wavelet.PointData["RTData"].GetRange()
+
+
 class SurfaceWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("surface.pvsm")
@@ -53,6 +59,7 @@ class SurfaceWindowTest(window.WindowTestCase):
             gui.check(f"{PROPERTIES}/ObjectIsBright/CheckBox", "checked", "true"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
+            window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
             gui.event(ISO_VALUE, "set_string", "150"), APPLY, *save, gui.pause(1500)],
             "surface-applied")
         state = window.proxies_of(path)
@@ -98,6 +105,8 @@ class SurfaceWindowTest(window.WindowTestCase):
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             gui.check(f"{PROPERTIES}/Initialization/ComboBox", "currentText",
                       "Enclosing Icosahedron"),
+            window.as_wide_as_the_panel(),
+            window.last_level("FinestLevel", 1), window.last_level("CoarsestLevel", 1),
             # Only of use for seeds.
             window.shown("SeedRadius", False),
             gui.event(f"{PROPERTIES}/Initialization/ComboBox", "set_string", "Seeds"),
@@ -129,7 +138,11 @@ class SurfaceWindowTest(window.WindowTestCase):
     def test_after_image_pyramid(self):
         path, save = self.saved_state("pyramid-and-surface.pvsm")
         self.play(VOLUME + [
-            filter_of_the_menu("ImagePyramid"), APPLY, SURFACE,
+            filter_of_the_menu("ImagePyramid"),
+            gui.event(f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit", "set_string", "4"),
+            APPLY, SURFACE, SHOW_ADVANCED, gui.pause(1000),
+            window.last_level("FinestLevel", 3), window.last_level("CoarsestLevel", 3),
+            window.value_range(*range_of_the_wavelet()),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save],
             "surface-of-pyramid")
         filter_ = window.open_state(path, "DeformableSurface1")

@@ -6,18 +6,22 @@ import os
 import re
 import sys
 
+import numpy
+
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
 from paraview import simple
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "FinestLevel")
-ADVANCED = ("NumberOfLevels", "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction",
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "FinestLevel", "Recovery",
+         "KeepComponents", "EdgeLength")
+ADVANCED = ("CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels", "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction",
             "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
@@ -54,6 +58,12 @@ def edit(action):
     return gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", action)
 
 
+def range_of_the_wavelet(**properties):
+    wavelet = simple.Wavelet(**properties)
+    wavelet.UpdatePipeline()
+    return wavelet.PointData["RTData"].GetRange()
+
+
 def iso_of_the_wavelet():
     """What the panel of Iso Value says for the volume of the tests."""
     testing.load_plugin()
@@ -70,6 +80,13 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
+            window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
+            window.last_level("FinestLevel", 1),
+            # In the default panel as well.
+            window.shown("MinimumComponentVolume", False),
+            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
+            gui.pause(300), window.shown("MinimumComponentVolume", True),
+            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "All"),
             APPLY, *save, gui.pause(1500)], "volume-applied")
         state = window.proxies_of(path)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
@@ -90,9 +107,37 @@ class VolumeWindowTest(window.WindowTestCase):
         self.play(VOLUME + [
             FILTER, SHOW_ADVANCED, gui.pause(1000),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
-            window.shown("SeedRadius", False),
+            window.shown("SeedRadius", False), window.as_wide_as_the_panel(),
+            # Of 21 voxels along each axis: 12, and if that is allowed 6 and 3.
+            window.last_level("CoarsestLevel", 1),
+            gui.event(f"{PROPERTIES}/MinimumLevelSize/LineEdit0", "set_string", "3"),
+            gui.pause(300), window.last_level("CoarsestLevel", 3),
+            window.last_level("FinestLevel", 3),
             gui.event(levels, "set_string", "3"), gui.pause(300),
+            window.last_level("CoarsestLevel", 2), window.last_level("FinestLevel", 2),
             window.shown("MinimumLevelSize", False)], "volume-advanced")
+
+    def test_range_follows_array_and_source(self):
+        path = testing.output_path("two-arrays.vti")
+        values = numpy.mgrid[0:12, 0:14, 0:16].sum(axis=0).astype(float)
+        image = testing.make_image(values, name="a")
+        testing.add_array(image, 100.0 - values, "b")
+        writer = vtkXMLImageDataWriter()
+        writer.SetFileName(path)
+        writer.SetInputData(image)
+        writer.Write()
+        self.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+            gui.pause(1000), FILTER, gui.pause(500), window.value_range(0, 39),
+            gui.event(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "set_string", "b"),
+            gui.pause(500), window.value_range(61, 100)], "volume-range")
+        self.session.close_window()
+        self.play(VOLUME + [
+            FILTER, APPLY, gui.pause(500), window.in_the_pipeline(0), gui.pause(500),
+            gui.event(f"{PROPERTIES}/Maximum/DoubleLineEdit0", "set_string", "511"),
+            APPLY, gui.pause(500), window.in_the_pipeline(0, 0), gui.pause(1000),
+            window.value_range(*range_of_the_wavelet(Maximum=511))], "volume-range-changed")
 
     def test_undo_and_redo(self):
         undone, save_undone = self.saved_state("undone.pvsm")

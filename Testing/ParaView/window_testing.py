@@ -50,6 +50,22 @@ def shown(property_, yes):
     return gui.check(f"{PROPERTIES}/{property_}", "visible", "true" if yes else "false")
 
 
+def last_level(property_, level):
+    """Fails the session unless the slider of a property of levels ends there."""
+    return gui.check(f"{PROPERTIES}/{property_}/IntRangeWidget", "maximum", str(level))
+
+
+def value_range(low, high):
+    """Fails the session unless this is the range below Iso Value."""
+    return gui.check(f"{PROPERTIES}/IsoValue/ValueRange", "text",
+                     f"<b>Value Range:</b> [{low:g}, {high:g}]")
+
+
+def as_wide_as_the_panel():
+    """Fails the session if the panel needs a scroll bar to show all of its width."""
+    return gui.check(f"{gui.PANEL}/scrollArea/qt_scrollarea_hcontainer", "visible", "false")
+
+
 def open_state(path, name):
     """The filter of that name in a saved state, which a script opens."""
     testing.load_plugin()

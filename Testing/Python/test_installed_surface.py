@@ -193,6 +193,28 @@ class UseTest(SurfaceTest):
         self.assertEqual(self.errors, [])
         self.assertAlmostEqual(field(output, "Area") / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
 
+    def test_positions(self):
+        middle = [(SIZE - 1) / 2] * 3
+        self.surface.SetInitializationToSeeds()
+        self.surface.AddSeedPosition(*middle)
+        place = [0.0] * 3
+        self.surface.GetSeedPosition(0, place)
+        self.assertEqual(place, middle)
+        area = field(self.run_on(ball()), "Area")
+        self.assertAlmostEqual(area / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
+        # Just outside the ball: the surface comes out to it.
+        self.surface.AddAttractingPosition(middle[0] + RADIUS + 1.5, *middle[1:])
+        self.surface.Update()
+        self.assertEqual(self.surface.GetNumberOfAttractingPositions(), 1)
+        self.assertGreater(self.surface.GetOutput().GetBounds()[1], middle[0] + RADIUS + 1.0)
+        self.surface.ClearAttractingPositions()
+        self.surface.Update()
+        self.assertEqual(field(self.surface.GetOutput(), "Area"), area)
+        self.assertEqual(self.errors, [])
+        self.surface.AddSeedPosition(-50, 0, 0)
+        self.surface.Update()
+        self.assertIn("Seed Positions: point 1 (-50, 0, 0) lies outside", self.errors[0])
+
     def test_cancelling_hands_over_a_surface(self):
         def stop(filter_, _event):
             if "level 1" in (filter_.GetProgressText() or "").lower():

@@ -31,6 +31,18 @@ ProgramOption Text(
     [member](SegmentOptions& options, const std::string& text) { options.*member = text; } };
 }
 
+// Options that add a point to a list, as often as they are given.
+ProgramOption Position(
+  const char* option, SegmentOptions::Positions SegmentOptions::*member, const char* help)
+{
+  return { option, "X,Y,Z", help,
+    [member](SegmentOptions& options, const std::string& text)
+    {
+      const std::vector<double> numbers = ParseNumbers(text, 3);
+      (options.*member).push_back({ numbers[0], numbers[1], numbers[2] });
+    } };
+}
+
 ProgramOption Switch(const char* option, bool SegmentOptions::*member, const char* help)
 {
   return { option, "", help,
@@ -74,6 +86,8 @@ const std::vector<ProgramOption>& InputOptions()
     Text("seeds", "FILE", &SegmentOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
       "a .txt, .csv or .xyz file; world coordinates"),
+    Position("seed-position", &SegmentOptions::SeedPositions,
+      "start from an icosahedron at this point too; world coordinates; may be given several times"),
     Text("initial-surface", "FILE", &SegmentOptions::InitialSurface,
       "start from this closed surface: .vtp, .vtk, .stl, .ply or .obj; world coordinates"),
     Text("attracting-points", "FILE", &SegmentOptions::AttractingPoints,
@@ -81,6 +95,8 @@ const std::vector<ProgramOption>& InputOptions()
       "arrays "
       "Weight and Radius, or the lines 'x y z [weight [radius]]' of a .txt, .csv or .xyz file; "
       "world coordinates"),
+    Position("attracting-position", &SegmentOptions::AttractingPositions,
+      "a point known to belong to the object too; world coordinates; may be given several times"),
     Text("edges", "NAME|FILE", &SegmentOptions::Edges,
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
@@ -178,6 +194,10 @@ void CheckComplete(SegmentOptions& options)
   if (!options.Seeds.empty() && !options.InitialSurface.empty())
   {
     throw UsageError("--seeds and --initial-surface exclude each other");
+  }
+  if (!options.SeedPositions.empty() && !options.InitialSurface.empty())
+  {
+    throw UsageError("--seed-position and --initial-surface exclude each other");
   }
 }
 

@@ -17,6 +17,7 @@ namespace tool
 /// What the command line asks for.
 struct SegmentOptions
 {
+  using Positions = std::vector<std::array<double, 3>>; ///< world coordinates
   enum class Task
   {
     Segment,
@@ -34,6 +35,8 @@ struct SegmentOptions
   std::string Seeds;                            ///< file of points
   std::string InitialSurface;                   ///< file of a closed surface
   std::string AttractingPoints;                 ///< file of points
+  Positions SeedPositions;                      ///< beside those of the file
+  Positions AttractingPositions;                ///< beside those of the file
   std::string Edges;                            ///< point array of the volume, or file of a volume
   std::string History;                          ///< .csv
   std::string Levels;                           ///< .vtm, or a folder

@@ -139,9 +139,20 @@ vtkSmartPointer<vtkImageData> LoadVolume(const SegmentOptions& options, const An
 void SetStart(const SegmentOptions& options, vtkDeformableSurface* filter)
 {
   const bool isChosen = options.HasProperty("Initialization");
+  for (const auto& place : options.SeedPositions)
+  {
+    filter->AddSeedPosition(place[0], place[1], place[2]);
+  }
+  for (const auto& place : options.AttractingPositions)
+  {
+    filter->AddAttractingPosition(place[0], place[1], place[2]);
+  }
   if (!options.Seeds.empty())
   {
     filter->SetInitialSurfaceData(ReadSeeds(options.Seeds));
+  }
+  if (!options.Seeds.empty() || !options.SeedPositions.empty())
+  {
     if (!isChosen)
     {
       filter->SetInitializationToSeeds();

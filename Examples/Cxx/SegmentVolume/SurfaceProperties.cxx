@@ -94,8 +94,8 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_NUMBER(FinestLevel, "finest", "LEVEL",
       "level to end with; 0: the image itself; -1: once more divided, finer than the image"),
     SURFACE_MENU(Initialization, "initialization",
-      "what to start from: an icosahedron about the image; seeds, at the points of --seeds or on a "
-      "grid; the iso-surface of the coarsest level; or --initial-surface",
+      "what to start from: an icosahedron about the image; seeds, at --seed-position and the points "
+      "of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
       "icosahedron", "seeds", "iso-surface", "input-surface"),
     SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",
       "radius of the seeds in world units; 0: 1.2 times the shortest edge of the coarsest level"),
@@ -143,8 +143,8 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_SWITCH(SnapToIsoValue, false, "no-snap",
       "don't move vertices onto the iso-value at the end of a level"),
     SURFACE_MENU(KeepComponents, "keep",
-      "which components are written: all; the one of the largest area; those at --seeds or "
-      "--attracting-points; or those of --minimum-component-volume; cavities stay with theirs",
+      "which components are written: all; the one of the largest area; those at seeds or "
+      "points known to belong to the object (--seeds, --attracting-points and so on); or those of --minimum-component-volume; cavities stay with theirs",
       "all", "largest", "at-points", "large"),
     SURFACE_NUMBER(MinimumComponentVolume, "minimum-component-volume", "VOLUME",
       "what a component must enclose to be large, in world units cubed"),
