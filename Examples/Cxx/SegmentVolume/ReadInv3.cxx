@@ -7,6 +7,7 @@
 #include "TarFile.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
+#include "VtkMessages.h"
 
 #include <vtkByteSwap.h>
 #include <vtkDataArray.h>
@@ -92,7 +93,10 @@ int TypeOf(const std::string& name)
 
 Description Describe(const std::string& plist)
 {
-  const auto root = Element::Take(vtkXMLUtilities::ReadElementFromString(plist.c_str()));
+  Element root;
+  VtkMessages ignored; // What is wrong is said in one line below.
+  ignored.Catch(
+    [&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });
   vtkXMLDataElement* project =
     root && std::strcmp(root->GetName(), "plist") == 0 ? root->GetNestedElement(0) : nullptr;
   if (!project)
