@@ -111,8 +111,9 @@ EdgeLevels::EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection,
                                        selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
   if (!isChosen)
   {
-    Refuse("EdgeAttractionWeight is not 0, but there is no map of edges: choose a second point "
-           "array of the image by SetInputArrayToProcess(1, ...), such as its gradient magnitude.");
+    Refuse("Edge Attraction Weight is not 0, but there is no map of edges: choose a second point "
+           "array of the image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient "
+           "magnitude.");
   }
   auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(0));
   try

@@ -84,7 +84,7 @@ vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
   if (!array)
   {
     Refuse("the image has no active point scalars; " + ArraysOf(image) +
-      ". Choose an array with SetInputArrayToProcess.");
+      ". Choose one as Voxels (SetInputArrayToProcess).");
   }
   return array;
 }

@@ -133,7 +133,7 @@ std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space)
   {
     throw std::invalid_argument("The seeds must be vertices or mere points, but the data is a "
                                 "surface. Give the centres of the seeds, or set Initialization to "
-                                "InputSurface.");
+                                "Input Surface.");
   }
   for (const vtkIdType id : PointsMeantBy(polyData))
   {

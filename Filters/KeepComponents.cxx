@@ -230,7 +230,7 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
 std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space)
 {
   std::vector<Point> places;
-  const auto add = [&](vtkPolyData* points, int port)
+  const auto add = [&](vtkPolyData* points, const char* port)
   {
     try
     {
@@ -248,11 +248,11 @@ std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Worksp
   };
   if (port1 && !IsSurfaceOnly(port1))
   {
-    add(port1, 1);
+    add(port1, "1 (Initial Surface)");
   }
   if (port2)
   {
-    add(port2, 2);
+    add(port2, "2 (Attracting Points)");
   }
   return places;
 }

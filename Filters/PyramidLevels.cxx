@@ -261,7 +261,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
   const int level = std::max(wanted, 0);
   vtkImageData* image = this->Images[level];
   const std::string name = "level " + std::to_string(level);
-  CheckSize(image, name, "Set CoarsestLevel to a finer level.");
+  CheckSize(image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
   const ValidVoxels valid = this->ValidAt(level, executor);
   // Sums and differences of voxels must not overflow either.

@@ -4,6 +4,7 @@
 
 #include "Core/EdgeLengthPlan.h"
 #include "Core/Refuse.h"
+#include "GivenPositions.h"
 #include "HostThreads.h"
 #include "InitialSurfaces.h"
 #include "SurfaceOutput.h"
@@ -62,21 +63,21 @@ SurfaceSegmentation::SurfaceSegmentation(
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
 {
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
-  CheckEnumeration("BorderValue", settings.BorderValue, vtkDeformableSurface::Replicate);
+  CheckEnumeration("Border Value", settings.BorderValue, vtkDeformableSurface::Replicate);
   CheckEnumeration(
     "Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjectsAndCavities);
   if (settings.Options.MaximumNumberOfIterations < 1)
   {
-    Refuse("MaximumNumberOfIterations is ", settings.Options.MaximumNumberOfIterations,
+    Refuse("Maximum Number Of Iterations is ", settings.Options.MaximumNumberOfIterations,
       "; it must be at least 1.");
   }
   if (settings.SnapshotInterval < 0)
   {
-    Refuse("SnapshotInterval is ", settings.SnapshotInterval, "; it must be 0 (off) or more.");
+    Refuse("Snapshot Interval is ", settings.SnapshotInterval, "; it must be 0 (off) or more.");
   }
   if (settings.Options.SeedRadius < 0.0 || !std::isfinite(settings.Options.SeedRadius))
   {
-    Refuse("SeedRadius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
+    Refuse("Seed Radius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
   this->Settings.Options.BorderValue = static_cast<Border>(settings.BorderValue);
   this->Settings.Options.RecoverLostParts =
@@ -91,13 +92,25 @@ SurfaceSegmentation::SurfaceSegmentation(
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
 
+std::vector<Point> SurfaceSegmentation::SeedPositions() const
+{
+  return PositionsOf(this->Settings.SeedPositions, "Seed Positions", this->Pyramid.GetWorkspace(),
+    this->Pyramid.SizeOfLevel0());
+}
+
+std::vector<Point> SurfaceSegmentation::AttractingPositions() const
+{
+  return PositionsOf(this->Settings.AttractingPositions, "Attracting Positions",
+    this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
+}
+
 void SurfaceSegmentation::ReadComponentChoice()
 {
   CheckEnumeration(
-    "KeepComponents", this->Settings.KeepComponents, vtkDeformableSurface::LargeComponents);
+    "Keep Components", this->Settings.KeepComponents, vtkDeformableSurface::LargeComponents);
   if (!(this->Settings.MinimumComponentVolume >= 0.0))
   {
-    Refuse("MinimumComponentVolume is ", this->Settings.MinimumComponentVolume,
+    Refuse("Minimum Component Volume is ", this->Settings.MinimumComponentVolume,
       "; it must be 0 or more.");
   }
   this->Choice.Mode = this->Settings.KeepComponents;
@@ -106,29 +119,40 @@ void SurfaceSegmentation::ReadComponentChoice()
   {
     this->Choice.Places = PlacesOf(this->Settings.InitialSurface, this->Settings.AttractingPoints,
       this->Pyramid.GetWorkspace());
+    for (const std::vector<Point>& more : { this->SeedPositions(), this->AttractingPositions() })
+    {
+      this->Choice.Places.insert(this->Choice.Places.end(), more.begin(), more.end());
+    }
     if (this->Choice.Places.empty())
     {
-      Refuse("KeepComponents is 2, those at points, but there are none: give seeds to input port "
-             "1, or points known to belong to the object to input port 2.");
+      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or Attracting "
+             "Positions, or give seeds to input port 1 (Initial Surface), or points known to belong "
+             "to the object to input port 2 (Attracting Points).");
     }
   }
 }
 
 void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
 {
+  std::vector<AttractingPoint> points;
   try
   {
-    std::vector<AttractingPoint> points = AttractingPointsOf(this->Settings.AttractingPoints,
-      this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
-    if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
-    {
-      this->Points = std::make_unique<PointAttraction>(
-        std::move(points), this->Settings.Options.PointAttractionWeight);
-    }
+    points = AttractingPointsOf(this->Settings.AttractingPoints, this->Pyramid.GetWorkspace(),
+      this->Pyramid.SizeOfLevel0());
   }
   catch (const std::invalid_argument& error)
   {
-    Refuse("Input port 2: ", error.what());
+    Refuse("Input port 2 (Attracting Points): ", error.what());
+  }
+  for (const Point& place : this->AttractingPositions())
+  {
+    points.emplace_back();
+    points.back().Place = place;
+  }
+  if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
+  {
+    this->Points = std::make_unique<PointAttraction>(
+      std::move(points), this->Settings.Options.PointAttractionWeight);
   }
   if (this->Settings.Options.EdgeAttractionWeight > 0.0)
   {
@@ -212,18 +236,18 @@ void SurfaceSegmentation::ChooseLevels()
   this->LastLevel = this->Settings.FinestLevel;
   if (this->Coarsest < 0 || this->Coarsest > last)
   {
-    Refuse("CoarsestLevel is ", this->Settings.CoarsestLevel,
+    Refuse("Coarsest Level is ", this->Settings.CoarsestLevel,
       ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
   }
   if (this->Settings.EdgeLength != 0.0 && this->LastLevel > this->Coarsest)
   {
-    Refuse("EdgeLength is ", this->Settings.EdgeLength, ", for which the finest level is ",
-      this->LastLevel, ", but CoarsestLevel is ", this->Settings.CoarsestLevel,
+    Refuse("Edge Length is ", this->Settings.EdgeLength, ", for which the finest level is ",
+      this->LastLevel, ", but Coarsest Level is ", this->Settings.CoarsestLevel,
       "; set it to that level, a coarser one, or -1 for the last.");
   }
   if (this->LastLevel < -1 || this->LastLevel > this->Coarsest)
   {
-    Refuse("FinestLevel is ", this->LastLevel, "; it must lie between 0 and the coarsest level, ",
+    Refuse("Finest Level is ", this->LastLevel, "; it must lie between 0 and the coarsest level, ",
       this->Coarsest, ", or be -1 for a last division beyond the image.");
   }
 }
@@ -255,13 +279,13 @@ void SurfaceSegmentation::CheckIsoValue()
   if (std::isnan(iso))
   {
     Refuse(
-      "IsoValue is not set. Set it to the value that parts the object from the background; the "
+      "Iso Value is not set. Set it to the value that parts the object from the background; the "
       "voxels range from ",
       range[0], " to ", range[1], ".");
   }
   if (iso <= range[0] || iso >= range[1])
   {
-    Refuse("IsoValue is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
+    Refuse("Iso Value is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
       "; set it between them.");
   }
 }
@@ -319,27 +343,38 @@ void SurfaceSegmentation::CheckObjectIsThere()
   }
   if (this->Settings.EdgeLength != 0.0 && this->Coarsest == this->LastLevel)
   {
-    Refuse("EdgeLength is ", this->Settings.EdgeLength, ", for which the finest level is ",
+    Refuse("Edge Length is ", this->Settings.EdgeLength, ", for which the finest level is ",
       this->LastLevel, ", but the object is too thin for it: no voxel is ",
-      this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",
-      this->Settings.Options.IsoValue, " there. Give a shorter EdgeLength.");
+      this->Settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ",
+      this->Settings.Options.IsoValue, " there. Give a shorter Edge Length.");
   }
   Refuse("the object has vanished at level ", this->Coarsest, ", the coarsest: no voxel is ",
-    this->Settings.Options.ObjectIsBright ? "above" : "below", " IsoValue ",
-    this->Settings.Options.IsoValue, " there. It is too thin for that level; set CoarsestLevel to ",
-    level, ", where it is still there, or less.");
+    this->Settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ",
+    this->Settings.Options.IsoValue,
+    " there. It is too thin for that level; set Coarsest Level to ", level,
+    ", where it is still there, or less.");
 }
 
 void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
 {
   const Workspace& space = this->Pyramid.GetWorkspace();
+  std::vector<Point> seeds;
+  if (this->Settings.Initialization == vtkDeformableSurface::Seeds)
+  {
+    seeds = this->SeedPositions();
+  }
+  const bool hasPositions = !seeds.empty();
   try
   {
     switch (this->Settings.Initialization)
     {
       case vtkDeformableSurface::Seeds:
-        evolution.StartSeeds(image, this->Coarsest, SeedsOf(this->Settings.InitialSurface, space));
+      {
+        const std::vector<Point> connected = SeedsOf(this->Settings.InitialSurface, space);
+        seeds.insert(seeds.begin(), connected.begin(), connected.end());
+        evolution.StartSeeds(image, this->Coarsest, seeds);
         break;
+      }
       case vtkDeformableSurface::IsoSurface:
         evolution.StartSurface(
           image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
@@ -357,7 +392,9 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   {
     const bool isGiven = this->Settings.Initialization == vtkDeformableSurface::InputSurface ||
       this->Settings.Initialization == vtkDeformableSurface::Seeds;
-    Refuse(isGiven ? "Input port 1: " : "", error.what());
+    const bool ofPositions = hasPositions && !this->Settings.InitialSurface;
+    Refuse(ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "",
+      error.what());
   }
 }
 
@@ -371,7 +408,7 @@ void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::Los
       lost.Found == 1 ? "" : "s", " of the object that the surface lost at level ", level + 1, "; ",
       missing, missing == 1 ? " is" : " are", " not found again. ",
       this->Settings.Options.RecoverLostParts ? "They lie too close to the surface for one of their "
-                                                "own; a finer CoarsestLevel may keep more."
+                                                "own; a finer Coarsest Level may keep more."
                                               : "Turn Recovery on to find them."));
   }
 }
@@ -396,7 +433,7 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
   const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
   if (kept.Points.empty() && !surface.Points.empty())
   {
-    this->Settings.Warn(Join("Level ", level, ": KeepComponents leaves none of the components."));
+    this->Settings.Warn(Join("Level ", level, ": Keep Components leaves none of the components."));
   }
   this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
   this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
@@ -408,8 +445,8 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
       ": the object is too thin for it. ",
       this->Coarsest > 0
-        ? "Set CoarsestLevel to a finer level."
-        : "No level is finer: check IsoValue and ObjectIsBright, or resample the image."));
+        ? "Set Coarsest Level to a finer level."
+        : "No level is finer: check Iso Value and Object Is Bright, or resample the image."));
   }
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||

@@ -23,6 +23,7 @@
 
 class vtkInformation;
 class vtkMultiBlockDataSet;
+class vtkPoints;
 class vtkPolyData;
 class vtkTable;
 
@@ -54,6 +55,8 @@ struct SegmentationSettings
   int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
   vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
   vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
+  vtkPoints* SeedPositions = nullptr;       ///< world, beside those of port 1; may be missing
+  vtkPoints* AttractingPositions = nullptr; ///< world, beside those of port 2; may be missing
   vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
 
   /// When the run began: what came before counts to the seconds of the first level.
@@ -89,6 +92,9 @@ private:
   void ChooseEdgeLength();
   void ChooseLevels();
   unsigned int BlockOf(int level) const;
+  /// Seed Positions and Attracting Positions in the workspace.
+  std::vector<Point> SeedPositions() const;
+  std::vector<Point> AttractingPositions() const;
   void ReadComponentChoice();
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
   std::array<double, 2> RangeOfLevel(int level) const;

@@ -22,10 +22,12 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -38,6 +40,23 @@ namespace
 {
 /// Share of the progress that the pyramid takes where it is built here.
 constexpr double PyramidShare = 0.02;
+
+vtkSmartPointer<vtkPoints> NewPositions()
+{
+  auto positions = vtkSmartPointer<vtkPoints>::New();
+  positions->SetDataTypeToDouble();
+  return positions;
+}
+
+void CopyPosition(vtkPoints* positions, int index, double position[3])
+{
+  if (index >= 0 && index < positions->GetNumberOfPoints())
+  {
+    positions->GetPoint(index, position);
+    return;
+  }
+  std::fill(position, position + 3, vtkMath::Nan());
+}
 }
 
 //------------------------------------------------------------------------------
@@ -64,6 +83,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->IsoValue = vtkMath::Nan();
   this->ObjectIsBright = defaults.ObjectIsBright;
   this->Initialization = EnclosingIcosahedron;
+  this->SeedPositions = NewPositions();
   this->SeedRadius = defaults.SeedRadius;
   this->CoarsestLevel = -1;
   this->FinestLevel = 0;
@@ -73,6 +93,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->IsopotentialWeight = defaults.IsopotentialWeight;
   this->GradientWeight = defaults.GradientWeight;
   this->PointAttractionWeight = defaults.PointAttractionWeight;
+  this->AttractingPositions = NewPositions();
   this->EdgeAttractionWeight = defaults.EdgeAttractionWeight;
   this->Friction = defaults.Friction;
   this->BorderValue = static_cast<int>(defaults.BorderValue);
@@ -142,6 +163,52 @@ void vtkDeformableSurface::SetAttractingPointsData(vtkDataObject* data)
   this->SetInputDataObject(2, data);
 }
 
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::AddSeedPosition(double x, double y, double z)
+{
+  this->SeedPositions->InsertNextPoint(x, y, z);
+  this->Modified();
+}
+
+void vtkDeformableSurface::ClearSeedPositions()
+{
+  this->SeedPositions->SetNumberOfPoints(0);
+  this->Modified();
+}
+
+int vtkDeformableSurface::GetNumberOfSeedPositions()
+{
+  return static_cast<int>(this->SeedPositions->GetNumberOfPoints());
+}
+
+void vtkDeformableSurface::GetSeedPosition(int index, double position[3])
+{
+  CopyPosition(this->SeedPositions, index, position);
+}
+
+void vtkDeformableSurface::AddAttractingPosition(double x, double y, double z)
+{
+  this->AttractingPositions->InsertNextPoint(x, y, z);
+  this->Modified();
+}
+
+void vtkDeformableSurface::ClearAttractingPositions()
+{
+  this->AttractingPositions->SetNumberOfPoints(0);
+  this->Modified();
+}
+
+int vtkDeformableSurface::GetNumberOfAttractingPositions()
+{
+  return static_cast<int>(this->AttractingPositions->GetNumberOfPoints());
+}
+
+void vtkDeformableSurface::GetAttractingPosition(int index, double position[3])
+{
+  CopyPosition(this->AttractingPositions, index, position);
+}
+
+//------------------------------------------------------------------------------
 vtkMultiBlockDataSet* vtkDeformableSurface::GetLevels()
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(1));
@@ -286,6 +353,8 @@ int vtkDeformableSurface::RequestData(
     settings.SnapshotInterval = this->SnapshotInterval;
     settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
     settings.AttractingPoints = vtkPolyData::GetData(inputVector[2]);
+    settings.SeedPositions = this->SeedPositions;
+    settings.AttractingPositions = this->AttractingPositions;
     settings.EdgeSelection = this->GetInputArrayInformation(1);
     settings.Started = started;
 
@@ -308,8 +377,8 @@ int vtkDeformableSurface::RequestData(
   {
     volumic::InitializeOutputs(outputVector);
     this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set FinestLevel to a "
-                  "coarser level, or crop the image.");
+    vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set Finest Level to "
+                  "a coarser level, or crop the image.");
   }
   catch (const std::exception& error)
   {
@@ -331,6 +400,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IsoValue: " << this->IsoValue << endl;
   os << indent << "ObjectIsBright: " << this->ObjectIsBright << endl;
   os << indent << "Initialization: " << this->Initialization << endl;
+  os << indent << "SeedPositions: " << this->GetNumberOfSeedPositions() << endl;
   os << indent << "SeedRadius: " << this->SeedRadius << endl;
   os << indent << "CoarsestLevel: " << this->CoarsestLevel << endl;
   os << indent << "FinestLevel: " << this->FinestLevel << endl;
@@ -340,6 +410,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IsopotentialWeight: " << this->IsopotentialWeight << endl;
   os << indent << "GradientWeight: " << this->GradientWeight << endl;
   os << indent << "PointAttractionWeight: " << this->PointAttractionWeight << endl;
+  os << indent << "AttractingPositions: " << this->GetNumberOfAttractingPositions() << endl;
   os << indent << "EdgeAttractionWeight: " << this->EdgeAttractionWeight << endl;
   os << indent << "Friction: " << this->Friction << endl;
   os << indent << "BorderValue: " << this->BorderValue << endl;

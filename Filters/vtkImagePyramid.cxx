@@ -150,6 +150,16 @@ bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const Settings& set
   return made.size() + 1 == levels.size();
 }
 
+volumic::PyramidOptions OptionsOf(
+  double reductionFactor, int numberOfLevels, int minimumLevelSize)
+{
+  volumic::PyramidOptions options;
+  options.ReductionFactor = reductionFactor;
+  options.NumberOfLevels = numberOfLevels;
+  options.MinimumLevelSize = minimumLevelSize;
+  return options;
+}
+
 void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numberOfNaNs)
 {
   vtkNew<vtkIdTypeArray> nans;
@@ -188,6 +198,21 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput()
 vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
+{
+  try
+  {
+    return static_cast<int>(volumic::PlanPyramid({ sizeX, sizeY, sizeZ }, { 1.0, 1.0, 1.0 },
+      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize))
+        .size());
+  }
+  catch (const std::invalid_argument&)
+  {
+    return 0;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -266,9 +291,8 @@ int vtkImagePyramid::RequestData(
     const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
       volumic::ChooseArray(this->GetInputArrayInformation(0), input), this->SelectedComponent);
     Settings settings;
-    settings.Levels.ReductionFactor = this->ReductionFactor;
-    settings.Levels.NumberOfLevels = this->NumberOfLevels;
-    settings.Levels.MinimumLevelSize = this->MinimumLevelSize;
+    settings.Levels =
+      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
     settings.NaNIsBackground = this->NaNIsBackground;
     settings.NumberOfThreads = this->NumberOfThreads;
     const auto progress = [this](double share, const std::string& text)

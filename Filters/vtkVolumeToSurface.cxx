@@ -46,7 +46,7 @@ vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* in
     const std::string errors = volumic::UpdateAndCollectErrors(otsu);
     if (!errors.empty())
     {
-      volumic::Refuse("IsoValue is not set, and can't be found: ", errors);
+      volumic::Refuse("Iso Value is not set, and can't be found: ", errors);
     }
     volume.IsoValue = otsu->GetThreshold();
   }

@@ -69,7 +69,7 @@ void CheckLength(double edgeLength)
 {
   if (!(edgeLength > 0.) || !std::isfinite(edgeLength))
   {
-    Refuse("EdgeLength is ", edgeLength, "; it must be 0 (automatic) or a length.");
+    Refuse("Edge Length is ", edgeLength, "; it must be 0 (automatic) or a length.");
   }
 }
 
@@ -128,11 +128,11 @@ EdgeLengthPlan PlanEdgeLength(double edgeLength, const LevelSize& size,
   {
     longest = planOf(length) ? length : longest;
   }
-  Refuse("EdgeLength is ", edgeLength, ", but edges of this image can have mean lengths of ",
+  Refuse("Edge Length is ", edgeLength, ", but edges of this image can have mean lengths of ",
     shortest, " to ", longest,
     edgeLength < shortest
       ? ". Resample the image more finely, or give a longer one."
-      : ". Give a shorter one, or allow coarser levels by MinimumLevelSize.");
+      : ". Give a shorter one, or allow coarser levels by Minimum Level Size.");
 }
 
 EdgeLengthPlan PlanEdgeLength(
@@ -171,7 +171,7 @@ EdgeLengthPlan PlanEdgeLength(
     possible += Join(level + 1 < units.size() ? ", " : " or ",
       MeanEdgeInDelta * LeastRatio * units[level], " to ", MeanEdgeInDelta * units[level]);
   }
-  Refuse("EdgeLength is ", edgeLength, ", but with the levels of this pyramid edges can have mean "
+  Refuse("Edge Length is ", edgeLength, ", but with the levels of this pyramid edges can have mean "
     "lengths of ", possible, ". Give one of these, or the image instead of its pyramid.");
 }
 }

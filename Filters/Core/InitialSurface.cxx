@@ -164,10 +164,10 @@ std::vector<Point> ChooseSeeds(
   if (chosen.empty())
   {
     throw std::invalid_argument(centres.empty()
-        ? "No point of the grid of seeds lies inside the object. Give a smaller SeedRadius or "
-          "another IsoValue."
+        ? "No point of the grid of seeds lies inside the object. Give a smaller Seed Radius or "
+          "another Iso Value."
         : "None of the " + std::to_string(centres.size()) +
-          " seeds lies inside the object. Move them, or check IsoValue and ObjectIsBright.");
+          " seeds lies inside the object. Move them, or check Iso Value and Object Is Bright.");
   }
   return chosen;
 }

@@ -16,7 +16,7 @@ void CheckReductionFactor(double factor)
   // Written so that NaN is refused too.
   if (!(factor > 1.0 && factor < 2.0))
   {
-    Refuse("ReductionFactor is ", factor, "; it must lie between 1 and 2, both excluded",
+    Refuse("Reduction Factor is ", factor, "; it must lie between 1 and 2, both excluded",
       " (sqrt(3) suits the deformable surface).");
   }
 }
@@ -95,18 +95,18 @@ std::vector<LevelGeometry> PlanPyramid(
   const int possible = MaximumNumberOfLevels(size, options.ReductionFactor);
   if (options.NumberOfLevels < 0)
   {
-    Refuse("NumberOfLevels is ", options.NumberOfLevels,
-      "; use 0 for as many as MinimumLevelSize allows, or 1 and more.");
+    Refuse("Number Of Levels is ", options.NumberOfLevels,
+      "; use 0 for as many as Minimum Level Size allows, or 1 and more.");
   }
   if (options.NumberOfLevels > possible)
   {
-    Refuse("NumberOfLevels is ", options.NumberOfLevels, ", but an image of ", size[0], " x ",
-      size[1], " x ", size[2], " voxels gives at most ", possible, " levels with ReductionFactor ",
+    Refuse("Number Of Levels is ", options.NumberOfLevels, ", but an image of ", size[0], " x ",
+      size[1], " x ", size[2], " voxels gives at most ", possible, " levels with Reduction Factor ",
       options.ReductionFactor, "; ask for fewer, or use 0 for the automatic choice.");
   }
   if (options.MinimumLevelSize < 1)
   {
-    Refuse("MinimumLevelSize is ", options.MinimumLevelSize, "; it must be at least 1.");
+    Refuse("Minimum Level Size is ", options.MinimumLevelSize, "; it must be at least 1.");
   }
 
   const bool automatic = options.NumberOfLevels == 0;

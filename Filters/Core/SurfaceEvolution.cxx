@@ -68,16 +68,16 @@ const char* Describe(StopReason reason)
 SurfaceEvolution::SurfaceEvolution(
   const SurfaceOptions& options, Executor& executor, Monitor& monitor)
 {
-  CheckRange("SamplingRatio", options.SamplingRatio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
-  CheckRange("TensionWeight", options.TensionWeight, 0., 1e6);
-  CheckRange("ElasticityWeight", options.ElasticityWeight, 0., 1e6);
-  CheckRange("IsopotentialWeight", options.IsopotentialWeight, 0., 1e6);
-  CheckRange("GradientWeight", options.GradientWeight, 0., 1e6);
-  CheckRange("PointAttractionWeight", options.PointAttractionWeight, 0., 1e6);
-  CheckRange("EdgeAttractionWeight", options.EdgeAttractionWeight, 0., 1e6);
+  CheckRange("Sampling Ratio", options.SamplingRatio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
+  CheckRange("Tension Weight", options.TensionWeight, 0., 1e6);
+  CheckRange("Elasticity Weight", options.ElasticityWeight, 0., 1e6);
+  CheckRange("Isopotential Weight", options.IsopotentialWeight, 0., 1e6);
+  CheckRange("Gradient Weight", options.GradientWeight, 0., 1e6);
+  CheckRange("Point Attraction Weight", options.PointAttractionWeight, 0., 1e6);
+  CheckRange("Edge Attraction Weight", options.EdgeAttractionWeight, 0., 1e6);
   CheckRange("Friction", options.Friction, 1e-6, 1e6);
-  CheckRange("SeedRadius", options.SeedRadius, 0., 1e9);
-  CheckRange("ConvergenceTolerance", options.ConvergenceTolerance, 0., 1.);
+  CheckRange("Seed Radius", options.SeedRadius, 0., 1e9);
+  CheckRange("Convergence Tolerance", options.ConvergenceTolerance, 0., 1.);
   CheckRange("MaximumStep", options.MaximumStep, 1e-3, 0.5);
   SurfaceOptions adjusted = options;
   adjusted.SnapToEdges = options.SnapToIsoValue && options.EdgeAttractionWeight > 0.;

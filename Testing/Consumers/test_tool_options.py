@@ -193,7 +193,7 @@ class RunTest(ToolTestCase):
         corners = vtk_to_numpy(reader.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
         edges = np.linalg.norm(points[corners] - points[np.roll(corners, 1, axis=1)], axis=2)
         self.assertAlmostEqual(edges.mean() / 1.1, 1, delta=0.15)
-        self.refused("EdgeLength is 0.01, but edges of this image can have mean lengths of",
+        self.refused("Edge Length is 0.01, but edges of this image can have mean lengths of",
                      self.ball_file(), file, "--iso", ISO, "--edge-length", "0.01")
 
     def test_iso_value_by_otsu_is_told(self):

@@ -172,16 +172,16 @@ TEST_F(DeformableSurfaceAttraction, PointsThatMakeNoSenseAreRefused)
 TEST_F(DeformableSurfaceAttraction, WeightsThatMakeNoSenseAreRefused)
 {
   this->Filter->SetPointAttractionWeight(-1.0);
-  this->ExpectError({ "PointAttractionWeight is -1" });
+  this->ExpectError({ "Point Attraction Weight is -1" });
   this->Filter->SetPointAttractionWeight(1.0);
   this->Filter->SetEdgeAttractionWeight(-1.0);
-  this->ExpectError({ "EdgeAttractionWeight is -1" });
+  this->ExpectError({ "Edge Attraction Weight is -1" });
 }
 
 TEST_F(DeformableSurfaceAttraction, AMapOfEdgesMustBeThere)
 {
   this->Filter->SetEdgeAttractionWeight(1.0);
-  this->ExpectError({ "EdgeAttractionWeight", "SetInputArrayToProcess(1" });
+  this->ExpectError({ "Edge Attraction Weight", "SetInputArrayToProcess(1" });
   this->Filter->SetInputArrayToProcess(
     1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
   this->ExpectError({ "Input port 0", "edges", "'Edges'" });

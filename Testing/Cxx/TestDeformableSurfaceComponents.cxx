@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace volumic;
@@ -89,6 +90,7 @@ protected:
     if (n > 0)
     {
       EXPECT_EQ(surface->GetCellData()->GetArray("Component")->GetRange()[1], n - 1);
+      ExpectFeaturesOfCells(surface);
       EXPECT_EQ(
         surface->GetPointData()->GetNormals()->GetNumberOfTuples(), surface->GetNumberOfPoints());
       EXPECT_NEAR(EnclosedVolume(surface), sum, 1e-6 * std::abs(sum));
@@ -96,6 +98,27 @@ protected:
     auto* level = vtkPolyData::SafeDownCast(this->Filter->GetLevels()->GetBlock(0));
     EXPECT_EQ(level->GetNumberOfPoints(), surface->GetNumberOfPoints());
     return volumes;
+  }
+
+  /// Each triangle says of its component what the field data say.
+  static void ExpectFeaturesOfCells(vtkPolyData* surface)
+  {
+    vtkDataArray* component = surface->GetCellData()->GetArray("Component");
+    const std::pair<const char*, int> features[] = { { "ComponentArea", VTK_FLOAT },
+      { "ComponentVolume", VTK_FLOAT }, { "ComponentGenus", VTK_INT } };
+    for (const auto& [name, type] : features)
+    {
+      vtkDataArray* array = surface->GetCellData()->GetArray(name);
+      ASSERT_TRUE(array) << name;
+      EXPECT_EQ(array->GetDataType(), type) << name;
+      ASSERT_EQ(array->GetNumberOfTuples(), surface->GetNumberOfCells()) << name;
+      for (vtkIdType t = 0; t < surface->GetNumberOfCells(); ++t)
+      {
+        const double expected =
+          FieldOf(surface, name, static_cast<int>(component->GetComponent(t, 0)));
+        ASSERT_NEAR(array->GetComponent(t, 0), expected, 1e-6 * std::abs(expected)) << name;
+      }
+    }
   }
 
   static void ExpectVolumes(
@@ -225,7 +248,7 @@ TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
     this->Filter->SetKeepComponents(startsFromSeeds ? 0 : 2);
     MessagesOf errors(this->Filter);
     this->Filter->Update();
-    EXPECT_TRUE(errors.Has("Input port 1: ")) << errors.Get();
+    EXPECT_TRUE(errors.Has("Input port 1 (Initial Surface): ")) << errors.Get();
     EXPECT_TRUE(errors.Has("no vertices")) << errors.Get();
   }
 }
@@ -240,7 +263,7 @@ TEST_F(DeformableSurfaceComponents, ASurfaceToStartFromHasNoSeeds)
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   MessagesOf errors(this->Filter);
   this->Filter->Update();
-  EXPECT_TRUE(errors.Has("KeepComponents is 2, those at points, but there are none")) << errors.Get();
+  EXPECT_TRUE(errors.Has("Keep Components is \"At Points\", but there are none")) << errors.Get();
 }
 
 TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
@@ -249,7 +272,7 @@ TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
   this->SetSeed(28.5, 27.0, 27.0);
   MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
   EXPECT_TRUE(this->Volumes().empty());
-  EXPECT_TRUE(warnings.Has("KeepComponents leaves none"));
+  EXPECT_TRUE(warnings.Has("Keep Components leaves none"));
 }
 
 TEST_F(DeformableSurfaceComponents, SizesAndPlacesAreThoseOfTheWorld)
@@ -277,10 +300,10 @@ TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
     EXPECT_TRUE(errors.Has(part)) << errors.Get();
   };
   this->Filter->SetKeepComponents(4);
-  refused("KeepComponents is 4");
+  refused("Keep Components is 4");
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   refused("input port 1");
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(-1.0);
-  refused("MinimumComponentVolume is -1");
+  refused("Minimum Component Volume is -1");
 }

@@ -121,7 +121,7 @@ TEST_F(DeformableSurfaceErrors, NoInput)
 TEST_F(DeformableSurfaceErrors, IsoValueNotSetTellsTheRange)
 {
   this->Filter->SetIsoValue(std::nan(""));
-  this->ExpectError({ "IsoValue is not set", "range from 0 to 100" });
+  this->ExpectError({ "Iso Value is not set", "range from 0 to 100" });
 }
 
 TEST_F(DeformableSurfaceErrors, IsoValueOutsideTheRangeTellsTheRange)
@@ -129,7 +129,7 @@ TEST_F(DeformableSurfaceErrors, IsoValueOutsideTheRangeTellsTheRange)
   for (const double iso : { -5.0, 100.0, 101.0, std::numeric_limits<double>::infinity() })
   {
     this->Filter->SetIsoValue(iso);
-    this->ExpectError({ "IsoValue is", "outside the range", "0 to 100" });
+    this->ExpectError({ "Iso Value is", "outside the range", "0 to 100" });
   }
 }
 
@@ -140,7 +140,7 @@ TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
   image->SetScalarComponentFromDouble(20, 20, 20, 0, 100.0);
   this->Filter->SetInputDataObject(image);
   this->Filter->SetCoarsestLevel(2);
-  this->ExpectError({ "vanished at level 2", "above IsoValue 50", "set CoarsestLevel to 0" });
+  this->ExpectError({ "vanished at level 2", "above Iso Value 50", "set Coarsest Level to 0" });
 }
 
 TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
@@ -156,7 +156,7 @@ TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
   this->Filter->Update();
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
-  EXPECT_TRUE(warnings.Has("No level is finer: check IsoValue")) << warnings.Get();
+  EXPECT_TRUE(warnings.Has("No level is finer: check Iso Value")) << warnings.Get();
   EXPECT_FALSE(warnings.Has("Set CoarsestLevel")) << warnings.Get();
 }
 
@@ -262,12 +262,12 @@ TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
 TEST_F(DeformableSurfaceErrors, LevelsThatThereAreNot)
 {
   this->Filter->SetCoarsestLevel(5);
-  this->ExpectError({ "CoarsestLevel is 5", "levels 0 to 2" });
+  this->ExpectError({ "Coarsest Level is 5", "levels 0 to 2" });
   this->Filter->SetCoarsestLevel(1);
   this->Filter->SetFinestLevel(2);
-  this->ExpectError({ "FinestLevel is 2", "between 0 and the coarsest level, 1" });
+  this->ExpectError({ "Finest Level is 2", "between 0 and the coarsest level, 1" });
   this->Filter->SetFinestLevel(-2);
-  this->ExpectError({ "FinestLevel is -2", "or be -1 for a last division" });
+  this->ExpectError({ "Finest Level is -2", "or be -1 for a last division" });
 }
 
 TEST_F(DeformableSurfaceErrors, NumbersOutsideTheirRange)
@@ -281,18 +281,18 @@ TEST_F(DeformableSurfaceErrors, NumbersOutsideTheirRange)
   };
   using Surface = vtkDeformableSurface;
   const std::vector<Number> numbers = {
-    { "SamplingRatio", &Surface::SetSamplingRatio, 0.5, 0.85 },
-    { "SamplingRatio", &Surface::SetSamplingRatio, 1.1, 0.85 },
-    { "SamplingRatio", &Surface::SetSamplingRatio, std::nan(""), 0.85 },
-    { "TensionWeight", &Surface::SetTensionWeight, -1, 0.2 },
-    { "ElasticityWeight", &Surface::SetElasticityWeight, -0.1, 0.1 },
-    { "IsopotentialWeight", &Surface::SetIsopotentialWeight, -1, 1 },
-    { "GradientWeight", &Surface::SetGradientWeight, std::nan(""), 0 },
+    { "Sampling Ratio", &Surface::SetSamplingRatio, 0.5, 0.85 },
+    { "Sampling Ratio", &Surface::SetSamplingRatio, 1.1, 0.85 },
+    { "Sampling Ratio", &Surface::SetSamplingRatio, std::nan(""), 0.85 },
+    { "Tension Weight", &Surface::SetTensionWeight, -1, 0.2 },
+    { "Elasticity Weight", &Surface::SetElasticityWeight, -0.1, 0.1 },
+    { "Isopotential Weight", &Surface::SetIsopotentialWeight, -1, 1 },
+    { "Gradient Weight", &Surface::SetGradientWeight, std::nan(""), 0 },
     { "Friction", &Surface::SetFriction, 0, 3 },
     { "Friction", &Surface::SetFriction, -1, 3 },
-    { "ConvergenceTolerance", &Surface::SetConvergenceTolerance, -1, 1e-4 },
-    { "SeedRadius", &Surface::SetSeedRadius, -2, 0 },
-    { "SeedRadius", &Surface::SetSeedRadius, std::nan(""), 0 },
+    { "Convergence Tolerance", &Surface::SetConvergenceTolerance, -1, 1e-4 },
+    { "Seed Radius", &Surface::SetSeedRadius, -2, 0 },
+    { "Seed Radius", &Surface::SetSeedRadius, std::nan(""), 0 },
   };
   for (const Number& number : numbers)
   {
@@ -308,13 +308,13 @@ TEST_F(DeformableSurfaceErrors, IntegersOutsideTheirRange)
   this->ExpectError({ "Initialization is 4", "0 to 3" });
   this->Filter->SetInitialization(0);
   this->Filter->SetBorderValue(2);
-  this->ExpectError({ "BorderValue is 2", "0 to 1" });
+  this->ExpectError({ "Border Value is 2", "0 to 1" });
   this->Filter->SetBorderValue(0);
   this->Filter->SetRecovery(-1);
   this->ExpectError({ "Recovery is -1" });
   this->Filter->SetRecovery(0);
   this->Filter->SetMaximumNumberOfIterations(0);
-  this->ExpectError({ "MaximumNumberOfIterations" });
+  this->ExpectError({ "Maximum Number Of Iterations" });
 }
 
 TEST_F(DeformableSurfaceErrors, NoInitialSurface)
@@ -442,5 +442,5 @@ TEST_F(DeformableSurfaceErrors, AnErrorOfThePyramidIsNamed)
   this->Filter->SetInputConnection(pyramid->GetOutputPort());
   const MessagesOf ofPyramid(pyramid);
   this->ExpectError({ "Input port 0", "after an error of Image Pyramid" });
-  EXPECT_TRUE(ofPyramid.Has("ReductionFactor"));
+  EXPECT_TRUE(ofPyramid.Has("Reduction Factor"));
 }

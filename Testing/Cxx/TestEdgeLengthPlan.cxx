@@ -69,8 +69,9 @@ TEST(EdgeLengthPlan, ChangesTheFactorLittleWhereThereAreManyLevels)
 
 TEST(EdgeLengthPlan, NamesTheLengthsThatArePossible)
 {
-  EXPECT_NE(ErrorOf(0.2).find("EdgeLength is 0.2, but edges of this image can have mean lengths of "
-                              "0.566"),
+  EXPECT_NE(
+    ErrorOf(0.2).find("Edge Length is 0.2, but edges of this image can have mean lengths of "
+                      "0.566"),
     std::string::npos)
     << ErrorOf(0.2);
   EXPECT_NE(ErrorOf(0.2).find("Resample the image more finely"), std::string::npos);

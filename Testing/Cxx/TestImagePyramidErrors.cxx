@@ -182,7 +182,7 @@ TEST_F(ImagePyramidErrors, ReductionFactorOutsideItsRange)
   for (const double factor : { 1.0, 2.0, -3.0 })
   {
     this->Filter->SetReductionFactor(factor);
-    this->ExpectError(RandomImage(20, 20, 20), { "ReductionFactor", "between 1 and 2" });
+    this->ExpectError(RandomImage(20, 20, 20), { "Reduction Factor", "between 1 and 2" });
   }
 }
 
@@ -190,16 +190,16 @@ TEST_F(ImagePyramidErrors, MoreLevelsThanTheImageGives)
 {
   this->Filter->SetNumberOfLevels(12);
   this->ExpectError(
-    RandomImage(20, 20, 20), { "NumberOfLevels is 12", "20 x 20 x 20", "at most 5 levels" });
+    RandomImage(20, 20, 20), { "Number Of Levels is 12", "20 x 20 x 20", "at most 5 levels" });
 }
 
 TEST_F(ImagePyramidErrors, NegativeOptions)
 {
   this->Filter->SetNumberOfLevels(-2);
-  this->ExpectError(RandomImage(20, 20, 20), { "NumberOfLevels is -2" });
+  this->ExpectError(RandomImage(20, 20, 20), { "Number Of Levels is -2" });
   this->Filter->SetNumberOfLevels(0);
   this->Filter->SetMinimumLevelSize(-1);
-  this->ExpectError(RandomImage(20, 20, 20), { "MinimumLevelSize is -1" });
+  this->ExpectError(RandomImage(20, 20, 20), { "Minimum Level Size is -1" });
 }
 
 TEST_F(ImagePyramidErrors, ZeroSpacing)

@@ -95,13 +95,13 @@ protected:
 TEST_P(FilterLocale, SettingsOutOfRange)
 {
   this->Filter->SetIsoValue(1234.5);
-  this->ExpectError("IsoValue is 1234.5, outside the range of the voxels, 0 to 100");
+  this->ExpectError("Iso Value is 1234.5, outside the range of the voxels, 0 to 100");
   this->Filter->SetIsoValue(50.0);
   this->Filter->SetSamplingRatio(0.25);
-  this->ExpectError("SamplingRatio is 0.25, it must lie in [0.692819, 1]");
+  this->ExpectError("Sampling Ratio is 0.25, it must lie in [0.692819, 1]");
   this->Filter->SetSamplingRatio(0.85);
   this->Filter->SetTensionWeight(1e300);
-  this->ExpectError("TensionWeight is 1e+300, it must lie in [0, 1000000]");
+  this->ExpectError("Tension Weight is 1e+300, it must lie in [0, 1000000]");
 }
 
 TEST_P(FilterLocale, PlacesOutsideTheImage)

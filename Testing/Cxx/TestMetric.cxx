@@ -239,7 +239,7 @@ TEST(EdgeLength, ChoosesOfThePyramidThatIsGiven)
   // Between what levels 0 and 1 can give.
   filter->SetEdgeLength(1.85);
   const std::string error = ErrorOf(filter);
-  EXPECT_NE(error.find("EdgeLength is 1.85"), std::string::npos) << error;
+  EXPECT_NE(error.find("Edge Length is 1.85"), std::string::npos) << error;
   EXPECT_NE(error.find("to 1.7, 2.0"), std::string::npos) << error;
   EXPECT_NE(error.find("the image instead of its pyramid"), std::string::npos) << error;
 }
@@ -250,18 +250,19 @@ TEST(EdgeLength, ThatIsNotPossibleIsRefused)
   filter->SetInputData(BallImage(40, 40, 40));
   filter->SetIsoValue(50.);
   filter->SetEdgeLength(0.1);
-  EXPECT_NE(ErrorOf(filter).find("EdgeLength is 0.1, but edges of this image can have mean lengths"),
+  EXPECT_NE(
+    ErrorOf(filter).find("Edge Length is 0.1, but edges of this image can have mean lengths"),
     std::string::npos);
   filter->SetEdgeLength(1000.);
-  EXPECT_NE(ErrorOf(filter).find("Give a shorter one, or allow coarser levels by MinimumLevelSize"),
+  EXPECT_NE(ErrorOf(filter).find("Give a shorter one, or allow coarser levels by Minimum Level Size"),
     std::string::npos);
   filter->SetEdgeLength(-2.);
-  EXPECT_NE(ErrorOf(filter).find("EdgeLength is -2; it must be 0 (automatic) or a length"),
+  EXPECT_NE(ErrorOf(filter).find("Edge Length is -2; it must be 0 (automatic) or a length"),
     std::string::npos);
   filter->SetEdgeLength(3.);
   filter->SetCoarsestLevel(0);
-  EXPECT_NE(ErrorOf(filter).find("EdgeLength is 3, for which the finest level is 1, but "
-                                 "CoarsestLevel is 0"),
+  EXPECT_NE(ErrorOf(filter).find("Edge Length is 3, for which the finest level is 1, but "
+                                 "Coarsest Level is 0"),
     std::string::npos);
   filter->SetCoarsestLevel(-1);
   EXPECT_EQ(ErrorOf(filter), "");

@@ -116,7 +116,7 @@ TEST(PyramidGeometry, RefusesReductionFactorsOutsideTheirRange)
   for (const double factor : { 1.0, 2.0, 0.0, -1.5, 2.5, std::numeric_limits<double>::quiet_NaN() })
   {
     const std::string error = ErrorOf({ 64, 64, 64 }, { 1, 1, 1 }, WithFactor(factor));
-    EXPECT_NE(error.find("ReductionFactor"), std::string::npos) << factor << ": " << error;
+    EXPECT_NE(error.find("Reduction Factor"), std::string::npos) << factor << ": " << error;
     EXPECT_NE(error.find("between 1 and 2"), std::string::npos) << factor << ": " << error;
   }
   EXPECT_EQ(ErrorOf({ 64, 64, 64 }, { 1, 1, 1 }, WithFactor(1.01)), "");
@@ -138,11 +138,13 @@ TEST(PyramidGeometry, RefusesNegativeOptions)
   PyramidOptions options;
   options.NumberOfLevels = -1;
   EXPECT_NE(
-    ErrorOf({ 64, 64, 64 }, { 1, 1, 1 }, options).find("NumberOfLevels is -1"), std::string::npos);
+    ErrorOf({ 64, 64, 64 }, { 1, 1, 1 }, options).find("Number Of Levels is -1"),
+    std::string::npos);
   options.NumberOfLevels = 0;
   options.MinimumLevelSize = 0;
   EXPECT_NE(
-    ErrorOf({ 64, 64, 64 }, { 1, 1, 1 }, options).find("MinimumLevelSize is 0"), std::string::npos);
+    ErrorOf({ 64, 64, 64 }, { 1, 1, 1 }, options).find("Minimum Level Size is 0"),
+    std::string::npos);
 }
 
 TEST(PyramidGeometry, RefusesImagesWithoutExtentOrDistance)

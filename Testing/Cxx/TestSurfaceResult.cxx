@@ -248,16 +248,16 @@ TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
     double TooHigh;
   };
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const Case& c : { Case{ "SamplingRatio", &SurfaceOptions::SamplingRatio, 0.6, 1.01 },
-         Case{ "TensionWeight", &SurfaceOptions::TensionWeight, -0.1, 1e7 },
-         Case{ "ElasticityWeight", &SurfaceOptions::ElasticityWeight, -0.1, 1e7 },
-         Case{ "IsopotentialWeight", &SurfaceOptions::IsopotentialWeight, -0.1, 1e7 },
-         Case{ "GradientWeight", &SurfaceOptions::GradientWeight, -0.1, 1e7 },
-         Case{ "PointAttractionWeight", &SurfaceOptions::PointAttractionWeight, -0.1, 1e7 },
-         Case{ "EdgeAttractionWeight", &SurfaceOptions::EdgeAttractionWeight, -0.1, 1e7 },
+  for (const Case& c : { Case{ "Sampling Ratio", &SurfaceOptions::SamplingRatio, 0.6, 1.01 },
+         Case{ "Tension Weight", &SurfaceOptions::TensionWeight, -0.1, 1e7 },
+         Case{ "Elasticity Weight", &SurfaceOptions::ElasticityWeight, -0.1, 1e7 },
+         Case{ "Isopotential Weight", &SurfaceOptions::IsopotentialWeight, -0.1, 1e7 },
+         Case{ "Gradient Weight", &SurfaceOptions::GradientWeight, -0.1, 1e7 },
+         Case{ "Point Attraction Weight", &SurfaceOptions::PointAttractionWeight, -0.1, 1e7 },
+         Case{ "Edge Attraction Weight", &SurfaceOptions::EdgeAttractionWeight, -0.1, 1e7 },
          Case{ "Friction", &SurfaceOptions::Friction, 0., 1e7 },
-         Case{ "SeedRadius", &SurfaceOptions::SeedRadius, -1., 1e10 },
-         Case{ "ConvergenceTolerance", &SurfaceOptions::ConvergenceTolerance, -1e-9, 1.1 },
+         Case{ "Seed Radius", &SurfaceOptions::SeedRadius, -1., 1e10 },
+         Case{ "Convergence Tolerance", &SurfaceOptions::ConvergenceTolerance, -1e-9, 1.1 },
          Case{ "MaximumStep", &SurfaceOptions::MaximumStep, 0., 0.51 } })
   {
     for (const double value : { c.TooLow, c.TooHigh, none })

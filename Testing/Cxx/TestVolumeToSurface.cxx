@@ -203,7 +203,7 @@ TEST(VolumeToSurface, SaysWhyThereIsNoIsoValue)
   filter->SetInputData(image);
   const MessagesOf errors(filter);
   filter->Update();
-  EXPECT_TRUE(errors.Has("IsoValue is not set, and can't be found")) << errors.Get();
+  EXPECT_TRUE(errors.Has("Iso Value is not set, and can't be found")) << errors.Get();
   EXPECT_TRUE(errors.Has("ranges from 4 to 4")) << errors.Get();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);

@@ -119,7 +119,8 @@ class DeformableSurfaceTest(unittest.TestCase):
         surface = output(surface_of(self.ball, IsoValue=0.0))
         for name, kind in POINT_ARRAYS.items():
             self.assertEqual(surface.GetPointData().GetArray(name).GetClassName(), kind)
-        self.assertEqual(names(surface.GetCellData()), {"Component"})
+        self.assertEqual(names(surface.GetCellData()),
+                         {"Component", "ComponentArea", "ComponentVolume", "ComponentGenus"})
         # Documentation/reference.md tells all, and has its own test.
         self.assertLessEqual(FIELDS, names(surface.GetFieldData()))
         inertia = surface.GetFieldData().GetArray("ComponentInertia")
@@ -243,7 +244,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         return filter_
 
     def test_error_for_an_iso_value_out_of_range_and_the_way_out(self):
-        filter_ = self.check_error(["IsoValue", "1000", "range"], self.ball, IsoValue=1000.0)
+        filter_ = self.check_error(["Iso Value", "1000", "range"], self.ball, IsoValue=1000.0)
         filter_.IsoValue = 0.0
         self.check_ball(output(filter_), 0.2)
 

@@ -106,7 +106,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
             self.assertEqual(filter_.IsoValue, 4.0)
             surface = output(filter_)
         self.assertIn("ranges from 4 to 4", messages.text)
-        self.assertIn("IsoValue is 4, outside the range", messages.text)
+        self.assertIn("Iso Value is 4, outside the range", messages.text)
         self.assertEqual(surface.GetNumberOfPoints(), 0)
 
     def test_pyramid_inside(self):

@@ -79,7 +79,7 @@ class EvolutionFilmTest(unittest.TestCase):
         self.assertEqual(self.film("a.ogv", "--every", "0").returncode, 2)
         run = self.film("a.ogv", "--iso", "1e6")
         self.assertEqual(run.returncode, 1)
-        self.assertIn("IsoValue", run.stderr)
+        self.assertIn("Iso Value", run.stderr)
         self.assertFalse(os.path.exists(self.path("a.ogv")))
 
 

@@ -204,7 +204,7 @@ class PyramidTest(unittest.TestCase):
         self.assertTrue(np.isnan(row[-4:]).all())
 
     def test_factor_of_two_is_refused(self):
-        self.refused(np.zeros((20, 20, 20), "f4"), "ReductionFactor.*2", ReductionFactor=2.0)
+        self.refused(np.zeros((20, 20, 20), "f4"), "Reduction Factor.*2", ReductionFactor=2.0)
 
     def test_too_many_levels_are_refused(self):
         self.refused(np.zeros((20, 20, 20), "f4"), "levels", NumberOfLevels=30)

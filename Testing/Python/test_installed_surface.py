@@ -221,7 +221,7 @@ class UseTest(SurfaceTest):
 
     def test_no_iso_value(self):
         self.run_on(ball(), iso=None)
-        self.refused("IsoValue")
+        self.refused("Iso Value")
 
     def test_iso_value_out_of_range(self):
         self.run_on(ball(), iso=1000)
