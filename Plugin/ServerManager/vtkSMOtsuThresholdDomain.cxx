@@ -33,6 +33,12 @@ vtkPVDataInformation* DataOf(vtkSMSourceProxy* producer, unsigned int port)
   }
   return data;
 }
+
+/// What is known of an array that is chosen as SetInputArrayToProcess has it; null: it is not there.
+vtkPVArrayInformation* ArrayOf(vtkPVDataInformation* data, const std::string array[5])
+{
+  return data->GetArrayInformation(array[4].c_str(), std::atoi(array[3].c_str()));
+}
 }
 
 //------------------------------------------------------------------------------
@@ -120,14 +126,16 @@ double vtkSMOtsuThresholdDomain::ComputeThreshold(const Choice& choice)
 }
 
 //------------------------------------------------------------------------------
-void vtkSMOtsuThresholdDomain::ChooseArray()
+void vtkSMOtsuThresholdDomain::ChooseArray(bool isNewInput)
 {
   const Choice choice = this->CurrentChoice();
   vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
-  vtkPVDataInformation* data =
-    choice.Producer ? DataOf(choice.Producer, choice.Port) : nullptr;
-  if (data &&
-    !data->GetArrayInformation(choice.Array[4].c_str(), std::atoi(choice.Array[3].c_str())))
+  if (!choice.Producer || (choice.HasArray() && !isNewInput))
+  {
+    return;
+  }
+  vtkPVDataInformation* data = DataOf(choice.Producer, choice.Port);
+  if (data && !ArrayOf(data, choice.Array))
   {
     selection->ResetToDomainDefaults();
   }
@@ -138,7 +146,7 @@ int vtkSMOtsuThresholdDomain::SetDefaultValues(vtkSMProperty* property, bool use
 {
   if (!useUncheckedValues)
   {
-    this->ChooseArray();
+    this->ChooseArray(false);
   }
   const Choice choice = this->CurrentChoice();
   const double threshold = this->ComputeThreshold(choice);
@@ -165,8 +173,7 @@ void vtkSMOtsuThresholdDomain::UpdateRange(const Choice& choice)
     ? choice.Producer->GetDataInformation(choice.Port)
     : nullptr;
   const int association = std::atoi(choice.Array[3].c_str());
-  vtkPVArrayInformation* array =
-    data ? data->GetArrayInformation(choice.Array[4].c_str(), association) : nullptr;
+  vtkPVArrayInformation* array = data ? ArrayOf(data, choice.Array) : nullptr;
   const int count = array ? array->GetNumberOfComponents() : 1;
   if (count > 1)
   {
@@ -195,9 +202,15 @@ void vtkSMOtsuThresholdDomain::Follow(const Choice& choice)
   {
     return;
   }
-  this->ChooseArray();
+  this->ChooseArray(choice.Producer != this->Preset.Producer);
+  const Choice chosen = this->CurrentChoice();
+  vtkPVDataInformation* data = DataOf(chosen.Producer, chosen.Port);
+  if (!data || !ArrayOf(data, chosen.Array))
+  {
+    return; // The filter will say so.
+  }
   // In a panel nothing is real before Apply.
-  const bool isUnchecked = !(this->CurrentChoice(false) == this->CurrentChoice()) ||
+  const bool isUnchecked = !(this->CurrentChoice(false) == chosen) ||
     vtkSMPropertyHelper(property).GetAsDouble() != this->PresetValue;
   this->SetDefaultValues(property, isUnchecked);
   if (!isUnchecked && filter->GetObjectsCreated())

@@ -54,8 +54,8 @@ private:
     bool operator==(const Choice& other) const;
   };
   Choice CurrentChoice(bool useUnchecked = true);
-  /// Where none is chosen that the data has: what is known of the data may be from before its update.
-  void ChooseArray();
+  /// Where none is chosen, as of data that was never updated, or none that a new input has.
+  void ChooseArray(bool isNewInput);
   /// NaN if there is none.
   double ComputeThreshold(const Choice& choice);
   void UpdateRange(const Choice& choice);

@@ -4,10 +4,13 @@
 
 import gzip
 import importlib.util
+import io
 import os
+import plistlib
 import resource
 import struct
 import sys
+import tarfile
 import unittest
 
 import numpy as np
@@ -171,6 +174,53 @@ class FilesTest(DamageTest):
         self.cut("a.mrc", bytes(header) + noisy_ball().tobytes(), "it has [0-9]+ bytes of voxels")
         struct.pack_into("<i", header, 12, 77)
         self.refused_file("a.mrc", bytes(header) + noisy_ball().tobytes(), "mode 77 is no type")
+
+    def inv3(self, files):
+        """A project of these files (name, bytes), in a folder."""
+        with tarfile.open(self.path("a.inv3"), "w:gz") as archive:
+            for name, data in files:
+                member = tarfile.TarInfo("folder/" + name)
+                member.size = len(data)
+                archive.addfile(member, io.BytesIO(data))
+        with open(self.path("a.inv3"), "rb") as file:
+            return file.read()
+
+    def test_invesalius_project(self):
+        medical_files.write_inv3(self.path("a.inv3"), noisy_ball(), SPACING)
+        with open(self.path("a.inv3"), "rb") as file:
+            content = file.read()
+        self.cut("a.inv3", content, "cut off|damaged", rests=(0.5, -10, -1, 100))
+        flipped = bytearray(content)
+        flipped[len(flipped) // 2] ^= 4
+        self.refused_file("a.inv3", flipped, "cut off|damaged")
+
+    def test_what_is_no_invesalius_project(self):
+        voxels = ("matrix.dat", noisy_ball().tobytes())
+
+        def plist(**changes):
+            project = {"matrix": {"dtype": "int16", "filename": "matrix.dat",
+                                  "shape": list(noisy_ball().shape)},
+                       "spacing": SPACING.tolist(), **changes}
+            return "main.plist", plistlib.dumps(project)
+
+        shape = [int(n) for n in noisy_ball().shape]
+        for files, reason in (
+                ([voxels], "no main.plist in it"), ([plist()], "no matrix.dat in it"),
+                ([voxels, ("main.plist", b"<plist><dict>")], "main.plist cannot be parsed"),
+                ([voxels, ("main.plist", bytes(2 << 20))], "too large"),
+                ([voxels, plist(spacing=[1.0, 1.0])], "'spacing' has not three numbers"),
+                ([voxels, plist(spacing=[1.0, 1.0, -1.0])], "distance of the voxels is not positive"),
+                ([voxels, plist(spacing=["a", "b", "c"])], "'a' is not a number"),
+                ([voxels, plist(matrix={"dtype": "int16"})], "lacks 'shape'"),
+                ([voxels, plist(matrix={"dtype": "object", "shape": shape})], "'object'"),
+                ([voxels, plist(matrix={"dtype": "int16", "shape": [0, 4, 4]})], "0 x 4 x 4"),
+                ([voxels, plist(matrix={"dtype": "int16", "shape": [1 << 30] * 3})],
+                 "the sizes in main.plist ask for"),
+                ([voxels, plist(matrix={"dtype": "int32", "shape": shape})],
+                 "the sizes in main.plist ask for")):
+            with self.subTest(reason):
+                self.refused_file("a.inv3", self.inv3(files), reason)
+        self.refused_file("a.inv3", b"no archive at all", "is none|cut off")
 
     @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
     def test_minc(self):

@@ -10,6 +10,7 @@ import sys
 import unittest
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkBYUReader, vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkMetaImageWriter, vtkPNGWriter, vtkTIFFWriter
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkStructuredPointsWriter
@@ -21,7 +22,10 @@ from tool_test_case import (
     CENTRE, ISO, ORIGIN, RADIUS, SIZE, SPACING, TURNED, ToolTestCase, ball, make_image)
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "Python"))
-import medical_files  # pylint: disable=wrong-import-position
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "..", "Examples", "Python"))
+# pylint: disable=wrong-import-position
+import medical_files
+from read_inv3 import read_inv3
 
 
 class VolumesTest(ToolTestCase):
@@ -76,6 +80,22 @@ class VolumesTest(ToolTestCase):
                             iso=ISO / 2 - 100)
         self.assertEqual(report["input"]["range"], (np.array([ball().min(), ball().max()]) / 2 - 100).tolist())
 
+    def test_invesalius_project(self):
+        for dtype in ("int16", "uint8", "float32"):
+            with self.subTest(dtype):
+                scale = 0.2 if dtype == "uint8" else 1
+                file = self.path("a.inv3")
+                medical_files.write_inv3(file, ball(dtype, scale), SPACING, dtype=dtype)
+                report = self.check(file, origin=np.zeros(3), iso=ISO * scale)
+                voxels = vtk_to_numpy(read_inv3(file).GetPointData().GetScalars())
+                self.assertEqual(report["input"]["range"], [voxels.min(), voxels.max()])
+                # The same surface, bit for bit, as of what the scripts read.
+                self.run_tool(file, self.path("a.ply"), "--iso", ISO * scale)
+                self.write(vtkXMLImageDataWriter(), "b.vti", read_inv3(file))
+                self.run_tool(self.path("b.vti"), self.path("b.ply"), "--iso", ISO * scale)
+                with open(self.path("a.ply"), "rb") as a, open(self.path("b.ply"), "rb") as b:
+                    self.assertEqual(a.read(), b.read())
+
     @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
     def test_minc(self):
         from vtkmodules.vtkIOMINC import vtkMINCImageWriter
@@ -126,10 +146,36 @@ class VolumesTest(ToolTestCase):
         self.refused("point arrays: density, other", self.path("a.vti"), self.path("a.stl"),
                      "--array", "missing")
 
+    def test_a_component_or_the_magnitude(self):
+        image = make_image(ball())
+        vectors = numpy_to_vtk(np.stack([ball() * 0 + 3, ball()], axis=-1).reshape(-1, 2), deep=True)
+        vectors.SetName("vectors")
+        image.GetPointData().SetScalars(vectors)
+        file = self.write(vtkXMLImageDataWriter(), "a.vti", image)
+        report = self.check(file, "--component", "1")
+        self.assertEqual(report["input"]["range"], [ball().min(), ball().max()])
+        self.check(file)
+        told = self.run_tool(file, self.path("a.stl"), "--iso", ISO).stderr
+        self.assertIn("magnitude of 2 components (--component)", told)
+        self.refused("Selected Component is 2, but array 'vectors' has 2 components", file,
+                     self.path("b.stl"), "--component", "2", "--iso", ISO)
+
+    def test_nan_voxels_are_told_or_refused(self):
+        voxels = ball("f4")
+        voxels[:, :, -2:] = np.nan
+        file = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(voxels))
+        self.check(file)
+        for way in ([], ["--edge-length", "1.2"]):
+            told = self.run_tool(file, self.path("a.stl"), "--iso", ISO, *way).stderr
+            self.assertEqual(told.count(f"{np.isnan(voxels).sum()} NaN voxels"), 1, told)
+        self.refused("NaN voxels", file, self.path("b.stl"), "--refuse-nan", "--iso", ISO)
+
     def test_bad_volumes(self):
         self.refused("no such file", self.path("missing.vti"), self.path("a.stl"))
         self.refused("suffix", self.write_bytes("a.vti", b"not an image"), self.path("a.stl"))
         self.refused("a.xyz.*not a format", self.write_bytes("a.xyz", b"?"), self.path("a.stl"))
+        said = self.run_tool(self.path("a.xyz"), self.path("a.stl"), status=1).stderr
+        self.assertEqual(len(said.splitlines()), 1, "readers that were asked complain: " + said)
         header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
         self.refused("damaged", self.write_bytes("a.nrrd", header + b"\nnothing"),
                      self.path("a.stl"))

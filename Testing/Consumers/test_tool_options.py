@@ -24,10 +24,10 @@ from tool_test_case import (
     CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SIZE, SPACING, ToolTestCase, ball, make_image)
 from volumic import vtkDeformableSurface, vtkImagePyramid
 
-# What is set in another way: inputs, and the threads of the pyramid, which are the surface's.
+# What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData"},
-               "vtkImagePyramid": {"NumberOfThreads"}}
+               "vtkImagePyramid": {"NaNIsBackground", "NumberOfThreads", "SelectedComponent"}}
 
 
 def properties_of(filter_class, base_class):
@@ -70,7 +70,7 @@ class OptionTableTest(ToolTestCase):
             "initialization": "iso-surface", "coarsest": "0", "finest": "0", "seed-radius": "1.5",
             "minimum-level-size": "12", "iterations": "400", "threads": "1",
             "minimum-part-size": "7", "snapshot-interval": "50",
-            "metric": "voxels", "edge-length": "1.1", "keep": "largest"}
+            "component": "0", "metric": "voxels", "edge-length": "1.1", "keep": "largest"}
         before = self.report(volume, "--iso", ISO)["properties"]
         for _, name, option, default in self.table():
             option = option[2:]

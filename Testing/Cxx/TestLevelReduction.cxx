@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AxisOperator.h"
 #include "LevelReduction.h"
+#include "ValidReduction.h"
 
 #include <gtest/gtest.h>
 
@@ -234,4 +235,58 @@ TEST(FindNotFiniteVoxels, FindsNoneInIntegers)
   const std::vector<int> voxels(10, std::numeric_limits<int>::max());
   SequentialExecutor executor;
   EXPECT_EQ(FindNotFiniteVoxels(voxels.data(), 10, executor).Count, 0);
+}
+
+TEST(ValidReduction, IsTheMeanOfTheVoxelsWithAValue)
+{
+  const auto levels = TwoLevels({ 30, 20, 24 });
+  SequentialExecutor executor;
+  // Some have none: the mean of the others is theirs, whatever stands at these places.
+  std::vector<std::uint8_t> valid(levels[0].NumberOfVoxels());
+  std::vector<short> voxels(valid.size());
+  for (std::size_t i = 0; i < valid.size(); ++i)
+  {
+    valid[i] = i % 5 == 0 ? 0 : 1;
+    voxels[i] = i % 5 == 0 ? -9999 : 40;
+  }
+  std::vector<float> out(levels[1].NumberOfVoxels());
+  std::vector<double> shares;
+  EXPECT_TRUE(ReduceValidVoxels(voxels.data(), valid, levels[0], out.data(), levels[1], executor,
+    [&](double share)
+    {
+      shares.push_back(share);
+      return true;
+    }));
+  for (const float value : out)
+  {
+    ASSERT_NEAR(value, 40.f, 1e-4f);
+  }
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1.0);
+  EXPECT_EQ(MarkNumbers(out.data(), 3), std::vector<std::uint8_t>(3, 1));
+}
+
+TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
+{
+  const auto levels = TwoLevels({ 30, 20, 24 });
+  SequentialExecutor executor;
+  std::vector<std::uint8_t> valid(levels[0].NumberOfVoxels());
+  for (std::size_t i = 0; i < valid.size(); ++i)
+  {
+    valid[i] = i % 30 < 15 ? 1 : 0;
+  }
+  const std::vector<double> voxels(valid.size(), 7.0);
+  std::vector<double> out(levels[1].NumberOfVoxels());
+  EXPECT_TRUE(ReduceValidVoxels(
+    voxels.data(), valid, levels[0], out.data(), levels[1], executor, GoOn));
+  const auto size = levels[1].Size;
+  for (std::int64_t i = 0; i < levels[1].NumberOfVoxels(); ++i)
+  {
+    // Voxels of level 0 end at 14; half of the kernel lies beyond 14.5.
+    const double place = static_cast<double>(i % size[0]) * 30.0 / static_cast<double>(size[0]);
+    ASSERT_EQ(std::isnan(out[i]), place > 14.5) << place;
+    ASSERT_TRUE(std::isnan(out[i]) || std::abs(out[i] - 7.0) < 1e-6);
+  }
+  EXPECT_EQ(MarkNumbers(out.data(), 1)[0], 1);
+  EXPECT_EQ(MarkNumbers(&out[size[0] - 1], 1)[0], 0);
 }

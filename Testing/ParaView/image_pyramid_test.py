@@ -136,7 +136,8 @@ class ImagePyramidTest(unittest.TestCase):
     def test_error_for_voxels_that_are_no_numbers(self):
         values = numpy.ones((12, 12, 12), numpy.float32)
         values[3, 4, 5] = values[6, 7, 8] = numpy.nan
-        self.check_error(["2", "5", "4", "3"], testing.produce(testing.make_image(values)))
+        self.check_error(["2", "5", "4", "3"], testing.produce(testing.make_image(values)),
+                         NaNIsBackground=0)
 
     def test_error_for_too_many_levels(self):
         self.check_error(["20"], simple.Wavelet(), NumberOfLevels=20)

@@ -123,6 +123,24 @@ class InputsTest(unittest.TestCase):
                 filter_.Input = first
                 self.assertEqual(filter_.IsoValue, 5.0)
 
+    def test_array_of_a_new_input(self):
+        first = testing.produce(image(density=ball()))
+        second = testing.produce(image(other=ball(1000, 2000)))
+        for name in SURFACES:
+            with self.subTest(filter=name):
+                filter_ = getattr(simple, name)(first)
+                filter_.Input = second
+                self.assertEqual(list(filter_.Voxels), ["POINTS", "other"])
+                self.check_ball(filter_)
+                # One that someone has chosen stays, even if it is not there.
+                with testing.CapturedMessages() as messages:
+                    filter_.Voxels = ["POINTS", "absent"]
+                self.assertEqual(messages.text, "")
+                self.assertEqual(list(filter_.Voxels), ["POINTS", "absent"])
+                with testing.CapturedMessages() as messages:
+                    self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
+                self.assertIn("'absent'", messages.text)
+
     def test_preset_of_a_pyramid_is_that_of_its_level_0(self):
         source = testing.produce(image(density=ball()))
         of_image = simple.DeformableSurface(source)

@@ -56,9 +56,9 @@ def nifti(voxels, spacing, sform=None, qfac=1, offset=(0, 0, 0), slope=1, interc
     return bytes(header) + voxels.astype("<i2").tobytes()
 
 
-def write_inv3(path, voxels, spacing, shape=None):
+def write_inv3(path, voxels, spacing, shape=None, dtype="int16"):
     """An InVesalius project with nothing but its volume."""
-    project = {"matrix": {"dtype": "int16", "filename": "matrix.dat",
+    project = {"matrix": {"dtype": dtype, "filename": "matrix.dat",
                           "shape": list(shape or voxels.shape)},
                "spacing": [float(s) for s in spacing], "orientation": 1}
     with tarfile.open(path, "w:gz") as archive:

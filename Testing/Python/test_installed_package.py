@@ -191,7 +191,17 @@ class PyramidTest(unittest.TestCase):
     def test_nan_is_refused_with_its_place(self):
         voxels = np.zeros((20, 20, 20), "f4")
         voxels[4, 3, 2] = voxels[9, 9, 9] = np.nan
-        self.refused(voxels, r"2 NaN or infinite voxels.*\(2, 3, 4\)")
+        self.refused(voxels, r"2 NaN voxels.*\(2, 3, 4\)", NaNIsBackground=False)
+
+    def test_nan_is_background(self):
+        voxels = np.ones((20, 20, 20), "f4")
+        voxels[:, :, 10:] = np.nan
+        self.pyramid.AddObserver("WarningEvent", lambda *_: None)
+        output = self.output_of(voxels)
+        self.assertEqual(output.GetFieldData().GetArray("NaNVoxels").GetValue(0), 4000)
+        row = vtk_to_numpy(output.GetBlock(1).GetPointData().GetScalars())[:11]
+        np.testing.assert_allclose(row[:5], 1.0, atol=1e-6)
+        self.assertTrue(np.isnan(row[-4:]).all())
 
     def test_factor_of_two_is_refused(self):
         self.refused(np.zeros((20, 20, 20), "f4"), "Reduction Factor.*2", ReductionFactor=2.0)

@@ -90,6 +90,9 @@ class PropertiesTest(ReferenceTest):
     def test_volume_to_surface(self):
         self.check(volumic.vtkVolumeToSurface)
 
+    def test_threshold(self):
+        self.check(volumic.vtkOtsuThreshold)
+
     def test_no_class_is_left_out(self):
         classes = [name for name in dir(volumic) if re.fullmatch(r"vtk[A-Z]\w+", name)
                    and hasattr(getattr(volumic, name), "GetOutputPort")]

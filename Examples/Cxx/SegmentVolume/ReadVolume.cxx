@@ -251,8 +251,13 @@ Image ReadByContent(const std::string& name)
   {
     return ReadDicomFile(name);
   }
-  auto reader = vtkSmartPointer<vtkImageReader2>::Take(
-    vtkImageReader2Factory::CreateImageReader2(name.c_str()));
+  vtkSmartPointer<vtkImageReader2> reader;
+  VtkMessages ignored; // Some of those that are asked complain of what they don't know.
+  ignored.Catch(
+    [&]
+    {
+      reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str()));
+    });
   if (!reader)
   {
     throw Failure(name + ": not a format that VTK's readers know");
@@ -289,6 +294,7 @@ Reader ChooseReader(const std::string& name)
 #ifdef VOLUMIC_HAS_MINC
     { ".mnc", ReadMinc },
 #endif
+    { ".inv3", ReadInv3 },
     { ".mrc", ReadMrc },
     { ".ccp4", ReadMrc },
     { ".slc", ReadIfItsFormat<vtkSLCReader> },
@@ -355,7 +361,7 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
   }
 }
 
-void ChooseScalars(vtkImageData* image, const std::string& name, int component)
+void ChooseScalars(vtkImageData* image, const std::string& name)
 {
   vtkPointData* points = image->GetPointData();
   vtkDataArray* array = name.empty() ? points->GetScalars() : points->GetArray(name.c_str());
@@ -372,20 +378,6 @@ void ChooseScalars(vtkImageData* image, const std::string& name, int component)
     }
     throw Failure((name.empty() ? "the volume has no active scalars" : "no point array " + name) +
       (names.empty() ? "; there are no point arrays" : "; point arrays: " + names));
-  }
-  const int count = array->GetNumberOfComponents();
-  if (component >= count || (component < 0 && count != 1))
-  {
-    throw Failure(NumberText(count) + " components per voxel; choose one with --component");
-  }
-  if (count > 1)
-  {
-    auto chosen = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
-    chosen->SetNumberOfTuples(array->GetNumberOfTuples());
-    chosen->CopyComponent(0, array, component);
-    chosen->SetName(array->GetName() ? array->GetName() : "Intensity");
-    points->SetScalars(chosen);
-    return;
   }
   if (!array->GetName())
   {

@@ -20,14 +20,18 @@ namespace tool
  */
 vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name);
 
-/// Make the array (empty: the active scalars, or the only one) with one component (the chosen one
-/// if it is not negative) the active scalars. @throws Failure if there is none.
-void ChooseScalars(vtkImageData* image, const std::string& array, int component);
+/// Make the array (empty: the active scalars, or the only one) the active scalars.
+/// @throws Failure if there is none.
+void ChooseScalars(vtkImageData* image, const std::string& array);
 
 // ---- The parts, each in its file ----------------------------------------------------------------
 
 /// NRRD (.nrrd, .nhdr; encodings raw, gzip, text), in the file's `space`.
 vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name);
+
+/// The volume of an InVesalius project (.inv3), unit mm, its axes as they are stored: the world axes
+/// are L, A, S.
+vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name);
 
 /// The slices of one series, in DICOM's patient coordinates (LPS, mm), sorted by position.
 vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files);

@@ -4,6 +4,7 @@
 
 #include "JsonWriter.h"
 #include "ParseNumbers.h"
+#include "VolumeImage.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
@@ -37,7 +38,8 @@ void WriteInput(JsonWriter& json, const ReportInput& input)
   json.Numbers("spacing", input.Volume->GetSpacing(), 3);
   json.Numbers("origin", input.Volume->GetOrigin(), 3);
   json.Member("scalar_type", scalars->GetDataTypeAsString());
-  json.Numbers("range", scalars->GetRange(0), 2);
+  json.Numbers(
+    "range", RangeOf(scalars, input.Filters.Surface->GetSelectedComponent()).data(), 2);
   json.EndObject();
 }
 

@@ -55,15 +55,6 @@ ProgramOption Show(const char* option, enum SegmentOptions::Task task, const cha
     [task](SegmentOptions& options, const std::string&) { options.Task = task; } };
 }
 
-void SetComponent(SegmentOptions& options, const std::string& text)
-{
-  options.Component = ParseNumber<int>(text);
-  if (options.Component < 0)
-  {
-    throw UsageError("components are counted from 0");
-  }
-}
-
 void SetSpacing(SegmentOptions& options, const std::string& text)
 {
   const std::vector<double> numbers = ParseNumbers(text, 3);
@@ -79,8 +70,6 @@ const std::vector<ProgramOption>& InputOptions()
   static const std::vector<ProgramOption> options = {
     Text("array", "NAME", &SegmentOptions::Array,
       "the point array of the volume to use; without this option the active scalars"),
-    { "component", "N", "the component to use of voxels that have several, counted from 0",
-      SetComponent },
     { "spacing", "X,Y,Z",
       "distances of neighbouring voxels along the three axes, instead of the file's", SetSpacing },
     Text("seeds", "FILE", &SegmentOptions::Seeds,

@@ -30,7 +30,6 @@ struct SegmentOptions
   std::string Volume;                ///< file, folder or pattern
   std::vector<std::string> Surfaces; ///< files to write, at least one, unless the rest is asked for
   std::string Array;                 ///< point array of the volume; empty: the active one
-  int Component = -1;                ///< of the voxels; -1: there must be one only
   std::optional<std::array<double, 3>> Spacing; ///< instead of the file's, world units
   std::string Seeds;                            ///< file of points
   std::string InitialSurface;                   ///< file of a closed surface

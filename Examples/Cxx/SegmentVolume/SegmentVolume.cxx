@@ -12,6 +12,7 @@
 #include "RunFilter.h"
 #include "SegmentOptions.h"
 #include "ToolErrors.h"
+#include "VolumeImage.h"
 #include "WriteResults.h"
 
 #include <vtkDataArray.h>
@@ -31,6 +32,7 @@
 #include <vtkVolumeToSurface.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -110,12 +112,14 @@ void CheckFiles(const SegmentOptions& options)
   CheckOutputs(outputs, inputs);
 }
 
-vtkSmartPointer<vtkImageData> LoadVolume(const SegmentOptions& options, const Announcer& announcer)
+/// @param component of its voxels, -1: the magnitude
+vtkSmartPointer<vtkImageData> LoadVolume(
+  const SegmentOptions& options, int component, const Announcer& announcer)
 {
   const vtkSmartPointer<vtkImageData> image = ReadVolume(options.Volume);
   try
   {
-    ChooseScalars(image, options.Array, options.Component);
+    ChooseScalars(image, options.Array);
   }
   catch (const Failure& failure)
   {
@@ -130,9 +134,15 @@ vtkSmartPointer<vtkImageData> LoadVolume(const SegmentOptions& options, const An
   const double* spacing = image->GetSpacing();
   const auto times = [](auto a, auto b, auto c)
   { return NumberText(a) + " x " + NumberText(b) + " x " + NumberText(c); };
+  const std::array<double, 2> range = RangeOf(scalars, component);
+  const int components = scalars->GetNumberOfComponents();
+  const std::string taken = components == 1
+    ? ""
+    : (component < 0 ? "magnitude" : "component " + NumberText(component)) + " of " +
+      NumberText(components) + " components (--component), ";
   announcer.Say(options.Volume + ": " + times(size[0], size[1], size[2]) + " voxels of " +
     times(spacing[0], spacing[1], spacing[2]) + ", " + scalars->GetDataTypeAsString() + ", " +
-    NumberText(scalars->GetRange(0)[0]) + " to " + NumberText(scalars->GetRange(0)[1]));
+    taken + NumberText(range[0]) + " to " + NumberText(range[1]));
   return image;
 }
 
@@ -184,7 +194,7 @@ void SetEdges(const SegmentOptions& options, vtkImageData* volume, vtkDeformable
   if (!points->HasArray(name.c_str()))
   {
     const vtkSmartPointer<vtkImageData> edges = ReadVolume(options.Edges);
-    ChooseScalars(edges, "", -1);
+    ChooseScalars(edges, "");
     if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
     {
       throw Failure(options.Edges + ": its size differs from the volume's");
@@ -306,6 +316,8 @@ FilterRun GiveLevels(const SegmentOptions& options, vtkImageData* volume, vtkIma
     whole->SetInputData(volume);
     return FilterRun();
   }
+  pyramid->SetSelectedComponent(filter->GetSelectedComponent());
+  pyramid->SetNaNIsBackground(filter->GetNaNIsBackground());
   pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
   pyramid->SetInputData(volume);
   const FilterRun run = RunOnVolume(options, pyramid, "Building the pyramid", style);
@@ -322,13 +334,15 @@ ExitCode Segment(
 {
   const Announcer announcer(options);
   CheckFiles(options);
-  const vtkSmartPointer<vtkImageData> volume = LoadVolume(options, announcer);
+  const vtkSmartPointer<vtkImageData> volume =
+    LoadVolume(options, filter->GetSelectedComponent(), announcer);
   SetStart(options, filter);
   SetEdges(options, volume, filter);
   if (!options.HasProperty("IsoValue"))
   {
     vtkNew<vtkOtsuThreshold> otsu;
     otsu->SetInputData(volume);
+    otsu->SetSelectedComponent(filter->GetSelectedComponent());
     RunOnVolume(options, otsu, "Otsu's threshold", ProgressStyle::None);
     filter->SetIsoValue(otsu->GetThreshold());
     announcer.Say("iso-value " + NumberText(filter->GetIsoValue()) +
@@ -342,9 +356,12 @@ ExitCode Segment(
   CatchInterrupts();
   const FilterRun pyramidRun = GiveLevels(options, volume, pyramid, filter, announcer.Style);
   const FilterRun run = RunOnVolume(options, filter, "Evolving the surface", announcer.Style);
-  for (const std::string& warning : run.Warnings)
+  for (const FilterRun& each : { pyramidRun, run })
   {
-    announcer.Say("warning: " + warning);
+    for (const std::string& warning : each.Warnings)
+    {
+      announcer.Say("warning: " + warning);
+    }
   }
 
   vtkPolyData* surface = filter->GetOutput();

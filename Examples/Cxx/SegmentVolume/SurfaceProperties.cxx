@@ -83,6 +83,10 @@ std::vector<PropertyOption> MakeProperties()
       "the value of the image at the surface that is searched, in the units of the voxels; without "
       "this option Otsu's threshold of the image, which is told"),
     SURFACE_SWITCH(ObjectIsBright, false, "dark", "the object is where the image is below --iso"),
+    SURFACE_NUMBER(SelectedComponent, "component", "N",
+      "the component to use of voxels that have several, counted from 0; -1: their magnitude"),
+    SURFACE_SWITCH(NaNIsBackground, false, "refuse-nan",
+      "refuse voxels that are NaN, which are background otherwise"),
     PYRAMID_NUMBER(NumberOfLevels, "levels", "N",
       "levels of the pyramid, the image itself included; 0: as many as --minimum-level-size "
       "allows"),

@@ -13,6 +13,13 @@
 
 namespace tool
 {
+std::array<double, 2> RangeOf(vtkDataArray* values, int component)
+{
+  std::array<double, 2> range;
+  values->GetRange(range.data(), values->GetNumberOfComponents() == 1 ? 0 : component);
+  return range;
+}
+
 double Dot(const Vector3& a, const Vector3& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

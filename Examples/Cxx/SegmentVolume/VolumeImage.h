@@ -38,6 +38,9 @@ vtkSmartPointer<vtkImageData> MakeImage(
 /// An array of float: slope times value plus shift.
 vtkSmartPointer<vtkDataArray> Rescaled(vtkDataArray* values, double slope, double shift);
 
+/// The smallest and the largest of a component, or, for -1, of the magnitude.
+std::array<double, 2> RangeOf(vtkDataArray* values, int component);
+
 double Dot(const Vector3& a, const Vector3& b);
 Vector3 Cross(const Vector3& a, const Vector3& b);
 }
