@@ -201,6 +201,8 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
       std::count(contact->GetPointer(0), contact->GetPointer(surface.Points.size()), 1)));
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
+  AddField<vtkIntArray>(polyData, "MissingParts", description.MissingParts);
+  AddField<vtkDoubleArray>(polyData, "MissingBoundary", description.MissingBoundary);
   AddField<vtkIntArray>(polyData, "LostCavities", description.LostCavities);
   AddField<vtkIntArray>(polyData, "RecoveredCavities", description.RecoveredCavities);
   if (description.TotalIterations >= 0)

@@ -327,18 +327,36 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   }
 }
 
-void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
+void SurfaceSegmentation::WarnOfResult(const SurfaceDescription& end, bool keepsNone)
 {
-  // The field data tell it of every level; only what stays lost in the end is worth a warning.
-  const int missing = lost.Found - lost.Enclosed;
-  if (missing > 0 && level == this->LastLevel)
+  // The field data tell the rest; what is worth a warning needs another choice to be made.
+  constexpr double notable = 0.01;
+  if (end.StopReason == Describe(StopReason::Vanished))
   {
-    this->Settings.Warn(Join("Level ", level, " shows ", lost.Found, " part",
-      lost.Found == 1 ? "" : "s", " of the object that the surface lost at level ", level + 1, "; ",
-      missing, missing == 1 ? " is" : " are", " not found again. ",
-      this->Settings.Options.RecoverLostParts ? "They lie too close to the surface for one of their "
-                                                "own; a finer Coarsest Level may keep more."
-                                              : "Turn Recovery on to find them."));
+    this->Settings.Warn(Join("Nothing is left of the surface at level ", end.Level,
+      ": the object is too thin for it. ",
+      this->Coarsest > 0
+        ? "Set Coarsest Level to a finer level."
+        : "No level is finer: check Iso Value and Object Is Bright, or resample the image."));
+  }
+  else if (keepsNone)
+  {
+    this->Settings.Warn(
+      Join("Level ", end.Level, ": Keep Components leaves none of the components."));
+  }
+  else if (end.MissingBoundary > notable && this->Settings.Options.RecoverLostParts)
+  {
+    const int lost = end.LostParts + end.LostCavities;
+    this->Settings.Warn(Join(std::lround(100.0 * end.MissingBoundary),
+      " % of the object's boundary at level ", end.Level, " is not on the surface: of ", lost,
+      lost == 1 ? " part" : " parts", " that coarser levels had lost ", end.MissingParts,
+      end.MissingParts == 1 ? " is" : " are",
+      " still missing, and thin ends of others. They are too thin for triangles of this size, or too "
+      "near to the rest. ",
+      end.Level > 0
+        ? "Set Finest Level to a finer level."
+        : (end.Level == 0 ? "Set Finest Level to -1, which has smaller ones, or resample the image."
+                          : "Resample the image more finely.")));
   }
 }
 
@@ -355,31 +373,24 @@ bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
     const SurfaceEvolution::LostParts lost = evolution.Lost();
     description.LostParts = lost.Found;
     description.RecoveredParts = lost.Enclosed;
+    description.MissingParts = lost.Missing;
+    description.MissingBoundary = lost.MissingBoundary;
     description.LostCavities = lost.FoundCavities;
     description.RecoveredCavities = lost.EnclosedCavities;
   }
   const SurfaceResult surface = evolution.Result();
   const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
-  if (kept.Points.empty() && !surface.Points.empty())
-  {
-    this->Settings.Warn(Join("Level ", level, ": Keep Components leaves none of the components."));
-  }
   this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
   this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
   evolution.EndLevel();
-  // With recovery a finer level may find again what has vanished.
-  if (reason == StopReason::Vanished &&
-    (level == this->LastLevel || !this->Settings.Options.RecoverLostParts))
-  {
-    this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
-      ": the object is too thin for it. ",
-      this->Coarsest > 0
-        ? "Set Coarsest Level to a finer level."
-        : "No level is finer: check Iso Value and Object Is Bright, or resample the image."));
-  }
-  return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
+  const bool goesOn = reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
+  if (reason != StopReason::Cancelled && (level == this->LastLevel || !goesOn))
+  {
+    this->WarnOfResult(description, kept.Points.empty() && !surface.Points.empty());
+  }
+  return goesOn;
 }
 
 void SurfaceSegmentation::Run()
@@ -425,11 +436,7 @@ void SurfaceSegmentation::RunLevels(HostThreads& threads, ProgressMonitor& monit
     {
       this->Start(evolution, image);
     }
-    else if (evolution.Divide(image, level))
-    {
-      this->WarnOfLostParts(level, evolution.Lost());
-    }
-    else
+    else if (!evolution.Divide(image, level))
     {
       this->MarkCancelled(level);
       break;

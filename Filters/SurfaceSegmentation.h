@@ -10,6 +10,7 @@
 #include "KeepComponents.h"
 #include "ProgressMonitor.h"
 #include "PyramidLevels.h"
+#include "SurfaceOutput.h"
 #include "SurfaceSnapshots.h"
 
 #include <vtkSmartPointer.h>
@@ -100,7 +101,7 @@ private:
   void RunLevels(HostThreads& threads, ProgressMonitor& monitor);
   bool RunLevel(SurfaceEvolution& evolution, int level);
   void MarkCancelled(int level);
-  void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);
+  void WarnOfResult(const SurfaceDescription& end, bool keepsNone);
 
   SegmentationSettings Settings;
   PyramidLevels Pyramid;

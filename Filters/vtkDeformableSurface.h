@@ -57,7 +57,10 @@
  * in turn; finished like one that rests; `iteration limit`; `cancelled`; `vanished`),
  * `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of vertices nearer
  * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
- * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
+ * `RecoveredParts`, `MissingParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery),
+ * `MissingBoundary` (double, 0 to 1: the share of the object's boundary that belongs to parts found
+ * by Recovery, which counts them also where it is off, and lies farther than two units from any
+ * vertex of the surface at rest; smaller parts than MinimumPartSize don't count) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
  * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration` (int): the number
@@ -92,8 +95,10 @@
  * those of the workspace that Metric chooses. Results are the same bits for any number of threads.
  *
  * @par Errors:
- * A message names the port, the array or the value, and the way out; the outputs are empty. A
- * warning tells when parts of the object were lost at a level, or when nothing is left.
+ * A message names the port, the array or the value, and the way out; the outputs are empty. At
+ * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if, with
+ * Recovery, `MissingBoundary` is more than 0.01 at the finest level. Nothing else is warned of: the
+ * field data tell it.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
@@ -405,7 +410,7 @@ public:
    * with cavities, which a surface that comes from outside cannot reach otherwise (seeds in the
    * object and the start from the iso-surface can); NoRecovery is the paper's behaviour, where only
    * what is connected to the surface is found again. Field data and History tell how many parts
-   * were found.
+   * were found, `MissingParts` and `MissingBoundary` what of them the surface has not got in the end.
    */
   vtkSetMacro(Recovery, int);
   vtkGetMacro(Recovery, int);
