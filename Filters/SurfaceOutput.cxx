@@ -226,11 +226,11 @@ void SetStopReason(vtkPolyData* surface, const std::string& reason)
   AddField<vtkStringArray>(surface, "StopReason", reason.c_str());
 }
 
-vtkSmartPointer<vtkPolyData> MakeCancelled(int level)
+vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason)
 {
   SurfaceDescription description;
   description.Level = level;
-  description.StopReason = Describe(StopReason::Cancelled);
+  description.StopReason = reason;
   return MakePolyData(SurfaceResult(), description, Workspace());
 }
 

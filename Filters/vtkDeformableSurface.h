@@ -54,7 +54,7 @@
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
  * `Area`, `Volume` (double), `StopReason` (string:
  * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
- * in turn; finished like one that rests; `iteration limit`; `cancelled`; `vanished`),
+ * in turn; finished like one that rests; `iteration limit`; `cancelled`; `time limit`; `vanished`),
  * `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of vertices nearer
  * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
  * `RecoveredParts`, `MissingParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery),
@@ -114,6 +114,17 @@
  * gives it again. To run anew call Modified() first, or change an input or a property; the request
  * to stop is forgotten then.
  *
+ * @par Going on:
+ * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,
+ * Preview, TimeLimit or NumberOfThreads, and nothing else changed, neither in the filter nor in its
+ * inputs, a level at which the surface has rested is shown at once, and a finer one is reached from
+ * the level at which the last run has ended (FinestLevel 2, then 0). The outputs are the same bits as
+ * those of a run from the start, but for the seconds in History. To go on it holds the surface and
+ * the pyramid, and these only where the run has ended at level 1 or above, so that no memory of
+ * level 0 is held; else no more than the surfaces of the levels. A run that was cancelled or ran out
+ * of time begins anew. ForgetRun() frees all of it; nothing is kept after an error, where ReleaseDataFlag
+ * is on, or where an input's data are released.
+ *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
  * Triangulated Surface", ECCV 1996.
@@ -127,6 +138,8 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For the levels
+
+#include <memory> // For what is hidden
 
 class vtkAlgorithmOutput;
 class vtkImageData;
@@ -279,7 +292,7 @@ public:
    * What belongs to this level is called level -1: in the field data, in the history, and as
    * `Level -1`, the last block of the output Levels, after those of the pyramid.
    */
-  vtkSetMacro(FinestLevel, int);
+  void SetFinestLevel(int level);
   vtkGetMacro(FinestLevel, int);
   ///@}
 
@@ -476,9 +489,34 @@ public:
   /**
    * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  void SetNumberOfThreads(int number);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
+
+  ///@{
+  /**
+   * Seconds after which a run ends with the surface as it is then, `StopReason` `time limit`; 0,
+   * the default: none. They count from the start of RequestData(), the pyramid that is built there
+   * included, and are looked at as often as AbortExecute, so that a run may be some tenths longer.
+   * Levels at rest before stay in Levels; a run that has no surface yet gives an empty one.
+   */
+  void SetTimeLimit(double seconds);
+  vtkGetMacro(TimeLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * End at a coarse level, fine enough to judge an IsoValue: the finest from FinestLevel on that has
+   * at most a million voxels, or the coarsest of the run if none has. Switched off, the run goes on
+   * from there (see Going on). Default: off.
+   */
+  void SetPreview(bool preview);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
+  /** Frees what is kept of the last run, see Going on. */
+  void ForgetRun();
 
   ///@{
   /**
@@ -579,10 +617,18 @@ protected:
   bool FreezeMotionlessVertices;
   bool SnapToIsoValue;
   int NumberOfThreads;
+  double TimeLimit;
+  bool Preview;
   bool Profile;
   int SnapshotInterval;
 
 private:
+  class vtkInternals;
+  template <typename T>
+  void SetForTheEnd(T& property, T value);
+  void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
+  std::unique_ptr<vtkInternals> Internals;
+
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;
   void operator=(const vtkDeformableSurface&) = delete;
 };
