@@ -20,7 +20,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace volumic
 {
@@ -52,6 +55,38 @@ void AddComponentField(
     }
   }
   polyData->GetFieldData()->AddArray(array);
+}
+
+/// The same value for all triangles of a component, so that filters of cells can choose by it.
+template <typename Array, typename Get>
+void AddComponentOfCells(
+  vtkPolyData* polyData, const char* name, const SurfaceFeatures& features, const Get& get)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(features.ComponentOfTriangle.size()));
+  for (std::size_t t = 0; t < features.ComponentOfTriangle.size(); ++t)
+  {
+    array->SetValue(static_cast<vtkIdType>(t),
+      static_cast<typename Array::ValueType>(
+        get(features.Components[features.ComponentOfTriangle[t]])));
+  }
+  polyData->GetCellData()->AddArray(array);
+}
+
+/// The size that 98 % of the residuals don't exceed; 0 for none.
+double ResidualQuantile(const std::vector<float>& residuals)
+{
+  if (residuals.empty())
+  {
+    return 0.0;
+  }
+  std::vector<float> sizes(residuals.size());
+  std::transform(residuals.begin(), residuals.end(), sizes.begin(),
+    [](float residual) { return std::abs(residual); });
+  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * (sizes.size() - 1));
+  std::nth_element(sizes.begin(), place, sizes.end());
+  return *place;
 }
 
 void SetGeometry(vtkPolyData* polyData, const IndexedSurface& world)
@@ -117,6 +152,13 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features)
   std::copy(features.ComponentOfTriangle.begin(), features.ComponentOfTriangle.end(),
     component->GetPointer(0));
   polyData->GetCellData()->AddArray(component);
+  using Component = ComponentFeatures;
+  AddComponentOfCells<vtkFloatArray>(
+    polyData, "ComponentArea", features, [](const Component& c) { return c.Area; });
+  AddComponentOfCells<vtkFloatArray>(
+    polyData, "ComponentVolume", features, [](const Component& c) { return c.Volume; });
+  AddComponentOfCells<vtkIntArray>(
+    polyData, "ComponentGenus", features, [](const Component& c) { return c.Genus; });
 
   AddField<vtkIntArray>(
     polyData, "NumberOfComponents", static_cast<int>(features.Components.size()));
@@ -124,7 +166,6 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features)
   AddField<vtkIntArray>(polyData, "Genus", features.Genus);
   AddField<vtkDoubleArray>(polyData, "Area", features.Area);
   AddField<vtkDoubleArray>(polyData, "Volume", features.Volume);
-  using Component = ComponentFeatures;
   AddComponentField<vtkDoubleArray, 1>(
     polyData, "ComponentArea", features, [](const Component& c, int) { return c.Area; });
   AddComponentField<vtkDoubleArray, 1>(
@@ -199,6 +240,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   AddField<vtkIntArray>(polyData, "ContactVertices",
     static_cast<int>(
       std::count(contact->GetPointer(0), contact->GetPointer(surface.Points.size()), 1)));
+  AddField<vtkDoubleArray>(polyData, "ResidualQuantile", ResidualQuantile(surface.Residual));
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
   AddField<vtkIntArray>(polyData, "MissingParts", description.MissingParts);

@@ -4,6 +4,7 @@
 
 #include "Core/EdgeLengthPlan.h"
 #include "Core/Refuse.h"
+#include "GivenPositions.h"
 #include "InitialSurfaces.h"
 #include "SurfaceOutput.h"
 #include "vtkDeformableSurface.h"
@@ -85,6 +86,18 @@ SurfaceSegmentation::SurfaceSegmentation(
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
 
+std::vector<Point> SurfaceSegmentation::SeedPositions() const
+{
+  return PositionsOf(this->Settings.SeedPositions, "Seed Positions", this->Pyramid.GetWorkspace(),
+    this->Pyramid.SizeOfLevel0());
+}
+
+std::vector<Point> SurfaceSegmentation::AttractingPositions() const
+{
+  return PositionsOf(this->Settings.AttractingPositions, "Attracting Positions",
+    this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
+}
+
 void SurfaceSegmentation::ReadComponentChoice()
 {
   CheckEnumeration(
@@ -100,30 +113,40 @@ void SurfaceSegmentation::ReadComponentChoice()
   {
     this->Choice.Places = PlacesOf(this->Settings.InitialSurface, this->Settings.AttractingPoints,
       this->Pyramid.GetWorkspace());
+    for (const std::vector<Point>& more : { this->SeedPositions(), this->AttractingPositions() })
+    {
+      this->Choice.Places.insert(this->Choice.Places.end(), more.begin(), more.end());
+    }
     if (this->Choice.Places.empty())
     {
-      Refuse("Keep Components is \"At Points\", but there are none: give seeds to input port 1 "
-             "(Initial Surface), or points known to belong to the object to input port 2 "
-             "(Attracting Points).");
+      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or Attracting "
+             "Positions, or give seeds to input port 1 (Initial Surface), or points known to belong "
+             "to the object to input port 2 (Attracting Points).");
     }
   }
 }
 
 void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
 {
+  std::vector<AttractingPoint> points;
   try
   {
-    std::vector<AttractingPoint> points = AttractingPointsOf(this->Settings.AttractingPoints,
-      this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
-    if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
-    {
-      this->Points = std::make_unique<PointAttraction>(
-        std::move(points), this->Settings.Options.PointAttractionWeight);
-    }
+    points = AttractingPointsOf(this->Settings.AttractingPoints, this->Pyramid.GetWorkspace(),
+      this->Pyramid.SizeOfLevel0());
   }
   catch (const std::invalid_argument& error)
   {
     Refuse("Input port 2 (Attracting Points): ", error.what());
+  }
+  for (const Point& place : this->AttractingPositions())
+  {
+    points.emplace_back();
+    points.back().Place = place;
+  }
+  if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
+  {
+    this->Points = std::make_unique<PointAttraction>(
+      std::move(points), this->Settings.Options.PointAttractionWeight);
   }
   if (this->Settings.Options.EdgeAttractionWeight > 0.0)
   {
@@ -312,13 +335,23 @@ void SurfaceSegmentation::CheckObjectIsThere()
 void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
 {
   const Workspace& space = this->Pyramid.GetWorkspace();
+  std::vector<Point> seeds;
+  if (this->Settings.Initialization == vtkDeformableSurface::Seeds)
+  {
+    seeds = this->SeedPositions();
+  }
+  const bool hasPositions = !seeds.empty();
   try
   {
     switch (this->Settings.Initialization)
     {
       case vtkDeformableSurface::Seeds:
-        evolution.StartSeeds(image, this->Coarsest, SeedsOf(this->Settings.InitialSurface, space));
+      {
+        const std::vector<Point> connected = SeedsOf(this->Settings.InitialSurface, space);
+        seeds.insert(seeds.begin(), connected.begin(), connected.end());
+        evolution.StartSeeds(image, this->Coarsest, seeds);
         break;
+      }
       case vtkDeformableSurface::IsoSurface:
         evolution.StartSurface(
           image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
@@ -336,7 +369,9 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   {
     const bool isGiven = this->Settings.Initialization == vtkDeformableSurface::InputSurface ||
       this->Settings.Initialization == vtkDeformableSurface::Seeds;
-    Refuse(isGiven ? "Input port 1 (Initial Surface): " : "", error.what());
+    const bool ofPositions = hasPositions && !this->Settings.InitialSurface;
+    Refuse(ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "",
+      error.what());
   }
 }
 

@@ -25,6 +25,7 @@
 
 class vtkInformation;
 class vtkMultiBlockDataSet;
+class vtkPoints;
 class vtkPolyData;
 
 namespace volumic
@@ -62,6 +63,8 @@ struct SegmentationSettings : SegmentationRequest
   int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
   vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
   vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
+  vtkPoints* SeedPositions = nullptr;       ///< world, beside those of port 1; may be missing
+  vtkPoints* AttractingPositions = nullptr; ///< world, beside those of port 2; may be missing
   vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
 };
 
@@ -102,6 +105,9 @@ private:
   void ChooseEdgeLength();
   void ChooseLevels();
   void ChooseEnd(int coarsestWithObject);
+  /// Seed Positions and Attracting Positions in the workspace.
+  std::vector<Point> SeedPositions() const;
+  std::vector<Point> AttractingPositions() const;
   void ReadComponentChoice();
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
   LevelImage Load(int level, Executor& threads);

@@ -23,6 +23,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
@@ -39,6 +40,23 @@ namespace
 {
 /// Share of the progress that the pyramid takes where it is built here.
 constexpr double PyramidShare = 0.02;
+
+vtkSmartPointer<vtkPoints> NewPositions()
+{
+  auto positions = vtkSmartPointer<vtkPoints>::New();
+  positions->SetDataTypeToDouble();
+  return positions;
+}
+
+void CopyPosition(vtkPoints* positions, int index, double position[3])
+{
+  if (index >= 0 && index < positions->GetNumberOfPoints())
+  {
+    positions->GetPoint(index, position);
+    return;
+  }
+  std::fill(position, position + 3, vtkMath::Nan());
+}
 }
 
 class vtkDeformableSurface::vtkInternals
@@ -57,6 +75,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->IsoValue = vtkMath::Nan();
   this->ObjectIsBright = defaults.ObjectIsBright;
   this->Initialization = EnclosingIcosahedron;
+  this->SeedPositions = NewPositions();
   this->SeedRadius = defaults.SeedRadius;
   this->CoarsestLevel = -1;
   this->FinestLevel = 0;
@@ -66,6 +85,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->IsopotentialWeight = defaults.IsopotentialWeight;
   this->GradientWeight = defaults.GradientWeight;
   this->PointAttractionWeight = defaults.PointAttractionWeight;
+  this->AttractingPositions = NewPositions();
   this->EdgeAttractionWeight = defaults.EdgeAttractionWeight;
   this->Friction = defaults.Friction;
   this->BorderValue = static_cast<int>(defaults.BorderValue);
@@ -138,6 +158,52 @@ void vtkDeformableSurface::SetAttractingPointsData(vtkDataObject* data)
   this->SetInputDataObject(2, data);
 }
 
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::AddSeedPosition(double x, double y, double z)
+{
+  this->SeedPositions->InsertNextPoint(x, y, z);
+  this->Modified();
+}
+
+void vtkDeformableSurface::ClearSeedPositions()
+{
+  this->SeedPositions->SetNumberOfPoints(0);
+  this->Modified();
+}
+
+int vtkDeformableSurface::GetNumberOfSeedPositions()
+{
+  return static_cast<int>(this->SeedPositions->GetNumberOfPoints());
+}
+
+void vtkDeformableSurface::GetSeedPosition(int index, double position[3])
+{
+  CopyPosition(this->SeedPositions, index, position);
+}
+
+void vtkDeformableSurface::AddAttractingPosition(double x, double y, double z)
+{
+  this->AttractingPositions->InsertNextPoint(x, y, z);
+  this->Modified();
+}
+
+void vtkDeformableSurface::ClearAttractingPositions()
+{
+  this->AttractingPositions->SetNumberOfPoints(0);
+  this->Modified();
+}
+
+int vtkDeformableSurface::GetNumberOfAttractingPositions()
+{
+  return static_cast<int>(this->AttractingPositions->GetNumberOfPoints());
+}
+
+void vtkDeformableSurface::GetAttractingPosition(int index, double position[3])
+{
+  CopyPosition(this->AttractingPositions, index, position);
+}
+
+//------------------------------------------------------------------------------
 vtkMultiBlockDataSet* vtkDeformableSurface::GetLevels()
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(1));
@@ -354,6 +420,8 @@ void vtkDeformableSurface::RunOrGoOn(
     settings.SnapshotInterval = this->SnapshotInterval;
     settings.InitialSurface = vtkPolyData::GetData(input[1]);
     settings.AttractingPoints = vtkPolyData::GetData(input[2]);
+    settings.SeedPositions = this->SeedPositions;
+    settings.AttractingPositions = this->AttractingPositions;
     settings.EdgeSelection = this->GetInputArrayInformation(1);
     run = std::make_unique<volumic::SurfaceSegmentation>(volume.Levels, volume.Selection, settings);
   }
@@ -405,6 +473,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IsoValue: " << this->IsoValue << endl;
   os << indent << "ObjectIsBright: " << this->ObjectIsBright << endl;
   os << indent << "Initialization: " << this->Initialization << endl;
+  os << indent << "SeedPositions: " << this->GetNumberOfSeedPositions() << endl;
   os << indent << "SeedRadius: " << this->SeedRadius << endl;
   os << indent << "CoarsestLevel: " << this->CoarsestLevel << endl;
   os << indent << "FinestLevel: " << this->FinestLevel << endl;
@@ -414,6 +483,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "IsopotentialWeight: " << this->IsopotentialWeight << endl;
   os << indent << "GradientWeight: " << this->GradientWeight << endl;
   os << indent << "PointAttractionWeight: " << this->PointAttractionWeight << endl;
+  os << indent << "AttractingPositions: " << this->GetNumberOfAttractingPositions() << endl;
   os << indent << "EdgeAttractionWeight: " << this->EdgeAttractionWeight << endl;
   os << indent << "Friction: " << this->Friction << endl;
   os << indent << "BorderValue: " << this->BorderValue << endl;

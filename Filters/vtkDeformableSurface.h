@@ -23,9 +23,10 @@
  *   cavities among them facing inward, at most five times as wide as the image; polygons are
  *   triangulated). Triangles may be of any size and shape: where they are not yet even and of the
  *   level's size the surface gets another mesh first, which may lose what is thinner than about two
- *   edges. With Initialization Seeds, the centres of the seeds. World coordinates.
+ *   edges. With Initialization Seeds, the centres of the seeds (see also SeedPositions). World
+ *   coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
- *   PointAttractionWeight. Point arrays, optional: `Weight` (any numeric type, at least 0, default
+ *   PointAttractionWeight and AttractingPositions. Point arrays, optional: `Weight` (any numeric type, at least 0, default
  *   1) and `Radius` (world units, default 0: automatic).
  * - Where points are meant, at both ports and for all purposes: the points of the vertices (vertex
  *   and polyvertex cells), each once; all points where there are no cells at all. Lines and
@@ -49,13 +50,16 @@
  * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest), `Contact` (unsigned char, 1
  * where walls or gaps are thinner than the triangles can hold, see FinestLevel: another part of the
  * surface, at least four edges away along it, keeps the vertex more than 0.1 Delta away from the
- * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell array: `Component` (int, 0 = largest
- * area). Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
+ * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell arrays: `Component` (int, 0 = largest
+ * area) and, of the component that the triangle belongs to, `ComponentArea`, `ComponentVolume`
+ * (float) and `ComponentGenus` (int), so that filters of cells can choose components. Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
  * `Area`, `Volume` (double), `StopReason` (string:
  * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
- * in turn; finished like one that rests; `iteration limit`; `cancelled`; `time limit`; `vanished`),
- * `ContactVertices` (int: those with `Contact`), `RemainingContacts` (int: pairs of vertices nearer
+ * in turn; finished like one that rests; `iteration limit`; `cancelled`; `time limit`;
+ * `vanished`),
+ * `ContactVertices` (int: those with `Contact`), `ResidualQuantile` (double: 98 % of the vertices
+ * have a `Residual` of at most this size), `RemainingContacts` (int: pairs of vertices nearer
  * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
  * `RecoveredParts`, `MissingParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery),
  * `MissingBoundary` (double, 0 to 1: the share of the object's boundary that belongs to parts found
@@ -137,7 +141,7 @@
 
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
-#include "vtkSmartPointer.h" // For the levels
+#include "vtkSmartPointer.h" // For the levels and lists of positions
 
 #include <memory> // For what is hidden
 
@@ -146,6 +150,7 @@ class vtkImageData;
 class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
+class vtkPoints;
 class vtkTable;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
@@ -226,8 +231,8 @@ public:
   /**
    * Which components the outputs Surface and Levels hold, with their arrays and field data; the
    * evolution is the same. AllComponents (default); LargestComponent: that of the largest area;
-   * ComponentsAtPoints: those that enclose a seed of port 1 or a point of port 2, or pass it within
-   * the length of an edge (2.5 Delta); LargeComponents: those that enclose at least
+   * ComponentsAtPoints: those that enclose a seed of port 1, a point of port 2, or one of the
+   * SeedPositions or AttractingPositions, or pass it within the length of an edge (2.5 Delta); LargeComponents: those that enclose at least
    * MinimumComponentVolume (world units cubed, default 0). Cavities go with the component about
    * them: they are kept if it is.
    */
@@ -251,7 +256,7 @@ public:
   /**
    * What the surface starts from. EnclosingIcosahedron (default): an icosahedron about the image,
    * shrunk to a rounded box. Seeds: icosahedra of SeedRadius that grow inside the object, at the
-   * points of port 1, or on a grid if there are none. IsoSurface: the closed iso-surface of the
+   * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the closed iso-surface of the
    * coarsest level. InputSurface: the polygons of port 1.
    */
   vtkSetMacro(Initialization, int);
@@ -260,6 +265,19 @@ public:
   void SetInitializationToSeeds() { this->SetInitialization(Seeds); }
   void SetInitializationToIsoSurface() { this->SetInitialization(IsoSurface); }
   void SetInitializationToInputSurface() { this->SetInitialization(InputSurface); }
+  ///@}
+
+  ///@{
+  /**
+   * SeedPositions: centres of seeds, see Initialization, in world coordinates; none by default. They
+   * add to the points of port 1, and spare a source for them. One that lies outside the image by
+   * more than a voxel is an error; of those in the image the ones outside the object, or too near
+   * to another, are left out. An index that is none gives NaN.
+   */
+  void AddSeedPosition(double x, double y, double z);
+  void ClearSeedPositions();
+  int GetNumberOfSeedPositions();
+  void GetSeedPosition(int index, double position[3]);
   ///@}
 
   ///@{
@@ -359,8 +377,8 @@ public:
 
   ///@{
   /**
-   * How much the points of port 2, known to belong to the object, attract the surface (1 by
-   * default; 0: not at all); times the point's own `Weight`. Around a point the field is raised to
+   * How much the points of port 2 and the AttractingPositions, known to belong to the object,
+   * attract the surface (1 by default; 0: not at all); times the point's own `Weight`. Around a point the field is raised to
    * the object's side, the nearer the more, so that a point of weight 1 makes a ball of its
    * `Radius` part of the object even where the image is all background, and a surface that passes
    * nearer than that comes out to the point. Points near each other join: a few close a gap
@@ -371,6 +389,19 @@ public:
    */
   vtkSetMacro(PointAttractionWeight, double);
   vtkGetMacro(PointAttractionWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * AttractingPositions: points known to belong to the object, in world coordinates, of weight 1
+   * and automatic radius; none by default. They add to the points of port 2, see
+   * PointAttractionWeight. One that lies outside the image by more than a voxel is an error. An
+   * index that is none gives NaN.
+   */
+  void AddAttractingPosition(double x, double y, double z);
+  void ClearAttractingPositions();
+  int GetNumberOfAttractingPositions();
+  void GetAttractingPosition(int index, double position[3]);
   ///@}
 
   ///@{
@@ -595,6 +626,7 @@ protected:
   double IsoValue;
   bool ObjectIsBright;
   int Initialization;
+  vtkSmartPointer<vtkPoints> SeedPositions;
   double SeedRadius;
   int CoarsestLevel;
   int FinestLevel;
@@ -604,6 +636,7 @@ protected:
   double IsopotentialWeight;
   double GradientWeight;
   double PointAttractionWeight;
+  vtkSmartPointer<vtkPoints> AttractingPositions;
   double EdgeAttractionWeight;
   double Friction;
   int BorderValue;

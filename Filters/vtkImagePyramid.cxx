@@ -252,6 +252,16 @@ bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const volumic::Pyra
   return made.size() + 1 == levels.size();
 }
 
+volumic::PyramidOptions OptionsOf(
+  double reductionFactor, int numberOfLevels, int minimumLevelSize)
+{
+  volumic::PyramidOptions options;
+  options.ReductionFactor = reductionFactor;
+  options.NumberOfLevels = numberOfLevels;
+  options.MinimumLevelSize = minimumLevelSize;
+  return options;
+}
+
 void AddStopReason(vtkMultiBlockDataSet* pyramid, bool isComplete)
 {
   vtkNew<vtkStringArray> reason;
@@ -284,6 +294,21 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput()
 vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
+{
+  try
+  {
+    return static_cast<int>(volumic::PlanPyramid({ sizeX, sizeY, sizeZ }, { 1.0, 1.0, 1.0 },
+      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize))
+        .size());
+  }
+  catch (const std::invalid_argument&)
+  {
+    return 0;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -359,10 +384,8 @@ int vtkImagePyramid::RequestData(
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
     vtkDataArray* voxels = volumic::ChooseVoxels(this->GetInputArrayInformation(0), input);
-    volumic::PyramidOptions options;
-    options.ReductionFactor = this->ReductionFactor;
-    options.NumberOfLevels = this->NumberOfLevels;
-    options.MinimumLevelSize = this->MinimumLevelSize;
+    const volumic::PyramidOptions options =
+      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
     const auto progress = [this](double share, const std::string& text)
     {
       this->SetProgressText(text.c_str());

@@ -114,6 +114,12 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  /**
+   * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where they
+   * don't go together, which Update() tells by an error.
+   */
+  int CountLevels(int sizeX, int sizeY, int sizeZ) const;
+
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMDisplayInitializationHelper.h"
 
+#include "vtkSMVolumicSurfaceRepresentationProxy.h"
+
 #include <vtkObjectFactory.h>
 #include <vtkPVXMLElement.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
+#include <cstddef>
 #include <iterator>
 #include <locale>
 #include <sstream>
@@ -49,6 +52,26 @@ void SetValues(vtkSMProperty* property, const std::vector<std::string>& values)
     }
   }
 }
+
+/// Of the tuples that the property holds, replaces those with the same first value, a name; in the
+/// place where they are, since ParaView's panel of series goes by the place.
+void SetTuples(vtkSMProperty* property, const std::vector<std::string>& values, unsigned int size)
+{
+  property->ResetToDomainDefaults();
+  vtkSMPropertyHelper helper(property);
+  for (std::size_t tuple = 0; tuple + size <= values.size(); tuple += size)
+  {
+    unsigned int place = 0;
+    while (place < helper.GetNumberOfElements() && values[tuple] != helper.GetAsString(place))
+    {
+      place += size;
+    }
+    for (unsigned int i = 0; i < size; ++i)
+    {
+      helper.Set(place + i, values[tuple + i].c_str());
+    }
+  }
+}
 }
 
 //------------------------------------------------------------------------------
@@ -67,10 +90,22 @@ void vtkSMDisplayInitializationHelper::PostInitializeProxy(
     {
       const char* text = element->GetAttribute("text");
       const char* values = element->GetAttribute("values");
-      SetValues(property, text ? std::vector<std::string>{ text } : Words(values));
+      int size = 0;
+      if (element->GetScalarAttribute("tuple", &size) && size > 0)
+      {
+        SetTuples(property, Words(values), static_cast<unsigned int>(size));
+      }
+      else
+      {
+        SetValues(property, text ? std::vector<std::string>{ text } : Words(values));
+      }
     }
   }
   proxy->UpdateVTKObjects();
+  if (auto* surface = vtkSMVolumicSurfaceRepresentationProxy::SafeDownCast(proxy))
+  {
+    surface->StartChoosingBlock();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -9,9 +9,11 @@
  *   <InitializationHelper class="vtkSMDisplayInitializationHelper">
  *     <Preset property="DiffuseColor" values="0.9 0.9 0.8"/>
  *     <Preset property="BottomAxisTitle" text="Number of the Iteration"/>
+ *     <Preset property="SeriesColor" tuple="4" values="Vertices 0.1 0.35 0.7"/>
  *   </InitializationHelper>
  *
- * The values are separated by blanks; a text is one value. What a proxy doesn't have is left out.
+ * The values are separated by blanks; a text is one value. With the size of a tuple, only tuples of
+ * the same first value are replaced. What a proxy doesn't have is left out.
  */
 #ifndef vtkSMDisplayInitializationHelper_h
 #define vtkSMDisplayInitializationHelper_h

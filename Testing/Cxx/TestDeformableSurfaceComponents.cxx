@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace volumic;
@@ -89,6 +90,7 @@ protected:
     if (n > 0)
     {
       EXPECT_EQ(surface->GetCellData()->GetArray("Component")->GetRange()[1], n - 1);
+      ExpectFeaturesOfCells(surface);
       EXPECT_EQ(
         surface->GetPointData()->GetNormals()->GetNumberOfTuples(), surface->GetNumberOfPoints());
       EXPECT_NEAR(EnclosedVolume(surface), sum, 1e-6 * std::abs(sum));
@@ -96,6 +98,27 @@ protected:
     auto* level = vtkPolyData::SafeDownCast(this->Filter->GetLevels()->GetBlock(0));
     EXPECT_EQ(level->GetNumberOfPoints(), surface->GetNumberOfPoints());
     return volumes;
+  }
+
+  /// Each triangle says of its component what the field data say.
+  static void ExpectFeaturesOfCells(vtkPolyData* surface)
+  {
+    vtkDataArray* component = surface->GetCellData()->GetArray("Component");
+    const std::pair<const char*, int> features[] = { { "ComponentArea", VTK_FLOAT },
+      { "ComponentVolume", VTK_FLOAT }, { "ComponentGenus", VTK_INT } };
+    for (const auto& [name, type] : features)
+    {
+      vtkDataArray* array = surface->GetCellData()->GetArray(name);
+      ASSERT_TRUE(array) << name;
+      EXPECT_EQ(array->GetDataType(), type) << name;
+      ASSERT_EQ(array->GetNumberOfTuples(), surface->GetNumberOfCells()) << name;
+      for (vtkIdType t = 0; t < surface->GetNumberOfCells(); ++t)
+      {
+        const double expected =
+          FieldOf(surface, name, static_cast<int>(component->GetComponent(t, 0)));
+        ASSERT_NEAR(array->GetComponent(t, 0), expected, 1e-6 * std::abs(expected)) << name;
+      }
+    }
   }
 
   static void ExpectVolumes(

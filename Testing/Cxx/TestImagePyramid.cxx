@@ -225,6 +225,28 @@ TEST(ImagePyramid, ExecutesAgainWhenAPropertyChanges)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
 }
 
+TEST(ImagePyramid, CountsTheLevelsThatItWillMake)
+{
+  for (const std::array<int, 3> size : { std::array<int, 3>{ 64, 50, 40 }, { 8, 9, 200 }, { 30, 40, 1 } })
+  {
+    for (const int levels : { 0, 2 })
+    {
+      const auto filter = PyramidOf(RandomImage(size[0], size[1], size[2], VTK_SHORT));
+      filter->SetNumberOfLevels(levels);
+      filter->SetMinimumLevelSize(5);
+      filter->SetReductionFactor(1.5);
+      filter->Update();
+      EXPECT_EQ(filter->CountLevels(size[0], size[1], size[2]),
+        static_cast<int>(filter->GetOutput()->GetNumberOfBlocks()));
+    }
+  }
+  vtkNew<vtkImagePyramid> filter;
+  filter->SetNumberOfLevels(100);
+  EXPECT_EQ(filter->CountLevels(64, 50, 40), 0) << "more than there can be";
+  filter->SetNumberOfLevels(0);
+  EXPECT_EQ(filter->CountLevels(0, 0, 0), 0) << "no image";
+}
+
 TEST(ImagePyramid, PrintsItsProperties)
 {
   vtkNew<vtkImagePyramid> filter;

@@ -119,7 +119,8 @@ class DeformableSurfaceTest(unittest.TestCase):
         surface = output(surface_of(self.ball, IsoValue=0.0))
         for name, kind in POINT_ARRAYS.items():
             self.assertEqual(surface.GetPointData().GetArray(name).GetClassName(), kind)
-        self.assertEqual(names(surface.GetCellData()), {"Component"})
+        self.assertEqual(names(surface.GetCellData()),
+                         {"Component", "ComponentArea", "ComponentVolume", "ComponentGenus"})
         # Documentation/reference.md tells all, and has its own test.
         self.assertLessEqual(FIELDS, names(surface.GetFieldData()))
         inertia = surface.GetFieldData().GetArray("ComponentInertia")

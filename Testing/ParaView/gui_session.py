@@ -39,6 +39,24 @@ def pause(milliseconds):
     return event(WINDOW, "pause", str(milliseconds))
 
 
+def start_screen(xvfb, size, options=()):
+    """Start an X server. Returns its process and its name for DISPLAY."""
+    read_end, write_end = os.pipe()
+    server = subprocess.Popen(
+        [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24", *options,
+         "-nolisten", "tcp"],
+        pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
+        preexec_fn=end_with_parent)
+    os.close(write_end)
+    ready, _, _ = select.select([read_end], [], [], 30)
+    with os.fdopen(read_end) as answer:
+        number = answer.readline().strip() if ready else ""
+    if not number:
+        server.kill()
+        raise RuntimeError("Xvfb did not start")
+    return server, f":{number}"
+
+
 class Session:
     """Starts Xvfb and paraview; `play` returns when all events have been played or one failed."""
 
@@ -46,7 +64,7 @@ class Session:
         self._paraview = paraview
         self._plugin = plugin
         self._folder = tempfile.TemporaryDirectory(prefix="volumic-window-")
-        self._server, display = self._start_server(xvfb, size)
+        self._server, display = start_screen(xvfb, size, ("-fbdir", self._folder.name))
         # A home of its own: neither the user's settings nor a first start's dialogs play a part.
         self._environment = dict(os.environ, DISPLAY=display, QT_QPA_PLATFORM="xcb",
                                  HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name,
@@ -54,27 +72,19 @@ class Session:
         self._window = None
         self.output = ""
 
-    def _start_server(self, xvfb, size):
-        read_end, write_end = os.pipe()
-        server = subprocess.Popen(
-            [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24",
-             "-fbdir", self._folder.name, "-nolisten", "tcp"],
-            pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
-            preexec_fn=end_with_parent)
-        os.close(write_end)
-        ready, _, _ = select.select([read_end], [], [], 30)
-        with os.fdopen(read_end) as answer:
-            number = answer.readline().strip() if ready else ""
-        if not number:
-            server.kill()
-            raise RuntimeError("Xvfb did not start")
-        return server, f":{number}"
+    @property
+    def display(self):
+        """Name of the screen, as other programs of X want it."""
+        return self._environment["DISPLAY"]
 
-    def play(self, events, timeout=240, python=""):
+    def play(self, events, timeout=240, python="", when_said=()):
         """Play the events in a new window, which stays open. Returns whether all succeeded.
 
         python: code that the window's own interpreter runs first; what it prints is in `output`.
+        when_said: pairs of a text and what is called, once, when the window has printed it, while
+        the events go on.
         """
+        waiting = list(when_said)
         script = os.path.join(self._folder.name, "events.xml")
         with open(script, "w", encoding="utf-8") as file:
             file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(events) +
@@ -101,6 +111,8 @@ class Session:
                 if not piece:
                     break
                 said += piece
+            while waiting and waiting[0][0].encode() in said:
+                waiting.pop(0)[1]()
         self.output = said.decode(errors="replace")
         return "Success =  true" in self.output
 

@@ -23,6 +23,19 @@ ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "Recovery", "Minim
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
             "NumberOfThreads", "SnapshotInterval", "Profile")
 
+# Tells which view becomes the active one, and has a shortcut's place for the test to make it so.
+ACTIVE_VIEWS = """
+from paraview import servermanager
+
+def tell(model, event):
+    view = model.GetCurrentProxy()
+    if view:
+        print("Active:", view.GetXMLName(), flush=True)
+
+manager = servermanager.ProxyManager().SMProxyManager
+manager.GetSelectionModel("ActiveView").AddObserver("CurrentChangedEvent", tell)
+"""
+
 
 def middle_of_the_wavelet():
     """What the panel of Iso Value says for the volume of the tests."""
@@ -46,11 +59,10 @@ class SurfaceWindowTest(window.WindowTestCase):
             "surface-applied")
         state = window.proxies_of(path)
         self.assertIn("DeformableSurface", state)
-        # Beside the surface, the history is a chart; neither levels nor a table are shown.
-        self.assertEqual(state.count("VolumicHistoryView"), 1)
-        self.assertEqual(state.count("VolumicHistoryRepresentation"), 1)
+        # The surface has the window for itself: no chart, no levels, no table.
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
-        self.assertNotIn("SpreadSheetView", state)
+        for other in ("VolumicHistoryView", "VolumicLevelsRepresentation", "SpreadSheetView"):
+            self.assertNotIn(other, state)
 
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.IsoValue, 150.0)
@@ -59,6 +71,25 @@ class SurfaceWindowTest(window.WindowTestCase):
                          "converged")
         displays = [d for d in simple.GetRepresentations().values() if d.Input == filter_]
         self.assertTrue(any(d.Visibility for d in displays), "the surface is shown")
+
+    def test_the_history_is_one_click_away(self):
+        path, save = self.saved_state("surface-history.pvsm")
+        again, save_again = self.saved_state("surface-history-again.pvsm")
+        # Its entry in the pipeline browser: wavelet, filter, port.
+        history = window.eye_of(0, 0, 2)
+        self.play(VOLUME + [
+            SURFACE, APPLY, *history, *save,
+            # The 3D view is active again, and the eye brings back the chart that there is.
+            ACTIVATE_3D, *history, *save_again, gui.pause(1500)],
+            "surface-history", python=ACTIVE_VIEWS)
+        for state in (window.proxies_of(path), window.proxies_of(again)):
+            self.assertEqual(state.count("VolumicHistoryView"), 1)
+            self.assertEqual(state.count("VolumicHistoryRepresentation"), 1)
+            self.assertEqual(state.count("RenderView"), 1)
+        # The surface's view was active until the eye was clicked.
+        self.assertRegex(self.session.output,
+                         r"(?s)Active: RenderView\n.*Active: VolumicHistoryView\n"
+                         r".*Active: RenderView\n.*Active: VolumicHistoryView\n")
 
     def test_advanced_panel(self):
         self.play(VOLUME + [

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef GivenPositions_h
+#define GivenPositions_h
+
+#include "Core/SurfaceFeatures.h"
+#include "Workspace.h"
+
+#include <array>
+#include <vector>
+
+class vtkPoints;
+
+namespace volumic
+{
+/**
+ * A list of positions of vtkDeformableSurface (world coordinates; null: empty), in the workspace. One
+ * that is out of the box of the image by less than a voxel, as one that was picked on its border
+ * may be, is moved onto the box.
+ * @param label of the property, for messages
+ * @param size  voxels of level 0 along each axis
+ * @throws std::invalid_argument for a position farther outside, or one that is not finite.
+ */
+std::vector<Point> PositionsOf(vtkPoints* positions, const char* label, const Workspace& space,
+  const std::array<int, 3>& size);
+}
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef pqValueRangeDecorator_h
+#define pqValueRangeDecorator_h
+
+#include "pqPropertyWidgetDecorator.h"
+
+class QLabel;
+
+/**
+ * Shows the range of a property of one number below its widget, as Contour does: "Value Range:
+ * [0, 1300]". It is that of the property's domain, and follows it.
+ *
+ *   <PropertyWidgetDecorator type="ValueRange"/>
+ */
+class pqValueRangeDecorator : public pqPropertyWidgetDecorator
+{
+  Q_OBJECT
+
+public:
+  pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWidget* parent);
+  ~pqValueRangeDecorator() override;
+
+private Q_SLOTS:
+  void showRange();
+
+private:
+  Q_DISABLE_COPY(pqValueRangeDecorator)
+
+  QLabel* Label; ///< the property's widget owns it
+};
+
+#endif

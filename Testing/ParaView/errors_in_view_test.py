@@ -1,0 +1,225 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""An error leaves nothing old behind, in no view: good runs before and after each kind of error."""
+
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import simple
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import plugin_testing as testing
+import view_testing as views
+
+SIZE, RADIUS = 24, 7.0
+OF_PYRAMID = {"ReductionFactor": (1.0, 3.0), "NumberOfLevels": (-1, 20), "MinimumLevelSize": (0,)}
+OF_SURFACE = {"IsoValue": (-5.0, 1000.0, float("inf"), float("nan")), "CoarsestLevel": (9,),
+              "FinestLevel": (5, -2), "SamplingRatio": (0.5, 1.1), "TensionWeight": (-1.0,),
+              "ElasticityWeight": (-0.1,), "IsopotentialWeight": (-1.0,),
+              "GradientWeight": (float("nan"),), "PointAttractionWeight": (-1.0,),
+              "EdgeAttractionWeight": (-1.0,), "Friction": (0.0, -1.0), "SeedRadius": (-2.0,),
+              "EdgeLength": (-1.0,), "ConvergenceTolerance": (-1.0,), "Initialization": (3, 4),
+              "BorderValue": (2,), "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
+              "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,)}
+FILTERS = {"ImagePyramid": OF_PYRAMID, "DeformableSurface": OF_SURFACE,
+           # Not a number: an iso-value found by itself.
+           "VolumetoSurface": {**OF_PYRAMID, **OF_SURFACE, "IsoValue": (-5.0, 1000.0)}}
+
+
+def ball(size=SIZE, values=lambda inside: inside):
+    x = numpy.arange(size) - (size - 1) / 2
+    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
+    inside = numpy.clip(50 + 50 * (RADIUS - distance), 0, 100)
+    return testing.make_image(values(inside).astype(numpy.float32), name="density")
+
+
+def no_arrays():
+    image = ball()
+    image.GetPointData().Initialize()
+    return image
+
+
+def huge(inside):
+    return numpy.where(inside > 99, 3e38, inside)
+
+
+# Files that a good one may be changed to, and the filters that can do nothing with them.
+BAD_FILES = {
+    "no-arrays": (no_arrays, FILTERS),
+    "empty": (lambda: testing.make_image(numpy.zeros((0, 0, 0), numpy.float32)), FILTERS),
+    "too-small": (lambda: testing.make_image(numpy.ones((24, 24, 5), numpy.float32),
+                                             name="density"),
+                  ("DeformableSurface", "VolumetoSurface")),
+    "flat": (lambda: testing.make_image(numpy.ones((1, 24, 24), numpy.float32), name="density"),
+             ("DeformableSurface", "VolumetoSurface")),
+    "nothing-bright": (lambda: ball(values=lambda inside: 0 * inside),
+                       ("DeformableSurface", "VolumetoSurface")),
+    "huge": (lambda: ball(values=huge), ("DeformableSurface", "VolumetoSurface")),
+}
+
+
+def written(name, image):
+    path = testing.output_path(f"volume-{name}.vti")
+    writer = vtkXMLImageDataWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(image)
+    writer.Write()
+    return path
+
+
+def bad_second_inputs():
+    """What port 1 may be given, with the value of Initialization that asks for it."""
+    middle = [(SIZE - 1) / 2] * 3
+    return {
+        "open": (3, simple.Plane(Origin=(5, 5, 11), Point1=(18, 5, 11), Point2=(5, 18, 11))),
+        "far away": (3, simple.Sphere(Center=(200, 200, 200), Radius=8)),
+        "flat points": (3, simple.PointSource(Center=middle, NumberOfPoints=3, Radius=1)),
+        "seed outside the volume": (1, simple.PointSource(Center=(99, 0, 0), NumberOfPoints=1)),
+        "seed outside the object": (1, simple.PointSource(Center=(1, 1, 1), NumberOfPoints=1,
+                                                          Radius=0)),
+        "surface for a seed": (1, simple.Sphere(Center=middle, Radius=3)),
+    }
+
+
+class ErrorsInViewTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        views.open_screen()
+        testing.load_plugin()
+        cls.good_file = written("good", ball())
+
+    def setUp(self):
+        self.view = views.new_view("RenderView")
+        self.opened = 0
+
+    def tearDown(self):
+        simple.Delete(self.view)
+        for source in reversed(list(simple.GetSources().values())):
+            simple.Delete(source)
+
+    def show(self, kind, path=None):
+        """A filter of a reader of a file, shown in the view."""
+        reader = simple.XMLImageDataReader(FileName=path or self.good_file)
+        reader.UpdatePipeline()
+        self.filter = getattr(simple, kind)(reader)
+        self.display = simple.Show(self.filter, self.view)
+        if kind == "ImagePyramid":
+            self.display.Representation = "Surface"
+        return self.filter
+
+    def set_number(self, name, value):
+        """Not as Python's properties do, which refuse a wrong choice."""
+        self.filter.SMProxy.GetProperty(name).SetElement(0, value)
+        self.filter.SMProxy.UpdateVTKObjects()
+
+    def rendered(self, name):
+        pixels = views.picture_of(self.view, f"errors-{name}.png")
+        return pixels if views.drawn(pixels) else None
+
+    def check_run(self, is_good, wanted=None, first=False):
+        """What the view, the client and the object itself have after a run."""
+        with testing.CapturedMessages() as messages:
+            self.filter.UpdatePipeline()
+            if first:
+                simple.ResetCamera(self.view)
+            pixels = self.rendered("good" if is_good else "bad")
+        self.assertEqual("ERROR" in messages.text, not is_good, messages.text)
+        self.assertNotIn("vtkInformation", messages.text, "VTK's own report of the failure")
+        for port in range(self.filter.GetNumberOfOutputPorts()):
+            # Snapshots are off.
+            has_data = is_good and port < 3
+            self.assertEqual(self.size_of(port) > 0, has_data, port)
+        output = self.filter.GetClientSideObject().GetOutputDataObject(0)
+        self.assertEqual(output.GetNumberOfPoints() > 0, is_good)
+        self.assertEqual(self.filter.GetClientSideObject().GetErrorCode() == 0, is_good)
+        self.assertEqual(self.display.GetRepresentedDataInformation().GetNumberOfPoints() > 0,
+                         is_good)
+        self.assertEqual(pixels is not None, is_good)
+        if wanted is not None:
+            numpy.testing.assert_array_equal(pixels, wanted)
+        return pixels
+
+    def size_of(self, port):
+        """What the client believes without fetching anything."""
+        information = self.filter.GetDataInformation(port)
+        return information.GetNumberOfPoints() + information.GetNumberOfRows()
+
+    def test_good_bad_good(self):
+        for kind, numbers in FILTERS.items():
+            self.show(kind)
+            wanted = self.check_run(True, first=True)
+            for name, values in numbers.items():
+                good = self.filter.SMProxy.GetProperty(name).GetElement(0)
+                for value in values:
+                    with self.subTest(filter=kind, name=name, value=value):
+                        self.set_number(name, value)
+                        self.check_run(False)
+                        self.set_number(name, good)
+                        self.check_run(True, wanted)
+            simple.Delete(self.filter)
+
+    def test_bad_good(self):
+        bad = {"ImagePyramid": ("ReductionFactor", 3.0, 1.7),
+               "DeformableSurface": ("IsoValue", 1000.0, 50.0),
+               "VolumetoSurface": ("IsoValue", 1000.0, 50.0)}
+        for kind, (name, value, good) in bad.items():
+            with self.subTest(filter=kind):
+                with testing.CapturedMessages():
+                    self.show(kind)
+                    self.set_number(name, value)
+                    # The first run that this filter has is the bad one.
+                self.check_run(False)
+                self.set_number(name, good)
+                self.check_run(True, first=True)
+                simple.Delete(self.filter)
+
+    def test_array_that_is_not_there(self):
+        for kind in FILTERS:
+            with self.subTest(filter=kind):
+                self.show(kind)
+                wanted = self.check_run(True, first=True)
+                self.filter.Voxels = ["POINTS", "absent"]
+                self.check_run(False)
+                self.filter.Voxels = ["POINTS", "density"]
+                self.check_run(True, wanted)
+                simple.Delete(self.filter)
+
+    def test_second_inputs(self):
+        for kind in ("DeformableSurface", "VolumetoSurface"):
+            self.show(kind)
+            wanted = self.check_run(True, first=True)
+            for name, (initialization, source) in bad_second_inputs().items():
+                with self.subTest(filter=kind, name=name):
+                    self.filter.InitialSurface = source
+                    self.set_number("Initialization", initialization)
+                    self.check_run(False)
+                    self.filter.InitialSurface = None
+                    self.set_number("Initialization", 0)
+                    self.check_run(True, wanted)
+            simple.Delete(self.filter)
+
+    def change_file(self, path):
+        """What File > Change File does: another reader takes the place of the one before."""
+        reader = self.filter.Input
+        simple.ReplaceReaderFileName(reader, [path], "FileName")
+        self.filter.Input.UpdatePipeline()
+
+    def test_change_of_the_file(self):
+        for name, (image, kinds) in BAD_FILES.items():
+            bad_file = written(name, image())
+            for kind in kinds:
+                with self.subTest(file=name, filter=kind):
+                    self.show(kind)
+                    wanted = self.check_run(True, first=True)
+                    self.change_file(bad_file)
+                    self.check_run(False)
+                    self.change_file(self.good_file)
+                    self.check_run(True, wanted)
+                    self.assertEqual(list(self.filter.Voxels), ["POINTS", "density"])
+                    simple.Delete(self.filter)
+
+
+testing.main()

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""States that the window has saved, in scripts; and volumes that change under a filter."""
+
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+import numpy
+from paraview import simple
+from paraview import smtrace
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import plugin_testing as testing
+import view_testing as views
+import window_testing as window
+
+# What Documentation/paraview.md tells to write below the import.
+IMPORT = "from paraview.simple import *"
+LOAD = f"LoadPlugin({testing.plugin_path()!r}, ns=globals())"
+REPORT = """
+filter_ = FindSource("Saved")
+filter_.UpdatePipeline()
+print("Points:", filter_.GetDataInformation().GetNumberOfPoints(),
+      "views:", sorted(view.GetXMLName() for view in GetViews()),
+      "colour:", GetRepresentation(filter_, GetViewsByKind("RenderView")).ColorArrayName[1])
+""".replace("GetViewsByKind(\"RenderView\")",
+            "next(v for v in GetViews() if v.GetXMLName() == 'RenderView')")
+
+# Runs in the window, whose File > Save State calls get_state() as well.
+SAVE_FROM_THE_WINDOW = """
+from paraview import simple, smstate
+source = simple.Wavelet(registrationName="Volume")
+source.UpdatePipeline()
+filter_ = simple.VolumetoSurface(source, registrationName="Saved", IsoValue=140.0)
+view = simple.GetActiveViewOrCreate("RenderView")
+display = simple.Show(filter_, view)
+simple.ColorBy(display, ("POINTS", "Residual"), separate=True)
+simple.Show(simple.OutputPort(filter_, 2), view)
+simple.Render(view)
+with open({path!r}, "w") as file:
+    file.write(smstate.get_state())
+print("Saved with points:", filter_.GetDataInformation().GetNumberOfPoints(), flush=True)
+"""
+
+
+def blob(scale=1.0, shift=0.0, name="density", size=24):
+    x = numpy.arange(size) - (size - 1) / 2
+    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
+    inside = numpy.clip(50 + 20 * (7 - distance), 0, 100)
+    return testing.make_image((scale * inside + shift).astype(numpy.float32), name=name)
+
+
+def written(file_name, image):
+    path = testing.output_path(file_name)
+    writer = vtkXMLImageDataWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(image)
+    writer.Write()
+    return path
+
+
+class StatesOfTheWindowTest(window.WindowTestCase):
+    def test_python_state_in_pvpython_and_pvbatch(self):
+        path = testing.output_path("from-the-window.py")
+        self.play([gui.pause(1500)], "states-saved",
+                  python=SAVE_FROM_THE_WINDOW.format(path=path))
+        points = re.search(r"Saved with points: (\d+)", self.session.output).group(1)
+        with open(path, encoding="utf-8") as file:
+            state = file.read()
+        self.assertEqual(state.count(IMPORT), 1)
+        loaded = testing.output_path("from-the-window-loaded.py")
+        with open(loaded, "w", encoding="utf-8") as file:
+            file.write(state.replace(IMPORT, f"{IMPORT}\n{LOAD}") + REPORT)
+        for program in (["pvpython"], ["pvbatch", "--force-offscreen-rendering"]):
+            run = subprocess.run([testing.program(program[0]), *program[1:], loaded],
+                                 stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                 timeout=120, check=False)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn(f"Points: {points} views: ['RenderView', 'VolumicHistoryView'] "
+                          "colour: Residual", run.stdout)
+            self.assertNotIn("ERR|", run.stderr)
+
+
+class TraceTest(unittest.TestCase):
+    def tearDown(self):
+        for view in simple.GetViews():
+            simple.Delete(view)
+        for source in reversed(list(simple.GetSources().values())):
+            simple.Delete(source)
+
+    def test_trace_with_the_chart(self):
+        testing.load_plugin()
+        source = simple.Wavelet(registrationName="Traced volume")
+        source.UpdatePipeline()
+        smtrace.start_trace()
+        filter_ = simple.VolumetoSurface(source, registrationName="Traced")
+        view = simple.CreateView("RenderView")
+        simple.AssignViewToLayout(view)
+        simple.Show(filter_, view)
+        simple.Show(simple.OutputPort(filter_, 2), view)
+        text = smtrace.stop_trace()
+        self.tearDown()
+        simple.Wavelet(registrationName="Traced volume")
+        exec(compile(text, "trace", "exec"), {})
+        self.assertEqual(sorted(v.GetXMLName() for v in simple.GetViews()),
+                         ["RenderView", "VolumicHistoryView"], text)
+
+
+class ChangedVolumeTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+        cls.first = written("first.vti", blob())
+        # Other values in an array of the same name, and in another one.
+        cls.same_name = written("same-name.vti", blob(10, -7))
+        cls.other_name = written("other-name.vti", blob(100, 1000, "voxels"))
+
+    def tearDown(self):
+        for source in reversed(list(simple.GetSources().values())):
+            simple.Delete(source)
+
+    def filter_of(self, kind):
+        reader = simple.XMLImageDataReader(FileName=self.first)
+        reader.UpdatePipeline()
+        return getattr(simple, kind)(reader, registrationName="Filter")
+
+    def check(self, filter_, voxels, scale, shift):
+        """The array that is chosen, and what the button beside Iso Value makes of it."""
+        filter_.Input.UpdatePipeline()
+        self.assertEqual(list(filter_.Voxels), ["POINTS", voxels])
+        filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
+        filter_.SMProxy.UpdateVTKObjects()
+        self.assertGreater(filter_.IsoValue, shift + 20 * scale)
+        self.assertLess(filter_.IsoValue, shift + 80 * scale)
+        self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 0)
+
+    def test_after_change_file(self):
+        for kind in ("DeformableSurface", "VolumetoSurface"):
+            filter_ = self.filter_of(kind)
+            self.check(filter_, "density", 1, 0)
+            for path, name, scale, shift in ((self.same_name, "density", 10, -7),
+                                             (self.other_name, "voxels", 100, 1000),
+                                             (self.first, "density", 1, 0)):
+                with self.subTest(filter=kind, file=path):
+                    simple.ReplaceReaderFileName(filter_.Input, [path], "FileName")
+                    self.check(filter_, name, scale, shift)
+            self.tearDown()
+
+    def test_after_loading_a_state(self):
+        for kind in ("DeformableSurface", "VolumetoSurface"):
+            with self.subTest(filter=kind):
+                filter_ = self.filter_of(kind)
+                path = testing.output_path(f"{kind}.pvsm")
+                simple.SaveState(path)
+                self.tearDown()
+                simple.LoadState(path)
+                filter_ = simple.FindSource("Filter")
+                self.check(filter_, "density", 1, 0)
+                simple.ReplaceReaderFileName(filter_.Input, [self.same_name], "FileName")
+                self.check(filter_, "density", 10, -7)
+                self.tearDown()
+
+
+views.open_screen()
+testing.main()

@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Views that scripts render: a screen for them, and what can be seen on their pictures."""
+
+import atexit
+import os
+import sys
+
+import gui_session as gui
+import numpy
+import plugin_testing as testing
+from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+# Of the box that ParaView hides a chart behind.
+WARNING_RED = (167, 40, 40)
+
+
+def open_screen():
+    """For this process; without one, the test is skipped."""
+    if not os.environ["VOLUMIC_XVFB"]:
+        print("Skipped: Xvfb was not found")
+        sys.exit(77)
+    server, display = gui.start_screen(os.environ["VOLUMIC_XVFB"], (900, 700))
+    os.environ.update(DISPLAY=display, LIBGL_ALWAYS_SOFTWARE="1")
+    atexit.register(server.terminate)
+
+
+def new_view(kind, size=(500, 400)):
+    view = simple.CreateView(kind)
+    view.ViewSize = size
+    if kind == "RenderView":
+        view.OrientationAxesVisibility = 0
+    return view
+
+
+def picture_of(view, name):
+    """Pixels [y, x, colour] of a view; the picture goes to VOLUMIC_TEST_OUTPUT, to be looked at."""
+    path = testing.output_path(name)
+    simple.SaveScreenshot(path, view)
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[..., :3]
+
+
+def drawn(pixels):
+    """How many pixels are not the background, which a corner has."""
+    return int((numpy.abs(pixels.astype(int) - pixels[0, 0]).max(axis=2) > 8).sum())
+
+
+def has_warning(chart):
+    """Whether ParaView's red box lies over the chart."""
+    return int((chart == WARNING_RED).all(axis=2).sum()) > 100

@@ -1,0 +1,296 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the outputs look in views: the chart of the history, colours, the blocks that are shown."""
+
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import servermanager
+from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import plugin_testing as testing
+import view_testing as views
+
+SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
+FOUR_CURVES = ["Seconds", "KineticEnergy", "MeanEdgeLength", "Vertices"]
+# On the logarithmic axis, most of them 0 in some row.
+MORE_CURVES = ["Merges", "Cuts", "EulerCharacteristic", "Collapses", "Deletions", "TimeStep"]
+
+
+def ball(size, radius, centre=0.0):
+    x = numpy.arange(size) - (size - 1) / 2 + 0.3
+    distance = numpy.sqrt((x[None, None, :] - centre)**2 + x[None, :, None]**2 +
+                          x[:, None, None]**2)
+    return numpy.clip(50 + 100 * (radius - distance), 0, 100).astype(numpy.float32)
+
+
+def two_balls():
+    """One of radius 8 and one of radius 4."""
+    return testing.produce(testing.make_image(
+        numpy.maximum(ball(48, 8, 10), ball(48, 4, -12)), name="density"))
+
+
+def column(filter_, name):
+    filter_.UpdatePipeline()
+    table = servermanager.Fetch(filter_, idx=HISTORY)
+    return vtk_to_numpy(table.GetColumnByName(name))
+
+
+class ViewsTestCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+
+    def tearDown(self):
+        for view in simple.GetViews():
+            simple.Delete(view)
+        for source in reversed(list(simple.GetSources().values())):
+            simple.Delete(source)
+
+
+class HistoryChartTest(ViewsTestCase):
+    def chart(self, name, *curves, **properties):
+        """The picture of the chart of a filter, with more curves."""
+        self.view = views.new_view("VolumicHistoryView", (700, 500))
+        self.display = simple.Show(simple.OutputPort(self.filter, HISTORY), self.view)
+        if curves:
+            self.display.SeriesVisibility = [*FOUR_CURVES, *curves]
+        for property_, value in properties.items():
+            setattr(self.view, property_, value)
+        return views.picture_of(self.view, f"history-{name}.png")
+
+    def test_surface_that_vanishes(self):
+        thin = testing.produce(testing.make_image(ball(60, 2.5), name="density"))
+        # Alone, and with what is found again of it at the next level.
+        for recovery in ("Off", "Objects"):
+            with self.subTest(recovery=recovery), testing.CapturedMessages():
+                self.filter = simple.VolumetoSurface(thin, IsoValue=20.0, CoarsestLevel=2,
+                                                     Recovery=recovery)
+                vertices = column(self.filter, "Vertices")
+                self.assertTrue((vertices == 0).any() and (vertices > 0).any())
+                for name, curves in ((recovery, ()), (f"{recovery}-more", MORE_CURVES)):
+                    chart = self.chart(name, *curves)
+                    self.assertFalse(views.has_warning(chart))
+                    self.assertGreater(views.drawn(chart), 5000)
+                # The table has its zeros.
+                numpy.testing.assert_array_equal(column(self.filter, "Vertices"), vertices)
+
+    def test_runs_of_every_day(self):
+        self.filter = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
+        self.assertFalse(views.has_warning(self.chart("day")))
+        self.assertFalse(views.has_warning(self.chart("day-more", *MORE_CURVES)))
+
+    def test_nothing_but_zeros(self):
+        self.filter = simple.VolumetoSurface(two_balls(), IsoValue=50.0, CoarsestLevel=0,
+                                             FinestLevel=0, MaximumNumberOfIterations=1)
+        with testing.CapturedMessages() as messages:
+            chart = self.chart("zeros", "Cuts", "Merges")
+            self.assertFalse(views.has_warning(chart))
+            # Without a row, too, and then with many.
+            self.filter.MaximumNumberOfIterations = 0
+            views.picture_of(self.view, "history-error.png")
+            self.filter.MaximumNumberOfIterations = 1000
+            chart = views.picture_of(self.view, "history-after-an-error.png")
+            self.assertFalse(views.has_warning(chart))
+            self.assertGreater(views.drawn(chart), 5000)
+        # The error of the run, and none of the chart.
+        self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
+
+    def blue(self, chart):
+        """Rows of the chart (0: the lowest) where the curve of Vertices is."""
+        near = numpy.abs(chart.astype(int) - (26, 89, 179)).max(axis=2) < 12
+        # Beside the legend, which is on the right.
+        return near[:, :chart.shape[1] // 2].any(axis=1).nonzero()[0]
+
+    def test_linear_axis_and_back(self):
+        """Zeros are drawn where there is a place for them; the axis may change at any time."""
+        thin = testing.produce(testing.make_image(ball(60, 2.5), name="density"))
+        with testing.CapturedMessages():
+            self.filter = simple.VolumetoSurface(thin, IsoValue=20.0, CoarsestLevel=2)
+            logarithmic = self.chart("logarithmic")
+        self.view.LeftAxisLogScale = 0
+        linear = views.picture_of(self.view, "history-linear.png")
+        self.view.LeftAxisLogScale = 1
+        again = views.picture_of(self.view, "history-again.png")
+        numpy.testing.assert_array_equal(again, logarithmic)
+        # Down to the axis at the bottom, as far as to be hidden by its line.
+        self.assertLess(self.blue(linear).min(), self.blue(logarithmic).min() - 100)
+
+    def test_a_chart_of_paraviews_own(self):
+        self.filter = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
+        view = views.new_view("XYChartView", (700, 500))
+        display = simple.Show(simple.OutputPort(self.filter, HISTORY), view)
+        display.SeriesVisibility = [*FOUR_CURVES, *MORE_CURVES]
+        view.LeftAxisLogScale = 1
+        self.assertFalse(views.has_warning(views.picture_of(view, "history-own.png")))
+
+
+class ChartBesideViewTest(ViewsTestCase):
+    def kinds(self):
+        return sorted(view.GetXMLName() for view in simple.GetViews())
+
+    def test_the_eye_opens_the_chart(self):
+        for kind in ("DeformableSurface", "VolumetoSurface"):
+            with self.subTest(filter=kind):
+                filter_ = getattr(simple, kind)(two_balls(), IsoValue=50.0)
+                view = views.new_view("RenderView")
+                simple.AssignViewToLayout(view)
+                simple.Show(filter_, view)
+                self.assertEqual(self.kinds(), ["RenderView"])
+                history = simple.OutputPort(filter_, HISTORY)
+                for _ in range(2):
+                    entry = simple.Show(history, view)
+                    self.assertEqual(self.kinds(), ["RenderView", "VolumicHistoryView"])
+                    self.assertFalse(entry.Visibility)
+                chart = next(v for v in simple.GetViews() if v.GetXMLName() != "RenderView")
+                self.assertEqual(simple.GetLayout(chart), simple.GetLayout(view))
+                display = simple.GetRepresentation(history, chart)
+                self.assertTrue(display.Visibility)
+                # Closed and opened again.
+                simple.Delete(chart)
+                simple.Show(history, view)
+                self.assertEqual(self.kinds(), ["RenderView", "VolumicHistoryView"])
+                self.tearDown()
+
+
+class ColoursTest(ViewsTestCase):
+    def setUp(self):
+        self.filter = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
+        self.view = views.new_view("RenderView")
+        self.display = simple.Show(self.filter, self.view)
+        simple.ResetCamera(self.view)
+
+    def coloured_by(self, name, association):
+        """The colour map, as the list in the window sets it up."""
+        numbers = {"POINTS": 0, "CELLS": 1}
+        self.display.SetScalarColoring(name, numbers[association])
+        self.display.RescaleTransferFunctionToDataRange(False, False)
+        simple.Render(self.view)
+        return self.display.LookupTable
+
+    def test_arrays_that_are_offered(self):
+        surface = testing.fetch(self.filter)
+        arrays = {data.GetArrayName(i) for data in (surface.GetPointData(), surface.GetCellData())
+                  for i in range(data.GetNumberOfArrays())}
+        for port in (SURFACE, LEVELS):
+            display = simple.Show(simple.OutputPort(self.filter, port), self.view)
+            domain = display.SMProxy.GetProperty("ColorArrayName").FindDomain("vtkSMArrayListDomain")
+            offered = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
+            self.assertEqual(sorted(offered), sorted(arrays))
+
+    def test_residual_diverges_from_zero(self):
+        colours = self.coloured_by("Residual", "POINTS")
+        quantile = self.filter.FieldData["ResidualQuantile"].GetRange()[0]
+        low, middle, high = colours.RGBPoints[0::4]
+        self.assertEqual((low, middle, high), (-quantile, 0.0, quantile))
+        self.assertGreater(quantile, 0.0)
+        self.assertEqual(colours.ColorSpace, "Diverging")
+        views.picture_of(self.view, "colours-residual.png")
+        # It follows the data...
+        self.filter.FinestLevel = 1
+        simple.Render(self.view)
+        coarse = self.filter.FieldData["ResidualQuantile"].GetRange()[0]
+        self.assertNotEqual(coarse, quantile)
+        self.assertEqual(list(colours.RGBPoints[0::4]), [-coarse, 0.0, coarse])
+        # ... until it is edited.
+        colours.RescaleTransferFunction(-7.0, 7.0)
+        self.filter.FinestLevel = 0
+        simple.Render(self.view)
+        self.assertEqual(colours.RGBPoints[0], -7.0)
+
+    def test_components_have_a_colour_each(self):
+        colours = self.coloured_by("Component", "CELLS")
+        self.assertTrue(colours.InterpretValuesAsCategories)
+        self.assertEqual(list(colours.Annotations), ["0", "0", "1", "1"])
+        pixels = views.picture_of(self.view, "colours-component.png")
+        self.filter.KeepComponents = "Largest"
+        simple.Render(self.view)
+        self.assertEqual(list(colours.Annotations), ["0", "0"])
+        self.assertGreater(views.drawn(pixels), 1000)
+
+    def test_more_components_than_colours(self):
+        x = numpy.arange(48) % 12 - 5.5
+        many = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
+        source = testing.produce(testing.make_image((4 - many).astype(numpy.float32)))
+        self.filter.Input = source
+        self.filter.Voxels = ["POINTS", "v"]
+        self.filter.IsoValue = 0.0
+        self.filter.CoarsestLevel = 0
+        colours = self.coloured_by("Component", "CELLS")
+        self.assertEqual(self.filter.FieldData["NumberOfComponents"].GetRange()[0], 64)
+        self.assertEqual(len(colours.Annotations), 2 * 20)
+        self.assertEqual(len(colours.IndexedColors), 3 * 20)
+        views.picture_of(self.view, "colours-many-components.png")
+
+    def test_colours_of_others_stay_as_they_are(self):
+        other = simple.Calculator(simple.Wavelet(), ResultArrayName="Residual", Function="RTData")
+        display = simple.Show(other, self.view)
+        display.SetRepresentationType("Surface")
+        simple.ColorBy(display, ("POINTS", "Residual"))
+        before = list(display.LookupTable.RGBPoints)
+        self.coloured_by("Residual", "POINTS")
+        self.assertNotEqual(display.LookupTable, self.display.LookupTable)
+        self.assertEqual(list(display.LookupTable.RGBPoints), before)
+
+    def test_a_threshold_chooses_components(self):
+        low, high = self.filter.CellData["ComponentVolume"].GetRange()
+        self.assertGreater(high, 4 * low)
+        kept = simple.Threshold(self.filter, Scalars=["CELLS", "ComponentVolume"],
+                                LowerThreshold=(low + high) / 2, UpperThreshold=high)
+        kept.UpdatePipeline()
+        self.assertEqual(kept.CellData["Component"].GetRange(), (0.0, 0.0))
+        self.assertGreater(kept.GetDataInformation().GetNumberOfCells(), 100)
+
+
+class BlocksTest(ViewsTestCase):
+    def shown(self, display):
+        return list(display.BlockSelectors)
+
+    def test_levels_show_the_finest(self):
+        filter_ = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
+        view = views.new_view("RenderView")
+        display = simple.Show(simple.OutputPort(filter_, LEVELS), view)
+        self.assertEqual(self.shown(display), ["/Root/*[@label='Level 0']"])
+        simple.ResetCamera(view)
+        # As the surface itself looks.
+        level = views.picture_of(view, "levels-finest.png")
+        simple.Hide(simple.OutputPort(filter_, LEVELS), view)
+        simple.Show(filter_, view)
+        numpy.testing.assert_allclose(views.picture_of(view, "levels-surface.png"), level, atol=2)
+        simple.Hide(filter_, view)
+        simple.Show(simple.OutputPort(filter_, LEVELS), view)
+        # Another level becomes the finest.
+        filter_.FinestLevel = 1
+        self.assertGreater(views.drawn(views.picture_of(view, "levels-level-1.png")), 1000)
+        self.assertEqual(self.shown(display), ["/Root/*[@label='Level 1']"])
+        filter_.FinestLevel = 0
+        simple.Render(view)
+        self.assertEqual(self.shown(display), ["/Root/*[@label='Level 0']"])
+        # What the user chooses stays.
+        display.BlockSelectors = ["/"]
+        filter_.FinestLevel = 1
+        simple.Render(view)
+        self.assertEqual(self.shown(display), ["/"])
+
+    def test_snapshots_show_the_last_and_none_makes_no_noise(self):
+        filter_ = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
+        view = views.new_view("RenderView")
+        with testing.CapturedMessages() as messages:
+            display = simple.Show(simple.OutputPort(filter_, SNAPSHOTS), view)
+            simple.ResetCamera(view)
+            self.assertEqual(views.drawn(views.picture_of(view, "snapshots-none.png")), 0)
+        self.assertEqual(messages.text, "")
+        filter_.SnapshotInterval = 10
+        simple.Render(view)
+        simple.ResetCamera(view)
+        self.assertEqual(len(self.shown(display)), 1)
+        self.assertRegex(self.shown(display)[0], r"Level 0, iteration \d+")
+        self.assertGreater(views.drawn(views.picture_of(view, "snapshots-last.png")), 1000)
+
+
+views.open_screen()
+testing.main()
