@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentationCache.h"
 
+#include <vtkCellArray.h>
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDemandDrivenPipeline.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMatrix3x3.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
@@ -16,24 +24,62 @@ namespace volumic
 {
 namespace
 {
-/// When anything of it was changed last; blocks do not tell of it by themselves.
-vtkMTimeType TimeOf(vtkDataObject* data)
+template <typename T>
+void AddPart(T* part, std::vector<std::pair<const void*, vtkMTimeType>>& parts)
 {
-  vtkMTimeType time = data->GetMTime();
-  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
-    {
-      time = std::max(time, it->GetCurrentDataObject()->GetMTime());
-    }
-  }
-  return time;
+  parts.emplace_back(part, part ? part->GetMTime() : 0);
 }
 }
 
 SegmentationCache::SegmentationCache() = default;
 SegmentationCache::~SegmentationCache() = default;
+
+void SegmentationCache::Add(vtkDataObject* data, Inputs& inputs)
+{
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      inputs.Places.push_back(it->GetCurrentFlatIndex());
+      Add(it->GetCurrentDataObject(), inputs);
+    }
+    return;
+  }
+  for (int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD })
+  {
+    vtkFieldData* arrays = data->GetAttributesAsFieldData(type);
+    for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
+    {
+      AddPart(arrays->GetAbstractArray(i), inputs.Parts);
+    }
+    auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
+    AddPart(attributes ? attributes->GetScalars() : nullptr, inputs.Parts);
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    std::vector<double>& places = inputs.Places;
+    places.insert(places.end(), image->GetExtent(), image->GetExtent() + 6);
+    places.insert(places.end(), image->GetSpacing(), image->GetSpacing() + 3);
+    places.insert(places.end(), image->GetOrigin(), image->GetOrigin() + 3);
+    const double* direction = image->GetDirectionMatrix()->GetData();
+    places.insert(places.end(), direction, direction + 9);
+  }
+  else if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    AddPart(surface->GetPoints(), inputs.Parts);
+    for (vtkCellArray* cells :
+      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      // Where there are none, each call may give another object.
+      AddPart(cells && cells->GetNumberOfCells() > 0 ? cells : nullptr, inputs.Parts);
+    }
+  }
+  else
+  {
+    AddPart(data, inputs.Parts);
+  }
+}
 
 SegmentationCache::Inputs SegmentationCache::Describe(vtkInformationVector** input, int ports)
 {
@@ -42,10 +88,12 @@ SegmentationCache::Inputs SegmentationCache::Describe(vtkInformationVector** inp
   {
     for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
     {
-      vtkDataObject* data = vtkDataObject::GetData(input[port], i);
-      inputs.emplace_back(data, data ? TimeOf(data) : 0);
+      if (vtkDataObject* data = vtkDataObject::GetData(input[port], i))
+      {
+        Add(data, inputs);
+      }
     }
-    inputs.emplace_back(nullptr, port);
+    inputs.Places.push_back(port);
   }
   return inputs;
 }
@@ -85,7 +133,7 @@ void SegmentationCache::Drop()
 {
   this->Run.reset();
   this->Results.reset();
-  this->Given.clear();
+  this->Given = Inputs();
   this->Time = 0;
 }
 

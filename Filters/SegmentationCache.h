@@ -29,7 +29,7 @@ public:
   ~SegmentationCache();
 
   /// @param time  of the filter: what is kept serves until another change is told of by it
-  /// @param input of the filter: their data must be the same, unchanged
+  /// @param input of the filter: their data must be the same
   void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkMTimeType time,
     vtkInformationVector** input, int ports);
   void Drop();
@@ -50,7 +50,19 @@ public:
   bool HasRecovery() const { return this->Recovery; }
 
 private:
-  using Inputs = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
+  /// Data are the same if they have the same arrays, unchanged, and lie in the same place: ParaView
+  /// hands on other objects with the arrays of those before.
+  struct Inputs
+  {
+    std::vector<std::pair<const void*, vtkMTimeType>> Parts;
+    std::vector<double> Places;
+
+    bool operator==(const Inputs& other) const
+    {
+      return this->Parts == other.Parts && this->Places == other.Places;
+    }
+  };
+  static void Add(vtkDataObject* data, Inputs& inputs);
   static Inputs Describe(vtkInformationVector** input, int ports);
 
   std::unique_ptr<SurfaceSegmentation> Run;

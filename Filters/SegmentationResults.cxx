@@ -99,7 +99,7 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
   vtkMultiBlockDataSet::GetData(outputs, 3)->ShallowCopy(film);
 }
 
-std::string SegmentationResults::WarningOf(int last, bool hasRecovery) const
+std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
 {
   // The field data tell the rest; what is worth a warning needs another choice to be made.
   constexpr double notable = 0.01;
@@ -121,14 +121,17 @@ std::string SegmentationResults::WarningOf(int last, bool hasRecovery) const
   {
     return Join("Level ", about.Level, ": Keep Components leaves none of the components.");
   }
-  if (about.MissingBoundary > notable && hasRecovery)
+  if (about.MissingBoundary > notable && wantsAll)
   {
     const int lost = about.LostParts + about.LostCavities;
+    const std::string parts =
+      Join(lost, lost == 1 ? " part" : " parts", " that coarser levels had lost");
+    const std::string what = about.MissingParts == 0 ? "thin ends of " + parts
+      : about.MissingParts == lost                   ? "all of " + parts
+      : Join(about.MissingParts, " of ", parts, ", and thin ends of others");
     return Join(std::lround(100.0 * about.MissingBoundary), " % of the object's boundary at level ",
-      about.Level, " is not on the surface: of ", lost, lost == 1 ? " part" : " parts",
-      " that coarser levels had lost ", about.MissingParts, about.MissingParts == 1 ? " is" : " are",
-      " still missing, and thin ends of others. They are too thin for triangles of this size, or too "
-      "near to the rest. ",
+      about.Level, " is not on the surface: ", what,
+      ", too thin for triangles of this size or too near to the rest. ",
       about.Level > 0
         ? "Set Finest Level to a finer level."
         : (about.Level == 0 ? "Set Finest Level to -1, which has smaller ones, or resample the image."

@@ -54,7 +54,8 @@ public:
   /// Those above `last`, too: they are kept.
   void FillOutputs(int last, vtkInformationVector* outputs) const;
   /// What is worth a warning where a run has ended at a level; empty: nothing.
-  std::string WarningOf(int last, bool hasRecovery) const;
+  /// @param wantsAll whether it matters if parts of the object are missing
+  std::string WarningOf(int last, bool wantsAll) const;
   vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
 
 private:

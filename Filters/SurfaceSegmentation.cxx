@@ -9,6 +9,7 @@
 #include "SurfaceOutput.h"
 #include "vtkDeformableSurface.h"
 
+#include <vtkDataObject.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -51,11 +52,13 @@ PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection
 
 SurfaceSegmentation::SurfaceSegmentation(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), Input(vtkSmartPointer<vtkMultiBlockDataSet>::New()),
-    Pyramid(ReadLevels(blocks, selection, settings.Metric)),
+  : Settings(settings), Pyramid(ReadLevels(blocks, selection, settings.Metric)),
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
 {
-  this->Input->ShallowCopy(blocks);
+  for (unsigned int block = 0; block < blocks->GetNumberOfBlocks(); ++block)
+  {
+    this->Images.emplace_back(blocks->GetBlock(block));
+  }
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
   CheckEnumeration("Border Value", settings.BorderValue, vtkDeformableSurface::Replicate);
   CheckEnumeration(
@@ -411,11 +414,16 @@ void SurfaceSegmentation::Run()
     this->Threads->Run([this] { this->RunLevels(); });
   }
   const std::string warning =
-    this->Found.WarningOf(this->LastLevel, this->Settings.Options.RecoverLostParts);
+    this->Found.WarningOf(this->LastLevel, this->WantsAllParts());
   if (!warning.empty())
   {
     this->Settings.Warn(warning);
   }
+}
+
+bool SurfaceSegmentation::WantsAllParts() const
+{
+  return this->Settings.Options.RecoverLostParts && !this->Settings.Preview;
 }
 
 bool SurfaceSegmentation::CanGoOn() const

@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataObject;
 class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkPoints;
@@ -36,6 +37,7 @@ struct SegmentationRequest
   int FinestLevel = 0;  ///< with EdgeLength: as planned
   bool Preview = false; ///< to end at a level of few voxels
   int NumberOfThreads = 0;
+  vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
   Deadline Limit;
   /// When the run began: what came before counts to the seconds of its first level.
   Deadline::Clock::time_point Started = Deadline::Clock::now();
@@ -61,7 +63,6 @@ struct SegmentationSettings : SegmentationRequest
   double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
   bool Profile = false;                  ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
-  vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
   vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
   vtkPoints* SeedPositions = nullptr;       ///< world, beside those of port 1; may be missing
   vtkPoints* AttractingPositions = nullptr; ///< world, beside those of port 2; may be missing
@@ -119,6 +120,7 @@ private:
   int CoarsestLevelThatHolds(int from);
   void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
+  bool WantsAllParts() const;
   void Begin();
   void RunLevels();
   bool RunLevel(int level);
@@ -126,7 +128,8 @@ private:
   std::string WhyStopped() const;
 
   SegmentationSettings Settings;
-  vtkSmartPointer<vtkMultiBlockDataSet> Input; ///< Keeps the levels alive.
+  /// Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on.
+  std::vector<vtkSmartPointer<vtkDataObject>> Images;
   PyramidLevels Pyramid;
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none

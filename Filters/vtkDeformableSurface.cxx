@@ -343,6 +343,7 @@ void vtkDeformableSurface::RunOrGoOn(
   settings.FinestLevel = this->FinestLevel;
   settings.Preview = this->Preview;
   settings.NumberOfThreads = this->NumberOfThreads;
+  settings.InitialSurface = vtkPolyData::GetData(input[1]);
   settings.Limit = this->Internals->Limit;
   settings.Progress = [this, before](double share, const std::string& text)
   {
@@ -358,7 +359,7 @@ void vtkDeformableSurface::RunOrGoOn(
     {
       const int end = cache.EndOf(settings);
       results->FillOutputs(end, output);
-      const std::string warning = results->WarningOf(end, cache.HasRecovery());
+      const std::string warning = results->WarningOf(end, cache.HasRecovery() && !this->Preview);
       if (!warning.empty())
       {
         settings.Warn(warning);
@@ -418,7 +419,6 @@ void vtkDeformableSurface::RunOrGoOn(
     settings.FactorBelowLevel0 = volume.FactorBelowLevel0;
     settings.Profile = this->Profile;
     settings.SnapshotInterval = this->SnapshotInterval;
-    settings.InitialSurface = vtkPolyData::GetData(input[1]);
     settings.AttractingPoints = vtkPolyData::GetData(input[2]);
     settings.SeedPositions = this->SeedPositions;
     settings.AttractingPositions = this->AttractingPositions;

@@ -101,7 +101,7 @@
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. At
  * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if, with
- * Recovery, `MissingBoundary` is more than 0.01 at the finest level. Nothing else is warned of: the
+ * Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level. Nothing else is warned of: the
  * field data tell it.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.

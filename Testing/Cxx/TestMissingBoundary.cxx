@@ -71,7 +71,7 @@ TEST(MissingBoundary, TellsTheShareOfWhatIsTooThin)
   EXPECT_EQ(TimesIn(warnings, "of the object's boundary at level 0 is not on the surface"), 1)
     << warnings;
   EXPECT_EQ(TimesIn(warnings, "Warning: In "), 1) << "once for the whole run: " << warnings;
-  EXPECT_NE(warnings.find("of 2 parts that coarser levels had lost 2 are still missing"),
+  EXPECT_NE(warnings.find("all of 2 parts that coarser levels had lost, too thin"),
     std::string::npos)
     << warnings;
   EXPECT_NE(warnings.find("Set Finest Level to -1"), std::string::npos) << warnings;
@@ -95,6 +95,16 @@ TEST(MissingBoundary, IsNotWarnedOfWhereNoRecoveryIsAskedFor)
   filter->SetRecovery(vtkDeformableSurface::NoRecovery);
   EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "");
   EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01) << "told all the same";
+}
+
+TEST(MissingBoundary, IsNotWarnedOfInAPreview)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->PreviewOn();
+  EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "") << "level 0 has few voxels: the same surface";
+  EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01);
+  filter->PreviewOff();
+  EXPECT_NE(WarningsOf(filter, BallAndSheets(2)), "");
 }
 
 TEST(MissingBoundary, DoesNotCountPartsUnderTheMinimumSize)

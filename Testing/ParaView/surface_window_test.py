@@ -15,13 +15,13 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright")
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview")
 ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "Recovery", "MinimumPartSize",
             "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
             "BorderValue", "TopologyChanges", "SnapToIsoValue", "KeepComponents",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
-            "NumberOfThreads", "SnapshotInterval", "Profile")
+            "NumberOfThreads", "TimeLimit", "SnapshotInterval", "Profile")
 
 # Tells which view becomes the active one, and has a shortcut's place for the test to make it so.
 ACTIVE_VIEWS = """

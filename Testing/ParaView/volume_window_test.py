@@ -16,9 +16,9 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "FinestLevel")
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "FinestLevel")
 ADVANCED = ("NumberOfLevels", "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction",
-            "SnapshotInterval")
+            "TimeLimit", "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
 # stopped after some iterations; the end of each run is told.
