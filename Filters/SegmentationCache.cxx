@@ -2,20 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentationCache.h"
 
-#include <vtkCellArray.h>
+#include <vtkAlgorithm.h>
+#include <vtkAlgorithmOutput.h>
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
-#include <vtkDataArray.h>
 #include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDemandDrivenPipeline.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
+#include <vtkExecutive.h>
 #include <vtkInformation.h>
-#include <vtkInformationVector.h>
-#include <vtkMatrix3x3.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
@@ -24,98 +18,81 @@ namespace volumic
 {
 namespace
 {
-template <typename T>
-void AddPart(T* part, std::vector<std::pair<const void*, vtkMTimeType>>& parts)
+/**
+ * What comes to a connection. ParaView puts a filter of its own between any two, which hands on the
+ * same data in an object that it fills anew at each update.
+ */
+vtkDataObject* DataOf(vtkAlgorithmOutput* connection)
 {
-  parts.emplace_back(part, part ? part->GetMTime() : 0);
+  vtkAlgorithm* producer = connection->GetProducer();
+  while (producer->IsA("vtkPVPostFilter") && producer->GetNumberOfInputConnections(0) > 0)
+  {
+    connection = producer->GetInputConnection(0, 0);
+    producer = connection->GetProducer();
+  }
+  return producer->GetOutputDataObject(connection->GetIndex());
+}
+
+/// When anything of it was changed last; blocks do not tell of it by themselves.
+vtkMTimeType TimeOf(vtkDataObject* data)
+{
+  vtkMTimeType time = data->GetMTime();
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      time = std::max(time, it->GetCurrentDataObject()->GetMTime());
+    }
+  }
+  return time;
+}
+
+/// Whether the data of an input go once they have been used; they must not stay because of us.
+bool AreReleased(vtkAlgorithm* filter)
+{
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    {
+      vtkInformation* info = filter->GetExecutive()->GetInputInformation(port, i);
+      if (info->Get(vtkDemandDrivenPipeline::RELEASE_DATA()))
+      {
+        return true;
+      }
+    }
+  }
+  return vtkDataObject::GetGlobalReleaseDataFlag() != 0;
 }
 }
 
 SegmentationCache::SegmentationCache() = default;
 SegmentationCache::~SegmentationCache() = default;
 
-void SegmentationCache::Add(vtkDataObject* data, Inputs& inputs)
-{
-  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
-    {
-      inputs.Places.push_back(it->GetCurrentFlatIndex());
-      Add(it->GetCurrentDataObject(), inputs);
-    }
-    return;
-  }
-  for (int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD })
-  {
-    vtkFieldData* arrays = data->GetAttributesAsFieldData(type);
-    for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
-    {
-      AddPart(arrays->GetAbstractArray(i), inputs.Parts);
-    }
-    auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
-    AddPart(attributes ? attributes->GetScalars() : nullptr, inputs.Parts);
-  }
-  if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    std::vector<double>& places = inputs.Places;
-    places.insert(places.end(), image->GetExtent(), image->GetExtent() + 6);
-    places.insert(places.end(), image->GetSpacing(), image->GetSpacing() + 3);
-    places.insert(places.end(), image->GetOrigin(), image->GetOrigin() + 3);
-    const double* direction = image->GetDirectionMatrix()->GetData();
-    places.insert(places.end(), direction, direction + 9);
-  }
-  else if (auto* surface = vtkPolyData::SafeDownCast(data))
-  {
-    AddPart(surface->GetPoints(), inputs.Parts);
-    for (vtkCellArray* cells :
-      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-    {
-      // Where there are none, each call may give another object.
-      AddPart(cells && cells->GetNumberOfCells() > 0 ? cells : nullptr, inputs.Parts);
-    }
-  }
-  else
-  {
-    AddPart(data, inputs.Parts);
-  }
-}
-
-SegmentationCache::Inputs SegmentationCache::Describe(vtkInformationVector** input, int ports)
+SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
 {
   Inputs inputs;
-  for (int port = 0; port < ports; ++port)
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
-    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
     {
-      if (vtkDataObject* data = vtkDataObject::GetData(input[port], i))
-      {
-        Add(data, inputs);
-      }
+      vtkDataObject* data = DataOf(filter->GetInputConnection(port, i));
+      inputs.emplace_back(data, data ? TimeOf(data) : 0);
     }
-    inputs.Places.push_back(port);
+    inputs.emplace_back(nullptr, port);
   }
   return inputs;
 }
 
-void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkMTimeType time,
-  vtkInformationVector** input, int ports)
+void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter)
 {
   this->Drop();
-  // What is released after its use must not stay because of us.
-  for (int port = 0; port < ports; ++port)
+  if (filter->GetReleaseDataFlag() || AreReleased(filter))
   {
-    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      if (input[port]->GetInformationObject(i)->Get(vtkDemandDrivenPipeline::RELEASE_DATA()) ||
-        vtkDataObject::GetGlobalReleaseDataFlag())
-      {
-        return;
-      }
-    }
+    return;
   }
-  this->Time = time;
-  this->Given = Describe(input, ports);
+  this->Time = filter->GetMTime();
+  this->Given = InputsOf(filter);
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
   this->PlannedEnd = run->GetSettings().FinestLevel;
   this->Recovery = run->GetSettings().Options.RecoverLostParts;
@@ -133,7 +110,7 @@ void SegmentationCache::Drop()
 {
   this->Run.reset();
   this->Results.reset();
-  this->Given = Inputs();
+  this->Given.clear();
   this->Time = 0;
 }
 
@@ -145,9 +122,9 @@ void SegmentationCache::Allow(vtkMTimeType before, vtkMTimeType after)
   }
 }
 
-bool SegmentationCache::Serves(vtkMTimeType time, vtkInformationVector** input, int ports) const
+bool SegmentationCache::Serves(vtkAlgorithm* filter) const
 {
-  return this->Time != 0 && this->Time == time && this->Given == Describe(input, ports);
+  return this->Time != 0 && this->Time == filter->GetMTime() && this->Given == InputsOf(filter);
 }
 
 int SegmentationCache::EndOf(const SegmentationRequest& request) const

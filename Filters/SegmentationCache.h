@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+class vtkAlgorithm;
 class vtkDataObject;
-class vtkInformationVector;
 
 namespace volumic
 {
@@ -28,17 +28,15 @@ public:
   SegmentationCache();
   ~SegmentationCache();
 
-  /// @param time  of the filter: what is kept serves until another change is told of by it
-  /// @param input of the filter: their data must be the same
-  void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkMTimeType time,
-    vtkInformationVector** input, int ports);
+  /// It serves until the filter tells of another change, or one of its inputs.
+  void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter);
   void Drop();
 
   /// A change of the filter that does not matter to what is kept: from one time to another.
   void Allow(vtkMTimeType before, vtkMTimeType after);
 
-  /// Whether what is kept is of these inputs and of a filter that has not changed otherwise.
-  bool Serves(vtkMTimeType time, vtkInformationVector** input, int ports) const;
+  /// Whether neither the filter nor its inputs have changed otherwise.
+  bool Serves(vtkAlgorithm* filter) const;
 
   /// The results of a run that would end where asked, null where there are none.
   const SegmentationResults* ResultsFor(const SegmentationRequest& request) const;
@@ -50,20 +48,8 @@ public:
   bool HasRecovery() const { return this->Recovery; }
 
 private:
-  /// Data are the same if they have the same arrays, unchanged, and lie in the same place: ParaView
-  /// hands on other objects with the arrays of those before.
-  struct Inputs
-  {
-    std::vector<std::pair<const void*, vtkMTimeType>> Parts;
-    std::vector<double> Places;
-
-    bool operator==(const Inputs& other) const
-    {
-      return this->Parts == other.Parts && this->Places == other.Places;
-    }
-  };
-  static void Add(vtkDataObject* data, Inputs& inputs);
-  static Inputs Describe(vtkInformationVector** input, int ports);
+  using Inputs = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
+  static Inputs InputsOf(vtkAlgorithm* filter);
 
   std::unique_ptr<SurfaceSegmentation> Run;
   std::unique_ptr<SegmentationResults> Results; ///< Those of Run where there is one.

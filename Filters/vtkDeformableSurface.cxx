@@ -328,7 +328,7 @@ void vtkDeformableSurface::RunOrGoOn(
   volumic::SegmentationSettings settings;
   settings.Started = volumic::Deadline::Clock::now();
   volumic::SegmentationCache& cache = this->Internals->Cache;
-  const bool isKept = cache.Serves(this->GetMTime(), input, this->GetNumberOfInputPorts());
+  const bool isKept = cache.Serves(this);
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   this->SetErrorCode(vtkErrorCode::NoError);
@@ -427,10 +427,7 @@ void vtkDeformableSurface::RunOrGoOn(
   }
   run->Run();
   run->Results().FillOutputs(run->EndsAt(), output);
-  if (!this->GetReleaseDataFlag())
-  {
-    cache.Keep(std::move(run), this->GetMTime(), input, this->GetNumberOfInputPorts());
-  }
+  cache.Keep(std::move(run), this);
 }
 
 //------------------------------------------------------------------------------

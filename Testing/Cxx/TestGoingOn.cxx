@@ -234,6 +234,11 @@ TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)
       this->Image->GetPointData()->GetScalars()->SetComponent(5, 0, 20.0);
       this->Image->GetPointData()->GetScalars()->Modified();
     },
+    [&]
+    {
+      Voxels(this->Image)->SetComponent(6, 0, 20.0);
+      this->Image->Modified();
+    },
     [&] { this->Filter->SetInputData(Scene(56)); } };
   for (const auto& change : changes)
   {
