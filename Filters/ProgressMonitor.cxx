@@ -30,8 +30,8 @@ std::string TextOf(const Monitor::Status& status)
 }
 }
 
-ProgressMonitor::ProgressMonitor(Tell tell, int coarsest, int finest)
-  : Host(std::move(tell)), Coarsest(coarsest), Finest(finest)
+ProgressMonitor::ProgressMonitor(Tell tell, int coarsest, int finest, const Deadline& limit)
+  : Host(std::move(tell)), Coarsest(coarsest), Finest(finest), Limit(limit)
 {
 }
 
@@ -68,6 +68,10 @@ bool ProgressMonitor::Report(int level, double fraction, const std::string& text
   const double own = std::pow(3.0, this->Coarsest - level);
   const double share = (before + own * std::clamp(fraction, 0.0, 1.0)) / total;
   this->Stopped = this->Stopped || !this->Host(share, text);
+  if (!this->Stopped && this->Limit.IsOver())
+  {
+    this->Stopped = this->OutOfTime = true;
+  }
   return !this->Stopped;
 }
 }

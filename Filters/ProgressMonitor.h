@@ -4,6 +4,7 @@
 #define ProgressMonitor_h
 
 #include "Core/Monitor.h"
+#include "Deadline.h"
 
 #include <functional>
 #include <string>
@@ -12,7 +13,7 @@ namespace volumic
 {
 /**
  * Tells the host of the work on the levels, as a share of the whole that never becomes less, and
- * the core whether the host has asked to stop. It is the one place that ends a run early.
+ * the core whether the host has asked to stop, or time is over. It is the one place that ends a run early.
  */
 class ProgressMonitor final : public Monitor
 {
@@ -22,7 +23,7 @@ public:
 
   /// From the level `coarsest` to the level `finest`. A level has about three times the vertices of
   /// the one above, and takes so much more of the work.
-  ProgressMonitor(Tell tell, int coarsest, int finest);
+  ProgressMonitor(Tell tell, int coarsest, int finest, const Deadline& limit = Deadline());
 
   /// May look at the surface.
   std::function<void(const Status&)> AfterIteration = [](const Status&) {};
@@ -35,13 +36,18 @@ public:
 
   bool IsStopped() const { return this->Stopped; }
 
+  /// Whether it was time that has stopped it, and not the host.
+  bool IsOutOfTime() const { return this->OutOfTime; }
+
 private:
   bool Report(int level, double fraction, const std::string& text);
 
   Tell Host;
   int Coarsest;
   int Finest;
+  Deadline Limit;
   bool Stopped = false;
+  bool OutOfTime = false;
 };
 }
 

@@ -199,6 +199,11 @@ bool PyramidLevels::HasRoom(int level) const
   return *std::min_element(size, size + 3) >= MinimumSize;
 }
 
+std::int64_t PyramidLevels::NumberOfVoxels(int level) const
+{
+  return this->Images[level]->GetNumberOfPoints();
+}
+
 std::array<int, 3> PyramidLevels::SizeOfLevel0() const
 {
   const int* size = this->Images[0]->GetDimensions();

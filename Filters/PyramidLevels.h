@@ -12,6 +12,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ public:
 
   /// Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it.
   bool HasRoom(int level) const;
+
+  std::int64_t NumberOfVoxels(int level) const;
 
   /// Voxels of the finest level along each axis.
   std::array<int, 3> SizeOfLevel0() const;

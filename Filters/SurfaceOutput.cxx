@@ -243,6 +243,8 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   AddField<vtkDoubleArray>(polyData, "ResidualQuantile", ResidualQuantile(surface.Residual));
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
+  AddField<vtkIntArray>(polyData, "MissingParts", description.MissingParts);
+  AddField<vtkDoubleArray>(polyData, "MissingBoundary", description.MissingBoundary);
   AddField<vtkIntArray>(polyData, "LostCavities", description.LostCavities);
   AddField<vtkIntArray>(polyData, "RecoveredCavities", description.RecoveredCavities);
   if (description.TotalIterations >= 0)
@@ -266,11 +268,11 @@ void SetStopReason(vtkPolyData* surface, const std::string& reason)
   AddField<vtkStringArray>(surface, "StopReason", reason.c_str());
 }
 
-vtkSmartPointer<vtkPolyData> MakeCancelled(int level)
+vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason)
 {
   SurfaceDescription description;
   description.Level = level;
-  description.StopReason = Describe(StopReason::Cancelled);
+  description.StopReason = reason;
   return MakePolyData(SurfaceResult(), description, Workspace());
 }
 

@@ -26,6 +26,8 @@ struct SurfaceDescription
   std::string StopReason;   ///< empty: none, the surface is still on its way
   int LostParts = 0;
   int RecoveredParts = 0;
+  int MissingParts = 0;
+  double MissingBoundary = 0.0; ///< share, 0 to 1
   int LostCavities = 0;
   int RecoveredCavities = 0;
 };
@@ -40,8 +42,11 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
 /// In the place of the one that it has; what it was copied from keeps its own.
 void SetStopReason(vtkPolyData* surface, const std::string& reason);
 
-/// The surface of a run that was cancelled before it had one: empty, with all its arrays.
-vtkSmartPointer<vtkPolyData> MakeCancelled(int level);
+/// `StopReason` of what a run hands over that has come to the end of its time.
+constexpr const char* TimeLimitReason = "time limit";
+
+/// The surface of a run that was stopped before it had one: empty, with all its arrays.
+vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason);
 
 /// A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
 /// if asked for.

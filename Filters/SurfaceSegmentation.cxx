@@ -5,18 +5,17 @@
 #include "Core/EdgeLengthPlan.h"
 #include "Core/Refuse.h"
 #include "GivenPositions.h"
-#include "HostThreads.h"
 #include "InitialSurfaces.h"
 #include "SurfaceOutput.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
+#include <vtkDataObject.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
-#include <vtkTable.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +34,13 @@ void CheckEnumeration(const char* name, int value, int last)
   {
     Refuse(name, " is ", value, "; it must be 0 to ", last, ".");
   }
+}
+
+/// Image Pyramid has counted them, and tells it itself where it is a filter of the user's.
+bool MayHaveNaNsToTell(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings)
+{
+  vtkDataArray* counted = blocks->GetFieldData()->GetArray("NaNVoxels");
+  return !counted || (settings.LevelsAreOwn && counted->GetTuple1(0) > 0.0);
 }
 
 /// The levels, with errors that name the port.
@@ -57,11 +63,14 @@ PyramidLevels ReadLevels(
 
 SurfaceSegmentation::SurfaceSegmentation(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), Input(blocks), Pyramid(ReadLevels(blocks, selection, settings)),
-    Finest(vtkSmartPointer<vtkPolyData>::New()),
-    Blocks(vtkSmartPointer<vtkMultiBlockDataSet>::New()), Table(vtkSmartPointer<vtkTable>::New()),
+  : Settings(settings), MayHaveUntoldNaNs(MayHaveNaNsToTell(blocks, settings)),
+    Pyramid(ReadLevels(blocks, selection, settings)),
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
 {
+  for (unsigned int block = 0; block < blocks->GetNumberOfBlocks(); ++block)
+  {
+    this->Images.emplace_back(blocks->GetBlock(block));
+  }
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
   CheckEnumeration("Border Value", settings.BorderValue, vtkDeformableSurface::Replicate);
   CheckEnumeration(
@@ -158,7 +167,11 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   {
     this->Edges = std::make_unique<EdgeLevels>(blocks, this->Settings.EdgeSelection,
       this->Settings.NumberOfThreads,
-      [this](double) { return this->Settings.Progress(0.0, "Pyramid of the map of edges"); });
+      [this](double)
+      {
+        return this->Settings.Progress(0.0, "Pyramid of the map of edges") &&
+          !this->Settings.Limit.IsOver();
+      });
   }
 }
 
@@ -233,36 +246,42 @@ void SurfaceSegmentation::ChooseLevels()
       --this->Coarsest;
     }
   }
-  this->LastLevel = this->Settings.FinestLevel;
+  const int finest = this->Settings.FinestLevel;
   if (this->Coarsest < 0 || this->Coarsest > last)
   {
     Refuse("Coarsest Level is ", this->Settings.CoarsestLevel,
       ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
   }
-  if (this->Settings.EdgeLength != 0.0 && this->LastLevel > this->Coarsest)
+  if (this->Settings.EdgeLength != 0.0 && finest > this->Coarsest)
   {
     Refuse("Edge Length is ", this->Settings.EdgeLength, ", for which the finest level is ",
-      this->LastLevel, ", but Coarsest Level is ", this->Settings.CoarsestLevel,
+      finest, ", but Coarsest Level is ", this->Settings.CoarsestLevel,
       "; set it to that level, a coarser one, or -1 for the last.");
   }
-  if (this->LastLevel < -1 || this->LastLevel > this->Coarsest)
+  if (finest < -1 || finest > this->Coarsest)
   {
-    Refuse("Finest Level is ", this->LastLevel, "; it must lie between 0 and the coarsest level, ",
+    Refuse("Finest Level is ", finest, "; it must lie between 0 and the coarsest level, ",
       this->Coarsest, ", or be -1 for a last division beyond the image.");
+  }
+  this->PreviewLevel = 0;
+  while (this->PreviewLevel < this->Coarsest &&
+    this->Pyramid.NumberOfVoxels(this->PreviewLevel) > VoxelsOfPreview)
+  {
+    ++this->PreviewLevel;
   }
 }
 
-unsigned int SurfaceSegmentation::BlockOf(int level) const
+void SurfaceSegmentation::ChooseEnd(int coarsestWithObject)
 {
-  return static_cast<unsigned int>(level < 0 ? this->Pyramid.NumberOfLevels() : level);
+  this->PreviewLevel = std::min(this->PreviewLevel, coarsestWithObject);
+  this->LastLevel = this->Settings.Preview
+    ? std::max(this->Settings.FinestLevel, this->PreviewLevel)
+    : this->Settings.FinestLevel;
 }
 
 void SurfaceSegmentation::WarnOfNaNs()
 {
-  vtkDataArray* counted = this->Input->GetFieldData()->GetArray("NaNVoxels");
-  const bool hasNone = counted && counted->GetTuple1(0) == 0.0;
-  // Image Pyramid tells it itself where it is a filter of the user's.
-  if (!hasNone && (!counted || this->Settings.LevelsAreOwn))
+  if (this->MayHaveUntoldNaNs)
   {
     const std::string text = this->Pyramid.DescribeNaNsOfLevel0();
     if (!text.empty())
@@ -329,9 +348,11 @@ void SurfaceSegmentation::CheckObjectIsThere()
 {
   if (this->Points)
   {
+    this->ChooseEnd(this->Coarsest);
     return; // Every level shows what points mark.
   }
   const int level = this->CoarsestLevelWithObject(this->Coarsest);
+  this->ChooseEnd(level);
   if (this->Settings.CoarsestLevel == -1 && level >= this->LastLevel)
   {
     this->Coarsest = this->CoarsestLevelThatHolds(level);
@@ -398,135 +419,158 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   }
 }
 
-void SurfaceSegmentation::WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost)
+void SurfaceSegmentation::Renew(const SegmentationRequest& request)
 {
-  // The field data tell it of every level; only what stays lost in the end is worth a warning.
-  const int missing = lost.Found - lost.Enclosed;
-  if (missing > 0 && level == this->LastLevel)
+  const int planned = this->Settings.FinestLevel;
+  static_cast<SegmentationRequest&>(this->Settings) = request;
+  if (this->Settings.EdgeLength != 0.0)
   {
-    this->Settings.Warn(Join("Level ", level, " shows ", lost.Found, " part",
-      lost.Found == 1 ? "" : "s", " of the object that the surface lost at level ", level + 1, "; ",
-      missing, missing == 1 ? " is" : " are", " not found again. ",
-      this->Settings.Options.RecoverLostParts ? "They lie too close to the surface for one of their "
-                                                "own; a finer Coarsest Level may keep more."
-                                              : "Turn Recovery on to find them."));
+    this->Settings.FinestLevel = planned;
   }
 }
 
-bool SurfaceSegmentation::RunLevel(SurfaceEvolution& evolution, int level)
+void SurfaceSegmentation::Run()
 {
-  const StopReason reason = evolution.Run();
-  SurfaceDescription description;
+  const int before = this->Coarsest;
+  this->ChooseLevels();
+  this->CheckIsoValue();
+  this->CheckObjectIsThere();
+  // Where a run begins may depend on where it is to end; then nothing of the last one serves.
+  if (!this->Evolution || this->Coarsest != before)
+  {
+    this->Begin();
+    this->WarnOfNaNs();
+  }
+  this->Found.SetHandedOver(nullptr);
+  if (!this->Found.HasAtRest(this->LastLevel))
+  {
+    // What the evolution refers to stays in its place.
+    this->Threads.emplace(this->Settings.NumberOfThreads);
+    this->Watcher.emplace(
+      this->Settings.Progress, this->Coarsest, this->LastLevel, this->Settings.Limit);
+    this->Watcher->AfterIteration = [this](const Monitor::Status& status)
+    {
+      this->Film.Offer(*this->Evolution, status.Level, this->Pyramid.UnitInWorld(status.Level),
+        status.Iteration, this->Found);
+    };
+    this->Threads->Run([this] { this->RunLevels(); });
+  }
+  const std::string warning =
+    this->Found.WarningOf(this->LastLevel, this->WantsAllParts());
+  if (!warning.empty())
+  {
+    this->Settings.Warn(warning);
+  }
+}
+
+bool SurfaceSegmentation::WantsAllParts() const
+{
+  return this->Settings.Options.RecoverLostParts && !this->Settings.Preview;
+}
+
+bool SurfaceSegmentation::CanGoOn() const
+{
+  return this->GoesOn && this->Reached > 0 && !this->Evolution->IsStopped();
+}
+
+void SurfaceSegmentation::Begin()
+{
+  this->Evolution.reset();
+  this->GoesOn = false;
+  this->Found = SegmentationResults(this->Pyramid.NumberOfLevels(), this->Coarsest,
+    this->Pyramid.GetWorkspace(), this->Settings.Profile);
+  this->Found.SetPreviewLevel(this->PreviewLevel);
+}
+
+void SurfaceSegmentation::RunLevels()
+{
+  if (!this->Evolution)
+  {
+    this->Evolution =
+      std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Watcher);
+    this->Reached = this->Coarsest + 1;
+    this->GoesOn = true;
+  }
+  this->Evolution->StartClock(this->Settings.Started);
+  while (this->GoesOn && this->Reached > this->LastLevel)
+  {
+    const int level = this->Reached - 1;
+    if (!this->Watcher->LoadLevel(level))
+    {
+      this->HandOverStopped(level);
+      break;
+    }
+    const LevelImage image = this->Load(level, *this->Threads);
+    if (level == this->Settings.FinestLevel)
+    {
+      this->Evolution->SetMeanEdgeLength(
+        this->Settings.EdgeLength / this->Pyramid.GetWorkspace().WorldUnit());
+    }
+    if (level == this->Coarsest)
+    {
+      this->Start(*this->Evolution, image);
+    }
+    else if (!this->Evolution->Divide(image, level))
+    {
+      this->HandOverStopped(level);
+      break;
+    }
+    this->Film.Offer(
+      *this->Evolution, level, this->Pyramid.UnitInWorld(level), 0, this->Found);
+    this->GoesOn = this->RunLevel(level);
+    this->Reached = level;
+  }
+  this->Found.SetRows(this->Evolution->History());
+}
+
+bool SurfaceSegmentation::RunLevel(int level)
+{
+  const StopReason reason = this->Evolution->Run();
+  SegmentationResults::Level result;
+  result.IsAtRest = reason != StopReason::Cancelled;
+  SurfaceDescription& description = result.Description;
   description.Level = level;
   description.Unit = this->Pyramid.UnitInWorld(level);
-  description.Iterations = evolution.Iterations();
-  description.StopReason = Describe(reason);
+  description.Iterations = this->Evolution->Iterations();
+  description.StopReason = result.IsAtRest ? Describe(reason) : this->WhyStopped();
   if (level < this->Coarsest)
   {
-    const SurfaceEvolution::LostParts lost = evolution.Lost();
+    const SurfaceEvolution::LostParts lost = this->Evolution->Lost();
     description.LostParts = lost.Found;
     description.RecoveredParts = lost.Enclosed;
+    description.MissingParts = lost.Missing;
+    description.MissingBoundary = lost.MissingBoundary;
     description.LostCavities = lost.FoundCavities;
     description.RecoveredCavities = lost.EnclosedCavities;
   }
-  const SurfaceResult surface = evolution.Result();
+  const SurfaceResult surface = this->Evolution->Result();
   const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
-  if (kept.Points.empty() && !surface.Points.empty())
-  {
-    this->Settings.Warn(Join("Level ", level, ": Keep Components leaves none of the components."));
-  }
-  this->Finest = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
-  this->Blocks->SetBlock(this->BlockOf(level), this->Finest);
-  evolution.EndLevel();
+  result.KeepsNone = kept.Points.empty() && !surface.Points.empty();
+  result.Surface = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
+  this->Found.SetLevel(level, result);
+  this->Evolution->EndLevel();
   // With recovery a finer level may find again what has vanished.
-  if (reason == StopReason::Vanished &&
-    (level == this->LastLevel || !this->Settings.Options.RecoverLostParts))
-  {
-    this->Settings.Warn(Join("Nothing is left of the surface at level ", level,
-      ": the object is too thin for it. ",
-      this->Coarsest > 0
-        ? "Set Coarsest Level to a finer level."
-        : "No level is finer: check Iso Value and Object Is Bright, or resample the image."));
-  }
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
 }
 
-void SurfaceSegmentation::Run()
+std::string SurfaceSegmentation::WhyStopped() const
 {
-  this->ChooseLevels();
-  this->CheckIsoValue();
-  this->CheckObjectIsThere();
-  this->WarnOfNaNs();
-  for (int level = std::min(this->LastLevel, 0); level < this->Pyramid.NumberOfLevels(); ++level)
-  {
-    this->Blocks->SetBlock(this->BlockOf(level), nullptr);
-    this->Blocks->GetMetaData(this->BlockOf(level))
-      ->Set(vtkCompositeDataSet::NAME(), Join("Level ", level).c_str());
-  }
-
-  HostThreads threads(this->Settings.NumberOfThreads);
-  ProgressMonitor monitor(this->Settings.Progress, this->Coarsest, this->LastLevel);
-  threads.Run([&] { this->RunLevels(threads, monitor); });
+  return this->Watcher->IsOutOfTime() ? TimeLimitReason : Describe(StopReason::Cancelled);
 }
 
-void SurfaceSegmentation::RunLevels(HostThreads& threads, ProgressMonitor& monitor)
-{
-  SurfaceEvolution evolution(this->Settings.Options, threads, monitor);
-  evolution.StartClock(this->Settings.Started);
-  monitor.AfterIteration = [&](const Monitor::Status& status)
-  {
-    this->Film.Offer(
-      evolution, status.Level, this->Pyramid.UnitInWorld(status.Level), status.Iteration);
-  };
-  for (int level = this->Coarsest; level >= this->LastLevel; --level)
-  {
-    if (!monitor.LoadLevel(level))
-    {
-      this->MarkCancelled(level);
-      break;
-    }
-    const LevelImage image = this->Load(level, threads);
-    if (level == this->LastLevel)
-    {
-      evolution.SetMeanEdgeLength(
-        this->Settings.EdgeLength / this->Pyramid.GetWorkspace().WorldUnit());
-    }
-    if (level == this->Coarsest)
-    {
-      this->Start(evolution, image);
-    }
-    else if (evolution.Divide(image, level))
-    {
-      this->WarnOfLostParts(level, evolution.Lost());
-    }
-    else
-    {
-      this->MarkCancelled(level);
-      break;
-    }
-    this->Film.Offer(evolution, level, this->Pyramid.UnitInWorld(level), 0);
-    if (!this->RunLevel(evolution, level))
-    {
-      break;
-    }
-  }
-  this->Table =
-    MakeHistory(evolution.History(), this->Pyramid.GetWorkspace(), this->Settings.Profile);
-}
-
-void SurfaceSegmentation::MarkCancelled(int level)
+void SurfaceSegmentation::HandOverStopped(int level)
 {
   if (level == this->Coarsest)
   {
-    this->Finest = MakeCancelled(level);
+    this->Found.SetHandedOver(MakeStopped(level, this->WhyStopped()));
     return;
   }
   // The block of the level above is a surface at rest and stays one.
-  auto finest = vtkSmartPointer<vtkPolyData>::New();
-  finest->ShallowCopy(this->Finest);
-  SetStopReason(finest, Describe(StopReason::Cancelled));
-  this->Finest = finest;
+  vtkNew<vtkPolyData> surface;
+  surface->ShallowCopy(this->Found.SurfaceOf(level + 1));
+  SetStopReason(surface, this->WhyStopped());
+  this->Found.SetHandedOver(surface);
 }
 }

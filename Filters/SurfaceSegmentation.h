@@ -7,32 +7,47 @@
 #include "Core/PointAttraction.h"
 #include "Core/SurfaceEvolution.h"
 #include "Core/SurfaceOptions.h"
+#include "Deadline.h"
+#include "HostThreads.h"
 #include "KeepComponents.h"
 #include "ProgressMonitor.h"
 #include "PyramidLevels.h"
+#include "SegmentationResults.h"
 #include "SurfaceSnapshots.h"
 
 #include <vtkSmartPointer.h>
 
 #include <array>
-#include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+class vtkDataObject;
 class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkPoints;
 class vtkPolyData;
-class vtkTable;
 
 namespace volumic
 {
-class HostThreads;
+/// What may differ between a run and one that goes on from where it has ended.
+struct SegmentationRequest
+{
+  int FinestLevel = 0;  ///< with EdgeLength: as planned
+  bool Preview = false; ///< to end at a level of few voxels
+  int NumberOfThreads = 0;
+  vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
+  Deadline Limit;
+  /// When the run began: what came before counts to the seconds of its first level.
+  Deadline::Clock::time_point Started = Deadline::Clock::now();
+  ProgressMonitor::Tell Progress;
+  std::function<void(const std::string& text)> Warn;
+};
 
 /// What a user of vtkDeformableSurface has chosen, and what hears of the work.
-struct SegmentationSettings
+struct SegmentationSettings : SegmentationRequest
 {
   /// SeedRadius in world units; BorderValue and RecoverLostParts follow from the enumerations
   /// below.
@@ -48,50 +63,52 @@ struct SegmentationSettings
   double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
   bool EdgeLengthIsPlanned = false; ///< the levels were made for it, and what follows is set
   int CoarsestLevel = -1;
-  int FinestLevel = 0;
   double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
-  int NumberOfThreads = 0;
   bool Profile = false;                  ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
-  vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
   vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
   vtkPoints* SeedPositions = nullptr;       ///< world, beside those of port 1; may be missing
   vtkPoints* AttractingPositions = nullptr; ///< world, beside those of port 2; may be missing
   vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
-
-  /// When the run began: what came before counts to the seconds of the first level.
-  std::chrono::steady_clock::time_point Started = std::chrono::steady_clock::now();
-  ProgressMonitor::Tell Progress;
-  std::function<void(const std::string& text)> Warn;
 };
 
 /**
  * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
- * outputs of vtkDeformableSurface hold.
+ * outputs of vtkDeformableSurface hold. One that has ended at a level can go on from there, as if
+ * it had never ended.
  */
 class SurfaceSegmentation
 {
 public:
+  /// Preview ends at the finest level of at most so many voxels.
+  static constexpr int VoxelsOfPreview = 1000000;
+
   /// @param selection says which array holds the voxels (GetInputArrayInformation)
   /// @throws std::invalid_argument if the blocks are not a pyramid or a setting is out of range.
   SurfaceSegmentation(
     vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings);
   ~SurfaceSegmentation();
 
-  /// Where Progress asks to stop, the surface is what there is then, and marked as cancelled; it
-  /// is empty where there is none yet.
+  /// For the next Run(). With EdgeLength the finest level stays what was planned.
+  void Renew(const SegmentationRequest& request);
+
+  /// Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
+  /// it is empty where there is none yet.
   /// @throws std::invalid_argument if settings and image do not fit.
   void Run();
 
-  vtkPolyData* Surface() const { return this->Finest; }
-  vtkMultiBlockDataSet* Levels() const { return this->Blocks; }
-  vtkTable* History() const { return this->Table; }
-  vtkMultiBlockDataSet* Snapshots() const { return this->Film.Blocks(); }
+  /// Whether Run() would go on from a level at rest that is not the image itself.
+  bool CanGoOn() const;
+
+  const SegmentationSettings& GetSettings() const { return this->Settings; }
+  const SegmentationResults& Results() const { return this->Found; }
+  /// The level at which the last Run() was to end.
+  int EndsAt() const { return this->LastLevel; }
 
 private:
   void ChooseEdgeLength();
   void ChooseLevels();
-  unsigned int BlockOf(int level) const;
+  void ChooseEnd(int coarsestWithObject);
   /// Seed Positions and Attracting Positions in the workspace.
   std::vector<Point> SeedPositions() const;
   std::vector<Point> AttractingPositions() const;
@@ -108,24 +125,32 @@ private:
   int CoarsestLevelThatHolds(int from);
   void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
-  void RunLevels(HostThreads& threads, ProgressMonitor& monitor);
-  bool RunLevel(SurfaceEvolution& evolution, int level);
-  void MarkCancelled(int level);
-  void WarnOfLostParts(int level, const SurfaceEvolution::LostParts& lost);
+  bool WantsAllParts() const;
+  void Begin();
+  void RunLevels();
+  bool RunLevel(int level);
+  void HandOverStopped(int level);
+  std::string WhyStopped() const;
 
   SegmentationSettings Settings;
-  vtkMultiBlockDataSet* Input;
+  bool MayHaveUntoldNaNs;
+  /// Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on.
+  std::vector<vtkSmartPointer<vtkDataObject>> Images;
   PyramidLevels Pyramid;
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none
   std::vector<float> Bent;                 ///< the level's voxels as the points bend them
   ComponentChoice Choice;
   int Coarsest = 0;
-  int LastLevel = 0; ///< the finest to visit
-  vtkSmartPointer<vtkPolyData> Finest;
-  vtkSmartPointer<vtkMultiBlockDataSet> Blocks;
-  vtkSmartPointer<vtkTable> Table;
+  int LastLevel = 0;    ///< the finest to visit
+  int PreviewLevel = 0; ///< the finest to visit for a preview
   SurfaceSnapshots Film;
+  SegmentationResults Found;
+  std::optional<HostThreads> Threads;
+  std::optional<ProgressMonitor> Watcher;
+  std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
+  int Reached = 0;     ///< the level at which it rests
+  bool GoesOn = false; ///< It does, and is fit for a finer one.
 };
 }
 

@@ -5,22 +5,18 @@
 #include "Core/Refuse.h"
 #include "SurfaceOutput.h"
 
-#include <vtkCompositeDataSet.h>
-#include <vtkInformation.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 
 namespace volumic
 {
 SurfaceSnapshots::SurfaceSnapshots(int interval, const Workspace& space)
-  : Interval(interval), Space(space), Taken(vtkSmartPointer<vtkMultiBlockDataSet>::New())
+  : Interval(interval), Space(space)
 {
 }
 
-SurfaceSnapshots::~SurfaceSnapshots() = default;
-
 void SurfaceSnapshots::Offer(
-  const SurfaceEvolution& evolution, int level, double unit, int iteration)
+  const SurfaceEvolution& evolution, int level, double unit, int iteration,
+  SegmentationResults& results) const
 {
   if (this->Interval == 0 || iteration % this->Interval != 0)
   {
@@ -36,9 +32,7 @@ void SurfaceSnapshots::Offer(
   description.Unit = unit;
   description.Iterations = iteration;
   description.TotalIterations = static_cast<int>(evolution.History().size());
-  const unsigned int block = this->Taken->GetNumberOfBlocks();
-  this->Taken->SetBlock(block, MakePolyData(surface, description, this->Space));
-  this->Taken->GetMetaData(block)->Set(
-    vtkCompositeDataSet::NAME(), Join("Level ", level, ", iteration ", iteration).c_str());
+  results.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
+    MakePolyData(surface, description, this->Space));
 }
 }

@@ -4,11 +4,8 @@
 #define SurfaceSnapshots_h
 
 #include "Core/SurfaceEvolution.h"
+#include "SegmentationResults.h"
 #include "Workspace.h"
-
-#include <vtkSmartPointer.h>
-
-class vtkMultiBlockDataSet;
 
 namespace volumic
 {
@@ -19,22 +16,19 @@ public:
   /// @param interval iterations from one to the next; 0: none is kept
   /// @param space    must outlive the object
   SurfaceSnapshots(int interval, const Workspace& space);
-  ~SurfaceSnapshots();
 
   /**
-   * Adds a block if its turn has come and there is a surface.
+   * Adds one to the results if its turn has come and there is a surface, named `Level 3, iteration
+   * 20`.
    * @param unit      U_h, world units
    * @param iteration of this level, 0 at its start
    */
-  void Offer(const SurfaceEvolution& evolution, int level, double unit, int iteration);
-
-  /// In the order in which they were taken, named `Level 3, iteration 20`.
-  vtkMultiBlockDataSet* Blocks() const { return this->Taken; }
+  void Offer(const SurfaceEvolution& evolution, int level, double unit, int iteration,
+    SegmentationResults& results) const;
 
 private:
   int Interval;
   const Workspace& Space;
-  vtkSmartPointer<vtkMultiBlockDataSet> Taken;
 };
 }
 

@@ -5,7 +5,9 @@
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
 #include "Core/Refuse.h"
+#include "Deadline.h"
 #include "InputImage.h"
+#include "SegmentationCache.h"
 #include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
@@ -28,7 +30,6 @@
 #include <vtkTable.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -58,6 +59,13 @@ void CopyPosition(vtkPoints* positions, int index, double position[3])
   std::fill(position, position + 3, vtkMath::Nan());
 }
 }
+
+class vtkDeformableSurface::vtkInternals
+{
+public:
+  volumic::SegmentationCache Cache;
+  volumic::Deadline Limit; ///< of the run
+};
 
 //------------------------------------------------------------------------------
 vtkImageData* vtkDeformableSurface::TakeImage(vtkDataObject* input)
@@ -107,8 +115,11 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->FreezeMotionlessVertices = defaults.FreezeMotionlessVertices;
   this->SnapToIsoValue = defaults.SnapToIsoValue;
   this->NumberOfThreads = 0;
+  this->TimeLimit = 0.0;
+  this->Preview = false;
   this->Profile = false;
   this->SnapshotInterval = 0;
+  this->Internals = std::make_unique<vtkInternals>();
 
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(4);
@@ -225,6 +236,44 @@ vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
 }
 
 //------------------------------------------------------------------------------
+template <typename T>
+void vtkDeformableSurface::SetForTheEnd(T& property, T value)
+{
+  if (property != value)
+  {
+    const vtkMTimeType before = this->GetMTime();
+    property = value;
+    this->Modified();
+    this->Internals->Cache.Allow(before, this->GetMTime());
+  }
+}
+
+void vtkDeformableSurface::SetFinestLevel(int level)
+{
+  this->SetForTheEnd(this->FinestLevel, level);
+}
+
+void vtkDeformableSurface::SetNumberOfThreads(int number)
+{
+  this->SetForTheEnd(this->NumberOfThreads, std::max(number, 0));
+}
+
+void vtkDeformableSurface::SetTimeLimit(double seconds)
+{
+  this->SetForTheEnd(this->TimeLimit, seconds);
+}
+
+void vtkDeformableSurface::SetPreview(bool preview)
+{
+  this->SetForTheEnd(this->Preview, preview);
+}
+
+void vtkDeformableSurface::ForgetRun()
+{
+  this->Internals->Cache.Drop();
+}
+
+//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -285,39 +334,78 @@ bool vtkDeformableSurface::ShowPyramidProgress(double share)
 {
   this->SetProgressText("Building the pyramid");
   this->UpdateProgress(PyramidShare * share);
-  return !volumic::IsAbortRequested(this);
+  return !volumic::IsAbortRequested(this) && !this->Internals->Limit.IsOver();
 }
 
 //------------------------------------------------------------------------------
-int vtkDeformableSurface::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkDeformableSurface::RunOrGoOn(
+  vtkInformationVector** input, vtkInformationVector* output)
 {
+  volumic::SegmentationSettings settings;
+  settings.Started = volumic::Deadline::Clock::now();
+  volumic::SegmentationCache& cache = this->Internals->Cache;
+  const bool isKept = cache.Serves(this);
+  // ParaView leaves the flag of an earlier run as it is.
+  volumic::ForgetAbort(this);
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!volumic::IsFirstProcess(request, outputVector))
+  if (!(this->TimeLimit >= 0.0))
   {
-    return 1;
+    volumic::Refuse("Time Limit is ", this->TimeLimit, "; it must be 0 (none) or more.");
   }
-  try
+  this->Internals->Limit = volumic::Deadline(settings.Started, this->TimeLimit);
+  vtkDataObject* data = vtkDataObject::GetData(input[0]);
+  const double before = vtkMultiBlockDataSet::SafeDownCast(data) ? 0.0 : PyramidShare;
+
+  settings.FinestLevel = this->FinestLevel;
+  settings.Preview = this->Preview;
+  settings.NumberOfThreads = this->NumberOfThreads;
+  settings.InitialSurface = vtkPolyData::GetData(input[1]);
+  settings.Limit = this->Internals->Limit;
+  settings.Progress = [this, before](double share, const std::string& text)
   {
-    const auto started = std::chrono::steady_clock::now();
-    // ParaView leaves the flag of an earlier run as it is.
-    volumic::ForgetAbort(this);
-    vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    const double before = vtkMultiBlockDataSet::SafeDownCast(input) ? 0.0 : PyramidShare;
+    this->SetProgressText(text.c_str());
+    this->UpdateProgress(before + (1.0 - before) * share);
+    return !volumic::IsAbortRequested(this);
+  };
+  settings.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
+
+  if (isKept)
+  {
+    if (const volumic::SegmentationResults* results = cache.ResultsFor(settings))
+    {
+      const int end = cache.EndOf(settings);
+      results->FillOutputs(end, output);
+      const std::string warning = results->WarningOf(end, cache.HasRecovery() && !this->Preview);
+      if (!warning.empty())
+      {
+        settings.Warn(warning);
+      }
+      return;
+    }
+  }
+  std::unique_ptr<volumic::SurfaceSegmentation> run = isKept ? cache.TakeRun() : nullptr;
+  cache.Drop();
+  if (run)
+  {
+    run->Renew(settings);
+  }
+  else
+  {
     if (before > 0.0)
     {
       this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
     }
-    const Volume volume = this->PrepareVolume(input);
+    const Volume volume = this->PrepareVolume(data);
     if (!volume.Levels)
     {
-      vtkPolyData::GetData(outputVector, 0)->ShallowCopy(volumic::MakeCancelled(0));
-      vtkTable::GetData(outputVector, 2)
-        ->ShallowCopy(volumic::MakeHistory({}, volumic::Workspace(), this->Profile));
-      return 1;
+      const bool isAborted = volumic::IsAbortRequested(this) || !settings.Limit.IsOver();
+      volumic::SegmentationResults nothing(0, 0, volumic::Workspace(), this->Profile);
+      nothing.SetHandedOver(volumic::MakeStopped(
+        0, isAborted ? Describe(volumic::StopReason::Cancelled) : volumic::TimeLimitReason));
+      nothing.FillOutputs(0, output);
+      return;
     }
-
-    volumic::SegmentationSettings settings;
+    settings.FinestLevel = volume.FinestLevel;
     settings.Options.IsoValue = volume.IsoValue;
     settings.Options.ObjectIsBright = this->ObjectIsBright;
     settings.Options.SeedRadius = this->SeedRadius; // still in world units
@@ -346,42 +434,44 @@ int vtkDeformableSurface::RequestData(
     settings.LevelsAreOwn = volume.LevelsAreOwn;
     settings.EdgeLength = this->EdgeLength;
     settings.EdgeLengthIsPlanned = volume.EdgeLengthIsPlanned;
-    settings.FinestLevel = volume.FinestLevel;
     settings.FactorBelowLevel0 = volume.FactorBelowLevel0;
-    settings.NumberOfThreads = this->NumberOfThreads;
     settings.Profile = this->Profile;
     settings.SnapshotInterval = this->SnapshotInterval;
-    settings.InitialSurface = vtkPolyData::GetData(inputVector[1]);
-    settings.AttractingPoints = vtkPolyData::GetData(inputVector[2]);
+    settings.AttractingPoints = vtkPolyData::GetData(input[2]);
     settings.SeedPositions = this->SeedPositions;
     settings.AttractingPositions = this->AttractingPositions;
     settings.EdgeSelection = this->GetInputArrayInformation(1);
-    settings.Started = started;
+    run = std::make_unique<volumic::SurfaceSegmentation>(volume.Levels, volume.Selection, settings);
+  }
+  run->Run();
+  run->Results().FillOutputs(run->EndsAt(), output);
+  cache.Keep(std::move(run), this);
+}
 
-    settings.Progress = [this, before](double share, const std::string& text)
-    {
-      this->SetProgressText(text.c_str());
-      this->UpdateProgress(before + (1.0 - before) * share);
-      return !volumic::IsAbortRequested(this);
-    };
-    settings.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
-
-    volumic::SurfaceSegmentation segmentation(volume.Levels, volume.Selection, settings);
-    segmentation.Run();
-    vtkPolyData::GetData(outputVector, 0)->ShallowCopy(segmentation.Surface());
-    vtkMultiBlockDataSet::GetData(outputVector, 1)->ShallowCopy(segmentation.Levels());
-    vtkTable::GetData(outputVector, 2)->ShallowCopy(segmentation.History());
-    vtkMultiBlockDataSet::GetData(outputVector, 3)->ShallowCopy(segmentation.Snapshots());
+//------------------------------------------------------------------------------
+int vtkDeformableSurface::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!volumic::IsFirstProcess(request, outputVector))
+  {
+    this->SetErrorCode(vtkErrorCode::NoError);
+    return 1;
+  }
+  try
+  {
+    this->RunOrGoOn(inputVector, outputVector);
   }
   catch (const std::bad_alloc& error)
   {
+    this->ForgetRun();
     volumic::InitializeOutputs(outputVector);
     this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set Finest Level to "
-                  "a coarser level, or crop the image.");
+    vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
+                  "coarser level, or crop the image.");
   }
   catch (const std::exception& error)
   {
+    this->ForgetRun();
     volumic::InitializeOutputs(outputVector);
     this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro(<< error.what());
@@ -424,6 +514,8 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FreezeMotionlessVertices: " << this->FreezeMotionlessVertices << endl;
   os << indent << "SnapToIsoValue: " << this->SnapToIsoValue << endl;
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
+  os << indent << "TimeLimit: " << this->TimeLimit << endl;
+  os << indent << "Preview: " << this->Preview << endl;
   os << indent << "Profile: " << this->Profile << endl;
   os << indent << "SnapshotInterval: " << this->SnapshotInterval << endl;
 }

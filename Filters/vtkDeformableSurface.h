@@ -58,11 +58,15 @@
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
  * `Area`, `Volume` (double), `StopReason` (string:
  * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
- * in turn; finished like one that rests; `iteration limit`; `cancelled`; `vanished`),
+ * in turn; finished like one that rests; `iteration limit`; `cancelled`; `time limit`;
+ * `vanished`),
  * `ContactVertices` (int: those with `Contact`), `ResidualQuantile` (double: 98 % of the vertices
  * have a `Residual` of at most this size), `RemainingContacts` (int: pairs of vertices nearer
  * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
- * `RecoveredParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery) and, with an entry
+ * `RecoveredParts`, `MissingParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery),
+ * `MissingBoundary` (double, 0 to 1: the share of the object's boundary that belongs to parts found
+ * by Recovery, which counts them also where it is off, and lies farther than two units from any
+ * vertex of the surface at rest; smaller parts than MinimumPartSize don't count) and, with an entry
  * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
  * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
  * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration` (int): the number
@@ -97,8 +101,10 @@
  * those of the workspace that Metric chooses. Results are the same bits for any number of threads.
  *
  * @par Errors:
- * A message names the port, the array or the value, and the way out; the outputs are empty. A
- * warning tells when parts of the object were lost at a level, or when nothing is left.
+ * A message names the port, the array or the value, and the way out; the outputs are empty. At
+ * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if, with
+ * Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level. Nothing else is warned of: the
+ * field data tell it.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
@@ -115,6 +121,17 @@
  * gives it again. To run anew call Modified() first, or change an input or a property; the request
  * to stop is forgotten then.
  *
+ * @par Going on:
+ * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,
+ * Preview, TimeLimit or NumberOfThreads, and nothing else changed, neither in the filter nor in its
+ * inputs, a level at which the surface has rested is shown at once, and a finer one is reached from
+ * the level at which the last run has ended (FinestLevel 2, then 0). The outputs are the same bits as
+ * those of a run from the start, but for the seconds in History. To go on it holds the surface and
+ * the pyramid, and these only where the run has ended at level 1 or above, so that no memory of
+ * level 0 is held; else no more than the surfaces of the levels. A run that was cancelled or ran out
+ * of time begins anew. ForgetRun() frees all of it; nothing is kept after an error, where ReleaseDataFlag
+ * is on, or where an input's data are released.
+ *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
  * Triangulated Surface", ECCV 1996.
@@ -128,6 +145,8 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // For the levels and lists of positions
+
+#include <memory> // For what is hidden
 
 class vtkAlgorithmOutput;
 class vtkImageData;
@@ -313,7 +332,7 @@ public:
    * What belongs to this level is called level -1: in the field data, in the history, and as
    * `Level -1`, the last block of the output Levels, after those of the pyramid.
    */
-  vtkSetMacro(FinestLevel, int);
+  void SetFinestLevel(int level);
   vtkGetMacro(FinestLevel, int);
   ///@}
 
@@ -457,7 +476,7 @@ public:
    * with cavities, which a surface that comes from outside cannot reach otherwise (seeds in the
    * object and the start from the iso-surface can); NoRecovery is the paper's behaviour, where only
    * what is connected to the surface is found again. Field data and History tell how many parts
-   * were found.
+   * were found, `MissingParts` and `MissingBoundary` what of them the surface has not got in the end.
    */
   vtkSetMacro(Recovery, int);
   vtkGetMacro(Recovery, int);
@@ -523,9 +542,34 @@ public:
   /**
    * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  void SetNumberOfThreads(int number);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
+
+  ///@{
+  /**
+   * Seconds after which a run ends with the surface as it is then, `StopReason` `time limit`; 0,
+   * the default: none. They count from the start of RequestData(), the pyramid that is built there
+   * included, and are looked at as often as AbortExecute, so that a run may be some tenths longer.
+   * Levels at rest before stay in Levels; a run that has no surface yet gives an empty one.
+   */
+  void SetTimeLimit(double seconds);
+  vtkGetMacro(TimeLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * End at a coarse level, fine enough to judge an IsoValue: the finest from FinestLevel on that has
+   * at most a million voxels, or the coarsest of the run if none has. Switched off, the run goes on
+   * from there (see Going on). Default: off.
+   */
+  void SetPreview(bool preview);
+  vtkGetMacro(Preview, bool);
+  vtkBooleanMacro(Preview, bool);
+  ///@}
+
+  /** Frees what is kept of the last run, see Going on. */
+  void ForgetRun();
 
   ///@{
   /**
@@ -633,10 +677,18 @@ protected:
   bool FreezeMotionlessVertices;
   bool SnapToIsoValue;
   int NumberOfThreads;
+  double TimeLimit;
+  bool Preview;
   bool Profile;
   int SnapshotInterval;
 
 private:
+  class vtkInternals;
+  template <typename T>
+  void SetForTheEnd(T& property, T value);
+  void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
+  std::unique_ptr<vtkInternals> Internals;
+
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;
   void operator=(const vtkDeformableSurface&) = delete;
 };

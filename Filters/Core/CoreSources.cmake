@@ -24,6 +24,7 @@ set(volumic_core_sources
   LatticeInside.cxx
   LatticeSurface.cxx
   LevelReduction.cxx
+  LostBoundary.cxx
   LostParts.cxx
   PointAttraction.cxx
   Proximity.cxx
@@ -70,6 +71,7 @@ set(volumic_core_headers
   LatticeSurface.h
   LevelImage.h
   LevelReduction.h
+  LostBoundary.h
   LostParts.h
   Monitor.h
   ObliqueRotation.h

@@ -7,6 +7,7 @@
 #include "CycleCriterion.h"
 #include "Dynamics.h"
 #include "Field.h"
+#include "LostBoundary.h"
 #include "Proximity.h"
 #include "Remesher.h"
 #include "RestCriterion.h"
@@ -44,6 +45,7 @@ struct SurfaceEvolution::Implementation
   std::vector<HistoryRow> Rows;
   int LastIterations = 0;
   LostParts LastLost;
+  LostBoundary Lost; ///< Of the parts that the last division found.
   Proximity Near;
   Proximity Recheck;
   ComponentWatch Watch;
@@ -103,6 +105,7 @@ struct SurfaceEvolution::Implementation
   void FitMeanEdge(Dynamics& dynamics);
   void DeleteInsideOut();
   void FinishRow();
+  void FindMissing();
   void Regularise(Dynamics& dynamics);
   void RunPolish(HistoryRow& row);
   StopReason Evolve();

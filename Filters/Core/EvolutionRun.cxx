@@ -311,6 +311,14 @@ void SurfaceEvolution::Implementation::FinishRow()
   last.RegularisationDeletions = this->SinceEvolved.Removed;
 }
 
+void SurfaceEvolution::Implementation::FindMissing()
+{
+  const LostBoundary::Missing missing =
+    this->Lost.MissedBy(this->State, *this->TheField, this->Threads);
+  this->LastLost.Missing = missing.Parts;
+  this->LastLost.MissingBoundary = missing.Share;
+}
+
 StopReason SurfaceEvolution::Implementation::Run()
 {
   const StopReason reason = this->Evolve();
@@ -318,6 +326,7 @@ StopReason SurfaceEvolution::Implementation::Run()
   if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
     this->FinishRow();
+    this->FindMissing();
     return reason;
   }
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
@@ -328,6 +337,7 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
   this->FinishRow();
+  this->FindMissing();
   if (this->Stopped)
   {
     return StopReason::Cancelled;

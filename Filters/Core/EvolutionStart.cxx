@@ -193,6 +193,7 @@ void SurfaceEvolution::Implementation::WakeAll()
 void SurfaceEvolution::Implementation::Recover()
 {
   this->LastLost = LostParts();
+  this->Lost = LostBoundary();
   // Without an isopotential there is no object's side to look for.
   if (!(this->Options.IsopotentialWeight > 0.))
   {
@@ -208,16 +209,19 @@ void SurfaceEvolution::Implementation::Recover()
   const LostPartCover objects = find(PartKind::Object, 0., objectShare);
   this->LastLost.Found = objects.Found;
   this->LastLost.Enclosed = recovers ? objects.Covered : 0;
+  this->Lost = objects.Boundary;
   LostPartCover cavities;
   if (recovers && this->Options.RecoverCavities && !this->Stopped)
   {
     cavities = find(PartKind::Cavity, objectShare, 1.);
     this->LastLost.FoundCavities = cavities.Found;
     this->LastLost.EnclosedCavities = cavities.Covered;
+    this->Lost.Add(cavities.Boundary);
   }
   if (this->Stopped)
   {
     this->LastLost = LostParts();
+    this->Lost = LostBoundary();
     return;
   }
   if (this->LastLost.Enclosed > 0)

@@ -344,6 +344,7 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
       continue;
     }
     ++result.Found;
+    result.Boundary.Add(*part, field, kind);
     own.clear();
     for (std::int64_t voxel : *part)
     {

@@ -4,24 +4,19 @@
 #define volumicLostParts_h
 
 #include "Field.h"
+#include "LostBoundary.h"
 #include "Monitor.h"
 #include "SurfaceState.h"
 
 namespace volumic
 {
-/** What a surface may have lost. */
-enum class PartKind
-{
-  Object, ///< Object outside the surface.
-  Cavity  ///< Background inside the surface.
-};
-
 /** Result of FindLostParts. */
 struct LostPartCover
 {
   int Found = 0;          ///< Parts that the surface has lost.
   int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
   IndexedSurface Surface; ///< Closed, manifold, oriented as the kind wants it; workspace.
+  LostBoundary Boundary;  ///< Of all that were found.
   bool IsStopped = false; ///< The checkpoint said stop: nothing is told, there is no surface.
 };
 

@@ -149,6 +149,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   }
   const double coarse = self.State.Delta;
   self.LastLost = LostParts();
+  self.Lost = LostBoundary();
   self.Enter(image, level);
   // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
   // the mesh's, sqrt 3.

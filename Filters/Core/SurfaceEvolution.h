@@ -195,6 +195,8 @@ public:
     int Enclosed = 0;
     int FoundCavities = 0; ///< Parts of the background inside it; looked for only on request.
     int EnclosedCavities = 0;
+    int Missing = 0; ///< Of all found, those that the surface misses when Run() has ended.
+    double MissingBoundary = 0.; ///< And the share of the whole boundary; see LostBoundary.
   };
   LostParts Lost() const;
 

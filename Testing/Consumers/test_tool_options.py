@@ -70,7 +70,8 @@ class OptionTableTest(ToolTestCase):
             "initialization": "iso-surface", "coarsest": "0", "finest": "0", "seed-radius": "1.5",
             "minimum-level-size": "12", "iterations": "400", "threads": "1",
             "minimum-part-size": "7", "snapshot-interval": "50",
-            "component": "0", "metric": "voxels", "edge-length": "1.1", "keep": "largest"}
+            "component": "0", "time-limit": "100", "metric": "voxels", "edge-length": "1.1",
+            "keep": "largest"}
         before = self.report(volume, "--iso", ISO)["properties"]
         for _, name, option, default in self.table():
             option = option[2:]
@@ -297,6 +298,17 @@ class RunTest(ToolTestCase):
         small = self.write(vtkXMLImageDataWriter(), "small.vti", make_image(ball()[1:]))
         self.refused("its size differs", self.ball_file(), self.path("a.stl"), "--edges", small)
 
+    def test_time_limit_is_marked(self):
+        volume = self.waves_file()
+        run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--tolerance", "0",
+                            "--time-limit", "0.6", status=3)
+        self.assertIn("unfinished (time limit); the surface as it is was written", run.stderr)
+        with open(self.path("limited.stl"), "rb") as file:
+            self.assertIn(b"UNFINISHED: time limit", file.read(80))
+        self.refused("time limit came before there was a surface", volume, self.path("none.stl"),
+                     "--iso", "0", "--time-limit", "1e-9")
+        self.assertFalse(os.path.exists(self.path("none.stl")))
+
     def test_iteration_limit_is_marked(self):
         report = self.report(self.ball_file(), self.path("a.vtp"), self.path("a.stl"),
                              "--iso", ISO, "--iterations", "3", status=3)
@@ -309,13 +321,16 @@ class RunTest(ToolTestCase):
         self.refused("volumic: .*", self.ball_file(), self.path("a.vtp"), "--iso", "2000")
         self.assertFalse(os.path.exists(self.path("a.vtp")))
 
-    def test_interrupt_writes_what_there_is(self):
-        # A large noisy volume, so that there is time; the history tells how far it came.
+    def waves_file(self):
+        """A large noisy volume, so that there is time."""
         noise = np.random.default_rng(2).normal(0, 120, (100, 100, 100))
         z, y, x = np.mgrid[0:100, 0:100, 0:100] - 49.5
         waves = 300 * (np.sin(x / 4) + np.sin(y / 4) + np.sin(z / 4)) + noise
-        volume = self.write(vtkXMLImageDataWriter(), "waves.vti",
-                            make_image(waves.astype("f4"), (1, 1, 1)))
+        return self.write(vtkXMLImageDataWriter(), "waves.vti",
+                          make_image(waves.astype("f4"), (1, 1, 1)))
+
+    def test_interrupt_writes_what_there_is(self):
+        volume = self.waves_file()
         command = [PROGRAM, volume, self.path("a.vtp"), "--iso", "0", "--progress", "--tolerance",
                    "0", "--report", self.path("r.json")]
         with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:

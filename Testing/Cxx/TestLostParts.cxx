@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CoreTestTools.h"
+#include "InitialSurface.h"
 #include "LostParts.h"
 #include "SurfaceCheck.h"
 
@@ -183,4 +184,23 @@ TEST(LostParts, FindsAllWithoutAnySurface)
   EXPECT_EQ(cover.Found, 2);
   EXPECT_EQ(cover.Covered, 2);
   EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 20, Threads).Found, 0);
+}
+
+TEST(LostParts, BoundaryIsMissedWhereNoVertexIsNear)
+{
+  const TestVolume volume = Scene();
+  const Field field(volume.Image, Half(), Threads);
+  SurfaceState state;
+  Fill(state);
+  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
+  const LostBoundary::Missing before = cover.Boundary.MissedBy(state, field, Threads);
+  EXPECT_EQ(before.Parts, 1);
+  // Spheres of radius 4 and 13.
+  EXPECT_NEAR(before.Share, 16. / (16. + 169.), 0.01);
+
+  state.Mesh.Append(DividedIcosahedron({ 40, 24, 24 }, 4., 1.4 * Delta));
+  state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
+  const LostBoundary::Missing after = cover.Boundary.MissedBy(state, field, Threads);
+  EXPECT_EQ(after.Parts, 0);
+  EXPECT_EQ(after.Share, 0.);
 }

@@ -18,7 +18,7 @@ POINT_ARRAYS = {"Normals": "vtkFloatArray", "Residual": "vtkFloatArray",
                 "Motionless": "vtkUnsignedCharArray", "Contact": "vtkUnsignedCharArray"}
 FIELDS = {"Level", "Delta", "Unit", "Iterations", "StopReason", "NumberOfComponents",
           "EulerCharacteristic", "Genus", "Area", "Volume", "ContactVertices", "RemainingContacts",
-          "LostParts", "RecoveredParts", "LostCavities", "RecoveredCavities", "ComponentArea",
+          "LostParts", "RecoveredParts", "MissingParts", "MissingBoundary", "LostCavities", "RecoveredCavities", "ComponentArea",
           "ComponentVolume", "ComponentGenus", "ComponentCentroid", "ComponentInertia"}
 COLUMNS = ["Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds",
            "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",

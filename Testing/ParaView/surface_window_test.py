@@ -18,13 +18,14 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Recovery", "KeepComponents")
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Recovery",
+         "KeepComponents")
 ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "SamplingRatio",
             "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
             "BorderValue", "TopologyChanges", "SnapToIsoValue", "AttractingPositions",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
-            "NumberOfThreads", "SnapshotInterval", "Profile")
+            "NumberOfThreads", "TimeLimit", "SnapshotInterval", "Profile")
 
 COLOURS_OF_CURVES = ((0.1, 0.35, 0.7), (0.15, 0.6, 0.3), (0.85, 0.45, 0.05), (0.75, 0.1, 0.25))
 TELL_THE_ACTIVE_VIEW = """

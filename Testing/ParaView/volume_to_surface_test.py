@@ -114,6 +114,47 @@ class VolumeToSurfaceTest(unittest.TestCase):
         self.assertEqual(field(output(filter_), "Level"), 1)
         self.assertEqual(output(filter_, LEVELS).GetNumberOfBlocks(), 2)
 
+    def test_goes_on_from_the_last_level(self):
+        """By ParaView's own way of setting properties and updating."""
+        levels = set()
+        filter_ = simple.VolumetoSurface(self.ball, FinestLevel=2)
+        algorithm = filter_.GetClientSideObject()
+
+        def progress(caller, _):
+            words = (caller.GetProgressText() or "").split()
+            if "iteration" in words:
+                levels.add(int(words[1].strip(",")))
+        self.assertEqual(field(output(filter_), "Level"), 2)
+        algorithm.AddObserver("ProgressEvent", progress)
+        filter_.FinestLevel = 0
+        finest = output(filter_)
+        self.assertEqual(field(finest, "Level"), 0)
+        self.assertEqual(levels, {0, 1}, "not anew")
+        fresh = output(simple.VolumetoSurface(self.ball))
+        points = [vtk_to_numpy(surface.GetPoints().GetData()) for surface in (finest, fresh)]
+        self.assertEqual(points[0].tobytes(), points[1].tobytes())
+        levels.clear()
+        algorithm.SetProgressText("")
+        filter_.FinestLevel = 1
+        self.assertEqual(field(output(filter_), "Level"), 1)
+        self.assertEqual(levels, set(), "at once")
+        filter_.IsoValue = filter_.IsoValue * 0.9
+        output(filter_)
+        self.assertEqual(levels, {1, 2}, "anew")
+
+    def test_time_limit(self):
+        filter_ = simple.VolumetoSurface(self.ball, TimeLimit=1e-6)
+        surface = output(filter_)
+        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
+                         "time limit")
+        self.assertEqual(surface.GetNumberOfPoints(), 0)
+        filter_.TimeLimit = 0
+        self.assertGreater(output(filter_).GetNumberOfPoints(), 0)
+        filter_.TimeLimit = -1
+        with testing.CapturedMessages() as messages:
+            self.assertEqual(output(filter_).GetNumberOfPoints(), 0)
+        self.assertIn("Time Limit is -1", messages.text)
+
     def test_snapshots(self):
         filter_ = simple.VolumetoSurface(self.ball, SnapshotInterval=10)
         blocks = output(filter_, SNAPSHOTS)

@@ -19,9 +19,10 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "FinestLevel", "Recovery",
-         "KeepComponents", "EdgeLength")
-ADVANCED = ("CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels", "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction",
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "FinestLevel",
+         "Recovery", "KeepComponents", "EdgeLength")
+ADVANCED = ("CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels",
+            "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction", "TimeLimit",
             "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is

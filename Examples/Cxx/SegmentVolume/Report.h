@@ -17,7 +17,7 @@ class vtkTable;
 namespace tool
 {
 /// All that a report tells; the names in it are those of the quickstart's report.json, and besides
-/// `finished` (false: interrupted or at the iteration limit) and `properties`.
+/// `finished` (false: interrupted, at the time or the iteration limit) and `properties`.
 struct ReportInput
 {
   std::string VolumeName;

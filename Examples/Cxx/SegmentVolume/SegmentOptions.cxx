@@ -320,8 +320,9 @@ void PrintHelp(std::ostream& out, const FilterPair& filters)
     PrintOption(out, option.Option, option.Argument, option.Help);
   }
   out << "\n"
-         "Exit codes: 0 done; 1 something failed; 2 wrong usage; 3 interrupted (Ctrl-C) or\n"
-         "stopped by the iteration limit: the surface as it was then is written.\n";
+         "Exit codes: 0 done; 1 something failed; 2 wrong usage; 3 interrupted (Ctrl-C),\n"
+         "stopped by --time-limit or the iteration limit: the surface as it was then is\n"
+         "written.\n";
 }
 
 void PrintProperties(std::ostream& out, const FilterPair& filters)

@@ -368,6 +368,10 @@ ExitCode Segment(
   const std::string reason = StopReason(surface);
   if (surface->GetNumberOfPolys() == 0)
   {
+    if (reason == "time limit")
+    {
+      throw Failure("the time limit came before there was a surface; nothing is written");
+    }
     throw Failure(run.IsInterrupted ? "interrupted before there was a surface; nothing is written"
                                     : "the surface vanished: is the object where the image is " +
           std::string(filter->GetObjectIsBright() ? "above " : "below ") +

@@ -97,6 +97,8 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_NUMBER(CoarsestLevel, "coarsest", "LEVEL", "level to begin with; -1: the last"),
     SURFACE_NUMBER(FinestLevel, "finest", "LEVEL",
       "level to end with; 0: the image itself; -1: once more divided, finer than the image"),
+    SURFACE_SWITCH(Preview, true, "preview",
+      "end at a coarse level of at most a million voxels, to try a value of --iso"),
     SURFACE_MENU(Initialization, "initialization",
       "what to start from: an icosahedron about the image; seeds, at --seed-position and the points "
       "of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
@@ -152,6 +154,8 @@ std::vector<PropertyOption> MakeProperties()
       "all", "largest", "at-points", "large"),
     SURFACE_NUMBER(MinimumComponentVolume, "minimum-component-volume", "VOLUME",
       "what a component must enclose to be large, in world units cubed"),
+    SURFACE_NUMBER(TimeLimit, "time-limit", "SECONDS",
+      "write the surface as it is so long after its evolution began; 0: no limit"),
     SURFACE_NUMBER(NumberOfThreads, "threads", "N", "0: all; the result does not depend on it"),
     SURFACE_SWITCH(Profile, true, "profile", "put into --history where the time goes"),
     SURFACE_NUMBER(SnapshotInterval, "snapshot-interval", "N",

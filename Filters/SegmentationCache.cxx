@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentationCache.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkAlgorithmOutput.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkExecutive.h>
+#include <vtkInformation.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+
+namespace volumic
+{
+namespace
+{
+/**
+ * What comes to a connection. ParaView puts a filter of its own between any two, which hands on the
+ * same data in an object that it fills anew at each update.
+ */
+vtkDataObject* DataOf(vtkAlgorithmOutput* connection)
+{
+  vtkAlgorithm* producer = connection->GetProducer();
+  while (producer->IsA("vtkPVPostFilter") && producer->GetNumberOfInputConnections(0) > 0)
+  {
+    connection = producer->GetInputConnection(0, 0);
+    producer = connection->GetProducer();
+  }
+  return producer->GetOutputDataObject(connection->GetIndex());
+}
+
+/// When anything of it was changed last; blocks do not tell of it by themselves.
+vtkMTimeType TimeOf(vtkDataObject* data)
+{
+  vtkMTimeType time = data->GetMTime();
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      time = std::max(time, it->GetCurrentDataObject()->GetMTime());
+    }
+  }
+  return time;
+}
+
+/// Whether the data of an input go once they have been used; they must not stay because of us.
+bool AreReleased(vtkAlgorithm* filter)
+{
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    {
+      vtkInformation* info = filter->GetExecutive()->GetInputInformation(port, i);
+      if (info->Get(vtkDemandDrivenPipeline::RELEASE_DATA()))
+      {
+        return true;
+      }
+    }
+  }
+  return vtkDataObject::GetGlobalReleaseDataFlag() != 0;
+}
+}
+
+SegmentationCache::SegmentationCache() = default;
+SegmentationCache::~SegmentationCache() = default;
+
+SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
+{
+  Inputs inputs;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    {
+      vtkDataObject* data = DataOf(filter->GetInputConnection(port, i));
+      inputs.emplace_back(data, data ? TimeOf(data) : 0);
+    }
+    inputs.emplace_back(nullptr, port);
+  }
+  return inputs;
+}
+
+void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter)
+{
+  this->Drop();
+  if (filter->GetReleaseDataFlag() || AreReleased(filter))
+  {
+    return;
+  }
+  this->Time = filter->GetMTime();
+  this->Given = InputsOf(filter);
+  this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
+  this->PlannedEnd = run->GetSettings().FinestLevel;
+  this->Recovery = run->GetSettings().Options.RecoverLostParts;
+  if (run->CanGoOn())
+  {
+    this->Run = std::move(run);
+  }
+  else
+  {
+    this->Results = std::make_unique<SegmentationResults>(run->Results());
+  }
+}
+
+void SegmentationCache::Drop()
+{
+  this->Run.reset();
+  this->Results.reset();
+  this->Given.clear();
+  this->Time = 0;
+}
+
+void SegmentationCache::Allow(vtkMTimeType before, vtkMTimeType after)
+{
+  if (this->Time != 0 && this->Time == before)
+  {
+    this->Time = after;
+  }
+}
+
+bool SegmentationCache::Serves(vtkAlgorithm* filter) const
+{
+  return this->Time != 0 && this->Time == filter->GetMTime() && this->Given == InputsOf(filter);
+}
+
+int SegmentationCache::EndOf(const SegmentationRequest& request) const
+{
+  const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
+  const int finest = this->EndIsPlanned ? this->PlannedEnd : request.FinestLevel;
+  return request.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
+}
+
+const SegmentationResults* SegmentationCache::ResultsFor(const SegmentationRequest& request) const
+{
+  const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
+  return results.HasAtRest(this->EndOf(request)) ? &results : nullptr;
+}
+
+std::unique_ptr<SurfaceSegmentation> SegmentationCache::TakeRun()
+{
+  return std::move(this->Run);
+}
+}

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SegmentationCache_h
+#define SegmentationCache_h
+
+#include "SegmentationResults.h"
+#include "SurfaceSegmentation.h"
+
+#include <vtkType.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkDataObject;
+
+namespace volumic
+{
+/**
+ * What a filter keeps of its last run, for one that differs from it by where it ends: the levels at
+ * rest, to show any of them at once, and, where the run has ended above level 0, the run itself, to
+ * go on. That of level 0 is not held, as it takes the memory of the whole volume.
+ */
+class SegmentationCache
+{
+public:
+  SegmentationCache();
+  ~SegmentationCache();
+
+  /// It serves until the filter tells of another change, or one of its inputs.
+  void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter);
+  void Drop();
+
+  /// A change of the filter that does not matter to what is kept: from one time to another.
+  void Allow(vtkMTimeType before, vtkMTimeType after);
+
+  /// Whether neither the filter nor its inputs have changed otherwise.
+  bool Serves(vtkAlgorithm* filter) const;
+
+  /// The results of a run that would end where asked, null where there are none.
+  const SegmentationResults* ResultsFor(const SegmentationRequest& request) const;
+  /// The level at which it ends.
+  int EndOf(const SegmentationRequest& request) const;
+  /// The run, where it can go on from what it has; else null. It is kept no longer.
+  std::unique_ptr<SurfaceSegmentation> TakeRun();
+
+  bool HasRecovery() const { return this->Recovery; }
+
+private:
+  using Inputs = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
+  static Inputs InputsOf(vtkAlgorithm* filter);
+
+  std::unique_ptr<SurfaceSegmentation> Run;
+  std::unique_ptr<SegmentationResults> Results; ///< Those of Run where there is one.
+  vtkMTimeType Time = 0; ///< 0: nothing is kept
+  Inputs Given;
+  bool EndIsPlanned = false;
+  int PlannedEnd = 0;
+  bool Recovery = false;
+};
+}
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentationResults.h"
+
+#include "Core/Join.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkDataObject.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkTable.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace volumic
+{
+namespace
+{
+void SetBlock(
+  vtkMultiBlockDataSet* blocks, unsigned int block, const std::string& name, vtkPolyData* surface)
+{
+  blocks->SetBlock(block, surface);
+  blocks->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+}
+
+/// An output shares nothing that its reader may change.
+vtkSmartPointer<vtkPolyData> ShallowCopyOf(vtkPolyData* surface)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->ShallowCopy(surface);
+  return copy;
+}
+}
+
+SegmentationResults::SegmentationResults() = default;
+
+SegmentationResults::SegmentationResults(
+  int numberOfLevels, int coarsest, const Workspace& space, bool withPhases)
+  : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), WithPhases(withPhases)
+{
+}
+
+SegmentationResults::~SegmentationResults() = default;
+SegmentationResults::SegmentationResults(const SegmentationResults&) = default;
+SegmentationResults& SegmentationResults::operator=(const SegmentationResults&) = default;
+
+void SegmentationResults::AddSnapshot(int level, const std::string& name, vtkPolyData* surface)
+{
+  this->Film.push_back({ level, name, surface });
+}
+
+void SegmentationResults::SetHandedOver(vtkPolyData* surface)
+{
+  this->HandedOver = surface;
+}
+
+bool SegmentationResults::HasAtRest(int level) const
+{
+  const auto found = this->ByLevel.find(level);
+  return found != this->ByLevel.end() && found->second.IsAtRest;
+}
+
+void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) const
+{
+  auto levels = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  vtkPolyData* finest = nullptr;
+  for (int level = this->NumberOfLevels - 1; level >= std::min(last, 0); --level)
+  {
+    const auto found = this->ByLevel.find(level);
+    const bool isThere = level >= last && found != this->ByLevel.end();
+    finest = isThere ? found->second.Surface.GetPointer() : finest;
+    // That of level -1 comes after those of the pyramid.
+    SetBlock(levels, static_cast<unsigned int>(level < 0 ? this->NumberOfLevels : level),
+      Join("Level ", level), isThere ? ShallowCopyOf(found->second.Surface).GetPointer() : nullptr);
+  }
+  finest = this->HandedOver ? this->HandedOver.GetPointer() : finest;
+  if (finest)
+  {
+    vtkPolyData::GetData(outputs, 0)->ShallowCopy(finest);
+  }
+  vtkMultiBlockDataSet::GetData(outputs, 1)->ShallowCopy(levels);
+
+  std::vector<HistoryRow> rows;
+  std::copy_if(this->Rows.begin(), this->Rows.end(), std::back_inserter(rows),
+    [last](const HistoryRow& row) { return row.Level >= last; });
+  vtkTable::GetData(outputs, 2)->ShallowCopy(MakeHistory(rows, this->Space, this->WithPhases));
+
+  auto film = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const Snapshot& snapshot : this->Film)
+  {
+    if (snapshot.Level >= last)
+    {
+      SetBlock(film, film->GetNumberOfBlocks(), snapshot.Name, ShallowCopyOf(snapshot.Surface));
+    }
+  }
+  vtkMultiBlockDataSet::GetData(outputs, 3)->ShallowCopy(film);
+}
+
+std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
+{
+  // The field data tell the rest; what is worth a warning needs another choice to be made.
+  constexpr double notable = 0.01;
+  const auto end = this->ByLevel.lower_bound(last);
+  if (end == this->ByLevel.end() || !end->second.IsAtRest)
+  {
+    return "";
+  }
+  const SurfaceDescription& about = end->second.Description;
+  if (about.StopReason == Describe(StopReason::Vanished))
+  {
+    return Join("Nothing is left of the surface at level ", about.Level,
+      ": the object is too thin for it. ",
+      this->Coarsest > 0
+        ? "Set Coarsest Level to a finer level."
+        : "No level is finer: check Iso Value and Object Is Bright, or resample the image.");
+  }
+  if (end->second.KeepsNone)
+  {
+    return Join("Level ", about.Level, ": Keep Components leaves none of the components.");
+  }
+  if (about.MissingBoundary > notable && wantsAll)
+  {
+    const int lost = about.LostParts + about.LostCavities;
+    const std::string parts =
+      Join(lost, lost == 1 ? " part" : " parts", " that coarser levels had lost");
+    const std::string what = about.MissingParts == 0 ? "thin ends of " + parts
+      : about.MissingParts == lost                   ? "all of " + parts
+      : Join(about.MissingParts, " of ", parts, ", and thin ends of others");
+    return Join(std::lround(100.0 * about.MissingBoundary), " % of the object's boundary at level ",
+      about.Level, " is not on the surface: ", what,
+      ", too thin for triangles of this size or too near to the rest. ",
+      about.Level > 0
+        ? "Set Finest Level to a finer level."
+        : (about.Level == 0 ? "Set Finest Level to -1, which has smaller ones, or resample the image."
+                            : "Resample the image more finely."));
+  }
+  return "";
+}
+}

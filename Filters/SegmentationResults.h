@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef SegmentationResults_h
+#define SegmentationResults_h
+
+#include "Core/SurfaceEvolution.h"
+#include "SurfaceOutput.h"
+#include "Workspace.h"
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+class vtkInformationVector;
+
+namespace volumic
+{
+/**
+ * What a run has found, level by level. It gives the outputs of vtkDeformableSurface as they are
+ * for a run that ends at any level at which the surface rests, without another run.
+ */
+class SegmentationResults
+{
+public:
+  struct Level
+  {
+    vtkSmartPointer<vtkPolyData> Surface;
+    SurfaceDescription Description;
+    bool KeepsNone = false; ///< KeepComponents has left nothing of a surface that was there.
+    bool IsAtRest = false;  ///< Not cut off while it evolved.
+  };
+
+  SegmentationResults();
+  SegmentationResults(int numberOfLevels, int coarsest, const Workspace& space, bool withPhases);
+  ~SegmentationResults();
+  SegmentationResults(const SegmentationResults&);
+  SegmentationResults& operator=(const SegmentationResults&);
+
+  /// The finest level that a preview visits.
+  void SetPreviewLevel(int level) { this->PreviewLevel = level; }
+  int LevelOfPreview() const { return this->PreviewLevel; }
+
+  void SetLevel(int level, const Level& result) { this->ByLevel[level] = result; }
+  void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
+  void AddSnapshot(int level, const std::string& name, vtkPolyData* surface);
+  /// Instead of that of a level: what a run that was cut off hands over.
+  void SetHandedOver(vtkPolyData* surface);
+
+  /// Whether the surface rests at a level.
+  bool HasAtRest(int level) const;
+  /// Those above `last`, too: they are kept.
+  void FillOutputs(int last, vtkInformationVector* outputs) const;
+  /// What is worth a warning where a run has ended at a level; empty: nothing.
+  /// @param wantsAll whether it matters if parts of the object are missing
+  std::string WarningOf(int last, bool wantsAll) const;
+  vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
+
+private:
+  struct Snapshot
+  {
+    int Level;
+    std::string Name;
+    vtkSmartPointer<vtkPolyData> Surface;
+  };
+  int NumberOfLevels = 0;
+  int Coarsest = 0;
+  int PreviewLevel = 0;
+  Workspace Space;
+  bool WithPhases = false;
+  std::map<int, Level> ByLevel;
+  std::vector<HistoryRow> Rows;
+  std::vector<Snapshot> Film;
+  vtkSmartPointer<vtkPolyData> HandedOver;
+};
+}
+
+#endif

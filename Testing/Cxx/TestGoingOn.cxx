@@ -1,0 +1,399 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+#include <vtkVariant.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+using namespace volumic;
+
+namespace
+{
+/// A ball, a thin rod and a bubble: something is lost, found again and merged.
+vtkSmartPointer<vtkImageData> Scene(int size = 64)
+{
+  const auto image = BallImage(size, size, size, 0.3);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (int k = 6; k < size - 6; ++k)
+  {
+    for (int j = 5; j < 8; ++j)
+    {
+      for (int i = 5; i < 8; ++i)
+      {
+        voxels->SetComponent((k * size + j) * size + i, 0, 100.0);
+      }
+    }
+  }
+  return image;
+}
+
+void ExpectSameArrays(vtkFieldData* a, vtkFieldData* b)
+{
+  ASSERT_EQ(a->GetNumberOfArrays(), b->GetNumberOfArrays());
+  for (int i = 0; i < a->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* one = a->GetAbstractArray(i);
+    vtkAbstractArray* other = b->GetAbstractArray(one->GetName());
+    ASSERT_TRUE(other) << one->GetName();
+    ASSERT_EQ(one->GetNumberOfValues(), other->GetNumberOfValues()) << one->GetName();
+    for (vtkIdType v = 0; v < one->GetNumberOfValues(); ++v)
+    {
+      ASSERT_EQ(one->GetVariantValue(v), other->GetVariantValue(v)) << one->GetName() << ' ' << v;
+    }
+  }
+}
+
+void ExpectSameSurfaces(vtkPolyData* a, vtkPolyData* b)
+{
+  ASSERT_EQ(a != nullptr, b != nullptr);
+  if (a)
+  {
+    ASSERT_TRUE(AreSameSurfaces(a, b));
+    ExpectSameArrays(a->GetPointData(), b->GetPointData());
+    ExpectSameArrays(a->GetCellData(), b->GetCellData());
+    ExpectSameArrays(a->GetFieldData(), b->GetFieldData());
+  }
+}
+
+void ExpectSameBlocks(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
+{
+  ASSERT_EQ(a->GetNumberOfBlocks(), b->GetNumberOfBlocks());
+  for (unsigned int block = 0; block < a->GetNumberOfBlocks(); ++block)
+  {
+    SCOPED_TRACE(block);
+    EXPECT_STREQ(a->GetMetaData(block)->Get(vtkCompositeDataSet::NAME()),
+      b->GetMetaData(block)->Get(vtkCompositeDataSet::NAME()));
+    ExpectSameSurfaces(
+      vtkPolyData::SafeDownCast(a->GetBlock(block)), vtkPolyData::SafeDownCast(b->GetBlock(block)));
+  }
+}
+
+/// All outputs, but for the seconds.
+void ExpectSameOutputs(vtkDeformableSurface* a, vtkDeformableSurface* b)
+{
+  ExpectSameSurfaces(a->GetOutput(), b->GetOutput());
+  ExpectSameBlocks(a->GetLevels(), b->GetLevels());
+  ExpectSameBlocks(a->GetSnapshots(), b->GetSnapshots());
+  vtkTable* one = a->GetHistory();
+  vtkTable* other = b->GetHistory();
+  ASSERT_EQ(one->GetNumberOfRows(), other->GetNumberOfRows());
+  ASSERT_EQ(one->GetNumberOfColumns(), other->GetNumberOfColumns());
+  for (vtkIdType c = 0; c < one->GetNumberOfColumns(); ++c)
+  {
+    const std::string name = one->GetColumnName(c);
+    for (vtkIdType r = 0; r < one->GetNumberOfRows(); ++r)
+    {
+      if (name.find("Seconds") == std::string::npos)
+      {
+        ASSERT_EQ(one->GetValue(r, c), other->GetValue(r, c)) << name << ' ' << r;
+      }
+    }
+  }
+}
+
+using Choice = std::function<void(vtkDeformableSurface*)>;
+
+/// What a run from the start gives.
+vtkSmartPointer<vtkDeformableSurface> FromTheStart(vtkDataObject* input, const Choice& choose, int finest)
+{
+  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  filter->SetInputDataObject(input);
+  filter->SetIsoValue(50.0);
+  choose(filter);
+  filter->SetFinestLevel(finest);
+  filter->Update();
+  return filter;
+}
+
+/// Updates; @return whether levels coarser than `level` have iterated, or the pyramid was built.
+bool Reruns(vtkAlgorithm* filter, int level)
+{
+  ProgressListener listener(filter);
+  filter->Update();
+  filter->RemoveAllObservers();
+  return std::any_of(listener.Texts.begin(), listener.Texts.end(),
+    [level](const std::string& text)
+    {
+      for (int coarse = level + 1; coarse < 9; ++coarse)
+      {
+        if (text.find("Level " + std::to_string(coarse) + ", iteration") != std::string::npos)
+        {
+          return true;
+        }
+      }
+      return text.find("Building the pyramid") != std::string::npos;
+    });
+}
+
+/// Updates; @return whether nothing at all is worked on. (The last text of the run before stays.)
+bool ShowsAtOnce(vtkAlgorithm* filter)
+{
+  ProgressListener listener(filter);
+  filter->Update();
+  filter->RemoveAllObservers();
+  return listener.Texts.size() <= 1;
+}
+
+class GoingOn : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Filter->SetInputData(this->Image);
+    this->Filter->SetIsoValue(50.0);
+  }
+
+  vtkSmartPointer<vtkImageData> Image = Scene();
+  vtkNew<vtkDeformableSurface> Filter;
+};
+}
+
+TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
+{
+  const Choice choices[] = { [](vtkDeformableSurface*) {},
+    [](vtkDeformableSurface* filter)
+    {
+      filter->SetSnapshotInterval(7);
+      filter->SetProfile(true);
+    },
+    [](vtkDeformableSurface* filter) { filter->SetRecovery(vtkDeformableSurface::NoRecovery); },
+    [](vtkDeformableSurface* filter)
+    { filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities); },
+    [](vtkDeformableSurface* filter) { filter->SetInitializationToSeeds(); },
+    [](vtkDeformableSurface* filter) { filter->SetKeepComponentsToLargestComponent(); },
+    [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); } };
+  int number = 0;
+  for (const Choice& choose : choices)
+  {
+    SCOPED_TRACE(number++);
+    const auto filter = FromTheStart(this->Image, choose, 2);
+    for (const int finest : { 1, 0 })
+    {
+      filter->SetFinestLevel(finest);
+      EXPECT_FALSE(Reruns(filter, finest)) << "goes on from level " << finest + 1;
+      ExpectSameOutputs(filter, FromTheStart(this->Image, choose, finest));
+    }
+  }
+}
+
+TEST_F(GoingOn, GoesBeyondTheImage)
+{
+  this->Filter->SetFinestLevel(1);
+  this->Filter->Update();
+  this->Filter->SetFinestLevel(-1);
+  EXPECT_FALSE(Reruns(this->Filter, 0));
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, -1));
+}
+
+TEST_F(GoingOn, ServesAPyramidAndAnyNumberOfThreads)
+{
+  const auto pyramid = PyramidOf(this->Image);
+  const auto filter = FromTheStart(
+    pyramid->GetOutput(), [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); }, 2);
+  filter->SetFinestLevel(0);
+  filter->SetNumberOfThreads(2);
+  EXPECT_FALSE(Reruns(filter, 1));
+  ExpectSameOutputs(
+    filter, FromTheStart(pyramid->GetOutput(), [](vtkDeformableSurface*) {}, 0));
+}
+
+TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
+{
+  this->Filter->SetSnapshotInterval(10);
+  const Choice same = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(10); };
+  this->Filter->Update();
+  for (const int finest : { 2, 1, 0 })
+  {
+    this->Filter->SetFinestLevel(finest);
+    EXPECT_TRUE(ShowsAtOnce(this->Filter)) << "no level iterates";
+    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, same, finest));
+  }
+}
+
+TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)
+{
+  const std::function<void()> changes[] = { [&] { this->Filter->SetIsoValue(45.0); },
+    [&] { this->Filter->SetSnapshotInterval(5); },
+    [&] { this->Filter->Modified(); },
+    [&] { this->Filter->SetMetricToVoxels(); },
+    [&] { this->Filter->ForgetRun(); },
+    [&]
+    {
+      this->Image->GetPointData()->GetScalars()->SetComponent(5, 0, 20.0);
+      this->Image->GetPointData()->GetScalars()->Modified();
+    },
+    [&]
+    {
+      Voxels(this->Image)->SetComponent(6, 0, 20.0);
+      this->Image->Modified();
+    },
+    [&] { this->Filter->SetInputData(Scene(56)); } };
+  for (const auto& change : changes)
+  {
+    this->Filter->SetFinestLevel(2);
+    this->Filter->Update();
+    change();
+    this->Filter->SetFinestLevel(1);
+    EXPECT_TRUE(Reruns(this->Filter, 1));
+  }
+}
+
+TEST_F(GoingOn, BeginsAnewWhereABlockOfThePyramidHasChanged)
+{
+  const auto pyramid = PyramidOf(this->Image);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->ShallowCopy(pyramid->GetOutput());
+  this->Filter->SetInputDataObject(blocks);
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  vtkDataArray* voxels = Voxels(Level(blocks, 1));
+  voxels->SetComponent(voxels->GetNumberOfTuples() / 2, 0, 1.0);
+  voxels->Modified();
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(Reruns(this->Filter, 1));
+}
+
+TEST_F(GoingOn, KeepsNothingAfterAnError)
+{
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  {
+    const MessagesOf errors(this->Filter);
+    this->Filter->SetFinestLevel(77);
+    this->Filter->Update();
+    ASSERT_TRUE(errors.Has("Finest Level is 77")) << errors.Get();
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  }
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(Reruns(this->Filter, 1));
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, 1));
+}
+
+TEST_F(GoingOn, KeepsNothingWhereDataAreReleased)
+{
+  this->Filter->ReleaseDataFlagOn();
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(Reruns(this->Filter, 1));
+}
+
+TEST_F(GoingOn, BeginsWhereARunFromTheStartBegins)
+{
+  // The rod alone, thin: without recovery the level to begin at depends on the one to end at.
+  vtkDataArray* voxels = this->Image->GetPointData()->GetScalars();
+  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
+  {
+    if (voxel % 64 > 10)
+    {
+      voxels->SetComponent(voxel, 0, 0.0);
+    }
+  }
+  const Choice choose = [](vtkDeformableSurface* filter)
+  { filter->SetRecovery(vtkDeformableSurface::NoRecovery); };
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  vtkSmartPointer<vtkDeformableSurface> filter = FromTheStart(this->Image, choose, 1);
+  filter->SetFinestLevel(0);
+  filter->Update();
+  ExpectSameOutputs(filter, FromTheStart(this->Image, choose, 0));
+  filter->SetFinestLevel(1);
+  filter->Update();
+  ExpectSameOutputs(filter, FromTheStart(this->Image, choose, 1));
+}
+
+TEST_F(GoingOn, BeginsAnewAfterACancelledRun)
+{
+  ProgressListener listener(this->Filter);
+  listener.StopAt = 0.7;
+  this->Filter->Update();
+  ASSERT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
+  this->Filter->RemoveAllObservers();
+  for (const int finest : { 1, 0 })
+  {
+    this->Filter->SetFinestLevel(finest);
+    this->Filter->Update();
+    ExpectSameOutputs(
+      this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, finest));
+  }
+}
+
+TEST_F(GoingOn, AddsUpTheSecondsOfBothRuns)
+{
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  vtkNew<vtkTable> before;
+  before->DeepCopy(this->Filter->GetHistory());
+  const auto waiting = std::chrono::steady_clock::now() + std::chrono::milliseconds(600);
+  while (std::chrono::steady_clock::now() < waiting)
+  {
+  }
+  this->Filter->SetFinestLevel(1);
+  this->Filter->Update();
+  vtkTable* after = this->Filter->GetHistory();
+  ASSERT_GT(after->GetNumberOfRows(), before->GetNumberOfRows());
+  for (vtkIdType r = 0; r < before->GetNumberOfRows(); ++r)
+  {
+    EXPECT_EQ(after->GetValueByName(r, "Seconds"), before->GetValueByName(r, "Seconds"));
+  }
+  EXPECT_LT(after->GetValueByName(before->GetNumberOfRows(), "SecondsBefore").ToDouble(), 0.6)
+    << "the time between the runs is nobody's";
+}
+
+TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
+{
+  const auto large = BallImage(180, 160, 128);
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(large);
+  filter->SetIsoValue(50.0);
+  filter->PreviewOn();
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1) << "104 x 92 x 74 voxels";
+  filter->PreviewOff();
+  EXPECT_FALSE(Reruns(filter, 0));
+  ExpectSameOutputs(filter, FromTheStart(large, [](vtkDeformableSurface*) {}, 0));
+  filter->PreviewOn();
+  EXPECT_TRUE(ShowsAtOnce(filter));
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
+  filter->SetFinestLevel(2);
+  EXPECT_TRUE(ShowsAtOnce(filter));
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 2) << "not finer than asked for";
+}
+
+TEST_F(GoingOn, PreviewOfASmallVolumeIsTheVolume)
+{
+  this->Filter->PreviewOn();
+  this->Filter->Update();
+  EXPECT_EQ(FieldOf(this->Filter->GetOutput(), "Level"), 0);
+}
+
+TEST_F(GoingOn, PreviewKeepsToTheEdgeLength)
+{
+  const auto large = BallImage(128, 110, 110);
+  const auto run = [&](bool preview)
+  {
+    auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
+    filter->SetInputData(large);
+    filter->SetIsoValue(50.0);
+    filter->SetEdgeLength(1.7);
+    filter->SetPreview(preview);
+    filter->Update();
+    return filter;
+  };
+  const auto filter = run(true);
+  ASSERT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
+  filter->PreviewOff();
+  EXPECT_FALSE(Reruns(filter, 0));
+  ExpectSameOutputs(filter, run(false));
+}

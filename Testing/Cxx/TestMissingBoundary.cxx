@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+
+#include <vtkCommand.h>
+#include <vtkMultiBlockDataSet.h>
+
+using namespace volumic;
+
+namespace
+{
+/// A ball, and sheets of one voxel about it, which coarse levels lose and level 0 cannot hold well.
+vtkSmartPointer<vtkImageData> BallAndSheets(int sheets)
+{
+  const auto image = BallImage(64, 64, 64, 0.25);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  for (int sheet = 0; sheet < sheets; ++sheet)
+  {
+    for (int k = 10; k < 54; ++k)
+    {
+      for (int j = 10; j < 54; ++j)
+      {
+        voxels->SetComponent((k * 64 + j) * 64 + 4 + 4 * sheet, 0, 60.0);
+      }
+    }
+  }
+  return image;
+}
+
+/// Runs, and gives what is warned of.
+std::string WarningsOf(vtkDeformableSurface* filter, vtkImageData* image)
+{
+  filter->SetInputData(image);
+  filter->SetIsoValue(50.0);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  return warnings.Get();
+}
+
+int TimesIn(const std::string& text, const std::string& part)
+{
+  int times = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+  {
+    ++times;
+  }
+  return times;
+}
+}
+
+TEST(MissingBoundary, IsNoneWhereTheSurfaceHasAll)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  EXPECT_EQ(WarningsOf(filter, BallAndSheets(0)), "");
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.0);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "MissingParts"), 0.0);
+}
+
+TEST(MissingBoundary, TellsTheShareOfWhatIsTooThin)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  const std::string warnings = WarningsOf(filter, BallAndSheets(2));
+  vtkPolyData* surface = filter->GetOutput();
+  ASSERT_EQ(FieldOf(surface, "NumberOfComponents"), 1) << "the ball alone";
+  EXPECT_EQ(FieldOf(surface, "LostParts"), 2);
+  EXPECT_EQ(FieldOf(surface, "MissingParts"), 2);
+  // Faces of voxels count as two thirds of their area, which is right for all directions in the mean.
+  const double sheets = 2 * (2 * 44 * 44 + 4 * 44) / 1.5;
+  const double expected = sheets / (sheets + FieldOf(surface, "Area"));
+  EXPECT_NEAR(FieldOf(surface, "MissingBoundary"), expected, 1e-3);
+  EXPECT_EQ(TimesIn(warnings, "of the object's boundary at level 0 is not on the surface"), 1)
+    << warnings;
+  EXPECT_EQ(TimesIn(warnings, "Warning: In "), 1) << "once for the whole run: " << warnings;
+  EXPECT_NE(warnings.find("all of 2 parts that coarser levels had lost, too thin"),
+    std::string::npos)
+    << warnings;
+  EXPECT_NE(warnings.find("Set Finest Level to -1"), std::string::npos) << warnings;
+}
+
+TEST(MissingBoundary, IsLessAtTheLevelThatTheWarningNames)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  WarningsOf(filter, BallAndSheets(1));
+  const double before = FieldOf(filter->GetOutput(), "MissingBoundary");
+  ASSERT_GT(before, 0.01);
+  filter->SetFinestLevel(-1);
+  EXPECT_EQ(WarningsOf(filter, BallAndSheets(1)), "");
+  EXPECT_LT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.5 * before);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2);
+}
+
+TEST(MissingBoundary, IsNotWarnedOfWhereNoRecoveryIsAskedFor)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "");
+  EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01) << "told all the same";
+}
+
+TEST(MissingBoundary, IsNotWarnedOfInAPreview)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->PreviewOn();
+  EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "") << "level 0 has few voxels: the same surface";
+  EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01);
+  filter->PreviewOff();
+  EXPECT_NE(WarningsOf(filter, BallAndSheets(2)), "");
+}
+
+TEST(MissingBoundary, DoesNotCountPartsUnderTheMinimumSize)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetMinimumPartSize(44 * 44 + 1);
+  EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "");
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "LostParts"), 0.0);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.0);
+}
+
+TEST(MissingBoundary, DoesNotDependOnThreads)
+{
+  vtkNew<vtkDeformableSurface> one;
+  one->SetNumberOfThreads(1);
+  WarningsOf(one, BallAndSheets(2));
+  vtkNew<vtkDeformableSurface> all;
+  WarningsOf(all, BallAndSheets(2));
+  for (unsigned int h = 0; h + 1 < one->GetLevels()->GetNumberOfBlocks(); ++h)
+  {
+    EXPECT_EQ(FieldOf(vtkPolyData::SafeDownCast(one->GetLevels()->GetBlock(h)), "MissingBoundary"),
+      FieldOf(vtkPolyData::SafeDownCast(all->GetLevels()->GetBlock(h)), "MissingBoundary"));
+  }
+}

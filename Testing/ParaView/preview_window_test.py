@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Choosing an iso-value by seeing it, in ParaView's window: Preview on and off, with Apply and with
+Auto Apply."""
+
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import plugin_testing as testing
+import window_testing as window
+from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+from paraview import simple
+
+EXTENT = [-60, 60] * 3  # 1.8 million voxels: level 1 is the preview
+ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
+FILTER = filter_of_the_menu("VolumeToSurface")
+
+# Runs in the window: makes the volume larger, and tells of each run of the filter what it gave and
+# which levels have iterated for it.
+TELL_THE_RUNS = f"""
+from paraview import servermanager, simple
+simple.GetSettingsProxy("GeneralSettings").AutoApply = AUTO_APPLY
+watched = []
+
+def watch(manager, event):
+    for proxy in simple.GetSources().values():
+        if proxy.GetXMLName() == "RTAnalyticSource" and proxy not in watched:
+            watched.append(proxy)
+            proxy.WholeExtent = {EXTENT}
+        algorithm = proxy.GetClientSideObject()
+        if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in watched:
+            watched.append(algorithm)
+            levels = set()
+            def progress(caller, event, levels=levels):
+                text = caller.GetProgressText() or ""
+                if ", iteration" in text:
+                    levels.add(int(text.split()[1].strip(",")))
+            def end(caller, event):
+                surface = caller.GetOutputDataObject(0)
+                print("Run: level", surface.GetFieldData().GetArray("Level").GetValue(0), "triangles",
+                      surface.GetNumberOfPolys(), "iterated", sorted(levels), flush=True)
+            def start(caller, event):
+                levels.clear()
+                caller.SetProgressText("")
+            algorithm.AddObserver("StartEvent", start)
+            algorithm.AddObserver("ProgressEvent", progress)
+            algorithm.AddObserver("EndEvent", end)
+
+servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+"""
+
+
+def set_preview(on):
+    return gui.event(f"{PROPERTIES}/Preview/CheckBox", "set_boolean", "true" if on else "false")
+
+
+def triangles_of(iso_value, **properties):
+    """Of a run from the start."""
+    testing.load_plugin()
+    volume = simple.Wavelet(WholeExtent=EXTENT)
+    filter_ = simple.VolumetoSurface(volume, IsoValue=iso_value, **properties)
+    return testing.fetch(filter_).GetNumberOfPolys()
+
+
+class PreviewWindowTest(window.WindowTestCase):
+    def runs(self):
+        found = re.findall(r"Run: level (\d+) triangles (\d+) iterated (\[.*\])",
+                           self.session.output)
+        return [(int(level), int(triangles), levels) for level, triangles, levels in found]
+
+    def test_on_and_off(self):
+        self.play(source("RTAnalyticSource") + [
+            FILTER, gui.pause(500), window.shown("Preview", True),
+            window.shown("TimeLimit", False),
+            gui.event(ISO_VALUE, "set_string", "140"), set_preview(True), APPLY, gui.pause(2000),
+            gui.event(ISO_VALUE, "set_string", "150"), APPLY, gui.pause(1000),
+            set_preview(False), APPLY, gui.pause(2000),
+            set_preview(True), APPLY, gui.pause(1000),
+            SHOW_ADVANCED, gui.pause(500), window.shown("TimeLimit", True)], "preview",
+            python=TELL_THE_RUNS.replace("AUTO_APPLY", "0"))
+        runs = self.runs()
+        self.assertEqual([run[0] for run in runs], [1, 1, 0, 1], self.session.output)
+        self.assertEqual([run[1] for run in runs],
+                         [triangles_of(140.0, Preview=1), triangles_of(150.0, FinestLevel=1),
+                          triangles_of(150.0), runs[1][1]])
+        self.assertEqual([run[2] for run in runs][2:], ["[0]", "[]"], "goes on, and shows at once")
+
+    def test_auto_apply(self):
+        self.play(source("RTAnalyticSource") + [
+            FILTER, gui.pause(4000), set_preview(True), gui.pause(2000),
+            gui.event(ISO_VALUE, "set_string", "150"), gui.pause(3000),
+            set_preview(False), gui.pause(4000)], "preview-auto-apply",
+            python=TELL_THE_RUNS.replace("AUTO_APPLY", "1"))
+        runs = self.runs()
+        self.assertEqual(runs[-2][0], 1, self.session.output)
+        self.assertEqual(runs[-1], (0, triangles_of(150.0), "[0]"), self.session.output)
+
+
+window.main()
