@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 namespace volumic
 {
@@ -20,16 +21,23 @@ bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
     [](std::uint8_t mark, T value) { return mark != 0 ? value : T(0); });
   const auto firstHalf = [&](double share) { return progress(0.5 * share); };
   const auto secondHalf = [&](double share) { return progress(0.5 + 0.5 * share); };
-  std::vector<float> weights(static_cast<std::size_t>(outputGeometry.NumberOfVoxels()));
-  const auto* marks = static_cast<const unsigned char*>(valid.data());
-  if (!ReduceLevel(values.data(), inputGeometry, output, outputGeometry, executor, firstHalf) ||
-    !ReduceLevel(marks, inputGeometry, weights.data(), outputGeometry, executor, secondHalf))
+  if (!ReduceLevel(values.data(), inputGeometry, output, outputGeometry, executor, firstHalf))
+  {
+    return false;
+  }
+  values = std::vector<T>();
+  // The weights are as precise as the voxels: as bytes they would give single precision.
+  using Mark = std::conditional_t<std::is_same_v<Real, double>, double, std::uint8_t>;
+  const std::vector<Mark> marks(valid.begin(), valid.end());
+  std::vector<Real> weights(static_cast<std::size_t>(outputGeometry.NumberOfVoxels()));
+  if (!ReduceLevel(
+        marks.data(), inputGeometry, weights.data(), outputGeometry, executor, secondHalf))
   {
     return false;
   }
   std::transform(weights.begin(), weights.end(), output, output,
-    [](float weight, Real sum)
-    { return weight >= 0.5f ? sum / weight : std::numeric_limits<Real>::quiet_NaN(); });
+    [](Real weight, Real sum)
+    { return weight >= Real(0.5) ? sum / weight : std::numeric_limits<Real>::quiet_NaN(); });
   return true;
 }
 
