@@ -71,10 +71,11 @@ std::string SelectorOf(const char* label)
   return std::string("/Root/*[@label='") + label + "']";
 }
 
-/// The number of values that the map of components tells apart; -1 if it is none of ours.
+/// The number of values that the map of components tells apart.
 int CountAnnotations(vtkSMProxy* colors)
 {
-  return static_cast<int>(vtkSMPropertyHelper(colors, "Annotations", true).GetNumberOfElements() / 2);
+  vtkSMPropertyHelper annotations(colors, "Annotations", true);
+  return static_cast<int>(annotations.GetNumberOfElements() / 2);
 }
 }
 

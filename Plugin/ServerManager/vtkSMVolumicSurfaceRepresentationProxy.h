@@ -11,8 +11,8 @@
  *   gets one that diverges from 0, as far to both sides as ResidualQuantile (field data) says;
  *   `Component` a colour for each of the twenty largest, and grey for the others. Both follow new
  *   data until they are edited.
- * - With <ShownBlock place="first"/> or "last" among the hints of the proxy, a new display of blocks
- *   shows the first or last one that isn't empty, and another one when that has become empty.
+ * - With <ShownBlock place="first"/> or "last" among the hints of the proxy, a new display of
+ *   blocks shows the first or last one that isn't empty, until somebody chooses others.
  */
 #ifndef vtkSMVolumicSurfaceRepresentationProxy_h
 #define vtkSMVolumicSurfaceRepresentationProxy_h

@@ -106,7 +106,7 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
         files = {"none": written("none.vti", no_arrays), "again": written("again.vti", blob()),
                  "scaled": written("scaled.vti", blob(10, -7)),
                  "renamed": written("renamed.vti", blob(100, 1000, "voxels"))}
-        # File > Change File is but in a menu that the recorder doesn't reach; this is what it calls.
+        # Change File is in a menu that the recorder doesn't reach; this is what it calls.
         change = {name: self.session.add_macro(f"change_to_{name}", CHANGE_FILE.format(path=path))
                   for name, path in files.items()}
         reset = [gui.event(f"{window.PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(300)]
@@ -119,8 +119,8 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
 
         succeeded = self.session.play([
             gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", files["again"]), window.APPLY,
-            window.filter_of_the_menu("VolumeToSurface"), window.APPLY, told,
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", files["again"]),
+            window.APPLY, window.filter_of_the_menu("VolumeToSurface"), window.APPLY, told,
             *changed("none"), told,
             *changed("again"), gui.check(voxels, "currentText", "density"), told,
             *changed("scaled"), *reset, window.APPLY, told,

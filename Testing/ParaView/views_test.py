@@ -178,7 +178,8 @@ class ColoursTest(ViewsTestCase):
                   for i in range(data.GetNumberOfArrays())}
         for port in (SURFACE, LEVELS):
             display = simple.Show(simple.OutputPort(self.filter, port), self.view)
-            domain = display.SMProxy.GetProperty("ColorArrayName").FindDomain("vtkSMArrayListDomain")
+            property_ = display.SMProxy.GetProperty("ColorArrayName")
+            domain = property_.FindDomain("vtkSMArrayListDomain")
             offered = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
             self.assertEqual(sorted(offered), sorted(arrays))
 
