@@ -152,8 +152,9 @@ const float* EdgeLevels::Load(int level, const std::array<int, 3>& size, Executo
   try
   {
     // The force knows differences only.
+    const double lowest = this->Levels->Range(0)[0];
     const LevelImage loaded = level < this->Levels->NumberOfLevels()
-      ? this->Levels->Load(level, this->Levels->Range(0)[0], executor)
+      ? this->Levels->Load(level, lowest, lowest, executor)
       : LevelImage();
     if (loaded.Size != size)
     {

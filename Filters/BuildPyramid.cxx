@@ -62,10 +62,14 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   hear->SetClientData(&follower);
   hear->SetCallback(&Follower::Hear);
   const unsigned long hearing = pyramid->AddObserver(vtkCommand::ProgressEvent, hear);
+  // What it warns of is told by the filter that it works within.
+  vtkNew<vtkCallbackCommand> ignore;
+  const unsigned long ignoring = pyramid->AddObserver(vtkCommand::WarningEvent, ignore);
   pyramid->SetInputData(image);
   pyramid->SetInputArrayToProcess(0, selection);
   const std::string errors = UpdateAndCollectErrors(pyramid);
   pyramid->RemoveObserver(hearing);
+  pyramid->RemoveObserver(ignoring);
   if (!errors.empty() && pyramid->GetErrorCode() == vtkErrorCode::UnknownError)
   {
     throw std::runtime_error(errors);

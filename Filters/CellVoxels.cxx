@@ -5,9 +5,12 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 
@@ -28,6 +31,28 @@ vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
     return areCells ? image->GetCellData()->GetArray(name) : nullptr;
   }
   return image->GetPointData()->GetScalars() ? nullptr : image->GetCellData()->GetScalars();
+}
+
+/// Hides the points that stand for hidden cells.
+void BlankAsCells(vtkImageData* cells, vtkImageData* points)
+{
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
+    cells->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  if (!ghosts || ghosts->GetNumberOfTuples() != points->GetNumberOfPoints())
+  {
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> hidden;
+  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
+  hidden->SetNumberOfTuples(ghosts->GetNumberOfTuples());
+  std::transform(ghosts->GetPointer(0), ghosts->GetPointer(0) + ghosts->GetNumberOfTuples(),
+    hidden->GetPointer(0),
+    [](unsigned char ghost)
+    {
+      return static_cast<unsigned char>(
+        ghost & vtkDataSetAttributes::HIDDENCELL ? vtkDataSetAttributes::HIDDENPOINT : 0);
+    });
+  points->GetPointData()->AddArray(hidden);
 }
 }
 
@@ -58,6 +83,7 @@ PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
   voxels.Image->SetSpacing(image->GetSpacing());
   voxels.Image->SetDirectionMatrix(image->GetDirectionMatrix());
   voxels.Image->GetPointData()->SetScalars(cells);
+  BlankAsCells(image, voxels.Image);
   voxels.Selection = vtkSmartPointer<vtkInformation>::New();
   voxels.Selection->Set(
     vtkDataObject::FIELD_ASSOCIATION(), vtkDataObject::FIELD_ASSOCIATION_POINTS);

@@ -88,6 +88,30 @@ vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
   }
   return array;
 }
+
+template <typename T>
+void CopyComponent(const T* values, int stride, vtkIdType count, T* selected)
+{
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    selected[i] = values[i * stride];
+  }
+}
+
+template <typename T, typename Real>
+void ComputeMagnitude(const T* values, int components, vtkIdType count, Real* magnitudes)
+{
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double sum = 0.0;
+    for (int c = 0; c < components; ++c)
+    {
+      const auto value = static_cast<double>(values[i * components + c]);
+      sum += value * value;
+    }
+    magnitudes[i] = static_cast<Real>(std::sqrt(sum));
+  }
+}
 }
 
 bool FloatHolds(double smallest, double largest)
@@ -108,7 +132,7 @@ std::string SizeOf(vtkImageData* image)
   return Join(size[0], " x ", size[1], " x ", size[2]);
 }
 
-vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image)
+vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image)
 {
   if (image->GetNumberOfPoints() == 0)
   {
@@ -121,18 +145,73 @@ vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image)
     Refuse("array " + Quote(found->GetName()) + " holds " + found->GetDataTypeAsString() +
       "s, not numbers; choose another one: " + ArraysOf(image) + ".");
   }
-  if (array->GetNumberOfComponents() != 1)
-  {
-    Refuse(NameOf(array) + " has " + std::to_string(array->GetNumberOfComponents()) +
-      " components; an image of one component is needed. Extract one (vtkImageExtractComponents)" +
-      " or take the magnitude.");
-  }
   if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
   {
     Refuse(NameOf(array) + " has " + std::to_string(array->GetNumberOfTuples()) +
       " values, but the image has " + SizeOf(image) + " voxels.");
   }
   return array;
+}
+
+vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image)
+{
+  vtkDataArray* array = ChooseArray(selection, image);
+  if (array->GetNumberOfComponents() != 1)
+  {
+    Refuse(NameOf(array), " has ", array->GetNumberOfComponents(),
+      " components; levels of a pyramid and maps of edges have one. Image Pyramid makes the levels "
+      "of one component or of the magnitude (Selected Component).");
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component)
+{
+  const int count = array->GetNumberOfComponents();
+  if (count < 1 || component < -1 || component >= count)
+  {
+    Refuse("Selected Component is ", component, ", but ", NameOf(array), " has ", count,
+      " component", count == 1 ? "" : "s",
+      count > 1 ? Join("; it must be 0 to ", count - 1, ", or -1 for the magnitude.")
+                : std::string("; it must be 0, or -1."));
+  }
+  if (count == 1)
+  {
+    return array;
+  }
+  const vtkSmartPointer<vtkDataArray> tuples = ContiguousVoxels(array);
+  const int type = tuples->GetDataType();
+  const bool isSmall = type == VTK_FLOAT || tuples->GetDataTypeSize() < 4;
+  vtkSmartPointer<vtkDataArray> selected;
+  selected.TakeReference(vtkDataArray::CreateDataArray(
+    component >= 0 ? type : (isSmall ? VTK_FLOAT : VTK_DOUBLE)));
+  selected->SetName(array->GetName());
+  selected->SetNumberOfTuples(array->GetNumberOfTuples());
+  switch (type)
+  {
+    vtkTemplateMacro({
+      const auto* values = static_cast<const VTK_TT*>(tuples->GetVoidPointer(0));
+      if (component >= 0)
+      {
+        CopyComponent(values + component, count, selected->GetNumberOfTuples(),
+          static_cast<VTK_TT*>(selected->GetVoidPointer(0)));
+      }
+      else if (isSmall)
+      {
+        ComputeMagnitude(values, count, selected->GetNumberOfTuples(),
+          static_cast<float*>(selected->GetVoidPointer(0)));
+      }
+      else
+      {
+        ComputeMagnitude(values, count, selected->GetNumberOfTuples(),
+          static_cast<double*>(selected->GetVoidPointer(0)));
+      }
+    });
+    default:
+      Refuse(NameOf(array), " has voxels of type ", array->GetDataTypeAsString(),
+        ", which is not supported.");
+  }
+  return selected;
 }
 
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels)

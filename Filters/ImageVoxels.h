@@ -18,9 +18,20 @@ namespace volumic
 /**
  * The array of voxels that was chosen: `selection` is GetInputArrayInformation(0) of the filter.
  * @throws if the image has no voxels, or there is no such array, or it is not numeric point data
- *         of one component with a value for every voxel.
+ *         with a value for every voxel.
  */
+vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image);
+
+/// The same, of one component.
+/// @throws also if it has several.
 vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
+
+/**
+ * One component of an array: the array itself where it has no other; else a copy of that component,
+ * of the same type, or, for component -1, the magnitude of all, as real numbers. The name is kept.
+ * @throws if there is no such component.
+ */
+vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component);
 
 /// The same values in one plain block of memory: the array itself where it is one already.
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);

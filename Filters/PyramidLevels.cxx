@@ -5,7 +5,6 @@
 #include "Core/Refuse.h"
 #include "Core/ThickPart.h"
 #include "ImageVoxels.h"
-#include "NotFiniteVoxels.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -120,20 +119,29 @@ void Convert(const T* values, double base, std::vector<float>& converted, Execut
 }
 
 template <typename T>
-void MarkObject(
-  const T* values, double isoValue, bool objectIsBright, std::vector<std::uint8_t>& marks)
+void MarkObject(const T* values, const ValidVoxels& valid, double isoValue, bool objectIsBright,
+  std::vector<std::uint8_t>& marks)
 {
-  std::transform(values, values + marks.size(), marks.begin(),
-    [=](T value)
-    {
-      const auto number = static_cast<double>(value);
-      return static_cast<std::uint8_t>(objectIsBright ? number > isoValue : number < isoValue);
-    });
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    const auto number = static_cast<double>(values[i]);
+    const bool isObject = objectIsBright ? number > isoValue : number < isoValue;
+    marks[i] = static_cast<std::uint8_t>(isObject && valid.Has(static_cast<std::int64_t>(i)));
+  }
+}
+
+void Fill(float value, const std::vector<std::uint8_t>& valid, std::vector<float>& voxels)
+{
+  for (std::size_t i = 0; i < valid.size(); ++i)
+  {
+    voxels[i] = valid[i] != 0 ? voxels[i] : value;
+  }
 }
 }
 
 PyramidLevels::PyramidLevels(
-  vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric)
+  vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric, bool nanIsBackground)
+  : NaNIsBackground(nanIsBackground)
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
@@ -169,6 +177,20 @@ PyramidLevels::PyramidLevels(
     this->Images.push_back(image);
     this->Units.push_back(UnitInWorkspace(this->Images[0], image));
   }
+  this->Ranges.assign(this->Images.size(), { 1.0, 0.0 });
+}
+
+ValidVoxels PyramidLevels::ValidAt(int level, Executor& executor) const
+{
+  try
+  {
+    return FindValidVoxels(this->Voxels[level], ContiguousVoxels(this->Voxels[level]),
+      this->Images[level], this->NaNIsBackground, executor);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    Refuse("level ", level, ": ", error.what());
+  }
 }
 
 bool PyramidLevels::HasRoom(int level) const
@@ -202,11 +224,13 @@ bool PyramidLevels::HoldsObject(int level, double isoValue, bool objectIsBright)
 {
   vtkImageData* image = this->Images[level];
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
+  SequentialExecutor thread;
+  const ValidVoxels valid = this->ValidAt(level, thread);
   std::vector<std::uint8_t> marks(static_cast<std::size_t>(image->GetNumberOfPoints()));
   switch (voxels->GetDataType())
   {
     vtkTemplateMacro(MarkObject(
-      static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), isoValue, objectIsBright, marks));
+      static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), valid, isoValue, objectIsBright, marks));
     default:
       return true; // Load() will say what is wrong.
   }
@@ -216,24 +240,35 @@ bool PyramidLevels::HoldsObject(int level, double isoValue, bool objectIsBright)
 
 std::array<double, 2> PyramidLevels::Range(int level) const
 {
-  std::array<double, 2> range;
-  this->Voxels[level]->GetRange(range.data());
+  std::array<double, 2>& range = this->Ranges[level];
+  if (range[0] > range[1])
+  {
+    SequentialExecutor thread;
+    const ValidVoxels valid = this->ValidAt(level, thread);
+    if (level == 0)
+    {
+      CheckAnyIsValid(this->Voxels[0], valid);
+    }
+    range = RangeOf(ContiguousVoxels(this->Voxels[level]), valid);
+  }
   return range;
 }
 
-LevelImage PyramidLevels::Load(int wanted, double base, Executor& executor)
+std::string PyramidLevels::DescribeNaNsOfLevel0() const
+{
+  SequentialExecutor thread;
+  const ValidVoxels valid = this->ValidAt(0, thread);
+  return valid.NaNs > 0 ? DescribeNaNs(this->Voxels[0], this->Images[0], valid) : std::string();
+}
+
+LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)
 {
   const int level = std::max(wanted, 0);
   vtkImageData* image = this->Images[level];
   const std::string name = "level " + std::to_string(level);
   CheckSize(image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const std::string notFinite =
-    DescribeNotFiniteVoxels(this->Voxels[level], voxels, image, executor);
-  if (!notFinite.empty())
-  {
-    Refuse(name, ": ", notFinite);
-  }
+  const ValidVoxels valid = this->ValidAt(level, executor);
   // Sums and differences of voxels must not overflow either.
   constexpr double largest = 1e37;
   const std::array<double, 2> range = this->Range(level);
@@ -245,8 +280,9 @@ LevelImage PyramidLevels::Load(int wanted, double base, Executor& executor)
   }
 
   LevelImage loaded;
-  const bool isFine = FloatHolds(range[0], range[1]);
-  if (voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level] && isFine)
+  const bool isFine = voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level] &&
+    FloatHolds(range[0], range[1]);
+  if (isFine && valid.Marks.empty())
   {
     this->Converted = std::vector<float>();
     loaded.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
@@ -255,17 +291,19 @@ LevelImage PyramidLevels::Load(int wanted, double base, Executor& executor)
   {
     this->Converted = std::vector<float>();
     this->Converted.resize(static_cast<std::size_t>(image->GetNumberOfPoints()));
+    loaded.Base = isFine ? 0.0 : base;
     switch (voxels->GetDataType())
     {
       vtkTemplateMacro(
         Convert(
-          static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), base, this->Converted, executor));
+          static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), loaded.Base, this->Converted,
+          executor));
       default:
         Refuse(name, ": ", NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
           ", which is not supported.");
     }
+    Fill(static_cast<float>(background - loaded.Base), valid.Marks, this->Converted);
     loaded.Values = this->Converted.data();
-    loaded.Base = base;
   }
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -275,5 +313,31 @@ LevelImage PyramidLevels::Load(int wanted, double base, Executor& executor)
   }
   loaded.Unit = this->UnitOf(wanted);
   return loaded;
+}
+
+vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
+{
+  std::vector<vtkImageData*> images;
+  for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
+  {
+    images.push_back(vtkImageData::SafeDownCast(blocks->GetBlock(h)));
+    if (!images[h] || images[h]->GetNumberOfPoints() == 0)
+    {
+      return nullptr;
+    }
+    try
+    {
+      if (h > 0)
+      {
+        CheckPlace(images[0], images[h], h);
+        CheckShrinks(images[h - 1], images[h], h);
+      }
+    }
+    catch (const std::invalid_argument&)
+    {
+      return nullptr;
+    }
+  }
+  return images.size() > 1 ? images[0] : nullptr;
 }
 }

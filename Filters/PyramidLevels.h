@@ -6,6 +6,7 @@
 #include "Core/Executor.h"
 #include "Core/LevelImage.h"
 #include "Core/SurfaceFeatures.h"
+#include "ValidVoxels.h"
 #include "Workspace.h"
 
 #include <vtkSmartPointer.h>
@@ -37,10 +38,12 @@ public:
    * @param blocks    block h is the vtkImageData of level h
    * @param selection says which array holds the voxels (GetInputArrayInformation)
    * @param metric    which lengths the workspace has
+   * @param nanIsBackground off: Load() refuses voxels that are NaN
    * @throws if a block is not an image, has no such array, or its size or place are not those of a
    *         level of a pyramid; if the image is 2D or under MinimumSize along an axis.
    */
-  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric);
+  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric,
+    bool nanIsBackground = true);
 
   int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }
@@ -61,21 +64,27 @@ public:
   /// at a level to hold a surface there (ThickPart.h).
   bool HoldsObject(int level, double isoValue, bool objectIsBright) const;
 
-  /// Smallest and largest voxel of a level.
+  /// Smallest and largest voxel of a level among those that are valid (ValidVoxels.h); the first is
+  /// the larger one if none is.
   std::array<double, 2> Range(int level) const;
+
+  /// What DescribeNaNs() says of level 0; nothing if there are none.
+  std::string DescribeNaNsOfLevel0() const;
 
   /**
    * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call.
    * Float voxels are shared, unless their differences are small beside their size; others are
    * converted. Of what is converted `base` is subtracted first, in double: it is the Base of the result.
-   * @param base a value of the field that matters, such as the iso-value
-   * @throws if the level is under MinimumSize along an axis, or has voxels that are not finite
-   *         or too large for single precision.
+   * @param base       a value of the field that matters, such as the iso-value
+   * @param background the value that voxels get which are not valid
+   * @throws if the level is under MinimumSize along an axis, or has voxels that are infinite or too
+   *         large for single precision, or NaN where these are refused.
    */
-  LevelImage Load(int level, double base, Executor& executor);
+  LevelImage Load(int level, double base, double background, Executor& executor);
 
 private:
   double UnitOf(int level) const;
+  ValidVoxels ValidAt(int level, Executor& executor) const;
 
   std::vector<vtkImageData*> Images;
   std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
@@ -83,7 +92,12 @@ private:
   double FactorBelowLevel0 = 1.7320508075688772;
   Workspace Space;
   std::vector<float> Converted;
+  bool NaNIsBackground;
+  mutable std::vector<std::array<double, 2>> Ranges; ///< by level; the larger first: not known yet
 };
+
+/// Level 0 if the blocks are the levels of a pyramid (two at least), else null.
+vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks);
 }
 
 #endif

@@ -9,7 +9,8 @@
 #include "SurfaceOutput.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkDataObject.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -35,12 +36,14 @@ void CheckEnumeration(const char* name, int value, int last)
 }
 
 /// The levels, with errors that name the port.
-PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int metric)
+PyramidLevels ReadLevels(
+  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
 {
-  CheckEnumeration("Metric", metric, vtkDeformableSurface::World);
+  CheckEnumeration("Metric", settings.Metric, vtkDeformableSurface::World);
   try
   {
-    return PyramidLevels(blocks, selection, static_cast<Metric>(metric));
+    return PyramidLevels(
+      blocks, selection, static_cast<Metric>(settings.Metric), settings.NaNIsBackground);
   }
   catch (const std::invalid_argument& error)
   {
@@ -52,13 +55,9 @@ PyramidLevels ReadLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection
 
 SurfaceSegmentation::SurfaceSegmentation(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), Pyramid(ReadLevels(blocks, selection, settings.Metric)),
+  : Settings(settings), Input(blocks), Pyramid(ReadLevels(blocks, selection, settings)),
     Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
 {
-  for (unsigned int block = 0; block < blocks->GetNumberOfBlocks(); ++block)
-  {
-    this->Images.emplace_back(blocks->GetBlock(block));
-  }
   CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
   CheckEnumeration("Border Value", settings.BorderValue, vtkDeformableSurface::Replicate);
   CheckEnumeration(
@@ -163,12 +162,29 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   }
 }
 
+std::array<double, 2> SurfaceSegmentation::RangeOfLevel(int level) const
+{
+  try
+  {
+    return this->Pyramid.Range(level);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    Refuse("Input port 0: ", error.what());
+  }
+}
+
 LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
 {
   LevelImage image;
+  const double iso = this->Settings.Options.IsoValue;
+  const std::array<double, 2> range = this->RangeOfLevel(std::max(level, 0));
+  // As outside the image (Field.h): as far from the iso-value as any voxel is.
+  const double away = std::max(range[1] - iso, iso - range[0]);
+  const double background = this->Settings.Options.ObjectIsBright ? iso - away : iso + away;
   try
   {
-    image = this->Pyramid.Load(level, this->Settings.Options.IsoValue, threads);
+    image = this->Pyramid.Load(level, iso, background, threads);
   }
   catch (const std::invalid_argument& error)
   {
@@ -250,10 +266,25 @@ void SurfaceSegmentation::ChooseEnd(int coarsestWithObject)
     : this->Settings.FinestLevel;
 }
 
+void SurfaceSegmentation::WarnOfNaNs()
+{
+  vtkDataArray* counted = this->Input->GetFieldData()->GetArray("NaNVoxels");
+  const bool hasNone = counted && counted->GetTuple1(0) == 0.0;
+  // Image Pyramid tells it itself where it is a filter of the user's.
+  if (!hasNone && (!counted || this->Settings.LevelsAreOwn))
+  {
+    const std::string text = this->Pyramid.DescribeNaNsOfLevel0();
+    if (!text.empty())
+    {
+      this->Settings.Warn("Input port 0: " + text);
+    }
+  }
+}
+
 void SurfaceSegmentation::CheckIsoValue()
 {
   const double iso = this->Settings.Options.IsoValue;
-  const std::array<double, 2> range = this->Pyramid.Range(0);
+  const std::array<double, 2> range = this->RangeOfLevel(0);
   if (std::isnan(iso))
   {
     Refuse(
@@ -275,7 +306,7 @@ int SurfaceSegmentation::CoarsestLevelWithObject(int from)
   int level = from;
   for (; level > 0; --level)
   {
-    const std::array<double, 2> range = this->Pyramid.Range(level);
+    const std::array<double, 2> range = this->RangeOfLevel(level);
     if (bright ? range[1] > iso : range[0] < iso)
     {
       break;
@@ -394,6 +425,10 @@ void SurfaceSegmentation::Run()
   this->ChooseLevels();
   this->CheckIsoValue();
   this->CheckObjectIsThere();
+  if (!this->Evolution)
+  {
+    this->WarnOfNaNs(); // Once for all runs that go on from this one.
+  }
   // Where a run begins may depend on where it is to end; then nothing of the last one serves.
   if (!this->Evolution || this->Coarsest != before)
   {

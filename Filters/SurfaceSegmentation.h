@@ -17,13 +17,13 @@
 
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-class vtkDataObject;
 class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkPoints;
@@ -57,6 +57,8 @@ struct SegmentationSettings : SegmentationRequest
   int KeepComponents = 0; ///< vtkDeformableSurface::KeepComponentsType, if it is one
   double MinimumComponentVolume = 0.0; ///< world units cubed
   int Metric = 0;         ///< vtkDeformableSurface::MetricType, if it is one
+  bool NaNIsBackground = true;
+  bool LevelsAreOwn = false; ///< they were made for this run: nobody was told of their NaN voxels
   double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
   bool EdgeLengthIsPlanned = false; ///< the levels were made for it, and what follows is set
   int CoarsestLevel = -1;
@@ -111,7 +113,9 @@ private:
   std::vector<Point> AttractingPositions() const;
   void ReadComponentChoice();
   void ReadAttraction(vtkMultiBlockDataSet* blocks);
+  std::array<double, 2> RangeOfLevel(int level) const;
   LevelImage Load(int level, Executor& threads);
+  void WarnOfNaNs();
   void CheckIsoValue();
   /// At most `from`; 0 where no other level has any of the object.
   int CoarsestLevelWithObject(int from);
@@ -128,8 +132,7 @@ private:
   std::string WhyStopped() const;
 
   SegmentationSettings Settings;
-  /// Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on.
-  std::vector<vtkSmartPointer<vtkDataObject>> Images;
+  vtkSmartPointer<vtkMultiBlockDataSet> Input; ///< Keeps the levels alive.
   PyramidLevels Pyramid;
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none

@@ -6,6 +6,7 @@
 #include "BuildPyramid.h"
 #include "Core/Refuse.h"
 #include "Deadline.h"
+#include "InputImage.h"
 #include "SegmentationCache.h"
 #include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
@@ -67,9 +68,24 @@ public:
 };
 
 //------------------------------------------------------------------------------
+vtkImageData* vtkDeformableSurface::TakeImage(vtkDataObject* input)
+{
+  try
+  {
+    return volumic::ImageOf(input);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    volumic::Refuse("Input port 0: ", error.what());
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkDeformableSurface::vtkDeformableSurface()
 {
   const volumic::SurfaceOptions defaults;
+  this->SelectedComponent = -1;
+  this->NaNIsBackground = true;
   this->Metric = World;
   this->EdgeLength = 0.0;
   this->IsoValue = vtkMath::Nan();
@@ -118,8 +134,8 @@ int vtkDeformableSurface::FillInputPortInformation(int port, vtkInformation* inf
 {
   if (port == 0)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+    // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   }
   else
   {
@@ -275,6 +291,7 @@ vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
   volume.SamplingRatio = this->SamplingRatio;
   volume.FactorBelowLevel0 = std::sqrt(3.0);
   volume.EdgeLengthIsPlanned = false;
+  volume.LevelsAreOwn = false;
   return volume;
 }
 
@@ -282,6 +299,8 @@ vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
 void vtkDeformableSurface::MakeLevels(
   vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume)
 {
+  pyramid->SetSelectedComponent(this->SelectedComponent);
+  pyramid->SetNaNIsBackground(this->NaNIsBackground);
   pyramid->SetNumberOfThreads(this->NumberOfThreads);
   if (this->EdgeLength != 0.0)
   {
@@ -292,6 +311,7 @@ void vtkDeformableSurface::MakeLevels(
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
+  volume.LevelsAreOwn = true;
   volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection,
     [this](double share) { return this->ShowPyramidProgress(share); });
 }
@@ -301,14 +321,10 @@ vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* 
 {
   Volume volume = this->VolumeAsSet();
   volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
-  if (auto* image = vtkImageData::SafeDownCast(input))
+  if (!volume.Levels)
   {
     vtkNew<vtkImagePyramid> pyramid;
-    this->MakeLevels(pyramid, image, volume);
-  }
-  else if (!volume.Levels)
-  {
-    throw std::invalid_argument("Input port 0: there is neither an image nor a pyramid.");
+    this->MakeLevels(pyramid, TakeImage(input), volume);
   }
   return volume;
 }
@@ -338,7 +354,7 @@ void vtkDeformableSurface::RunOrGoOn(
   }
   this->Internals->Limit = volumic::Deadline(settings.Started, this->TimeLimit);
   vtkDataObject* data = vtkDataObject::GetData(input[0]);
-  const double before = vtkImageData::SafeDownCast(data) ? PyramidShare : 0.0;
+  const double before = vtkMultiBlockDataSet::SafeDownCast(data) ? 0.0 : PyramidShare;
 
   settings.FinestLevel = this->FinestLevel;
   settings.Preview = this->Preview;
@@ -414,6 +430,8 @@ void vtkDeformableSurface::RunOrGoOn(
     settings.MinimumComponentVolume = this->MinimumComponentVolume;
     settings.CoarsestLevel = this->CoarsestLevel;
     settings.Metric = this->Metric;
+    settings.NaNIsBackground = this->NaNIsBackground;
+    settings.LevelsAreOwn = volume.LevelsAreOwn;
     settings.EdgeLength = this->EdgeLength;
     settings.EdgeLengthIsPlanned = volume.EdgeLengthIsPlanned;
     settings.FactorBelowLevel0 = volume.FactorBelowLevel0;
@@ -465,6 +483,8 @@ int vtkDeformableSurface::RequestData(
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
+  os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
   os << indent << "Metric: " << this->Metric << endl;
   os << indent << "EdgeLength: " << this->EdgeLength << endl;
   os << indent << "IsoValue: " << this->IsoValue << endl;

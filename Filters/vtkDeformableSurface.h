@@ -15,9 +15,11 @@
  * @par Input:
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
  *   is built here with default settings. Of each level the array chosen by SetInputArrayToProcess()
- *   is used, by default the active point scalars: one component, any numeric type, finite values of
- *   at most 1e37 in size (the surface computes in single precision, after IsoValue was subtracted
- *   where that matters: 10^9 to 10^9 + 50 are fine). At least 8 voxels along each axis.
+ *   is used, by default the active point scalars: any numeric type, values of at most 1e37 in size
+ *   (the surface computes in single precision, after IsoValue was subtracted where that matters:
+ *   10^9 to 10^9 + 50 are fine). Of several components of an image SelectedComponent chooses one;
+ *   levels of a pyramid have one. NaN voxels are background, see NaNIsBackground, and so are blanked
+ *   ones, as vtkImagePyramid says; infinite ones are refused. At least 8 voxels along each axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components,
  *   cavities among them facing inward, at most five times as wide as the image; polygons are
@@ -108,8 +110,9 @@
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
  * one that was cancelled, vtkErrorCode::UserError where something given is wrong,
  * vtkErrorCode::UnknownError where the memory does not suffice. Each run sets it anew. The message
- * comes with ErrorEvent; without an observer VTK prints it. Inputs that are missing or of another
- * type are refused by the pipeline before a run: by ErrorEvent of GetExecutive() only.
+ * comes with ErrorEvent; without an observer VTK prints it. A missing input, and inputs of another
+ * type at ports 1 and 2, are refused by the pipeline before a run: by ErrorEvent of GetExecutive()
+ * only.
  *
  * @par Cancelling:
  * AbortExecute is looked at several times a second, with each progress event: the surface as it is
@@ -195,6 +198,25 @@ public:
     ComponentsAtPoints = 2,
     LargeComponents = 3
   };
+
+  ///@{
+  /**
+   * Which component of an array of several is taken, of an image: 0 for the first one; -1, the
+   * default: the magnitude. An array of one component is taken as it is with either.
+   */
+  vtkSetMacro(SelectedComponent, int);
+  vtkGetMacro(SelectedComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Voxels that are NaN are background, whatever is around them, and a warning tells how many there
+   * are (for a pyramid, vtkImagePyramid's). Off: they are refused. Default: on.
+   */
+  vtkSetMacro(NaNIsBackground, bool);
+  vtkGetMacro(NaNIsBackground, bool);
+  vtkBooleanMacro(NaNIsBackground, bool);
+  ///@}
 
   ///@{
   /**
@@ -610,9 +632,12 @@ protected:
     double SamplingRatio;
     double FactorBelowLevel0;  ///< unit of level 0 over that of level -1
     bool EdgeLengthIsPlanned;  ///< the levels were made for EdgeLength
+    bool LevelsAreOwn;         ///< the levels are no input
   };
   /// Without levels, the rest as the properties have it.
   Volume VolumeAsSet();
+  /// The image that an input which is no pyramid means. Errors are thrown as std::invalid_argument.
+  static vtkImageData* TakeImage(vtkDataObject* input);
   /// Makes the pyramid of an image, for EdgeLength if there is one.
   void MakeLevels(vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume);
   /// Makes the volume of the data of input port 0; its levels are null where ShowPyramidProgress()
@@ -621,6 +646,8 @@ protected:
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
   bool ShowPyramidProgress(double share);
 
+  int SelectedComponent;
+  bool NaNIsBackground;
   int Metric;
   double EdgeLength;
   double IsoValue;

@@ -3,16 +3,15 @@
 #include "vtkImagePyramid.h"
 
 #include "AlgorithmErrors.h"
-#include "Core/Join.h"
-#include "Core/LevelReduction.h"
 #include "Core/PyramidGeometry.h"
 #include "HostThreads.h"
 #include "ImageVoxels.h"
-#include "NotFiniteVoxels.h"
+#include "InputImage.h"
+#include "LevelVoxels.h"
+#include "ValidVoxels.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
 
-#include <vtkAOSDataArrayTemplate.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -21,6 +20,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -33,13 +33,10 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <functional>
+#include <exception>
 #include <new>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -47,9 +44,6 @@ vtkStandardNewMacro(vtkImagePyramid);
 
 namespace
 {
-/// The share of the whole work that is done, in [0, 1], and the text for it; false asks to stop.
-using Progress = std::function<bool(double share, const std::string& text)>;
-
 std::vector<volumic::LevelGeometry> Plan(
   vtkImageData* image, const volumic::PyramidOptions& options)
 {
@@ -57,106 +51,6 @@ std::vector<volumic::LevelGeometry> Plan(
   const double* spacing = image->GetSpacing();
   return volumic::PlanPyramid(
     { size[0], size[1], size[2] }, { spacing[0], spacing[1], spacing[2] }, options);
-}
-
-/// An array of n values in memory that may turn out not to be had, which is no reason to abort.
-template <typename Real>
-vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int level)
-{
-  auto* values = static_cast<Real*>(std::malloc(static_cast<std::size_t>(n) * sizeof(Real)));
-  if (!values)
-  {
-    throw std::runtime_error(volumic::Join("the memory does not suffice for level ", level,
-      ", which takes ", static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
-      " MB. Ask for fewer levels, or crop the image."));
-  }
-  vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> array;
-  array.TakeReference(vtkAOSDataArrayTemplate<Real>::FastDownCast(
-    vtkDataArray::CreateDataArray(vtkTypeTraits<Real>::VTK_TYPE_ID)));
-  array->SetArray(values, n, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
-  return array;
-}
-
-/// The voxels that level 1 is made of: as double where they are integers that single precision would
-/// not keep apart.
-vtkSmartPointer<vtkDataArray> SourceVoxels(vtkDataArray* voxels, volumic::Executor& executor)
-{
-  const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
-  const int type = contiguous->GetDataType();
-  if (type == VTK_FLOAT || type == VTK_DOUBLE || contiguous->GetDataTypeSize() < 4)
-  {
-    return contiguous;
-  }
-  double range[2];
-  contiguous->GetRange(range);
-  if (volumic::FloatHolds(range[0], range[1]))
-  {
-    return contiguous;
-  }
-  const auto wide = NewArray<double>(contiguous->GetNumberOfTuples(), 0);
-  const auto copy = [&](const auto* values)
-  {
-    executor.For(static_cast<std::size_t>(wide->GetNumberOfTuples()), 1 << 16,
-      [&](std::size_t begin, std::size_t end)
-      {
-        std::transform(values + begin, values + end, wide->GetPointer(0) + begin,
-          [](auto value) { return static_cast<double>(value); });
-      });
-  };
-  switch (type)
-  {
-    vtkTemplateMacro(copy(static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0))));
-  }
-  return wide;
-}
-
-/// Input voxels of each level that are looked at: what progress is measured by.
-std::vector<double> ShareDoneBefore(const std::vector<volumic::LevelGeometry>& levels)
-{
-  std::vector<double> share(levels.size(), 0.0);
-  for (std::size_t h = 1; h < levels.size(); ++h)
-  {
-    share[h] = share[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
-  }
-  const double total = share.back();
-  for (double& s : share)
-  {
-    s = total > 0.0 ? s / total : 1.0;
-  }
-  return share;
-}
-
-/**
- * The voxels of the levels above level 0, as far as they were finished before `progress` said stop.
- */
-template <typename T>
-std::vector<vtkSmartPointer<vtkDataArray>> MakeLevels(const T* level0,
-  const std::vector<volumic::LevelGeometry>& levels, volumic::Executor& executor,
-  const Progress& progress)
-{
-  using Real = typename volumic::RealOf<T>::Type;
-  const std::vector<double> before = ShareDoneBefore(levels);
-  std::vector<vtkSmartPointer<vtkDataArray>> made;
-  const Real* below = nullptr;
-  for (std::size_t h = 1; h < levels.size(); ++h)
-  {
-    const auto array = NewArray<Real>(levels[h].NumberOfVoxels(), static_cast<int>(h));
-    const std::string text = volumic::Join("Level ", h, " of ", levels.size() - 1);
-    const auto levelProgress = [&](double share)
-    { return progress(before[h - 1] + share * (before[h] - before[h - 1]), text); };
-    const bool isFinished = levelProgress(0.0) &&
-      (h == 1 ? volumic::ReduceLevel(
-                  level0, levels[0], array->GetPointer(0), levels[1], executor, levelProgress)
-              : volumic::ReduceLevel(
-                  below, levels[h - 1], array->GetPointer(0), levels[h], executor, levelProgress));
-    if (!isFinished)
-    {
-      break;
-    }
-    below = array->GetPointer(0);
-    made.emplace_back(array);
-  }
-  return made;
 }
 
 void AddLevelFieldData(vtkImageData* image, int level, double unit)
@@ -183,16 +77,24 @@ void AddLevel(vtkMultiBlockDataSet* pyramid, int level, vtkImageData* image, dou
     vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
 }
 
-/// Level 0: the input with the chosen array as its active scalars; no voxel is copied.
+/// Level 0: the input with the chosen array as its active scalars; no voxel is copied, but where one
+/// component was selected, which takes the place of the array.
 vtkSmartPointer<vtkImageData> ShareInput(vtkImageData* input, vtkDataArray* voxels)
 {
   vtkSmartPointer<vtkImageData> image;
   image.TakeReference(input->NewInstance());
   image->ShallowCopy(input);
-  if (voxels->GetName())
+  const char* name = voxels->GetName();
+  if (!name)
   {
-    image->GetPointData()->SetActiveScalars(voxels->GetName());
+    image->GetPointData()->SetScalars(voxels);
+    return image;
   }
+  if (image->GetPointData()->GetArray(name) != voxels)
+  {
+    image->GetPointData()->AddArray(voxels);
+  }
+  image->GetPointData()->SetActiveScalars(name);
   return image;
 }
 
@@ -213,34 +115,30 @@ vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* input, const char* name, v
   return image;
 }
 
-/// @return whether all levels were finished.
-bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const volumic::PyramidOptions& options,
-  int numberOfThreads, const Progress& progress, vtkMultiBlockDataSet* pyramid)
+struct Settings
 {
-  const std::vector<volumic::LevelGeometry> levels = Plan(input, options);
+  volumic::PyramidOptions Levels;
+  bool NaNIsBackground;
+  int NumberOfThreads;
+};
+
+/// @return whether all levels were finished.
+bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const Settings& settings,
+  const volumic::PyramidProgress& progress, vtkMultiBlockDataSet* pyramid,
+  volumic::ValidVoxels& valid)
+{
+  const std::vector<volumic::LevelGeometry> levels = Plan(input, settings.Levels);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
 
-  volumic::HostThreads threads(numberOfThreads);
+  volumic::HostThreads threads(settings.NumberOfThreads);
   threads.Run(
     [&]
     {
-      const vtkSmartPointer<vtkDataArray> contiguous = SourceVoxels(voxels, threads);
-      const std::string notFinite =
-        volumic::DescribeNotFiniteVoxels(voxels, contiguous, input, threads);
-      if (!notFinite.empty())
-      {
-        throw std::invalid_argument(notFinite);
-      }
-      switch (contiguous->GetDataType())
-      {
-        vtkTemplateMacro({
-          const auto* values = static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0));
-          made = MakeLevels(values, levels, threads, progress);
-        });
-        default:
-          throw std::invalid_argument(volumic::NameOf(voxels) + " has voxels of type " +
-            voxels->GetDataTypeAsString() + ", which is not supported.");
-      }
+      const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
+      valid = volumic::FindValidVoxels(
+        voxels, contiguous, input, settings.NaNIsBackground, threads);
+      volumic::CheckAnyIsValid(voxels, valid);
+      made = volumic::MakeLevelVoxels(contiguous, valid, levels, threads, progress);
     });
 
   AddLevel(pyramid, 0, ShareInput(input, voxels), levels[0].Unit);
@@ -262,8 +160,12 @@ volumic::PyramidOptions OptionsOf(
   return options;
 }
 
-void AddStopReason(vtkMultiBlockDataSet* pyramid, bool isComplete)
+void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numberOfNaNs)
 {
+  vtkNew<vtkIdTypeArray> nans;
+  nans->SetName("NaNVoxels");
+  nans->InsertNextValue(static_cast<vtkIdType>(numberOfNaNs));
+  pyramid->GetFieldData()->AddArray(nans);
   vtkNew<vtkStringArray> reason;
   reason->SetName("StopReason");
   reason->InsertNextValue(isComplete ? "complete" : "cancelled");
@@ -278,6 +180,8 @@ vtkImagePyramid::vtkImagePyramid()
   this->ReductionFactor = defaults.ReductionFactor;
   this->NumberOfLevels = defaults.NumberOfLevels;
   this->MinimumLevelSize = defaults.MinimumLevelSize;
+  this->SelectedComponent = -1;
+  this->NaNIsBackground = true;
   this->NumberOfThreads = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -334,6 +238,13 @@ int vtkImagePyramid::RequestDataObject(vtkInformationVector* output)
   return 1;
 }
 
+int vtkImagePyramid::FillInputPortInformation(int, vtkInformation* info)
+{
+  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  return 1;
+}
+
 int vtkImagePyramid::FillOutputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkMultiBlockDataSet");
@@ -363,7 +274,6 @@ int vtkImagePyramid::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   // In a parallel run the first process holds the pyramid; the others would only repeat it.
   if (output &&
@@ -372,20 +282,19 @@ int vtkImagePyramid::RequestData(
   {
     return 1;
   }
-  if (!input || !output)
-  {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(vtkErrorCode::UserError);
-    vtkErrorMacro("Input port 0: there is no image.");
-    return 1;
-  }
+  vtkImageData* input = nullptr;
   try
   {
+    input = volumic::ImageOf(vtkDataObject::GetData(inputVector[0]));
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
-    vtkDataArray* voxels = volumic::ChooseVoxels(this->GetInputArrayInformation(0), input);
-    const volumic::PyramidOptions options =
+    const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
+      volumic::ChooseArray(this->GetInputArrayInformation(0), input), this->SelectedComponent);
+    Settings settings;
+    settings.Levels =
       OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
+    settings.NaNIsBackground = this->NaNIsBackground;
+    settings.NumberOfThreads = this->NumberOfThreads;
     const auto progress = [this](double share, const std::string& text)
     {
       this->SetProgressText(text.c_str());
@@ -394,17 +303,21 @@ int vtkImagePyramid::RequestData(
     };
 
     vtkNew<vtkMultiBlockDataSet> pyramid;
-    const bool isComplete =
-      BuildPyramid(input, voxels, options, this->NumberOfThreads, progress, pyramid);
-    AddStopReason(pyramid, isComplete);
+    volumic::ValidVoxels valid;
+    const bool isComplete = BuildPyramid(input, voxels, settings, progress, pyramid, valid);
+    AddFacts(pyramid, isComplete, valid.NaNs);
     output->ShallowCopy(pyramid);
+    if (valid.NaNs > 0)
+    {
+      vtkWarningMacro("Input port 0: " << volumic::DescribeNaNs(voxels, input, valid));
+    }
   }
   catch (const std::bad_alloc& error)
   {
     volumic::InitializeOutputs(outputVector);
     this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: the memory does not suffice for the pyramid of an image of "
-      << volumic::SizeOf(input) << " voxels.");
+      << (input ? volumic::SizeOf(input) : "?") << " voxels.");
   }
   catch (const std::exception& error)
   {
@@ -422,5 +335,7 @@ void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ReductionFactor: " << this->ReductionFactor << endl;
   os << indent << "NumberOfLevels: " << this->NumberOfLevels << endl;
   os << indent << "MinimumLevelSize: " << this->MinimumLevelSize << endl;
+  os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
+  os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
 }

@@ -10,13 +10,18 @@
  * default sqrt(3) is the factor by which vtkDeformableSurface divides its mesh.
  *
  * @par Input:
- * Port 0: a vtkImageData of any extent, origin, spacing and direction, with point data. The array
- * is chosen by SetInputArrayToProcess(); by default it is the active point scalars. It must have
- * one component, of any numeric type, and only finite values.
+ * Port 0: a vtkImageData of any extent, origin, spacing and direction, with point data; or a
+ * composite dataset with one image in it, or a pyramid, whose level 0 is taken. The array is chosen
+ * by SetInputArrayToProcess(); by default it is the active point scalars. It may be of any numeric
+ * type; of several components SelectedComponent chooses one. NaN voxels are background, see
+ * NaNIsBackground, and so are blanked ones, without a word: points that the ghost array hides
+ * (vtkDataSetAttributes::HIDDENPOINT), or all of whose cells it hides (HIDDENCELL). Infinite voxels
+ * are refused.
  *
  * @par Output:
  * Port 0: a vtkMultiBlockDataSet. Block h is the vtkImageData of level h, named `Level h`; block 0
- * is the input itself, whose arrays are shared, not copied. All levels have the origin (the place
+ * is the input itself, whose arrays are shared, not copied (of several components the array holds
+ * the selected one, under the same name). All levels have the origin (the place
  * of the first voxel), the direction and the real size of the input; the spacing of level h is
  * spacing * size / size of level h, in world units, and its extent starts at 0. Each level from 1
  * on has one array, under the name that it has on the input: double if that is double, or integers
@@ -25,7 +30,8 @@
  * Field data of every level: `Level` (int) and `Unit` (double, the U_h of the paper: the distance
  * that stands for one voxel at that level, world units). Field data of the whole: `StopReason`
  * (string), `complete` or, after AbortExecute, `cancelled`: then the levels that were finished are
- * there, and count as up to date; to run anew call Modified() before Update().
+ * there, and count as up to date; to run anew call Modified() before Update(); and `NaNVoxels`
+ * (vtkIdType), the number of NaN voxels of level 0.
  *
  * @par Algorithm:
  * Equations 3 to 5 of the paper, with all places as there: voxel i of level h lies at i times the
@@ -34,20 +40,24 @@
  * counts. Kernel and interpolation are folded into one banded operator per axis, which gives the
  * same numbers to rounding. U_h is T^h U_0 (eq. 4); the minimum over the axes that the paper also
  * states would differ from it, as sizes are rounded down. Axes of one voxel stay one voxel.
- * Results are the same bits for any number of threads.
+ * Results are the same bits for any number of threads. Where voxels are NaN or blanked, those of
+ * the coarser levels are the weighted means of the others alone, and NaN where these have less than
+ * half of the weight.
  *
  * @par Errors:
- * A message names the port, the array or the value, and the output is empty, when: the image is
- * empty; there is no such array, or it is cell data, not numeric or has several components; it has
- * voxels that are NaN or infinite; ReductionFactor is not between 1 and 2; more levels are asked
- * for than the image can give; the memory does not suffice.
+ * A message names the port, the array or the value, and the output is empty, when: the input is no
+ * image (apply vtkResampleToImage to an AMR, rectilinear, structured or unstructured grid first), or
+ * holds several that are no pyramid; the image is empty; there is no such array, or it is cell data
+ * or not numeric, or has not the component selected; it has infinite voxels, or NaN without
+ * NaNIsBackground, or no others; ReductionFactor is not between 1 and 2; more levels are asked for
+ * than the image can give; the memory does not suffice. A warning tells the number of NaN voxels.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty output.
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run,
  * vtkErrorCode::UserError where something given is wrong, vtkErrorCode::UnknownError where the
  * memory does not suffice. Each run sets it anew. The message comes with ErrorEvent; without an
- * observer VTK prints it. Inputs that are missing or of another type are refused by the pipeline
- * before a run: by ErrorEvent of GetExecutive() only.
+ * observer VTK prints it. A missing input is refused by the pipeline before a run: by ErrorEvent of
+ * GetExecutive() only.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -108,6 +118,25 @@ public:
 
   ///@{
   /**
+   * Which component of an array of several is taken: 0 for the first one; -1, the default: the
+   * magnitude. An array of one component is taken as it is with either.
+   */
+  vtkSetMacro(SelectedComponent, int);
+  vtkGetMacro(SelectedComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * Voxels that are NaN are background, and a warning tells how many there are. Off: they are
+   * refused. Default: on.
+   */
+  vtkSetMacro(NaNIsBackground, bool);
+  vtkGetMacro(NaNIsBackground, bool);
+  vtkBooleanMacro(NaNIsBackground, bool);
+  ///@}
+
+  ///@{
+  /**
    * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
@@ -127,6 +156,7 @@ protected:
   vtkImagePyramid();
   ~vtkImagePyramid() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
@@ -138,6 +168,8 @@ protected:
   double ReductionFactor;
   int NumberOfLevels;
   int MinimumLevelSize;
+  int SelectedComponent;
+  bool NaNIsBackground;
   int NumberOfThreads;
 
 private:

@@ -7,7 +7,8 @@
 #include "Core/Refuse.h"
 #include "HostThreads.h"
 #include "ImageVoxels.h"
-#include "NotFiniteVoxels.h"
+#include "InputImage.h"
+#include "ValidVoxels.h"
 #include "WholeInput.h"
 
 #include <vtkDataObject.h>
@@ -22,6 +23,7 @@
 #include <vtkTable.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <exception>
@@ -41,8 +43,8 @@ using Counts = std::vector<vtkIdType>;
 
 /// How many voxels each bin between the smallest and the largest voxel has.
 template <typename T>
-void CountVoxels(
-  const T* voxels, vtkIdType count, const double range[2], volumic::Executor& threads, Counts& all)
+void CountVoxels(const T* voxels, vtkIdType count, const volumic::ValidVoxels& valid,
+  const std::array<double, 2>& range, volumic::Executor& threads, Counts& all)
 {
   const double scale = Bins / (range[1] - range[0]);
   std::mutex mutex;
@@ -52,8 +54,11 @@ void CountVoxels(
       Counts counts(Bins, 0);
       for (std::size_t i = begin; i < end; ++i)
       {
-        const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
-        ++counts[std::min(Bins - 1, static_cast<int>(place))];
+        if (valid.Has(i))
+        {
+          const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
+          ++counts[std::min(Bins - 1, static_cast<int>(place))];
+        }
       }
       const std::lock_guard<std::mutex> lock(mutex);
       std::transform(all.begin(), all.end(), counts.begin(), all.begin(), std::plus<>());
@@ -95,13 +100,18 @@ int BestSplit(const Counts& counts)
 
 /// The largest voxel up to a value, and the smallest one above that.
 template <typename T>
-void FindNeighbours(const T* voxels, vtkIdType count, double value, double neighbours[2])
+void FindNeighbours(const T* voxels, vtkIdType count, const volumic::ValidVoxels& valid,
+  double value, double neighbours[2])
 {
   T below = std::numeric_limits<T>::lowest();
   T above = std::numeric_limits<T>::max();
   for (vtkIdType i = 0; i < count; ++i)
   {
     const T voxel = voxels[i];
+    if (!valid.Has(i))
+    {
+      continue;
+    }
     if (static_cast<double>(voxel) <= value)
     {
       below = std::max(below, voxel);
@@ -115,18 +125,16 @@ void FindNeighbours(const T* voxels, vtkIdType count, double value, double neigh
   neighbours[1] = static_cast<double>(above);
 }
 
-double OtsuThreshold(vtkImageData* image, vtkInformation* selection)
+double OtsuThreshold(vtkImageData* image, vtkInformation* selection, int component)
 {
-  vtkDataArray* chosen = volumic::ChooseVoxels(selection, image);
+  const vtkSmartPointer<vtkDataArray> chosen =
+    volumic::SelectComponent(volumic::ChooseArray(selection, image), component);
   const vtkSmartPointer<vtkDataArray> voxels = volumic::ContiguousVoxels(chosen);
   volumic::HostThreads threads(0);
-  const std::string notFinite = volumic::DescribeNotFiniteVoxels(chosen, voxels, image, threads);
-  if (!notFinite.empty())
-  {
-    volumic::Refuse(notFinite);
-  }
-  double range[2];
-  voxels->GetRange(range);
+  const volumic::ValidVoxels valid =
+    volumic::FindValidVoxels(chosen, voxels, image, true, threads);
+  volumic::CheckAnyIsValid(chosen, valid);
+  const std::array<double, 2> range = volumic::RangeOf(voxels, valid);
   const double size = range[1] - range[0];
   if (!(size > 0.0) || !std::isfinite(size))
   {
@@ -140,7 +148,7 @@ double OtsuThreshold(vtkImageData* image, vtkInformation* selection)
       [&]
       {
         CountVoxels(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)),
-          voxels->GetNumberOfTuples(), range, threads, counts);
+          voxels->GetNumberOfTuples(), valid, range, threads, counts);
       }));
   }
   const double value = range[0] + BestSplit(counts) * size / Bins;
@@ -148,7 +156,7 @@ double OtsuThreshold(vtkImageData* image, vtkInformation* selection)
   switch (voxels->GetDataType())
   {
     vtkTemplateMacro(FindNeighbours(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)),
-      voxels->GetNumberOfTuples(), value, neighbours));
+      voxels->GetNumberOfTuples(), valid, value, neighbours));
   }
   const double middle = 0.5 * (neighbours[0] + neighbours[1]);
   const bool areReal = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataType() == VTK_DOUBLE;
@@ -157,7 +165,7 @@ double OtsuThreshold(vtkImageData* image, vtkInformation* selection)
 }
 
 //------------------------------------------------------------------------------
-vtkOtsuThreshold::vtkOtsuThreshold() : Threshold(vtkMath::Nan())
+vtkOtsuThreshold::vtkOtsuThreshold() : SelectedComponent(-1), Threshold(vtkMath::Nan())
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -168,7 +176,8 @@ vtkOtsuThreshold::~vtkOtsuThreshold() = default;
 //------------------------------------------------------------------------------
 int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
 
@@ -193,8 +202,8 @@ int vtkOtsuThreshold::RequestData(
   try
   {
     const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-      vtkImageData::GetData(input[0]), this->GetInputArrayInformation(0));
-    this->Threshold = OtsuThreshold(voxels.Image, voxels.Selection);
+      volumic::ImageOf(vtkDataObject::GetData(input[0])), this->GetInputArrayInformation(0));
+    this->Threshold = OtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent);
     vtkNew<vtkDoubleArray> column;
     column->SetName("Threshold");
     column->InsertNextValue(this->Threshold);
@@ -213,5 +222,6 @@ int vtkOtsuThreshold::RequestData(
 void vtkOtsuThreshold::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
   os << indent << "Threshold: " << this->Threshold << endl;
 }

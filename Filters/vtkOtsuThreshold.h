@@ -8,8 +8,10 @@
  * variance between them. It is a guess: in a CT it finds the skin rather than the bone.
  *
  * @par Input:
- * A vtkImageData; the array chosen by SetInputArrayToProcess(), by default the active point
- * scalars, or the active cell scalars where points have none: one component, numbers, finite.
+ * A vtkImageData, or a composite dataset with one image in it, or a pyramid, whose level 0 is taken;
+ * the array chosen by SetInputArrayToProcess(), by default the active point scalars, or the active
+ * cell scalars where points have none: numbers. NaN and blanked voxels (see vtkImagePyramid) are
+ * left out.
  *
  * @par Output:
  * A vtkTable with one row and the column `Threshold` (double), in the units of the voxels. No voxel
@@ -22,8 +24,8 @@
  * filter, and ParaView none of VTK's histograms.)
  *
  * @par Errors:
- * Voxels that are all equal, NaN or infinite, and images without such an array: a message by
- * ErrorEvent, an empty table, and GetErrorCode() is vtkErrorCode::UserError (0 after a good run);
+ * Voxels that are all equal, all NaN, or infinite, inputs that are no image, and images without such
+ * an array or component: a message by ErrorEvent, an empty table, and GetErrorCode() is vtkErrorCode::UserError (0 after a good run);
  * Update() goes on, as vtkImagePyramid says.
  *
  * @par Thanks:
@@ -45,6 +47,15 @@ public:
   vtkTypeMacro(vtkOtsuThreshold, vtkTableAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{
+  /**
+   * Which component of an array of several is taken: 0 for the first one; -1, the default: the
+   * magnitude. An array of one component is taken as it is with either.
+   */
+  vtkSetMacro(SelectedComponent, int);
+  vtkGetMacro(SelectedComponent, int);
+  ///@}
+
   /**
    * The threshold of the last update; NaN if there is none.
    */
@@ -60,6 +71,7 @@ protected:
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
+  int SelectedComponent;
   double Threshold;
 
 private:

@@ -31,21 +31,10 @@ vtkVolumeToSurface::vtkVolumeToSurface()
 vtkVolumeToSurface::~vtkVolumeToSurface() = default;
 
 //------------------------------------------------------------------------------
-int vtkVolumeToSurface::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-    return 1;
-  }
-  return this->Superclass::FillInputPortInformation(port, info);
-}
-
-//------------------------------------------------------------------------------
 vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* input)
 {
   const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-    vtkImageData::SafeDownCast(input), this->GetInputArrayInformation(0));
+    TakeImage(input), this->GetInputArrayInformation(0));
   Volume volume = this->VolumeAsSet();
   volume.Selection = voxels.Selection;
   if (std::isnan(volume.IsoValue))
@@ -53,6 +42,7 @@ vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* in
     vtkNew<vtkOtsuThreshold> otsu;
     otsu->SetInputData(voxels.Image);
     otsu->SetInputArrayToProcess(0, voxels.Selection);
+    otsu->SetSelectedComponent(this->SelectedComponent);
     const std::string errors = volumic::UpdateAndCollectErrors(otsu);
     if (!errors.empty())
     {

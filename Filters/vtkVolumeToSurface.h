@@ -9,7 +9,8 @@
  *
  * @par Input:
  * Port 0: a vtkImageData, as vtkDeformableSurface says; an array of cells serves too (their centres
- * are the voxels), and is taken where points have no active scalars. Port 1: as there.
+ * are the voxels), and is taken where points have no active scalars. A composite dataset with one
+ * image in it serves as that image, a pyramid as its level 0. Port 1: as there.
  *
  * @par Output:
  * As vtkDeformableSurface.
@@ -64,7 +65,6 @@ protected:
   vtkVolumeToSurface();
   ~vtkVolumeToSurface() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   Volume PrepareVolume(vtkDataObject* input) override;
 
   int NumberOfLevels;

@@ -7,6 +7,8 @@ Reads a volume (by default a CT of a skull from Debian's package invesalius-exam
 pyramid, lets the surface evolve from the coarsest level to the finest, and writes into the output
 folder
 
+    skull.vti                  the volume, as ParaView opens it; volume.vti where it is another one,
+                               and nothing where it is a .vti already
     pyramid.vtm, pyramid.png   the images of all levels; their slices and iso-surfaces
     levels.vtm, levels.png     the surface at the end of each level
     surface.vtp                the surface of the finest level
@@ -23,7 +25,7 @@ from history_chart import history_chart
 from output_files import check_output
 from pipeline import SKULL, build_pyramid, load_volume, prepare_surface, run_surface
 from pyramid_picture import pyramid_picture
-from read_volume import VolumeError, files_of_volume
+from read_volume import VolumeError, files_of_volume, write_image
 from render import world_frame, write_png
 from surface_pictures import levels_picture, views_picture, visited_levels
 from surface_results import (
@@ -46,12 +48,19 @@ FILES = ("pyramid.vtm", "levels.vtm", "surface.vtp", "history.csv", "report.json
          "levels.png", "history.png", "surface-views.png")
 
 
+def name_of_volume(path):
+    """What the volume is written as; None where ParaView opens it as it is."""
+    if path.lower().endswith(".vti"):
+        return None
+    return "skull.vti" if os.path.basename(path) == os.path.basename(SKULL) else "volume.vti"
+
+
 class Results:
     """The output folder, and the names of what was written there."""
 
     def __init__(self, folder, volume):
         os.makedirs(folder, exist_ok=True)
-        for name in FILES:
+        for name in filter(None, (name_of_volume(volume), *FILES)):
             check_output(os.path.join(folder, name), files_of_volume(volume))
         self.folder = folder
         self.paths = []
@@ -67,6 +76,8 @@ def run(arguments, results):
     """The whole job, from the volume to the pictures."""
     image, iso = load_volume(arguments.volume, arguments.iso)
     name = os.path.basename(os.path.normpath(arguments.volume))
+    if name_of_volume(arguments.volume):
+        results.write(write_image, image, name_of_volume(arguments.volume))
     pyramid, pyramid_seconds = build_pyramid(image)
     results.write(write_blocks, pyramid.GetOutput(), "pyramid.vtm")
 

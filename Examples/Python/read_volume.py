@@ -180,6 +180,12 @@ READERS = {
 }
 
 
+def write_image(image, path):
+    """A .vti file."""
+    write_with(vtkXMLImageDataWriter(), image, path,
+               lambda written: check_end(written, b"</VTKFile>"))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("input", help="volume file, or folder of one DICOM series")
@@ -190,8 +196,7 @@ def main():
     try:
         check_output(arguments.output, files_of_volume(arguments.input))
         image = read_volume(arguments.input)
-        write_with(vtkXMLImageDataWriter(), image, arguments.output,
-                   lambda written: check_end(written, b"</VTKFile>"))
+        write_image(image, arguments.output)
     except (VolumeError, OSError) as error:
         sys.exit(f"read_volume.py: {error}")
     scalars = image.GetPointData().GetScalars()

@@ -45,6 +45,7 @@ set(volumic_core_sources
   ThickPart.cxx
   TriangleTests.cxx
   TriangleTree.cxx
+  ValidReduction.cxx
   VertexGrid.cxx
   VertexRemoval.cxx)
 set(volumic_core_headers
@@ -97,6 +98,7 @@ set(volumic_core_headers
   ThickPart.h
   TriangleTests.h
   TriangleTree.h
+  ValidReduction.h
   Vector.h
   VertexGrid.h
   VertexRemoval.h

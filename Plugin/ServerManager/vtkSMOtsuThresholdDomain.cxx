@@ -4,6 +4,7 @@
 
 #include <vtkMath.h>
 #include <vtkObjectFactory.h>
+#include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMInputProperty.h>
 #include <vtkSMPropertyHelper.h>
@@ -12,50 +13,101 @@
 #include <vtkSMUncheckedPropertyHelper.h>
 #include <vtkSmartPointer.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 
 vtkStandardNewMacro(vtkSMOtsuThresholdDomain);
 
+namespace
+{
+/// What is known of the data, which is brought up to date if nothing is.
+vtkPVDataInformation* DataOf(vtkSMSourceProxy* producer, unsigned int port)
+{
+  vtkPVDataInformation* data = producer->GetDataInformation(port);
+  if (!data || data->GetNumberOfPoints() == 0)
+  {
+    producer->UpdatePipeline();
+    data = producer->GetDataInformation(port);
+  }
+  return data;
+}
+}
+
 //------------------------------------------------------------------------------
-vtkSMOtsuThresholdDomain::vtkSMOtsuThresholdDomain() = default;
+vtkSMOtsuThresholdDomain::vtkSMOtsuThresholdDomain() : PresetValue(vtkMath::Nan()) {}
+
 vtkSMOtsuThresholdDomain::~vtkSMOtsuThresholdDomain() = default;
 
 //------------------------------------------------------------------------------
-double vtkSMOtsuThresholdDomain::ComputeThreshold()
+bool vtkSMOtsuThresholdDomain::Choice::operator==(const Choice& other) const
 {
+  return this->Producer == other.Producer && this->Port == other.Port &&
+    this->Component == other.Component &&
+    std::equal(std::begin(this->Array), std::end(this->Array), std::begin(other.Array));
+}
+
+//------------------------------------------------------------------------------
+vtkSMOtsuThresholdDomain::Choice vtkSMOtsuThresholdDomain::CurrentChoice(bool useUnchecked)
+{
+  Choice choice;
   vtkSMProperty* input = this->GetRequiredProperty("Input");
   vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
   if (!input || !selection)
   {
-    return vtkMath::Nan();
+    return choice;
   }
-  vtkSMUncheckedPropertyHelper source(input);
-  vtkSMUncheckedPropertyHelper chosen(selection);
-  auto* producer = vtkSMSourceProxy::SafeDownCast(
-    source.GetNumberOfElements() > 0 ? source.GetAsProxy() : nullptr);
-  // Before the data is known there is no array to choose.
-  if (!producer || chosen.GetNumberOfElements() < 5 || !*chosen.GetAsString(4))
+  vtkSMPropertyHelper source(input);
+  vtkSMPropertyHelper chosen(selection);
+  source.SetUseUnchecked(useUnchecked);
+  chosen.SetUseUnchecked(useUnchecked);
+  if (source.GetNumberOfElements() > 0)
+  {
+    choice.Producer = vtkSMSourceProxy::SafeDownCast(source.GetAsProxy());
+    choice.Port = source.GetOutputPort();
+  }
+  for (unsigned int i = 0; chosen.GetNumberOfElements() == 5 && i < 5; ++i)
+  {
+    const char* text = chosen.GetAsString(i);
+    choice.Array[i] = text ? text : "";
+  }
+  if (vtkSMProperty* selected = this->GetRequiredProperty("ComponentSelection"))
+  {
+    vtkSMPropertyHelper component(selected);
+    component.SetUseUnchecked(useUnchecked);
+    choice.Component = component.GetAsInt();
+  }
+  return choice;
+}
+
+//------------------------------------------------------------------------------
+double vtkSMOtsuThresholdDomain::ComputeThreshold(const Choice& choice)
+{
+  vtkPVDataInformation* data =
+    choice.HasArray() ? DataOf(choice.Producer, choice.Port) : nullptr;
+  if (!data)
   {
     return vtkMath::Nan();
   }
   auto otsu = vtkSmartPointer<vtkSMProxy>::Take(
-    producer->GetSessionProxyManager()->NewProxy("internal_filters", "OtsuThreshold"));
+    choice.Producer->GetSessionProxyManager()->NewProxy("internal_filters", "OtsuThreshold"));
   auto* filter = vtkSMSourceProxy::SafeDownCast(otsu);
   if (!filter)
   {
     return vtkMath::Nan();
   }
-  filter->SetLocation(producer->GetLocation());
-  vtkSMPropertyHelper(filter, "Input").Set(producer, source.GetOutputPort());
+  filter->SetLocation(choice.Producer->GetLocation());
+  vtkSMPropertyHelper(filter, "Input").Set(choice.Producer, choice.Port);
   vtkSMPropertyHelper array(filter, "SetInputArrayToProcess");
   for (unsigned int i = 0; i < 5; ++i)
   {
-    array.Set(i, chosen.GetAsString(i));
+    array.Set(i, choice.Array[i].c_str());
   }
+  vtkSMPropertyHelper(filter, "SelectedComponent").Set(choice.Component);
   filter->UpdateVTKObjects();
   // At the time that is shown, so that nothing before has to run again.
-  vtkPVDataInformation* data = producer->GetDataInformation(source.GetOutputPort());
-  if (data && data->GetHasTime())
+  if (data->GetHasTime())
   {
     filter->UpdatePipeline(data->GetTime());
   }
@@ -68,26 +120,108 @@ double vtkSMOtsuThresholdDomain::ComputeThreshold()
 }
 
 //------------------------------------------------------------------------------
+void vtkSMOtsuThresholdDomain::ChooseArray()
+{
+  const Choice choice = this->CurrentChoice();
+  vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
+  vtkPVDataInformation* data =
+    choice.Producer ? DataOf(choice.Producer, choice.Port) : nullptr;
+  if (data &&
+    !data->GetArrayInformation(choice.Array[4].c_str(), std::atoi(choice.Array[3].c_str())))
+  {
+    selection->ResetToDomainDefaults();
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkSMOtsuThresholdDomain::SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues)
 {
-  const double threshold = this->ComputeThreshold();
+  if (!useUncheckedValues)
+  {
+    this->ChooseArray();
+  }
+  const Choice choice = this->CurrentChoice();
+  const double threshold = this->ComputeThreshold(choice);
+  vtkSMPropertyHelper value(property);
+  value.SetUseUnchecked(useUncheckedValues);
+  int isSet = 1;
   if (std::isnan(threshold))
   {
-    return this->Superclass::SetDefaultValues(property, useUncheckedValues);
-  }
-  if (useUncheckedValues)
-  {
-    vtkSMUncheckedPropertyHelper(property).Set(threshold);
+    isSet = this->Superclass::SetDefaultValues(property, useUncheckedValues);
   }
   else
   {
-    vtkSMPropertyHelper(property).Set(threshold);
+    value.Set(threshold);
   }
-  return 1;
+  this->Preset = choice;
+  this->PresetValue = value.GetAsDouble();
+  return isSet;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMOtsuThresholdDomain::UpdateRange(const Choice& choice)
+{
+  vtkPVDataInformation* data = choice.HasArray()
+    ? choice.Producer->GetDataInformation(choice.Port)
+    : nullptr;
+  const int association = std::atoi(choice.Array[3].c_str());
+  vtkPVArrayInformation* array =
+    data ? data->GetArrayInformation(choice.Array[4].c_str(), association) : nullptr;
+  const int count = array ? array->GetNumberOfComponents() : 1;
+  if (count > 1)
+  {
+    // The superclass counts the magnitude as the component after the last.
+    this->Superclass::Update(choice.Array[4].c_str(), association, choice.Producer,
+      static_cast<int>(choice.Port), choice.Component < 0 ? count : choice.Component);
+  }
+  else if (choice.HasArray())
+  {
+    this->Superclass::Update(choice.Array[4].c_str(), association, choice.Producer,
+      static_cast<int>(choice.Port), -1);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMOtsuThresholdDomain::Follow(const Choice& choice)
+{
+  vtkSMProperty* property = this->GetProperty();
+  vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
+  vtkSMProxy* filter = property ? property->GetParent() : nullptr;
+  const bool wasPreset = this->Preset.HasArray();
+  // A new proxy is preset by ParaView itself, once all of its properties are.
+  if (!filter || !choice.Producer || std::isnan(this->PresetValue) || choice == this->Preset ||
+    (!wasPreset && this->Preset.Producer == choice.Producer) ||
+    vtkSMUncheckedPropertyHelper(property).GetAsDouble() != this->PresetValue)
+  {
+    return;
+  }
+  this->ChooseArray();
+  // In a panel nothing is real before Apply.
+  const bool isUnchecked = !(this->CurrentChoice(false) == this->CurrentChoice()) ||
+    vtkSMPropertyHelper(property).GetAsDouble() != this->PresetValue;
+  this->SetDefaultValues(property, isUnchecked);
+  if (!isUnchecked && filter->GetObjectsCreated())
+  {
+    filter->UpdateProperty(filter->GetPropertyName(selection));
+    filter->UpdateProperty(filter->GetPropertyName(property));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMOtsuThresholdDomain::Update(vtkSMProperty*)
+{
+  this->UpdateRange(this->CurrentChoice());
+  if (!this->Following)
+  {
+    this->Following = true;
+    this->Follow(this->CurrentChoice());
+    this->Following = false;
+  }
 }
 
 //------------------------------------------------------------------------------
 void vtkSMOtsuThresholdDomain::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "PresetValue: " << this->PresetValue << endl;
 }

@@ -5,16 +5,24 @@
  * @brief   the range of an array, with Otsu's threshold of it as the default value
  *
  * A property of one number with this domain is preset from the data when its proxy is made, and
- * whenever the user presses the button that resets it to the data. The threshold is computed where
- * the data is, by the helper proxy (internal_filters, OtsuThreshold). Where it can't be, as for
- * voxels that are all equal, the middle of the range is the default, as of vtkSMArrayRangeDomain,
- * whose required properties are those of this one: Input and ArraySelection.
+ * whenever the user presses the button that resets it to the data. As long as the property keeps the
+ * value that it was preset to, it follows the choice of another input, array or component; a value
+ * that someone has given stays. Data that was never updated, as in a script, is updated for it.
+ *
+ * The threshold is computed where the data is, by the helper proxy (internal_filters,
+ * OtsuThreshold). Where it can't be, as for voxels that are all equal, the middle of the range is
+ * the default, as of vtkSMArrayRangeDomain, whose required properties are those of this one: Input,
+ * ArraySelection and ComponentSelection, of which -1 is the magnitude.
  */
 #ifndef vtkSMOtsuThresholdDomain_h
 #define vtkSMOtsuThresholdDomain_h
 
 #include "vtkSMArrayRangeDomain.h"
 #include "vtkServerManagerVolumicModule.h" // For export macro
+
+#include <string> // For the key of the preset
+
+class vtkSMSourceProxy;
 
 class VTKSERVERMANAGERVOLUMIC_EXPORT vtkSMOtsuThresholdDomain : public vtkSMArrayRangeDomain
 {
@@ -23,6 +31,7 @@ public:
   vtkTypeMacro(vtkSMOtsuThresholdDomain, vtkSMArrayRangeDomain);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  void Update(vtkSMProperty* requestingProperty) override;
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
 protected:
@@ -33,8 +42,28 @@ private:
   vtkSMOtsuThresholdDomain(const vtkSMOtsuThresholdDomain&) = delete;
   void operator=(const vtkSMOtsuThresholdDomain&) = delete;
 
+  /// What is chosen now; nothing where there is no input.
+  struct Choice
+  {
+    vtkSMSourceProxy* Producer = nullptr;
+    unsigned int Port = 0;
+    std::string Array[5]; ///< as SetInputArrayToProcess
+    int Component = -1;
+
+    bool HasArray() const { return this->Producer && !this->Array[4].empty(); }
+    bool operator==(const Choice& other) const;
+  };
+  Choice CurrentChoice(bool useUnchecked = true);
+  /// Where none is chosen that the data has: what is known of the data may be from before its update.
+  void ChooseArray();
   /// NaN if there is none.
-  double ComputeThreshold();
+  double ComputeThreshold(const Choice& choice);
+  void UpdateRange(const Choice& choice);
+  void Follow(const Choice& choice);
+
+  Choice Preset;      ///< what was chosen when the property was preset
+  double PresetValue; ///< NaN: it never was
+  bool Following = false;
 };
 
 #endif

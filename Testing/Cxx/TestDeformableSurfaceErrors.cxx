@@ -177,6 +177,7 @@ TEST_F(DeformableSurfaceErrors, WhatThePyramidRefusesIsToldOnce)
   const auto image = BallImage(32, 32, 32);
   image->GetPointData()->GetScalars()->SetComponent(5, 0, std::nan(""));
   this->Filter->SetInputDataObject(image);
+  this->Filter->NaNIsBackgroundOff();
   this->ExpectError({ "Input port 0: array 'Voxels' has 1 NaN", "(5, 0, 0)" });
 }
 
@@ -186,7 +187,13 @@ TEST_F(DeformableSurfaceErrors, NotFiniteVoxelsInABlock)
   auto* level1 = vtkImageData::SafeDownCast(blocks->GetBlock(1));
   level1->GetPointData()->GetScalars()->SetComponent(2, 0, std::nan(""));
   this->Filter->SetInputDataObject(blocks);
+  this->Filter->NaNIsBackgroundOff();
   this->ExpectError({ "Input port 0: level 1", "NaN", "(2, 0, 0)" });
+  this->Filter->NaNIsBackgroundOn();
+  level1->GetPointData()->GetScalars()->SetComponent(
+    2, 0, std::numeric_limits<double>::infinity());
+  level1->Modified();
+  this->ExpectError({ "Input port 0: level 1", "1 infinite voxel", "(2, 0, 0)" });
 }
 
 TEST_F(DeformableSurfaceErrors, VoxelsTooLargeForSinglePrecision)

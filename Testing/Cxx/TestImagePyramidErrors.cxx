@@ -65,11 +65,12 @@ TEST_F(ImagePyramidErrors, NoInput)
 
 TEST_F(ImagePyramidErrors, InputThatIsNoImage)
 {
-  const MessagesOf errors(this->Filter->GetExecutive());
   vtkNew<vtkPolyData> surface;
   this->Filter->SetInputDataObject(surface);
+  const MessagesOf errors(this->Filter);
   this->Filter->Update();
-  EXPECT_TRUE(errors.Has("vtkImageData")) << errors.Get();
+  EXPECT_TRUE(errors.Has("Input port 0: it is a vtkPolyData; an image (vtkImageData) is needed"))
+    << errors.Get();
 }
 
 TEST_F(ImagePyramidErrors, EmptyImage)
@@ -111,13 +112,20 @@ TEST_F(ImagePyramidErrors, CellDataHasAWayOut)
   this->ExpectError(image, { "'Density'", "not point data", "Cell Data to Point Data" });
 }
 
-TEST_F(ImagePyramidErrors, SeveralComponents)
+TEST_F(ImagePyramidErrors, NoSuchComponent)
 {
   vtkNew<vtkImageData> image;
   image->SetDimensions(20, 20, 20);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   image->GetPointData()->GetScalars()->SetName("Colour");
-  this->ExpectError(image, { "'Colour'", "3 components" });
+  for (const int component : { -2, 3 })
+  {
+    this->Filter->SetSelectedComponent(component);
+    this->ExpectError(image,
+      { "Selected Component is " + std::to_string(component), "'Colour' has 3 components", "0 to 2" });
+  }
+  this->Filter->SetSelectedComponent(1);
+  this->ExpectError(RandomImage(20, 20, 20), { "Selected Component is 1", "1 component;" });
 }
 
 TEST_F(ImagePyramidErrors, StringArray)
@@ -138,18 +146,35 @@ TEST_F(ImagePyramidErrors, WrongNumberOfValues)
   this->ExpectError(image, { "'Voxels'", "7999 values", "20 x 20 x 20" });
 }
 
-TEST_F(ImagePyramidErrors, NotFiniteVoxelsAreCountedAndTheFirstIsNamed)
+TEST_F(ImagePyramidErrors, InfiniteVoxelsAreCountedAndTheFirstIsNamed)
 {
   for (const int type : { VTK_FLOAT, VTK_DOUBLE })
   {
     const auto image = RandomImage(20, 30, 40, type);
     image->SetExtent(100, 119, 0, 29, -5, 34);
     vtkDataArray* voxels = image->GetPointData()->GetScalars();
-    voxels->SetComponent((12 * 30 + 7) * 20 + 3, 0, std::numeric_limits<double>::quiet_NaN());
+    voxels->SetComponent(3, 0, std::numeric_limits<double>::quiet_NaN());
+    voxels->SetComponent((12 * 30 + 7) * 20 + 3, 0, std::numeric_limits<double>::infinity());
     voxels->SetComponent((39 * 30 + 1) * 20, 0, -std::numeric_limits<double>::infinity());
-    this->ExpectError(
-      image, { "'Voxels'", "2 NaN or infinite voxels", "the first at (103, 7, 7)" });
+    this->ExpectError(image, { "'Voxels'", "2 infinite voxels", "the first at (103, 7, 7)" });
   }
+}
+
+TEST_F(ImagePyramidErrors, NaNVoxelsWhereTheyAreRefused)
+{
+  const auto image = RandomImage(20, 30, 40);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  voxels->SetComponent((12 * 30 + 7) * 20 + 3, 0, std::numeric_limits<double>::quiet_NaN());
+  this->Filter->NaNIsBackgroundOff();
+  this->ExpectError(image,
+    { "'Voxels' has 1 NaN voxel, the first at (3, 7, 12)", "Turn NaN Is Background on" });
+}
+
+TEST_F(ImagePyramidErrors, NothingButNaN)
+{
+  const auto image = RandomImage(20, 30, 40);
+  image->GetPointData()->GetScalars()->Fill(std::numeric_limits<double>::quiet_NaN());
+  this->ExpectError(image, { "all voxels of array 'Voxels' are NaN or blanked" });
 }
 
 TEST_F(ImagePyramidErrors, ReductionFactorOutsideItsRange)

@@ -17,6 +17,7 @@
 
 #include <clocale>
 #include <cmath>
+#include <limits>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -134,7 +135,7 @@ TEST_P(FilterLocale, SurfacesThatAreRefused)
 TEST_P(FilterLocale, VoxelsThatAreRefused)
 {
   const auto image = BallImage(1100, 8, 8);
-  Voxels(image)->SetComponent(1050, 0, std::nan(""));
+  Voxels(image)->SetComponent(1050, 0, std::numeric_limits<double>::infinity());
   this->Filter->SetInputDataObject(image);
   this->ExpectError("the first at (1050, 0, 0)");
   vtkNew<vtkOtsuThreshold> otsu;

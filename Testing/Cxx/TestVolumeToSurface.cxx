@@ -110,10 +110,21 @@ TEST(OtsuThreshold, IsTheSplitOfTheLargestVariance)
   EXPECT_GT(variance(threshold), 0.999 * best);
 }
 
+TEST(OtsuThreshold, LeavesOutNaN)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  vtkNew<vtkOtsuThreshold> otsu;
+  otsu->SetInputData(RowOf<vtkDoubleArray>(std::vector<double>{ nan, 1, nan, 2, nan }));
+  otsu->Update();
+  EXPECT_EQ(otsu->GetThreshold(), 1.5);
+}
+
 TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const std::vector<double>& values : { std::vector<double>{ 3, 3, 3 }, { 1, nan, 2 } })
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& values :
+    { std::vector<double>{ 3, 3, 3 }, { 1, infinity, 2 }, { nan, nan, nan }, { 3, nan, 3 } })
   {
     vtkNew<vtkOtsuThreshold> otsu;
     otsu->SetInputData(RowOf<vtkDoubleArray>(values));

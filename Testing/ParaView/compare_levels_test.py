@@ -33,7 +33,8 @@ class CompareLevelsTest(window.WindowTestCase):
         state = window.proxies_of(path)
         # The two levels, each in a view with its name, beside the view that was there.
         self.assertEqual(state.count("RenderView"), 3)
-        self.assertEqual(state.count("VolumicSurfaceRepresentation"), 3)
+        self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
+        self.assertEqual(state.count("VolumicLevelsRepresentation"), 2)
         self.assertEqual(state.count("TextSource"), 2)
         elements = ElementTree.parse(path).iter()
         chosen = {element.get("value") for property_ in elements

@@ -177,15 +177,13 @@ class ErrorsInViewTest(unittest.TestCase):
                 simple.Delete(self.filter)
 
     def test_array_that_is_not_there(self):
-        for kind in FILTERS:
-            with self.subTest(filter=kind):
-                self.show(kind)
-                wanted = self.check_run(True, first=True)
-                self.filter.Voxels = ["POINTS", "absent"]
-                self.check_run(False)
-                self.filter.Voxels = ["POINTS", "density"]
-                self.check_run(True, wanted)
-                simple.Delete(self.filter)
+        # For the surfaces, one that is there is chosen.
+        self.show("ImagePyramid")
+        wanted = self.check_run(True, first=True)
+        self.filter.Voxels = ["POINTS", "absent"]
+        self.check_run(False)
+        self.filter.Voxels = ["POINTS", "density"]
+        self.check_run(True, wanted)
 
     def test_second_inputs(self):
         for kind in ("DeformableSurface", "VolumetoSurface"):

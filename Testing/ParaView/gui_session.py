@@ -44,7 +44,9 @@ def start_screen(xvfb, size, options=()):
     read_end, write_end = os.pipe()
     server = subprocess.Popen(
         [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24", *options,
-         "-nolisten", "tcp"],
+         "-nolisten", "tcp",
+         # Without a client for a moment, it would be busy with itself when the next one comes.
+         "-noreset"],
         pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
         preexec_fn=end_with_parent)
     os.close(write_end)
@@ -71,6 +73,14 @@ class Session:
                                  LIBGL_ALWAYS_SOFTWARE="1")
         self._window = None
         self.output = ""
+
+    def add_macro(self, name, code):
+        """For windows from now on: Python code. Returns the event that runs it, in the window."""
+        folder = os.path.join(self._folder.name, ".config/ParaView/Macros")
+        os.makedirs(folder, exist_ok=True)
+        with open(os.path.join(folder, f"{name}.py"), "w", encoding="utf-8") as file:
+            file.write(code)
+        return event(f"{WINDOW}/menubar/menu_Macros", "activate", name)
 
     @property
     def display(self):

@@ -47,6 +47,18 @@ with open({path!r}, "w") as file:
 print("Saved with points:", filter_.GetDataInformation().GetNumberOfPoints(), flush=True)
 """
 
+CHANGE_FILE = """
+from paraview import simple
+filter_ = simple.FindSource("VolumetoSurface1")
+simple.ReplaceReaderFileName(filter_.Input, [{path!r}], "FileName")
+"""
+TELL = """
+from paraview import simple
+filter_ = simple.FindSource("VolumetoSurface1")
+print("Told:", repr(filter_.Voxels[1] or ""), filter_.IsoValue,
+      filter_.GetDataInformation().GetNumberOfPoints(), flush=True)
+"""
+
 
 def blob(scale=1.0, shift=0.0, name="density", size=24):
     x = numpy.arange(size) - (size - 1) / 2
@@ -86,6 +98,47 @@ class StatesOfTheWindowTest(window.WindowTestCase):
             self.assertNotIn("ERR|", run.stderr)
 
 
+class ChangedFileInTheWindowTest(window.WindowTestCase):
+    def test_good_bad_good(self):
+        """After a file of no use the next one works, its array is chosen, its range is taken."""
+        no_arrays = blob()
+        no_arrays.GetPointData().Initialize()
+        files = {"none": written("none.vti", no_arrays), "again": written("again.vti", blob()),
+                 "scaled": written("scaled.vti", blob(10, -7)),
+                 "renamed": written("renamed.vti", blob(100, 1000, "voxels"))}
+        # File > Change File is but in a menu that the recorder doesn't reach; this is what it calls.
+        change = {name: self.session.add_macro(f"change_to_{name}", CHANGE_FILE.format(path=path))
+                  for name, path in files.items()}
+        reset = [gui.event(f"{window.PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(300)]
+        told = self.session.add_macro("tell", TELL)
+        voxels = f"{window.PROPERTIES}/SetInputArrayToProcess/ComboBox"
+
+        def changed(name):
+            return [change[name], gui.pause(500), window.in_the_pipeline(0), gui.pause(300),
+                    window.APPLY, window.in_the_pipeline(0, 0), gui.pause(300)]
+
+        succeeded = self.session.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", files["again"]), window.APPLY,
+            window.filter_of_the_menu("VolumeToSurface"), window.APPLY, told,
+            *changed("none"), told,
+            *changed("again"), gui.check(voxels, "currentText", "density"), told,
+            *changed("scaled"), *reset, window.APPLY, told,
+            # An array of another name is chosen.
+            *changed("renamed"), gui.check(voxels, "currentText", "voxels"), *reset,
+            window.APPLY, told, gui.pause(500)])
+        self.session.screenshot(testing.output_path("changed-file.png"))
+        self.assertTrue(succeeded, self.session.output)
+        runs = [(name, float(iso), int(points)) for name, iso, points in
+                re.findall(r"Told: '(\w*)' (\S+) (\d+)", self.session.output)]
+        self.assertEqual([(name, points > 0) for name, _, points in runs if points > 0 or not name],
+                         [("density", True), ("", False), ("density", True), ("density", True),
+                          ("voxels", True)], runs)
+        self.assertEqual(runs[2], runs[0])
+        self.assertAlmostEqual(runs[3][1], 10 * runs[0][1] - 7, delta=0.1)
+        self.assertAlmostEqual(runs[4][1], 100 * runs[0][1] + 1000, delta=1)
+
+
 class TraceTest(unittest.TestCase):
     def tearDown(self):
         for view in simple.GetViews():
@@ -116,7 +169,7 @@ class ChangedVolumeTest(unittest.TestCase):
     def setUpClass(cls):
         testing.load_plugin()
         cls.first = written("first.vti", blob())
-        # Other values in an array of the same name, and in another one.
+        # Other values in an array of the same name, and of another one.
         cls.same_name = written("same-name.vti", blob(10, -7))
         cls.other_name = written("other-name.vti", blob(100, 1000, "voxels"))
 

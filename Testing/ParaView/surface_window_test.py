@@ -3,7 +3,10 @@
 """Deformable Surface in ParaView's window, by its menu and its panel as a user does."""
 
 import os
+import re
 import sys
+
+import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
@@ -15,34 +18,30 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview")
-ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "Recovery", "MinimumPartSize",
+BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Recovery",
+         "KeepComponents")
+ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
             "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
-            "BorderValue", "TopologyChanges", "SnapToIsoValue", "KeepComponents",
+            "BorderValue", "TopologyChanges", "SnapToIsoValue",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
             "NumberOfThreads", "TimeLimit", "SnapshotInterval", "Profile")
 
-# Tells which view becomes the active one, and has a shortcut's place for the test to make it so.
-ACTIVE_VIEWS = """
-from paraview import servermanager
-
-def tell(model, event):
-    view = model.GetCurrentProxy()
-    if view:
-        print("Active:", view.GetXMLName(), flush=True)
-
-manager = servermanager.ProxyManager().SMProxyManager
-manager.GetSelectionModel("ActiveView").AddObserver("CurrentChangedEvent", tell)
+COLOURS_OF_CURVES = ((0.1, 0.35, 0.7), (0.15, 0.6, 0.3), (0.85, 0.45, 0.05), (0.75, 0.1, 0.25))
+TELL_THE_ACTIVE_VIEW = """
+from paraview import simple
+print("Active:", simple.GetActiveView().GetXMLName(), flush=True)
+"""
+ACTIVATE_THE_3D_VIEW = """
+from paraview import simple
+simple.SetActiveView(next(v for v in simple.GetViews() if v.GetXMLName() == "RenderView"))
 """
 
 
-def middle_of_the_wavelet():
+def iso_of_the_wavelet():
     """What the panel of Iso Value says for the volume of the tests."""
-    wavelet = simple.Wavelet()
-    wavelet.UpdatePipeline()
-    low, high = wavelet.PointData["RTData"].GetRange()
-    return repr((low + high) / 2)
+    testing.load_plugin()
+    return repr(simple.VolumetoSurface(simple.Wavelet()).IsoValue)
 
 
 class SurfaceWindowTest(window.WindowTestCase):
@@ -51,7 +50,7 @@ class SurfaceWindowTest(window.WindowTestCase):
         self.play(VOLUME + [
             SURFACE, gui.pause(500),
             gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
-            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()),
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             gui.check(f"{PROPERTIES}/ObjectIsBright/CheckBox", "checked", "true"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
@@ -75,21 +74,24 @@ class SurfaceWindowTest(window.WindowTestCase):
     def test_the_history_is_one_click_away(self):
         path, save = self.saved_state("surface-history.pvsm")
         again, save_again = self.saved_state("surface-history-again.pvsm")
+        told = self.session.add_macro("tell", TELL_THE_ACTIVE_VIEW)
+        to_3d = self.session.add_macro("to_3d", ACTIVATE_THE_3D_VIEW)
         # Its entry in the pipeline browser: wavelet, filter, port.
         history = window.eye_of(0, 0, 2)
-        self.play(VOLUME + [
-            SURFACE, APPLY, *history, *save,
-            # The 3D view is active again, and the eye brings back the chart that there is.
-            ACTIVATE_3D, *history, *save_again, gui.pause(1500)],
-            "surface-history", python=ACTIVE_VIEWS)
+        pixels = self.play(VOLUME + [
+            SURFACE, APPLY, told, *history, told, *save,
+            # The eye brings back the chart that there is.
+            to_3d, told, *history, told, *save_again, gui.pause(1500)], "surface-history")
         for state in (window.proxies_of(path), window.proxies_of(again)):
             self.assertEqual(state.count("VolumicHistoryView"), 1)
             self.assertEqual(state.count("VolumicHistoryRepresentation"), 1)
             self.assertEqual(state.count("RenderView"), 1)
-        # The surface's view was active until the eye was clicked.
-        self.assertRegex(self.session.output,
-                         r"(?s)Active: RenderView\n.*Active: VolumicHistoryView\n"
-                         r".*Active: RenderView\n.*Active: VolumicHistoryView\n")
+        self.assertEqual(re.findall(r"Active: (\w+)", self.session.output),
+                         ["RenderView", "VolumicHistoryView"] * 2)
+        # In the panel's presence, too, each curve has its own colour.
+        for colour in COLOURS_OF_CURVES:
+            near = numpy.abs(pixels.astype(int) - numpy.rint(255 * numpy.array(colour)))
+            self.assertGreater((near.max(axis=2) < 16).sum(), 100, colour)
 
     def test_advanced_panel(self):
         self.play(VOLUME + [
@@ -116,11 +118,20 @@ class SurfaceWindowTest(window.WindowTestCase):
             gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
             gui.pause(300), window.shown("MinimumComponentVolume", True)], "surface-advanced")
 
+    def test_button_that_finds_the_iso_value_again(self):
+        for before in ([], [filter_of_the_menu("ImagePyramid"), APPLY]):
+            with self.subTest(pyramid=bool(before)):
+                self.play(VOLUME + before + [
+                    SURFACE, gui.event(ISO_VALUE, "set_string", "111"), gui.pause(500),
+                    gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(500),
+                    gui.check(ISO_VALUE, "text", iso_of_the_wavelet())], "surface-reset")
+                self.session.close_window()
+
     def test_after_image_pyramid(self):
         path, save = self.saved_state("pyramid-and-surface.pvsm")
         self.play(VOLUME + [
             filter_of_the_menu("ImagePyramid"), APPLY, SURFACE,
-            gui.check(ISO_VALUE, "text", middle_of_the_wavelet()), APPLY, *save],
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save],
             "surface-of-pyramid")
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")

@@ -292,5 +292,25 @@ class BlocksTest(ViewsTestCase):
         self.assertGreater(views.drawn(views.picture_of(view, "snapshots-last.png")), 1000)
 
 
+class TurnedImageTest(ViewsTestCase):
+    """What Documentation/paraview.md tells about images with a direction."""
+
+    def bounds(self, filter_):
+        filter_.UpdatePipeline()
+        return numpy.array(filter_.GetDataInformation().GetBounds())
+
+    def test_a_transform_puts_others_where_the_surface_is(self):
+        image = testing.make_image(ball(40, 8, 9), name="density")
+        image.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
+        source = testing.produce(image)
+        surface = self.bounds(simple.VolumetoSurface(source, IsoValue=50.0))
+        iso = {"ContourBy": ["POINTS", "density"], "Isosurfaces": [50.0]}
+        resampled = simple.ResampleToImage(source, SamplingDimensions=(60, 60, 60))
+        for right in (simple.Transform(source), resampled):
+            right.UpdatePipeline()
+            numpy.testing.assert_allclose(self.bounds(simple.Contour(right, **iso)), surface,
+                                          atol=0.5)
+
+
 views.open_screen()
 testing.main()

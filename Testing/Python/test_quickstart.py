@@ -5,6 +5,7 @@
 import csv
 import json
 import os
+import sys
 import tempfile
 import unittest
 
@@ -12,10 +13,16 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataReader, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
 
+from examples_path import EXAMPLES
 from sample_volumes import (
     MAJOR, MINOR, RING_SIZE, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
+
+sys.path.insert(0, EXAMPLES)
+# pylint: disable=wrong-import-position
+from quickstart import name_of_volume
 
 
 class QuickstartTest(unittest.TestCase):
@@ -34,11 +41,27 @@ class QuickstartTest(unittest.TestCase):
     def test_it_succeeds_and_names_what_it_wrote(self):
         self.assertEqual(self.run_of_it.returncode, 0, self.run_of_it.stderr)
         self.assertEqual(self.run_of_it.stderr, "")
-        for name in ("pyramid.vtm", "pyramid.png", "levels.vtm", "levels.png", "surface.vtp",
+        for name in ("volume.vti", "pyramid.vtm", "pyramid.png", "levels.vtm", "levels.png", "surface.vtp",
                      "surface-views.png", "history.csv", "history.png", "report.json"):
             self.assertIn(self.path(name), self.run_of_it.stdout)
             self.assertTrue(os.path.getsize(self.path(name)) > 0, name)
         self.assertIn("Otsu", self.run_of_it.stdout)
+
+    def test_the_volume_is_there_for_paraview(self):
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName(self.path("volume.vti"))
+        reader.Update()
+        image = reader.GetOutput()
+        self.assertEqual(image.GetDimensions(), (RING_SIZE,) * 3)
+        np.testing.assert_allclose(image.GetSpacing(), RING_SPACING)
+        voxels = vtk_to_numpy(image.GetPointData().GetScalars())
+        np.testing.assert_array_equal(voxels, ring_voxels().ravel())
+
+    def test_names_of_the_volume(self):
+        names = {"/a/Cranium.inv3": "skull.vti", "scan.nii.gz": "volume.vti", "series": "volume.vti",
+                 "skull.vti": None, "SCAN.VTI": None}
+        for path, name in names.items():
+            self.assertEqual(name_of_volume(path), name)
 
     def test_the_pyramid_can_be_read_again(self):
         reader = vtkXMLMultiBlockDataReader()

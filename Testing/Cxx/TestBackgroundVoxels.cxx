@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+#include "vtkImagePyramid.h"
+#include "vtkOtsuThreshold.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkImageCast.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+constexpr int Size = 40;
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+using Where = std::function<bool(int i, int j, int k)>;
+
+/// Outside a circle about the axis along z, as beyond the field of view of a CT.
+bool OutsideView(int i, int j, int)
+{
+  return std::hypot(i - BallCentre[0], j - BallCentre[1]) > 17.0;
+}
+
+/// Half of the ball.
+bool Right(int i, int, int)
+{
+  return i >= 20;
+}
+
+void ForEach(const Where& where, const std::function<void(vtkIdType)>& use)
+{
+  vtkIdType voxel = 0;
+  for (int k = 0; k < Size; ++k)
+  {
+    for (int j = 0; j < Size; ++j)
+    {
+      for (int i = 0; i < Size; ++i, ++voxel)
+      {
+        if (where(i, j, k))
+        {
+          use(voxel);
+        }
+      }
+    }
+  }
+}
+
+vtkSmartPointer<vtkImageData> BallWith(double value, const Where& where)
+{
+  const auto image = BallImage(Size, Size, Size);
+  ForEach(where, [&](vtkIdType voxel) { Voxels(image)->SetComponent(voxel, 0, value); });
+  return image;
+}
+
+vtkUnsignedCharArray* AddGhosts(vtkDataSetAttributes* attributes, vtkIdType count)
+{
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfTuples(count);
+  ghosts->Fill(0);
+  attributes->AddArray(ghosts);
+  return ghosts;
+}
+
+vtkSmartPointer<vtkImageData> BallBlanked(const Where& where, unsigned char ghost)
+{
+  const auto image = BallImage(Size, Size, Size);
+  vtkUnsignedCharArray* ghosts = AddGhosts(image->GetPointData(), image->GetNumberOfPoints());
+  ForEach(where, [&](vtkIdType voxel) { ghosts->SetValue(voxel, ghost); });
+  return image;
+}
+
+void ExpectSamePoints(vtkPolyData* a, vtkPolyData* b)
+{
+  ASSERT_GT(a->GetNumberOfPoints(), 100);
+  ASSERT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < a->GetNumberOfPoints(); ++i)
+  {
+    ASSERT_EQ(a->GetPoint(i)[0], b->GetPoint(i)[0]);
+    ASSERT_EQ(a->GetPoint(i)[1], b->GetPoint(i)[1]);
+    ASSERT_EQ(a->GetPoint(i)[2], b->GetPoint(i)[2]);
+  }
+}
+
+int CountOf(const std::string& text, const std::string& part)
+{
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+  {
+    ++count;
+  }
+  return count;
+}
+
+/// With what it warns of unprinted.
+struct QuietSurface
+{
+  vtkNew<vtkVolumeToSurface> Filter;
+  MessagesOf Warnings{ this->Filter, vtkCommand::WarningEvent };
+
+  vtkPolyData* Of(vtkDataObject* input)
+  {
+    this->Filter->SetInputDataObject(input);
+    this->Filter->SetIsoValue(50.0);
+    this->Filter->Update();
+    return this->Filter->GetOutput();
+  }
+};
+}
+
+TEST(NaNVoxels, OutsideTheViewChangeNothing)
+{
+  const auto image = BallWith(NaN, OutsideView);
+  for (const int initialization : { vtkDeformableSurface::EnclosingIcosahedron,
+         vtkDeformableSurface::Seeds, vtkDeformableSurface::IsoSurface })
+  {
+    QuietSurface surface;
+    surface.Filter->SetInitialization(initialization);
+    ExpectSphere(surface.Of(image), BallCentre, BallRadius, 0.5);
+    EXPECT_EQ(StopReason(surface.Filter->GetOutput()), "converged");
+  }
+}
+
+TEST(NaNVoxels, CutTheObject)
+{
+  QuietSurface surface;
+  vtkPolyData* half = surface.Of(BallWith(NaN, Right));
+  ASSERT_GT(half->GetNumberOfPoints(), 500);
+  EXPECT_NEAR(EnclosedVolume(half), 2.0 / 3.0 * std::acos(-1.0) * std::pow(BallRadius, 3), 120.0);
+  double bounds[6];
+  half->GetBounds(bounds);
+  EXPECT_NEAR(bounds[0], BallCentre[0] - BallRadius, 0.5);
+  EXPECT_LT(bounds[1], 20.0);
+  EXPECT_GT(bounds[1], 19.0);
+}
+
+TEST(NaNVoxels, OfADarkObject)
+{
+  const auto image = BallWith(NaN, OutsideView);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    Voxels(image)->SetComponent(i, 0, 100.0 - Voxels(image)->GetComponent(i, 0));
+  }
+  QuietSurface surface;
+  surface.Filter->ObjectIsBrightOff();
+  ExpectSphere(surface.Of(image), BallCentre, BallRadius, 0.5);
+}
+
+TEST(NaNVoxels, AreToldOnceWithTheirNumber)
+{
+  const auto image = BallWith(NaN, Right);
+  QuietSurface surface;
+  surface.Of(image);
+  const std::string told = surface.Warnings.Get();
+  EXPECT_EQ(CountOf(told, "NaN voxels"), 1) << told;
+  EXPECT_NE(told.find("array 'Voxels' has 32000 NaN voxels (50 %), the first at (20, 0, 0)"),
+    std::string::npos)
+    << told;
+
+  // Of a pyramid it is the pyramid that tells it; of one made by hand, nobody has.
+  vtkNew<vtkImagePyramid> pyramid;
+  const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
+  pyramid->SetInputData(image);
+  pyramid->Update();
+  EXPECT_EQ(CountOf(warnings.Get(), "32000 NaN voxels"), 1) << warnings.Get();
+  EXPECT_EQ(
+    pyramid->GetOutput()->GetFieldData()->GetArray("NaNVoxels")->GetComponent(0, 0), 32000);
+  for (const bool isByHand : { false, true })
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->ShallowCopy(pyramid->GetOutput());
+    if (isByHand)
+    {
+      blocks->GetFieldData()->RemoveArray("NaNVoxels");
+    }
+    vtkNew<vtkDeformableSurface> filter;
+    const MessagesOf said(filter, vtkCommand::WarningEvent);
+    filter->SetIsoValue(50.0);
+    filter->SetInputDataObject(blocks);
+    filter->Update();
+    EXPECT_EQ(CountOf(said.Get(), "32000 NaN voxels"), isByHand ? 1 : 0) << said.Get();
+    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+  }
+}
+
+TEST(NaNVoxels, ThresholdAndSurfaceWithoutAnIsoValue)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->SetInputData(BallWith(NaN, OutsideView));
+  filter->Update();
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
+}
+
+TEST(NaNVoxels, CoarserLevelsAreMeansOfTheOthers)
+{
+  const auto image = BallWith(NaN, Right);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double value = Voxels(image)->GetComponent(i, 0);
+    // Also here and there in the other half.
+    Voxels(image)->SetComponent(i, 0, std::isnan(value) || i % 7 == 0 ? NaN : 1000.0);
+  }
+  vtkNew<vtkImagePyramid> pyramid;
+  const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
+  pyramid->SetInputData(image);
+  pyramid->SetNumberOfLevels(3);
+  pyramid->Update();
+  EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0)), Voxels(image)) << "level 0 is not shared";
+  for (unsigned int h = 1; h < 3; ++h)
+  {
+    vtkImageData* level = Level(pyramid->GetOutput(), h);
+    const int* size = level->GetDimensions();
+    for (int i = 0; i < size[0]; ++i)
+    {
+      const double value = level->GetScalarComponentAsDouble(i, size[1] / 2, size[2] / 2, 0);
+      const double x = i * level->GetSpacing()[0];
+      if (x < 20.0 - level->GetSpacing()[0])
+      {
+        EXPECT_NEAR(value, 1000.0, 1e-3) << h << " " << i;
+      }
+      else if (x > 20.0)
+      {
+        EXPECT_TRUE(std::isnan(value)) << h << " " << i;
+      }
+    }
+  }
+}
+
+TEST(NaNVoxels, GiveTheSameBitsForAnyNumberOfThreads)
+{
+  const auto image = BallWith(NaN, Right);
+  QuietSurface one;
+  one.Filter->SetNumberOfThreads(1);
+  QuietSurface two;
+  two.Filter->SetNumberOfThreads(2);
+  ExpectSamePoints(one.Of(image), two.Of(image));
+}
+
+TEST(BlankedVoxels, AreAsNaNWithoutAWord)
+{
+  QuietSurface wanted;
+  wanted.Of(BallWith(NaN, Right));
+  QuietSurface surface;
+  ExpectSamePoints(
+    surface.Of(BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT)), wanted.Filter->GetOutput());
+  EXPECT_EQ(surface.Warnings.Get(), "");
+}
+
+TEST(BlankedVoxels, OfIntegers)
+{
+  vtkNew<vtkImageCast> cast;
+  cast->SetInputData(BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT));
+  cast->SetOutputScalarTypeToShort();
+  cast->Update();
+  vtkNew<vtkImageData> image;
+  image->ShallowCopy(cast->GetOutput());
+  vtkUnsignedCharArray* ghosts = AddGhosts(image->GetPointData(), image->GetNumberOfPoints());
+  ForEach(Right, [&](vtkIdType voxel) { ghosts->SetValue(voxel, 2); });
+  QuietSurface surface;
+  double bounds[6];
+  surface.Of(image)->GetBounds(bounds);
+  EXPECT_NEAR(bounds[0], BallCentre[0] - BallRadius, 0.5);
+  EXPECT_LT(bounds[1], 20.0);
+  EXPECT_GT(bounds[1], 19.0);
+}
+
+TEST(BlankedVoxels, DuplicatesAreNone)
+{
+  QuietSurface wanted;
+  wanted.Of(BallImage(Size, Size, Size));
+  QuietSurface surface;
+  ExpectSamePoints(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)),
+    wanted.Filter->GetOutput());
+}
+
+TEST(BlankedVoxels, PointsAllOfWhoseCellsAreHidden)
+{
+  const auto image = BallImage(Size, Size, Size);
+  vtkUnsignedCharArray* ghosts = AddGhosts(image->GetCellData(), image->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < image->GetNumberOfCells(); ++cell)
+  {
+    // The points at 20 are corners of the cells at 19, which are seen.
+    ghosts->SetValue(cell, cell % (Size - 1) >= 19 ? vtkDataSetAttributes::HIDDENCELL : 0);
+  }
+  QuietSurface wanted;
+  wanted.Of(BallWith(NaN, Right));
+  QuietSurface surface;
+  ExpectSamePoints(surface.Of(image), wanted.Filter->GetOutput());
+}
+
+TEST(BlankedVoxels, HiddenCellsThatAreTheVoxels)
+{
+  vtkNew<vtkImageData> cells;
+  cells->SetDimensions(Size + 1, Size + 1, Size + 1);
+  cells->SetOrigin(-0.5, -0.5, -0.5);
+  cells->GetCellData()->SetScalars(Voxels(BallImage(Size, Size, Size)));
+  vtkUnsignedCharArray* ghosts = AddGhosts(cells->GetCellData(), cells->GetNumberOfCells());
+  ForEach(Right,
+    [&](vtkIdType voxel) { ghosts->SetValue(voxel, vtkDataSetAttributes::HIDDENCELL); });
+  QuietSurface wanted;
+  wanted.Of(BallWith(NaN, Right));
+  QuietSurface surface;
+  ExpectSamePoints(surface.Of(cells), wanted.Filter->GetOutput());
+}

@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+#include "vtkImagePyramid.h"
+#include "vtkOtsuThreshold.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkAMRBox.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkOverlappingAMR.h>
+#include <vtkPartitionedDataSet.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkStructuredGrid.h>
+#include <vtkUniformGrid.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/// What a filter says is wrong with an input; it says it once.
+std::string ErrorOf(vtkAlgorithm* filter, vtkDataObject* input)
+{
+  filter->SetInputDataObject(input);
+  const MessagesOf errors(filter);
+  const MessagesOf ofExecutive(filter->GetExecutive());
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+  EXPECT_EQ(ofExecutive.Get(), "");
+  const std::string text = errors.Get();
+  EXPECT_EQ(text.find("ERROR:"), text.rfind("ERROR:")) << text;
+  return text;
+}
+
+vtkSmartPointer<vtkOverlappingAMR> TwoRefinedGrids()
+{
+  auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
+  const int grids[2] = { 1, 1 };
+  amr->Initialize(2, grids);
+  const double origin[3] = { 0, 0, 0 };
+  amr->SetOrigin(origin);
+  amr->SetGridDescription(VTK_XYZ_GRID);
+  for (unsigned int level = 0; level < 2; ++level)
+  {
+    double spacing[3] = { 1.0 / (level + 1), 1.0 / (level + 1), 1.0 / (level + 1) };
+    amr->SetSpacing(level, spacing);
+    const auto ball = BallImage(24, 24, 24);
+    vtkNew<vtkUniformGrid> grid;
+    grid->ShallowCopy(ball);
+    grid->SetSpacing(spacing);
+    amr->SetAMRBox(level, 0, vtkAMRBox(0, 22, 0, 22, 0, 22));
+    amr->SetDataSet(level, 0, grid);
+  }
+  return amr;
+}
+
+std::vector<vtkSmartPointer<vtkDataObject>> UnevenGrids()
+{
+  vtkNew<vtkUnstructuredGrid> nested;
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, nested);
+  return { TwoRefinedGrids(), vtkSmartPointer<vtkRectilinearGrid>::New(),
+    vtkSmartPointer<vtkStructuredGrid>::New(), vtkSmartPointer<vtkUnstructuredGrid>::New(),
+    blocks };
+}
+
+std::vector<vtkSmartPointer<vtkAlgorithm>> AllFilters()
+{
+  return { vtkSmartPointer<vtkImagePyramid>::New(), vtkSmartPointer<vtkDeformableSurface>::New(),
+    vtkSmartPointer<vtkVolumeToSurface>::New(), vtkSmartPointer<vtkOtsuThreshold>::New() };
+}
+
+/// Composite datasets whose only image is this.
+std::vector<vtkSmartPointer<vtkDataObject>> HoldersOf(vtkImageData* image)
+{
+  vtkNew<vtkPolyData> other;
+  vtkNew<vtkMultiBlockDataSet> inner;
+  inner->SetBlock(2, image);
+  vtkNew<vtkMultiBlockDataSet> outer;
+  outer->SetBlock(0, other);
+  outer->SetBlock(1, inner);
+  vtkNew<vtkPartitionedDataSet> partitions;
+  partitions->SetPartition(0, image);
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartitionedDataSet(0, partitions);
+  return { outer, partitions, collection };
+}
+
+/// A ball whose voxels are the second of three components, named `Field`.
+vtkSmartPointer<vtkImageData> VectorImage(vtkImageData* image)
+{
+  auto vectors = vtkSmartPointer<vtkImageData>::New();
+  vectors->CopyStructure(image);
+  vtkNew<vtkFloatArray> field;
+  field->SetName("Field");
+  field->SetNumberOfComponents(3);
+  field->SetNumberOfTuples(image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    field->SetTuple3(i, 3.0, Voxels(image)->GetComponent(i, 0), -4.0);
+  }
+  vectors->GetPointData()->SetScalars(field);
+  return vectors;
+}
+
+void ExpectSamePoints(vtkPolyData* a, vtkPolyData* b)
+{
+  ASSERT_GT(a->GetNumberOfPoints(), 100);
+  ASSERT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < a->GetNumberOfPoints(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_EQ(a->GetPoint(i)[axis], b->GetPoint(i)[axis]);
+    }
+  }
+}
+}
+
+TEST(InputImage, GridsOfOtherTypesAreRefusedOnceWithTheWayOut)
+{
+  for (const auto& filter : AllFilters())
+  {
+    for (const auto& grid : UnevenGrids())
+    {
+      if (filter->IsA("vtkDeformableSurface") && !filter->IsA("vtkVolumeToSurface") &&
+        grid->IsA("vtkMultiBlockDataSet"))
+      {
+        continue; // Its blocks should be levels.
+      }
+      SCOPED_TRACE(std::string(filter->GetClassName()) + " " + grid->GetClassName());
+      const std::string error = ErrorOf(filter, grid);
+      const char* type = grid->IsA("vtkMultiBlockDataSet") ? "vtkUnstructuredGrid" : grid->GetClassName();
+      EXPECT_NE(error.find(std::string("Input port 0: it is a ") + type), std::string::npos) << error;
+      EXPECT_NE(error.find("Resample To Image"), std::string::npos) << error;
+    }
+  }
+}
+
+TEST(InputImage, TheOnlyImageOfACompositeDatasetIsTaken)
+{
+  const auto image = BallImage(40, 40, 40);
+  vtkNew<vtkVolumeToSurface> wanted;
+  wanted->SetInputData(image);
+  wanted->Update();
+  for (const auto& holder : HoldersOf(image))
+  {
+    SCOPED_TRACE(holder->GetClassName());
+    vtkNew<vtkVolumeToSurface> filter;
+    filter->SetInputDataObject(holder);
+    filter->Update();
+    ExpectSamePoints(filter->GetOutput(), wanted->GetOutput());
+    vtkNew<vtkImagePyramid> pyramid;
+    pyramid->SetInputDataObject(holder);
+    pyramid->Update();
+    ASSERT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 1u);
+    EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0)), Voxels(image));
+  }
+}
+
+TEST(InputImage, APyramidServesAsItsLevel0)
+{
+  const auto image = BallImage(40, 40, 40);
+  const auto pyramid = PyramidOf(image);
+  vtkNew<vtkOtsuThreshold> otsu;
+  otsu->SetInputDataObject(pyramid->GetOutput());
+  otsu->Update();
+  const double threshold = otsu->GetThreshold();
+  otsu->SetInputData(image);
+  otsu->Update();
+  EXPECT_EQ(threshold, otsu->GetThreshold());
+  EXPECT_GT(threshold, 20.0);
+}
+
+TEST(InputImage, SeveralImagesAreRefused)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, BallImage(24, 24, 24));
+  blocks->SetBlock(1, BallImage(24, 24, 24));
+  for (const auto& filter : AllFilters())
+  {
+    SCOPED_TRACE(filter->GetClassName());
+    const std::string error = ErrorOf(filter, blocks);
+    const bool wantsLevels =
+      filter->IsA("vtkDeformableSurface") && !filter->IsA("vtkVolumeToSurface");
+    EXPECT_NE(error.find(wantsLevels ? "is not a level of a pyramid" : "has 2 images"),
+      std::string::npos)
+      << error;
+  }
+}
+
+TEST(SelectedComponent, OneComponentOrTheMagnitude)
+{
+  const auto ball = BallImage(24, 24, 24);
+  const auto vectors = VectorImage(ball);
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(vectors);
+  pyramid->SetSelectedComponent(1);
+  pyramid->Update();
+  vtkDataArray* level0 = Voxels(Level(pyramid->GetOutput(), 0));
+  ASSERT_STREQ(level0->GetName(), "Field");
+  ASSERT_EQ(level0->GetNumberOfComponents(), 1);
+  EXPECT_EQ(level0->GetDataType(), VTK_FLOAT);
+  EXPECT_STREQ(Voxels(Level(pyramid->GetOutput(), 1))->GetName(), "Field");
+  for (vtkIdType i = 0; i < level0->GetNumberOfTuples(); ++i)
+  {
+    ASSERT_EQ(level0->GetComponent(i, 0), Voxels(ball)->GetComponent(i, 0));
+  }
+  EXPECT_EQ(Voxels(vectors)->GetNumberOfComponents(), 3) << "the input has changed";
+  pyramid->SetSelectedComponent(-1);
+  pyramid->Update();
+  level0 = Voxels(Level(pyramid->GetOutput(), 0));
+  for (vtkIdType i = 0; i < level0->GetNumberOfTuples(); ++i)
+  {
+    const double value = Voxels(ball)->GetComponent(i, 0);
+    ASSERT_NEAR(level0->GetComponent(i, 0), std::sqrt(value * value + 25.0), 1e-4);
+  }
+}
+
+TEST(SelectedComponent, GivesTheSurfaceOfTheComponent)
+{
+  const auto ball = BallImage(40, 40, 40);
+  vtkNew<vtkVolumeToSurface> wanted;
+  wanted->SetInputData(ball);
+  wanted->Update();
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(VectorImage(ball));
+  filter->SetSelectedComponent(1);
+  filter->Update();
+  ExpectSamePoints(filter->GetOutput(), wanted->GetOutput());
+  // Of the magnitude the default.
+  filter->SetSelectedComponent(-1);
+  filter->Update();
+  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
+}
+
+TEST(SelectedComponent, OfAllTypes)
+{
+  for (const int type : { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_INT, VTK_FLOAT, VTK_DOUBLE })
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(12, 12, 12);
+    image->AllocateScalars(type, 2);
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      Voxels(image)->SetComponent(i, 0, 3);
+      Voxels(image)->SetComponent(i, 1, 4);
+    }
+    vtkNew<vtkImagePyramid> pyramid;
+    pyramid->SetInputData(image);
+    pyramid->SetNumberOfLevels(1);
+    pyramid->Update();
+    EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0))->GetComponent(7, 0), 5.0) << type;
+    pyramid->SetSelectedComponent(1);
+    pyramid->Update();
+    EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0))->GetComponent(7, 0), 4.0) << type;
+    EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0))->GetDataType(), type);
+  }
+}
+
+TEST(SelectedComponent, VoxelsOfOneComponentAreShared)
+{
+  const auto image = RandomImage(20, 20, 20);
+  for (const int component : { -1, 0 })
+  {
+    vtkNew<vtkImagePyramid> pyramid;
+    pyramid->SetInputData(image);
+    pyramid->SetSelectedComponent(component);
+    pyramid->Update();
+    EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0)), Voxels(image));
+  }
+}
+
+TEST(SelectedComponent, LevelsMadeByHandHaveOne)
+{
+  const auto pyramid = PyramidOf(BallImage(32, 32, 32), 2);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned int h = 0; h < 2; ++h)
+  {
+    blocks->SetBlock(h, VectorImage(Level(pyramid->GetOutput(), h)));
+  }
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetIsoValue(50.0);
+  const std::string error = ErrorOf(filter, blocks);
+  EXPECT_NE(error.find("Input port 0: level 0: array 'Field' has 3 components"), std::string::npos)
+    << error;
+  EXPECT_NE(error.find("Selected Component"), std::string::npos) << error;
+}

@@ -1,0 +1,244 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the filters of the plugin take and what they don't, in scripts of pvbatch and pvpython:
+sources that were never updated, types that are no image, components, NaN."""
+
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import (vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+                                           vtkPartitionedDataSetCollection, vtkRectilinearGrid)
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import plugin_testing as testing
+
+SIZE, RADIUS = 32, 10.0
+FILTERS = ("ImagePyramid", "DeformableSurface", "VolumetoSurface")
+SURFACES = FILTERS[1:]
+
+
+def ball(low=20.0, high=220.0):
+    """values[z, y, x]: bright in a ball about the middle."""
+    x = numpy.arange(SIZE) - (SIZE - 1) / 2
+    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
+    return (low + (high - low) * numpy.clip(0.5 + 0.5 * (RADIUS - distance), 0, 1)).astype(
+        numpy.float32)
+
+
+def image(**arrays):
+    data = testing.make_image(numpy.zeros((SIZE,) * 3, numpy.float32))
+    data.GetPointData().Initialize()
+    for name, values in arrays.items():
+        array = numpy_to_vtk(values.reshape(SIZE**3, -1), deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+        data.GetPointData().SetActiveScalars(name)
+    return data
+
+
+def coloured():
+    """Three components: the ball is in the second one."""
+    values = ball()
+    data = image(colour=numpy.stack([values * 0 + 7, values, values * 0 - 9], axis=-1))
+    array = data.GetPointData().GetArray("colour")
+    for i, name in enumerate(("Red", "Green", "Blue")):
+        array.SetComponentName(i, name)
+    return data
+
+
+def reset(filter_):
+    """What the button beside the value does."""
+    filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
+    filter_.SMProxy.UpdateVTKObjects()
+
+
+def is_offered(name, source):
+    """Whether the menu's entry is enabled for the source."""
+    filter_ = getattr(simple, name)(source)
+    try:
+        return bool(filter_.SMProxy.GetProperty("Input").IsInDomains())
+    finally:
+        simple.Delete(filter_)
+
+
+class InputsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+
+    def tearDown(self):
+        for source in reversed(list(simple.GetSources().values())):
+            simple.Delete(source)
+
+    def check_ball(self, filter_):
+        surface = testing.fetch(filter_)
+        self.assertGreater(surface.GetNumberOfPoints(), 500)
+        for axis in range(3):
+            low, high = surface.GetBounds()[2 * axis:2 * axis + 2]
+            self.assertAlmostEqual(high - low, 2 * RADIUS, delta=1.5)
+
+    def test_source_that_was_never_updated(self):
+        wanted = None
+        for name in SURFACES:
+            for source in (simple.Wavelet(), simple.ImagePyramid(simple.Wavelet())):
+                with self.subTest(filter=name, source=source.GetXMLName()):
+                    filter_ = getattr(simple, name)(source)
+                    wanted = wanted or filter_.IsoValue
+                    self.assertEqual(filter_.IsoValue, wanted)
+                    self.assertEqual(list(filter_.Voxels), ["POINTS", "RTData"])
+                    self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
+        self.assertTrue(100.0 < wanted < 200.0, wanted)
+
+    def test_input_that_comes_later(self):
+        source = simple.Wavelet()
+        for name in SURFACES:
+            with self.subTest(filter=name):
+                simple.SetActiveSource(None)
+                with testing.CapturedMessages():  # There is no input yet.
+                    filter_ = getattr(simple, name)()
+                filter_.Input = source
+                self.assertEqual(list(filter_.Voxels), ["POINTS", "RTData"])
+                self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
+
+    def test_iso_value_follows_until_it_is_given(self):
+        first = testing.produce(image(density=ball()))
+        second = testing.produce(image(other=ball(1000, 2000), density=ball(0, 10)))
+        for name in SURFACES:
+            with self.subTest(filter=name):
+                filter_ = getattr(simple, name)(first)
+                self.assertTrue(20 < filter_.IsoValue < 220)
+                filter_.Input = second
+                self.assertTrue(0 < filter_.IsoValue < 10, filter_.IsoValue)
+                self.check_ball(filter_)
+                filter_.Voxels = ["POINTS", "other"]
+                self.assertTrue(1000 < filter_.IsoValue < 2000, filter_.IsoValue)
+                self.check_ball(filter_)
+                filter_.IsoValue = 5.0
+                filter_.Voxels = ["POINTS", "density"]
+                self.assertEqual(filter_.IsoValue, 5.0)
+                filter_.Input = first
+                self.assertEqual(filter_.IsoValue, 5.0)
+
+    def test_preset_of_a_pyramid_is_that_of_its_level_0(self):
+        source = testing.produce(image(density=ball()))
+        of_image = simple.DeformableSurface(source)
+        of_pyramid = simple.DeformableSurface(simple.ImagePyramid(source))
+        self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
+        self.assertNotAlmostEqual(of_image.IsoValue, 120.0, places=3)
+        of_pyramid.IsoValue = 77.0
+        reset(of_pyramid)
+        self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
+
+    def test_what_is_offered(self):
+        volume = image(density=ball())
+        nested, partitions = vtkMultiBlockDataSet(), vtkPartitionedDataSet()
+        nested.SetBlock(0, volume)
+        partitions.SetPartition(0, volume)
+        collection = vtkPartitionedDataSetCollection()
+        collection.SetPartitionedDataSet(0, partitions)
+        rectilinear = vtkRectilinearGrid()
+        rectilinear.SetDimensions(4, 4, 4)
+        refined = simple.AMRGaussianPulseSource()
+        refined.UpdatePipeline()
+        for name in FILTERS:
+            for data, wanted in ((volume, True), (nested, True), (partitions, True),
+                                 (collection, True), (image(), False), (coloured(), True),
+                                 (rectilinear, False)):
+                with self.subTest(filter=name, data=data.GetClassName()):
+                    self.assertEqual(is_offered(name, testing.produce(data)), wanted)
+            with self.subTest(filter=name, data="AMR"):
+                with testing.CapturedMessages():
+                    self.assertFalse(is_offered(name, refined))
+
+    def test_refined_grids_are_refused_by_one_message(self):
+        refined = simple.AMRGaussianPulseSource()
+        refined.UpdatePipeline()
+        self.assertIn("AMR", refined.GetDataInformation().GetCompositeDataClassName())
+        for name in FILTERS:
+            with self.subTest(filter=name):
+                with testing.CapturedMessages() as preset:
+                    filter_ = getattr(simple, name)(refined)
+                with testing.CapturedMessages() as messages:
+                    filter_.UpdatePipeline()
+                self.assertLessEqual(preset.text.count("ERR"), 1, preset.text)
+                self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
+                self.assertIn("Apply Resample To Image", messages.text)
+
+    def test_the_only_image_of_a_composite_dataset(self):
+        nested = vtkMultiBlockDataSet()
+        nested.SetBlock(1, image(density=ball()))
+        filter_ = simple.VolumetoSurface(testing.produce(nested))
+        self.assertEqual(list(filter_.Voxels), ["POINTS", "density"])
+        self.check_ball(filter_)
+
+    def test_components(self):
+        for name in SURFACES:
+            with self.subTest(filter=name):
+                filter_ = getattr(simple, name)(testing.produce(coloured()))
+                self.assertEqual(filter_.SelectedComponent, "Magnitude")
+                self.assertEqual(filter_.GetProperty("SelectedComponent").Available,
+                                 ["Magnitude", "Red", "Green", "Blue"])
+                self.check_ball(filter_)
+                magnitude = filter_.IsoValue
+                filter_.SelectedComponent = "Green"
+                of_green = simple.VolumetoSurface(testing.produce(image(green=ball())))
+                self.assertEqual(filter_.IsoValue, of_green.IsoValue)
+                self.assertNotEqual(filter_.IsoValue, magnitude)
+                self.check_ball(filter_)
+                # What the slider of the panel spans.
+                domain = filter_.SMProxy.GetProperty("IsoValue").GetDomain("range")
+                self.assertEqual((domain.GetMinimum(0), domain.GetMaximum(0)), (20.0, 220.0))
+                filter_.SelectedComponent = "Magnitude"
+                self.assertEqual(filter_.IsoValue, magnitude)
+                self.assertGreater(domain.GetMaximum(0), 220.0)
+
+    def test_component_in_a_state(self):
+        for name in ("components.pvsm", "components-state.py"):
+            with self.subTest(name=name):
+                source = simple.Wavelet(registrationName="Waves")
+                vector = simple.Calculator(source, registrationName="Vector")
+                vector.ResultArrayName = "v"
+                vector.Function = "RTData*iHat + 2*RTData*jHat"
+                vector.UpdatePipeline()
+                filter_ = simple.VolumetoSurface(vector, registrationName="Saved")
+                filter_.Voxels = ["POINTS", "v"]
+                filter_.SelectedComponent = "Y"
+                iso = filter_.IsoValue
+                wanted = testing.fetch(filter_).GetNumberOfPoints()
+                path = testing.output_path(name)
+                simple.SaveState(path)
+                self.tearDown()
+                simple.LoadState(path)
+                again = simple.FindSource("Saved")
+                self.assertEqual(again.IsoValue, iso)
+                self.assertEqual(testing.fetch(again).GetNumberOfPoints(), wanted)
+                self.assertEqual(again.SelectedComponent, "Y")
+                self.tearDown()
+
+    def test_nan_voxels(self):
+        values = ball()
+        x = numpy.arange(SIZE) - (SIZE - 1) / 2
+        values[:, numpy.hypot(x[None, :], x[:, None]) > 14.0] = numpy.nan
+        count = int(numpy.isnan(values).sum())
+        for name in SURFACES:
+            with self.subTest(filter=name):
+                with testing.CapturedMessages() as messages:
+                    filter_ = getattr(simple, name)(testing.produce(image(density=values)))
+                self.assertEqual(messages.text, "")
+                self.assertTrue(20 < filter_.IsoValue < 220, filter_.IsoValue)
+                domain = filter_.SMProxy.GetProperty("IsoValue").GetDomain("range")
+                self.assertEqual((domain.GetMinimum(0), domain.GetMaximum(0)), (20.0, 220.0))
+                with testing.CapturedMessages() as messages:
+                    self.check_ball(filter_)
+                self.assertEqual(messages.text.count(f"{count} NaN voxels"), 1, messages.text)
+                filter_.NaNIsBackground = 0
+                with testing.CapturedMessages() as messages:
+                    self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
+                self.assertIn("Turn NaN Is Background on", messages.text)
+
+
+testing.main()

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Inputs of all kinds in ParaView's window: what is greyed out, and the choice of a component."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import plugin_testing as testing
+import window_testing as window
+from paraview import simple
+from window_testing import APPLY, PROPERTIES, filter_of_the_menu, source
+
+FILTERS = ("ImagePyramid", "DeformableSurface", "VolumeToSurface")
+COMPONENT = f"{PROPERTIES}/SelectedComponent/ComboBox"
+ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
+
+# Run in the window: an image without arrays; one whose second array has several components.
+NO_ARRAY = """
+from paraview import simple
+from vtkmodules.vtkCommonDataModel import vtkImageData
+image = vtkImageData()
+image.SetDimensions(20, 20, 20)
+bare = simple.TrivialProducer(registrationName="Bare")
+bare.GetClientSideObject().SetOutput(image)
+bare.UpdatePipeline()
+simple.SetActiveSource(bare)
+"""
+VECTOR = """
+from paraview import simple
+vector = simple.Calculator(simple.Wavelet())
+vector.ResultArrayName = "vector"
+vector.Function = "3*RTData*iHat + 4*RTData*jHat"
+simple.Show(vector)
+simple.SetActiveSource(vector)
+"""
+
+
+def iso_values():
+    """What the panel says of the first array, and of the magnitude and of Y of the second."""
+    testing.load_plugin()
+    played = {}
+    exec(compile(VECTOR, "vector", "exec"), played)
+    filter_ = simple.VolumetoSurface(played["vector"])
+    values = [filter_.IsoValue]
+    filter_.Voxels = ["POINTS", "vector"]
+    for component in ("Magnitude", "Y"):
+        filter_.SelectedComponent = component
+        values.append(filter_.IsoValue)
+    return [repr(value) for value in values]
+
+
+class InputsWindowTest(window.WindowTestCase):
+    def check_not_offered(self, name, events, **options):
+        for filter_ in FILTERS:
+            with self.subTest(filter=filter_):
+                path, save = self.saved_state(f"{name}.pvsm")
+                # The menu's entry is there, but greyed out, and does nothing.
+                self.session.play(events + [filter_of_the_menu(filter_), *save], **options)
+                self.assertTrue(window.proxies_of(path))
+                self.assertNotIn(filter_, window.proxies_of(path))
+                self.session.close_window()
+
+    def test_not_offered_for_refined_grids(self):
+        self.check_not_offered("refined", source("AMRGaussianPulseSource"))
+
+    def test_not_offered_without_an_array(self):
+        self.check_not_offered("bare", [gui.pause(500)], python=NO_ARRAY)
+
+    def test_component(self):
+        of_scalar, of_magnitude, of_y = iso_values()
+        self.assertEqual(len({of_scalar, of_magnitude, of_y}), 3)
+        arrays = f"{PROPERTIES}/SetInputArrayToProcess/ComboBox"
+        for filter_ in ("VolumeToSurface", "DeformableSurface"):
+            with self.subTest(filter=filter_):
+                path, save = self.saved_state("component.pvsm")
+                self.play([
+                    gui.pause(1000), filter_of_the_menu(filter_), gui.pause(500),
+                    gui.check(arrays, "currentText", "RTData"),
+                    window.shown("SelectedComponent", False),
+                    gui.check(ISO_VALUE, "text", of_scalar),
+                    gui.event(arrays, "set_string", "vector"), gui.pause(1000),
+                    window.shown("SelectedComponent", True),
+                    gui.check(COMPONENT, "currentText", "Magnitude"),
+                    # The preset follows, as nobody has typed another value.
+                    gui.check(ISO_VALUE, "text", of_magnitude),
+                    gui.event(COMPONENT, "set_string", "Y"), gui.pause(1000),
+                    gui.check(ISO_VALUE, "text", of_y),
+                    APPLY, *save, gui.pause(1500)], f"component-{filter_}", python=VECTOR)
+                made = window.open_state(path, f"{filter_.replace('To', 'to')}1")
+                made.UpdatePipeline()
+                self.assertEqual(made.SelectedComponent, "Y")
+                self.assertGreater(made.GetDataInformation().GetNumberOfPoints(), 500)
+                self.session.close_window()
+
+
+window.main()
