@@ -435,11 +435,14 @@ void SurfaceSegmentation::Run()
   this->ChooseLevels();
   this->CheckIsoValue();
   this->CheckObjectIsThere();
+  if (!this->Evolution)
+  {
+    this->WarnOfNaNs(); // Once for all runs that go on from this one.
+  }
   // Where a run begins may depend on where it is to end; then nothing of the last one serves.
   if (!this->Evolution || this->Coarsest != before)
   {
     this->Begin();
-    this->WarnOfNaNs();
   }
   this->Found.SetHandedOver(nullptr);
   if (!this->Found.HasAtRest(this->LastLevel))
