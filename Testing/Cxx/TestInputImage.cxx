@@ -64,7 +64,7 @@ vtkSmartPointer<vtkOverlappingAMR> TwoRefinedGrids()
     vtkNew<vtkUniformGrid> grid;
     grid->ShallowCopy(ball);
     grid->SetSpacing(spacing);
-    amr->SetAMRBox(level, 0, vtkAMRBox(0, 22, 0, 22, 0, 22));
+    amr->SetAMRBox(level, 0, vtkAMRBox(0, 0, 0, 22, 22, 22));
     amr->SetDataSet(level, 0, grid);
   }
   return amr;

@@ -193,6 +193,8 @@ class VolumeToSurfaceTest(unittest.TestCase):
         self.assertEqual(display.XArrayName, "Iteration")
         self.assertFalse(display.UseIndexForXAxis)
         self.assertTrue(chart.LeftAxisLogScale)
+        # Where no curve of a run from coarse to fine is.
+        self.assertEqual(chart.LegendLocation, "BottomRight")
         # Also with the columns of the profile.
         filter_.Profile = 1
         filter_.UpdatePipeline()

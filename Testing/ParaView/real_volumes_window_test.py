@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A newcomer's first minutes in ParaView's window with real volumes: open, Preview, Apply, another
+Iso Value, Preview off. No message may open over the view, unless a user must act."""
+
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import plugin_testing as testing
+import window_testing as window
+from window_testing import APPLY, PROPERTIES, eye_of, filter_of_the_menu
+
+ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
+FROM_THE_FRONT = [gui.event(f"{gui.WINDOW}/cameraToolbar/actionNegativeY", "activate"),
+                  gui.pause(1500)]
+
+# Runs in the window: tells what each run of the filter gave.
+TELL_THE_RUNS = """
+from paraview import servermanager, simple
+watched = []
+
+def watch(manager, event):
+    for proxy in simple.GetSources().values():
+        algorithm = proxy.GetClientSideObject()
+        if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in watched:
+            watched.append(algorithm)
+            def end(caller, event):
+                facts = caller.GetOutputDataObject(0).GetFieldData()
+                reason = facts.GetAbstractArray("StopReason")
+                print("Run: level", facts.GetArray("Level").GetValue(0) if reason else "none", ";",
+                      reason.GetValue(0) if reason else "error", ";",
+                      caller.GetOutputDataObject(0).GetNumberOfPolys(), flush=True)
+            algorithm.AddObserver("EndEvent", end)
+
+servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+"""
+
+
+def set_preview(on):
+    return gui.event(f"{PROPERTIES}/Preview/CheckBox", "set_boolean", "true" if on else "false")
+
+
+def set_iso_value(value):
+    return gui.event(ISO_VALUE, "set_string", str(value))
+
+
+class RealVolumesTest(window.WindowTestCase):
+    def volume(self, name):
+        """Events that open it."""
+        path = os.path.join(os.environ["VOLUMIC_SHARED_DATA"], name)
+        if not os.path.exists(path):
+            self.skipTest(f"{path} is missing")
+        return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+                gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+                gui.pause(1000), filter_of_the_menu("VolumeToSurface"), gui.pause(500)]
+
+    def runs(self):
+        found = re.findall(r"Run: level (\S+) ; ([a-z ]+) ; (\d+)", self.session.output)
+        return [(level, reason, int(triangles)) for level, reason, triangles in found]
+
+    def first_minutes(self, name, iso_value, preview_level):
+        """Preview at Otsu's threshold, at the iso-value, then the surface; and its chart."""
+        picture = name.split("_")[0]
+        self.play(self.volume(name) + [
+            set_preview(True), APPLY, gui.pause(1500),
+            set_iso_value(iso_value), APPLY, gui.pause(1500), *FROM_THE_FRONT],
+            f"real-{picture}-preview", python=TELL_THE_RUNS, timeout=600)
+        self.assertNotIn("WARN|", self.session.output)
+        self.assertEqual([run[0] for run in self.runs()], [str(preview_level)] * 2)
+        seen = self.runs()[-1]
+        self.session.close_window()
+
+        self.play(self.volume(name) + [
+            set_preview(True), set_iso_value(iso_value), APPLY, gui.pause(1000),
+            set_preview(False), APPLY, gui.pause(1500), *FROM_THE_FRONT, *eye_of(0, 0, 2)],
+            f"real-{picture}", python=TELL_THE_RUNS, timeout=600)
+        runs = self.runs()
+        self.assertEqual(runs[0], seen)
+        self.assertEqual([run[:2] for run in runs], [(str(preview_level), seen[1]), ("0", runs[1][1])])
+        self.assertIn(runs[1][1], ("converged", "limit cycle"))
+        self.assertGreater(runs[1][2], 2 * seen[2])
+
+    def test_tooth(self):
+        self.first_minutes("tooth_ct_u16.vti", 600.5, 1)
+        self.assertNotIn("WARN|", self.session.output)
+
+    def test_engine(self):
+        self.first_minutes("engine_ct_u8.vti", 75.5, 2)
+        self.assertNotIn("WARN|", self.session.output)
+
+    def test_head(self):
+        self.first_minutes("vismale_head_ct_u8.vti", 95.5, 2)
+        self.assertNotIn("WARN|", self.session.output)
+
+    def test_vessels_that_stay_lost_in_part_are_told_of_once(self):
+        self.first_minutes("aneurism_u8.vti", 100.5, 2)
+        self.assertEqual(self.session.output.count("WARN|"), 1, self.session.output)
+        self.assertIn("of the object's boundary", self.session.output)
+
+    def test_an_error_then_a_good_run(self):
+        self.session.play(self.volume("tooth_ct_u16.vti") + [
+            set_preview(True), set_iso_value(5000), APPLY, gui.pause(1000),
+            set_iso_value(300), APPLY, gui.pause(1500), *FROM_THE_FRONT], python=TELL_THE_RUNS)
+        self.session.screenshot(testing.output_path("real-tooth-error.png"))
+        self.assertIn("Iso Value is 5000, outside the range of the voxels, 0 to 1300",
+                      self.session.output)
+        self.assertEqual([run[:2] for run in self.runs()],
+                         [("none", "error"), ("1", "converged")], self.session.output)
+
+
+window.main()
