@@ -21,7 +21,8 @@ FACTS = {
     "euler_characteristic": "EulerCharacteristic", "area": "Area", "volume": "Volume",
     "delta": "Delta", "unit": "Unit",
     "level": "Level", "iterations": "Iterations", "lost_parts": "LostParts",
-    "recovered_parts": "RecoveredParts", "lost_cavities": "LostCavities",
+    "recovered_parts": "RecoveredParts", "missing_parts": "MissingParts",
+    "missing_boundary": "MissingBoundary", "lost_cavities": "LostCavities",
     "recovered_cavities": "RecoveredCavities", "remaining_contacts": "RemainingContacts",
     "contact_vertices": "ContactVertices",
 }

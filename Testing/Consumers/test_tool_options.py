@@ -156,6 +156,8 @@ class RunTest(ToolTestCase):
             report = json.load(file)
         self.assertTrue(report["finished"])
         self.assertEqual([level["level"] for level in report["levels"]], [1, 0])
+        self.assertEqual([(level["missing_parts"], level["missing_boundary"])
+                          for level in report["levels"]], [(0, 0)] * 2)
         with open(self.path("h.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(sum(level["iterations"] for level in report["levels"]), len(rows))

@@ -1,20 +1,23 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The README's pictures of ParaView's window, by playing its four steps on a volume.
+"""The documents' pictures of ParaView's window, by playing the README's four steps on a volume.
 
     VOLUMIC_PLUGIN=.../Volumic.so VOLUMIC_PARAVIEW_BIN=.../bin VOLUMIC_XVFB=/usr/bin/Xvfb \\
-      pvpython readme_pictures.py VOLUME ISO_VALUE FOLDER
+      pvpython readme_pictures.py VOLUME ISO_VALUE FOLDER [X,Y ...]
 
-VOLUME is a file that ParaView opens, such as the skull.vti that Examples/Python/read_volume.py makes.
+VOLUME is a file that ParaView opens, such as the skull.vti that the quickstart leaves. X,Y are places
+of the screen where seeds are picked on its middle slice, such as 733,598 645,480 for the skull.
 """
 
 import os
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
-from window_testing import APPLY, FILTERS, PROPERTIES, filter_of_the_menu
+import x_input
+from window_testing import APPLY, FILTERS, PROPERTIES, SHOW_ADVANCED, eye_of, filter_of_the_menu
 
 KEY_UP, KEY_RIGHT, KEY_DOWN = (f"6,{key},0,,0,1" for key in (16777235, 16777236, 16777237))
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
@@ -31,7 +34,28 @@ def opened(volume):
             gui.pause(1000)]
 
 
-def main(volume, iso_value, folder):
+def on_a_slice(volume, iso_value):
+    """Events up to where seeds are picked: their list is in sight."""
+    representation = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comboBox"
+    return opened(volume) + [
+        gui.event(representation, "set_string", "Slice"), gui.pause(1500),
+        filter_of_the_menu("VolumeToSurface"), SHOW_ADVANCED, gui.pause(500),
+        gui.event(ISO_VALUE, "set_string", iso_value),
+        gui.event(f"{PROPERTIES}/Initialization/ComboBox", "set_string", "Seeds"), gui.pause(500),
+        gui.event(f"{gui.PANEL}/scrollArea/qt_scrollarea_vcontainer/1QScrollBar0", "set_int",
+                  "600"), gui.pause(500)]
+
+
+def pick(session, places):
+    hand = x_input.Input(session.display)
+    for place in places:
+        hand.move(*map(int, place.split(",")))
+        hand.focus()
+        hand.key("p")
+        time.sleep(1)
+
+
+def main(volume, iso_value, folder, *seeds):
     session = gui.Session(testing.program("paraview"), testing.plugin_path(),
                           os.environ["VOLUMIC_XVFB"], size=(1180, 800))
     start = opened(volume)
@@ -54,11 +78,17 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
         "paraview-volume-to-surface.png": ("", start + [
             filter_of_the_menu("VolumeToSurface"), gui.event(ISO_VALUE, "set_string", iso_value),
             APPLY, gui.pause(1000), *FROM_THE_FRONT]),
+        "paraview-history.png": ("", start + [
+            filter_of_the_menu("VolumeToSurface"), gui.event(ISO_VALUE, "set_string", iso_value),
+            APPLY, gui.pause(1000), *FROM_THE_FRONT, *eye_of(0, 0, 2)]),
+        "paraview-seeds.png": ("", on_a_slice(volume, iso_value)),
         # The macro.
         "paraview-levels.png": (macro, [gui.pause(1000), *FROM_THE_FRONT]),
     }
     for name, (python, events) in pictures.items():
         succeeded = session.play(events, timeout=600, python=python)
+        if "seeds" in name:
+            pick(session, seeds)
         session.screenshot(os.path.join(folder, name))
         session.close_window()
         if not succeeded:

@@ -50,7 +50,8 @@ void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface)
     { "genus", "Genus" }, { "euler_characteristic", "EulerCharacteristic" }, { "area", "Area" },
     { "volume", "Volume" }, { "delta", "Delta" }, { "unit", "Unit" }, { "level", "Level" },
     { "iterations", "Iterations" }, { "lost_parts", "LostParts" },
-    { "recovered_parts", "RecoveredParts" } };
+    { "recovered_parts", "RecoveredParts" }, { "missing_parts", "MissingParts" },
+    { "missing_boundary", "MissingBoundary" } };
   for (const auto& [name, array] : facts)
   {
     if (vtkDataArray* values = surface->GetFieldData()->GetArray(array))
