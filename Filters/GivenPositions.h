@@ -14,9 +14,9 @@ class vtkPoints;
 namespace volumic
 {
 /**
- * A list of positions of vtkDeformableSurface (world coordinates; null: empty), in the workspace. One
- * that is out of the box of the image by less than a voxel, as one that was picked on its border
- * may be, is moved onto the box.
+ * A list of positions of vtkDeformableSurface (world coordinates; null: empty), in the workspace.
+ * One that is out of the box of the image by less than a voxel, as one that was picked on its
+ * border may be, is moved onto the box.
  * @param label of the property, for messages
  * @param size  voxels of level 0 along each axis
  * @throws std::invalid_argument for a position farther outside, or one that is not finite.

@@ -13,7 +13,8 @@ namespace volumic
 {
 /**
  * Tells the host of the work on the levels, as a share of the whole that never becomes less, and
- * the core whether the host has asked to stop, or time is over. It is the one place that ends a run early.
+ * the core whether the host has asked to stop, or time is over. It is the one place that ends a run
+ * early.
  */
 class ProgressMonitor final : public Monitor
 {

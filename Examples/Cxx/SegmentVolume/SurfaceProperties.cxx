@@ -150,7 +150,8 @@ std::vector<PropertyOption> MakeProperties()
       "don't move vertices onto the iso-value at the end of a level"),
     SURFACE_MENU(KeepComponents, "keep",
       "which components are written: all; the one of the largest area; those at seeds or "
-      "points known to belong to the object (--seeds, --attracting-points and so on); or those of --minimum-component-volume; cavities stay with theirs",
+      "points known to belong to the object (--seeds, --attracting-points and so on); or "
+      "those of --minimum-component-volume; cavities stay with theirs",
       "all", "largest", "at-points", "large"),
     SURFACE_NUMBER(MinimumComponentVolume, "minimum-component-volume", "VOLUME",
       "what a component must enclose to be large, in world units cubed"),
