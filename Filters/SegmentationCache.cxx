@@ -140,6 +140,11 @@ const SegmentationResults* SegmentationCache::ResultsFor(const SegmentationReque
   return results.HasAtRest(this->EndOf(request)) ? &results : nullptr;
 }
 
+int SegmentationCache::EndOfRun() const
+{
+  return this->Run->EndsAt();
+}
+
 std::unique_ptr<SurfaceSegmentation> SegmentationCache::TakeRun()
 {
   return std::move(this->Run);

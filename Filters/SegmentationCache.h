@@ -42,6 +42,10 @@ public:
   const SegmentationResults* ResultsFor(const SegmentationRequest& request) const;
   /// The level at which it ends.
   int EndOf(const SegmentationRequest& request) const;
+  /// Whether there is a run that can.
+  bool CanGoOn() const { return this->Run != nullptr; }
+  /// The level at which it has ended.
+  int EndOfRun() const;
   /// The run, where it can go on from what it has; else null. It is kept no longer.
   std::unique_ptr<SurfaceSegmentation> TakeRun();
 

@@ -34,6 +34,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkDeformableSurface);
 
@@ -65,6 +66,9 @@ class vtkDeformableSurface::vtkInternals
 public:
   volumic::SegmentationCache Cache;
   volumic::Deadline Limit; ///< of the run
+  bool IsWatched = false;  ///< Someone asks whether a finer level is still to come.
+  bool IsOnTheWay = false; ///< One is, and nobody has asked yet.
+  bool GoesToTheEnd = false; ///< The next run shows no level before.
 };
 
 //------------------------------------------------------------------------------
@@ -117,6 +121,7 @@ vtkDeformableSurface::vtkDeformableSurface()
   this->NumberOfThreads = 0;
   this->TimeLimit = 0.0;
   this->Preview = false;
+  this->ShowLevels = false;
   this->Profile = false;
   this->SnapshotInterval = 0;
   this->Internals = std::make_unique<vtkInternals>();
@@ -268,6 +273,28 @@ void vtkDeformableSurface::SetPreview(bool preview)
   this->SetForTheEnd(this->Preview, preview);
 }
 
+void vtkDeformableSurface::SetShowLevels(bool show)
+{
+  this->SetForTheEnd(this->ShowLevels, show);
+}
+
+bool vtkDeformableSurface::GetNeedsUpdate()
+{
+  vtkInternals& internals = *this->Internals;
+  internals.IsWatched = true;
+  if (!this->ShowLevels || !internals.IsOnTheWay)
+  {
+    return false;
+  }
+  internals.IsOnTheWay = false;
+  // The run of level 0 is not kept: level -1 is not reached from there.
+  internals.GoesToTheEnd = !internals.Cache.CanGoOn();
+  const vtkMTimeType before = this->GetMTime();
+  this->Modified();
+  internals.Cache.Allow(before, this->GetMTime());
+  return true;
+}
+
 void vtkDeformableSurface::ForgetRun()
 {
   this->Internals->Cache.Drop();
@@ -338,6 +365,31 @@ bool vtkDeformableSurface::ShowPyramidProgress(double share)
 }
 
 //------------------------------------------------------------------------------
+bool vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, bool isKept)
+{
+  const bool isWatched = this->ShowLevels && this->Internals->IsWatched;
+  if (!isWatched || std::exchange(this->Internals->GoesToTheEnd, false))
+  {
+    return false;
+  }
+  const volumic::SegmentationCache& cache = this->Internals->Cache;
+  if (!isKept || !cache.CanGoOn())
+  {
+    request.Preview = true;
+    return !this->Preview;
+  }
+  const int next = cache.EndOfRun() - 1;
+  if (this->EdgeLength != 0.0 || next <= std::max(this->FinestLevel, 0))
+  {
+    return false;
+  }
+  request.FinestLevel = next;
+  // What is missing there may be found at a level that is still to come.
+  request.Warn = [](const std::string&) {};
+  return true;
+}
+
+//------------------------------------------------------------------------------
 void vtkDeformableSurface::RunOrGoOn(
   vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -369,6 +421,7 @@ void vtkDeformableSurface::RunOrGoOn(
   };
   settings.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
 
+  this->Internals->IsOnTheWay = false;
   if (isKept)
   {
     if (const volumic::SegmentationResults* results = cache.ResultsFor(settings))
@@ -383,6 +436,7 @@ void vtkDeformableSurface::RunOrGoOn(
       return;
     }
   }
+  const bool isStep = this->ChooseStep(settings, isKept);
   std::unique_ptr<volumic::SurfaceSegmentation> run = isKept ? cache.TakeRun() : nullptr;
   cache.Drop();
   if (run)
@@ -445,7 +499,10 @@ void vtkDeformableSurface::RunOrGoOn(
   }
   run->Run();
   run->Results().FillOutputs(run->EndsAt(), output);
+  const bool isCutOff = settings.Limit.IsOver() || volumic::IsAbortRequested(this);
+  const bool isFinest = run->EndsAt() <= this->FinestLevel && this->EdgeLength == 0.0;
   cache.Keep(std::move(run), this);
+  this->Internals->IsOnTheWay = isStep && !isCutOff && !isFinest;
 }
 
 //------------------------------------------------------------------------------
@@ -516,6 +573,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
   os << indent << "TimeLimit: " << this->TimeLimit << endl;
   os << indent << "Preview: " << this->Preview << endl;
+  os << indent << "ShowLevels: " << this->ShowLevels << endl;
   os << indent << "Profile: " << this->Profile << endl;
   os << indent << "SnapshotInterval: " << this->SnapshotInterval << endl;
 }

@@ -28,8 +28,8 @@
  *   edges. With Initialization Seeds, the centres of the seeds (see also SeedPositions). World
  *   coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
- *   PointAttractionWeight and AttractingPositions. Point arrays, optional: `Weight` (any numeric type, at least 0, default
- *   1) and `Radius` (world units, default 0: automatic).
+ *   PointAttractionWeight and AttractingPositions. Point arrays, optional: `Weight` (any numeric
+ *   type, at least 0, default 1) and `Radius` (world units, default 0: automatic).
  * - Where points are meant, at both ports and for all purposes: the points of the vertices (vertex
  *   and polyvertex cells), each once; all points where there are no cells at all. Lines and
  *   polygons without vertices are refused, as nothing says that their points are meant.
@@ -54,7 +54,8 @@
  * surface, at least four edges away along it, keeps the vertex more than 0.1 Delta away from the
  * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell arrays: `Component` (int, 0 = largest
  * area) and, of the component that the triangle belongs to, `ComponentArea`, `ComponentVolume`
- * (float) and `ComponentGenus` (int), so that filters of cells can choose components. Field data: `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
+ * (float) and `ComponentGenus` (int), so that filters of cells can choose components. Field data:
+ * `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
  * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
  * `Area`, `Volume` (double), `StopReason` (string:
  * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
@@ -102,9 +103,9 @@
  *
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. At
- * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if, with
- * Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level. Nothing else is warned of: the
- * field data tell it.
+ * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if,
+ * with Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level; at its
+ * start one tells the number of voxels that are NaN. All else is told by the field data only.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
@@ -123,14 +124,14 @@
  *
  * @par Going on:
  * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,
- * Preview, TimeLimit or NumberOfThreads, and nothing else changed, neither in the filter nor in its
- * inputs, a level at which the surface has rested is shown at once, and a finer one is reached from
- * the level at which the last run has ended (FinestLevel 2, then 0). The outputs are the same bits as
- * those of a run from the start, but for the seconds in History. To go on it holds the surface and
- * the pyramid, and these only where the run has ended at level 1 or above, so that no memory of
- * level 0 is held; else no more than the surfaces of the levels. A run that was cancelled or ran out
- * of time begins anew. ForgetRun() frees all of it; nothing is kept after an error, where ReleaseDataFlag
- * is on, or where an input's data are released.
+ * Preview, ShowLevels, TimeLimit or NumberOfThreads, and nothing else changed, neither in the
+ * filter nor in its inputs, a level at which the surface has rested is shown at once, and a finer
+ * one is reached from the level at which the last run has ended (FinestLevel 2, then 0). The
+ * outputs are the same bits as those of a run from the start, but for the seconds in History. To go
+ * on it holds the surface and the pyramid, and these only where the run has ended at level 1 or
+ * above, so that no memory of level 0 is held; else no more than the surfaces of the levels. A run
+ * that was cancelled or ran out of time begins anew. ForgetRun() frees all of it; nothing is kept
+ * after an error, where ReleaseDataFlag is on, or where an input's data are released.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -155,6 +156,10 @@ class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkPoints;
 class vtkTable;
+namespace volumic
+{
+struct SegmentationRequest;
+}
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
 {
@@ -568,6 +573,25 @@ public:
   vtkBooleanMacro(Preview, bool);
   ///@}
 
+  ///@{
+  /**
+   * In ParaView's window: show the surface of each level as soon as it rests, from the one of Preview
+   * on, while finer ones go on. Each is a run of its own that goes on from the last one, also for
+   * TimeLimit; with EdgeLength there are two. Elsewhere it has no effect: a run goes to its end at
+   * once. Default: off.
+   */
+  void SetShowLevels(bool show);
+  vtkGetMacro(ShowLevels, bool);
+  vtkBooleanMacro(ShowLevels, bool);
+  ///@}
+
+  /**
+   * With ShowLevels: whether a finer level is still to come; it is then computed at the next Update().
+   * ParaView's window asks it of its live sources several times a second. Who asks it gets the
+   * levels one by one.
+   */
+  bool GetNeedsUpdate();
+
   /** Frees what is kept of the last run, see Going on. */
   void ForgetRun();
 
@@ -679,6 +703,7 @@ protected:
   int NumberOfThreads;
   double TimeLimit;
   bool Preview;
+  bool ShowLevels;
   bool Profile;
   int SnapshotInterval;
 
@@ -686,6 +711,8 @@ private:
   class vtkInternals;
   template <typename T>
   void SetForTheEnd(T& property, T value);
+  /// Makes it a request for the next level to be shown, if it is not the last one. @return whether.
+  bool ChooseStep(volumic::SegmentationRequest& request, bool isKept);
   void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
   std::unique_ptr<vtkInternals> Internals;
 

@@ -26,7 +26,8 @@ from volumic import vtkDeformableSurface, vtkImagePyramid
 
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
-                                        "AttractingPointsConnection", "AttractingPointsData"},
+                                        "AttractingPointsConnection", "AttractingPointsData",
+                                        "ShowLevels"},
                "vtkImagePyramid": {"NaNIsBackground", "NumberOfThreads", "SelectedComponent"}}
 
 

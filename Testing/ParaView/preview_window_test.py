@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Choosing an iso-value by seeing it, in ParaView's window: Preview on and off, with Apply and with
-Auto Apply."""
+Auto Apply; and Show Levels."""
 
 import os
 import re
@@ -57,17 +57,17 @@ def set_preview(on):
     return gui.event(f"{PROPERTIES}/Preview/CheckBox", "set_boolean", "true" if on else "false")
 
 
-def triangles_of(iso_value, **properties):
-    """Of a run from the start."""
+def triangles_of(iso_value, volume=None, **properties):
+    """Of a run from the start; volume: properties of its source."""
     testing.load_plugin()
-    volume = simple.Wavelet(WholeExtent=EXTENT)
+    volume = simple.Wavelet(**(volume or {"WholeExtent": EXTENT}))
     filter_ = simple.VolumetoSurface(volume, IsoValue=iso_value, **properties)
     return testing.fetch(filter_).GetNumberOfPolys()
 
 
 class PreviewWindowTest(window.WindowTestCase):
     def runs(self):
-        found = re.findall(r"Run: level (\d+) triangles (\d+) iterated (\[.*\])",
+        found = re.findall(r"Run: level (-?\d+) triangles (\d+) iterated (\[.*\])",
                            self.session.output)
         return [(int(level), int(triangles), levels) for level, triangles, levels in found]
 
@@ -97,6 +97,38 @@ class PreviewWindowTest(window.WindowTestCase):
         runs = self.runs()
         self.assertEqual(runs[-2][0], 1, self.session.output)
         self.assertEqual(runs[-1], (0, triangles_of(150.0), "[0]"), self.session.output)
+
+    def test_each_level_is_shown_as_soon_as_it_rests(self):
+        self.play(source("RTAnalyticSource") + [
+            FILTER, gui.pause(500), gui.event(ISO_VALUE, "set_string", "150"),
+            gui.event(f"{PROPERTIES}/ShowLevels/CheckBox", "set_boolean", "true"), APPLY,
+            gui.pause(6000), gui.event(ISO_VALUE, "set_string", "140"), APPLY, gui.pause(6000)],
+            "preview-levels", python=TELL_THE_RUNS.replace("AUTO_APPLY", "0").replace(
+                str(EXTENT), str([-90, 90] * 3)))
+        volume = {"WholeExtent": [-90, 90] * 3}
+        runs = self.runs()
+        self.assertEqual([run[0] for run in runs], [2, 1, 0] * 2, self.session.output)
+        self.assertEqual([run[1] for run in runs],
+                         [triangles_of(iso, volume, FinestLevel=level)
+                          for iso in (150.0, 140.0) for level in (2, 1, 0)])
+        self.assertEqual([run[2] for run in runs][1:3], ["[1]", "[0]"], "each goes on")
+
+    def test_levels_are_shown_down_to_one_finer_than_the_volume(self):
+        self.play(source("RTAnalyticSource") + [
+            FILTER, gui.pause(500), gui.event(ISO_VALUE, "set_string", "150"),
+            gui.event(f"{PROPERTIES}/FinestLevel/IntRangeWidget/LineEdit", "set_string", "-1"),
+            gui.event(f"{PROPERTIES}/ShowLevels/CheckBox", "set_boolean", "true"), APPLY,
+            gui.pause(6000)], "preview-levels-finer",
+            python=TELL_THE_RUNS.replace("AUTO_APPLY", "0").replace(
+                str(EXTENT), str([-20, 20] * 3)))
+        # The preview is level 0 itself.
+        volume = {"WholeExtent": [-20, 20] * 3}
+        self.assertEqual([run[:2] for run in self.runs()],
+                         [(level, triangles_of(150.0, volume, FinestLevel=level))
+                          for level in (0, -1)], self.session.output)
+
+    def test_levels_are_not_shown_where_nobody_watches(self):
+        self.assertEqual(triangles_of(150.0, ShowLevels=1), triangles_of(150.0))
 
 
 window.main()

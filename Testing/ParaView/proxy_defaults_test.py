@@ -185,7 +185,8 @@ class ProxyDefaultsTest(unittest.TestCase):
             forces = {m for m in members if m.endswith("Weight")} - {"PointAttractionWeight"}
             self.assertEqual(set(groups["Forces"]), forces | {"EdgeMap", "Friction"})
             self.assertIn("BorderValue", groups["Outside the Volume"])
-            self.assertEqual(groups["Levels"], ["Preview", "FinestLevel", "CoarsestLevel"])
+            self.assertEqual(groups["Levels"], ["Preview", "ShowLevels", "FinestLevel",
+                                                "CoarsestLevel"])
             self.assertEqual(groups["Start"], ["Initialization", "SeedPositions", "SeedRadius"])
 
     def test_every_property_is_documented(self):

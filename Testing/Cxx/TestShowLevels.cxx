@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/// Shows its levels; its preview is level 1 of 2.
+vtkSmartPointer<vtkVolumeToSurface> FilterOf(vtkImageData* image)
+{
+  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
+  filter->SetInputData(image);
+  filter->SetIsoValue(50.0);
+  filter->ShowLevelsOn();
+  return filter;
+}
+
+/// The levels that who asks for updates sees, one after the other.
+std::vector<int> LevelsShown(vtkDeformableSurface* filter)
+{
+  std::vector<int> levels;
+  filter->GetNeedsUpdate();
+  do
+  {
+    filter->Update();
+    levels.push_back(static_cast<int>(FieldOf(filter->GetOutput(), "Level")));
+  } while (filter->GetNeedsUpdate() && levels.size() < 9);
+  return levels;
+}
+
+vtkSmartPointer<vtkImageData> LargeBall()
+{
+  return BallImage(180, 160, 128);
+}
+}
+
+TEST(ShowLevels, GivesThemOneByOneToWhoAsks)
+{
+  const auto image = LargeBall();
+  const auto filter = FilterOf(image);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
+  const auto atOnce = FilterOf(image);
+  atOnce->ShowLevelsOff();
+  atOnce->Update();
+  EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), atOnce->GetOutput()));
+  filter->SetIsoValue(40.0);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 })) << "again";
+  filter->ShowLevelsOff();
+  filter->SetIsoValue(45.0);
+  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 0 });
+}
+
+TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
+{
+  const auto filter = FilterOf(LargeBall());
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+}
+
+TEST(ShowLevels, EndsWherePreviewDoes)
+{
+  const auto filter = FilterOf(LargeBall());
+  filter->PreviewOn();
+  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 1 });
+  filter->PreviewOff();
+  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 0 });
+}
+
+TEST(ShowLevels, ReachesALevelFinerThanTheImage)
+{
+  const auto filter = FilterOf(BallImage(30, 30, 30));
+  filter->SetFinestLevel(-1);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 0, -1 }));
+}
+
+TEST(ShowLevels, KeepsToTheEdgeLength)
+{
+  const auto image = BallImage(128, 110, 110);
+  const auto filter = FilterOf(image);
+  filter->SetEdgeLength(1.7);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
+  const auto atOnce = FilterOf(image);
+  atOnce->ShowLevelsOff();
+  atOnce->SetEdgeLength(1.7);
+  atOnce->Update();
+  EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), atOnce->GetOutput()));
+}
+
+TEST(ShowLevels, ReachesTheEndWhereNothingIsKept)
+{
+  const auto filter = FilterOf(LargeBall());
+  filter->ReleaseDataFlagOn();
+  filter->GetNeedsUpdate();
+  filter->Update();
+  EXPECT_TRUE(filter->GetNeedsUpdate());
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+}
+
+TEST(ShowLevels, IsOverAfterAnErrorAndAtTheTimeLimit)
+{
+  const auto filter = FilterOf(LargeBall());
+  filter->GetNeedsUpdate();
+  filter->Update();
+  filter->SetIsoValue(1e5);
+  {
+    const MessagesOf errors(filter);
+    filter->Update();
+    EXPECT_TRUE(errors.Has("Iso Value is 100000"));
+  }
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  filter->SetIsoValue(50.0);
+  filter->SetTimeLimit(1e-6);
+  filter->Update();
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  filter->SetTimeLimit(0.0);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
+}
