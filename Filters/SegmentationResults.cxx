@@ -26,7 +26,7 @@ void SetBlock(
   blocks->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
 }
 
-/// An output shares nothing that its reader may change.
+/// What its reader adds or takes away does not change what is kept; the arrays are shared.
 vtkSmartPointer<vtkPolyData> ShallowCopyOf(vtkPolyData* surface)
 {
   auto copy = vtkSmartPointer<vtkPolyData>::New();

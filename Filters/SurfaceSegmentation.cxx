@@ -460,7 +460,7 @@ void SurfaceSegmentation::Run()
   }
   const std::string warning =
     this->Found.WarningOf(this->LastLevel, this->WantsAllParts());
-  if (!warning.empty())
+  if (!warning.empty() && !this->Settings.IsStep)
   {
     this->Settings.Warn(warning);
   }

@@ -37,6 +37,7 @@ struct SegmentationRequest
 {
   int FinestLevel = 0;  ///< with EdgeLength: as planned
   bool Preview = false; ///< to end at a level of few voxels
+  bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
   int NumberOfThreads = 0;
   vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
   Deadline Limit;

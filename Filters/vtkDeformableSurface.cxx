@@ -376,7 +376,8 @@ bool vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, boo
   if (!isKept || !cache.CanGoOn())
   {
     request.Preview = true;
-    return !this->Preview;
+    request.IsStep = !this->Preview;
+    return request.IsStep;
   }
   const int next = cache.EndOfRun() - 1;
   if (this->EdgeLength != 0.0 || next <= std::max(this->FinestLevel, 0))
@@ -384,8 +385,7 @@ bool vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, boo
     return false;
   }
   request.FinestLevel = next;
-  // What is missing there may be found at a level that is still to come.
-  request.Warn = [](const std::string&) {};
+  request.IsStep = true;
   return true;
 }
 
@@ -421,6 +421,15 @@ void vtkDeformableSurface::RunOrGoOn(
   };
   settings.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
 
+  const auto warnOf = [&](const volumic::SegmentationResults& results, int end, bool hasRecovery)
+  {
+    const std::string warning = results.WarningOf(end, hasRecovery && !this->Preview);
+    if (!warning.empty())
+    {
+      settings.Warn(warning);
+    }
+  };
+
   this->Internals->IsOnTheWay = false;
   if (isKept)
   {
@@ -428,11 +437,7 @@ void vtkDeformableSurface::RunOrGoOn(
     {
       const int end = cache.EndOf(settings);
       results->FillOutputs(end, output);
-      const std::string warning = results->WarningOf(end, cache.HasRecovery() && !this->Preview);
-      if (!warning.empty())
-      {
-        settings.Warn(warning);
-      }
+      warnOf(*results, end, cache.HasRecovery());
       return;
     }
   }
@@ -501,6 +506,10 @@ void vtkDeformableSurface::RunOrGoOn(
   run->Results().FillOutputs(run->EndsAt(), output);
   const bool isCutOff = settings.Limit.IsOver() || volumic::IsAbortRequested(this);
   const bool isFinest = run->EndsAt() <= this->FinestLevel && this->EdgeLength == 0.0;
+  if (isStep && isFinest)
+  {
+    warnOf(run->Results(), run->EndsAt(), run->GetSettings().Options.RecoverLostParts);
+  }
   cache.Keep(std::move(run), this);
   this->Internals->IsOnTheWay = isStep && !isCutOff && !isFinest;
 }

@@ -3,6 +3,7 @@
 #include "SurfaceTestTools.h"
 #include "vtkVolumeToSurface.h"
 
+#include <vtkCommand.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
@@ -104,6 +105,30 @@ TEST(ShowLevels, ReachesTheEndWhereNothingIsKept)
   filter->Update();
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
   EXPECT_FALSE(filter->GetNeedsUpdate());
+}
+
+TEST(ShowLevels, WarnsAtTheEndOnly)
+{
+  const auto filter = FilterOf(LargeBall());
+  filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
+  filter->SetMinimumComponentVolume(1e9);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->GetNeedsUpdate();
+  filter->Update();
+  EXPECT_EQ(warnings.Get(), "");
+  ASSERT_TRUE(filter->GetNeedsUpdate());
+  filter->Update();
+  EXPECT_TRUE(warnings.Has("Level 0: Keep Components leaves none"));
+}
+
+TEST(ShowLevels, WarnsWhereTheFirstLevelShownIsTheLast)
+{
+  const auto filter = FilterOf(BallImage(30, 30, 30));
+  filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
+  filter->SetMinimumComponentVolume(1e9);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 0 });
+  EXPECT_TRUE(warnings.Has("Level 0: Keep Components leaves none"));
 }
 
 TEST(ShowLevels, IsOverAfterAnErrorAndAtTheTimeLimit)
