@@ -1,0 +1,212 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Runs the tests, or another command, on a bare Debian of any release: a system of its own in a
+# folder, made by debootstrap, with a copy of this checkout. Needs root, for chroot.
+
+set -eo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
+
+usage()
+{
+  cat << 'USAGE'
+Usage: bash Testing/on_debian.sh [OPTION]... RELEASE [COMMAND [ARGUMENT]...]
+  RELEASE           bookworm, trixie, forky, testing, sid or another name; or 12, 13, 14
+  COMMAND           what is run in the copy's root folder; by default bash Testing/run.sh
+  --system DIR      keep the system in DIR, and use the one that is there from a run before; by
+                    default it is made in a temporary folder and removed at the end
+  --bind DIR        let the system see this folder, too, under the same name; may be repeated
+  --mirror URL      where the packages come from; by default from where this machine's come
+  --help            this text
+The copy is /volumic/checkout in the system; its build folder is kept as long as the system is. A
+folder `shared` beside this checkout is seen beside the copy, read-only.
+Exit status: the command's.
+USAGE
+}
+
+system=
+mirror=
+binds=()
+while [[ ${1-} == -* ]]; do
+  case $1 in
+    -h | --help)
+      usage
+      exit 0
+      ;;
+    --system | --bind | --mirror)
+      [ $# -ge 2 ] || fail "$1 needs a value"
+      case $1 in
+        --system) system=$2 ;;
+        --bind)
+          [ -d "$2" ] || fail "--bind: $2 is not a folder"
+          binds+=("$(realpath "$2")")
+          ;;
+        --mirror) mirror=$2 ;;
+      esac
+      shift
+      ;;
+    *)
+      usage >&2
+      fail "Unknown option: $1"
+      ;;
+  esac
+  shift
+done
+if [ $# -eq 0 ]; then
+  usage >&2
+  fail "Which release of Debian?"
+fi
+release=$1
+shift
+case $release in
+  12) release=bookworm ;;
+  13) release=trixie ;;
+  14) release=forky ;;
+  *[!a-z]*) fail "$release: is no release of Debian" ;;
+esac
+if [ $# -gt 0 ]; then
+  command=("$@")
+else
+  command=(bash Testing/run.sh)
+fi
+[ "$(id -u)" -eq 0 ] || fail "A system of its own takes root's rights: please start this with sudo."
+
+# ---- Cleaning up -------------------------------------------------------------------------------
+
+# Whatever is mounted, is mounted in a namespace that ends with its processes; they end with this
+# script, even if it is killed. So only the temporary folder is left to be removed here.
+temporary=
+child=
+clean_up()
+{
+  trap - EXIT
+  if [ -n "$child" ]; then
+    kill -KILL "$child" 2> /dev/null || true
+    wait "$child" 2> /dev/null || true
+  fi
+  [ -z "$temporary" ] || rm -rf --one-file-system "$temporary"
+}
+trap clean_up EXIT
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+# apart COMMAND...: run it with mounts and processes of its own. Not in the foreground, where a
+# signal would have to wait for its end.
+apart()
+{
+  local status=0
+  setpriv --pdeathsig KILL \
+    unshare --mount --propagation private --pid --fork --kill-child --mount-proc "$@" <&0 &
+  child=$!
+  wait "$child" || status=$?
+  child=
+  return "$status"
+}
+
+# ---- The system --------------------------------------------------------------------------------
+
+# Where this machine's Debian packages come from; debootstrap knows a place itself.
+configured_mirror()
+{
+  apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Label: Debian' \
+    'Created-By: Packages' | head -n 1
+}
+
+# make_system DIR: a minimal Debian.
+make_system()
+{
+  local scripts=/usr/share/debootstrap/scripts script
+  script=$scripts/$release
+  [ -e "$script" ] || script=$scripts/sid # a release that is newer than debootstrap
+  debootstrap --variant=minbase \
+    --keyring=/usr/share/keyrings/debian-archive-keyring.gpg \
+    "$release" "$1" "${mirror:-http://deb.debian.org/debian}" "$script"
+}
+
+# How apt reaches the mirror: proxies and the like.
+copy_network_settings()
+{
+  cp -L /etc/resolv.conf /etc/hosts "$1/etc/"
+  apt-config dump Acquire::http Acquire::https Acquire::Check-Valid-Until Acquire::Check-Date \
+    > "$1/etc/apt/apt.conf.d/90machine"
+}
+
+# copy_checkout DIR: this checkout as it is, without what git ignores; DIR/build stays.
+copy_checkout()
+{
+  mkdir -p "$1"
+  find "$1" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
+  (cd "$root" && git -c safe.directory="$root" ls-files -z --cached --others --exclude-standard \
+    | while IFS= read -r -d '' file; do [ ! -e "$file" ] || printf '%s\0' "$file"; done \
+    | tar -c --null -T -) | tar -x --no-same-owner -C "$1"
+}
+
+# The namespace's first process: SYSTEM SHARED BIND... -- COMMAND...
+enter='
+  set -e
+  system=$1 shared=$2
+  shift 2
+  mount -t proc proc "$system/proc"
+  mount --rbind /sys "$system/sys"
+  mount --rbind /dev "$system/dev"
+  if [ -n "$shared" ]; then
+    mkdir -p "$system/volumic/shared"
+    mount --bind "$shared" "$system/volumic/shared"
+    mount -o remount,bind,ro "$system/volumic/shared"
+  fi
+  while [ "$1" != -- ]; do
+    mkdir -p "$system$1"
+    mount --bind "$1" "$system$1"
+    shift
+  done
+  shift
+  exec chroot "$system" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
+    LANG=C.UTF-8 TERM="${TERM:-dumb}" DEBIAN_FRONTEND=noninteractive \
+    sh -c "cd /volumic/checkout && exec \"\$@\"" sh "$@"'
+
+plan_steps 3
+install_packages debootstrap debian-archive-keyring git
+[ -n "$mirror" ] || mirror=$(configured_mirror)
+
+if [ -z "$system" ]; then
+  temporary=$(mktemp -d)
+  system=$temporary/system
+fi
+if [ -e "$system/etc/os-release" ]; then
+  present=$(. "$system/etc/os-release" && echo "${VERSION_CODENAME:-unknown}")
+  case $release in
+    "$present" | testing | sid | unstable) ;;
+    *) fail "$system holds Debian $present, not $release. Choose another folder, or remove it." ;;
+  esac
+  run_step "System: Debian $present of an earlier run" debian-system true
+else
+  if [ -e "$system" ] && [ -n "$(ls -A "$system")" ]; then
+    fail "$system holds something else. Choose a folder that is empty or not there yet."
+  fi
+  # Under another name until it is complete.
+  export -f make_system
+  export release mirror
+  rm -rf --one-file-system "$system.partial"
+  run_step "Making a Debian $release" debian-system \
+    apart bash -c 'make_system "$1"' make_system "$system.partial"
+  [ ! -e "$system" ] || rmdir "$system"
+  mv "$system.partial" "$system"
+fi
+system=$(realpath "$system")
+
+prepare_system()
+{
+  copy_network_settings "$system"
+  copy_checkout "$system/volumic/checkout"
+}
+run_step "Copying the checkout" debian-copy prepare_system
+
+shared=$root/../shared
+[ -d "$shared" ] || shared=
+say "In the Debian $(cat "$system/etc/debian_version"): ${command[*]}"
+status=0
+apart sh -c "$enter" enter "$system" "${shared:+$(realpath "$shared")}" "${binds[@]}" -- \
+  "${command[@]}" || status=$?
+exit "$status"
