@@ -40,13 +40,18 @@ if [ "${#inputs[@]}" -eq 2 ] \
 fi
 
 check_system
-plan_steps 3
 mapfile -t packages < <(vtk_packages)
 packages+=("${tool_packages[@]}" xvfb xauth libgl1-mesa-dri)
 if [ "${#inputs[@]}" -eq 0 ]; then
-  packages+=("${example_packages[@]}")
+  plan_steps $((3 + $(skull_steps)))
+  mapfile -t -O "${#packages[@]}" packages < <(skull_packages)
+else
+  plan_steps 3
 fi
 install_packages "${packages[@]}"
+if [ "${#inputs[@]}" -eq 0 ]; then
+  prepare_skull
+fi
 build_vtk_flavour -DVOLUMIC_BUILD_TESTING=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF
 
 # Python's modules of the installed package, wherever this Python's version puts them.
@@ -56,6 +61,7 @@ site=$(find "$build/install-vtk" -type d -name volumic -path '*-packages/volumic
 say ""
 # A negative iso-value must not be taken for an option: hence the --.
 PYTHONPATH="$(dirname "$site")${PYTHONPATH:+:$PYTHONPATH}" PYTHONDONTWRITEBYTECODE=1 \
+  VOLUMIC_CRANIUM=$(cranium) \
   xvfb-run -a -s "-screen 0 1280x1024x24" \
   "$(vtk_python)" "$script_folder/Python/quickstart.py" --output "$output" -- "${inputs[@]}" \
   2> >(tee "$logs/quickstart-errors.log" >&2) \

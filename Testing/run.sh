@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# From a bare Debian 12 to all tests passed: installs what is missing, builds Volumic for VTK and
+# From a bare Debian to all tests passed: installs what is missing, builds Volumic for VTK and
 # for ParaView under build/, and runs the tests of both. Quick when run again.
 
 set -eo pipefail
@@ -71,17 +71,19 @@ summarize()
 }
 
 check_system
-plan_steps $((1 + 3 * ${#flavours[@]}))
+plan_steps $((1 + $(skull_steps) + 3 * ${#flavours[@]}))
 
-packages=("${tool_packages[@]}" "${test_packages[@]}" "${example_packages[@]}")
+mapfile -t packages < <(skull_packages)
+packages+=("${tool_packages[@]}" "${test_packages[@]}")
 for flavour in "${flavours[@]}"; do
   mapfile -t needed < <("${flavour}_packages")
   packages+=("${needed[@]}")
 done
 install_packages "${packages[@]}"
+prepare_skull
 
 for flavour in "${flavours[@]}"; do
-  options=(-DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=ON)
+  options=(-DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=ON -DVOLUMIC_CRANIUM="$(cranium)")
   # The benchmarks have a test too, for which VTK's flavour is enough.
   [ "$flavour" = vtk ] && options+=(-DVOLUMIC_BUILD_BENCHMARKS=ON)
   "build_${flavour}_flavour" "${options[@]}"

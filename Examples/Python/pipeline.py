@@ -8,7 +8,9 @@ import os
 from read_volume import read_volume
 from terminal import FilterError, run_filter
 
-SKULL = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
+# Where Debian's package invesalius-examples has it; quickstart.sh says so where it lies elsewhere.
+SKULL = os.environ.get(
+    "VOLUMIC_CRANIUM", "/usr/share/doc/invesalius-examples/examples/Cranium.inv3")
 SKULL_ISO = 226.5  # bone; between two integers, so that no voxel equals it
 SWITCH = {"on": True, "true": True, "1": True, "off": False, "false": False, "0": False}
 

@@ -14,6 +14,7 @@ from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface, vtkTransformPolyD
 
 import render
 from pyramid_picture import THREE_QUARTERS, grey_window, index_bounds
+from terminal import warnings_only
 from volume_image import world_axes
 
 LEVEL_WIDTH, VIEW_WIDTH = 400, 480
@@ -192,7 +193,8 @@ def slice_with_contour(flat, image, frame, view, window, size, bounds):
     cutter = vtkCutter()
     cutter.SetInputData(flat)
     cutter.SetCutFunction(plane)
-    cutter.Update()
+    with warnings_only():  # VTK 9.3's tells of each run
+        cutter.Update()
     lines = render.line_actor(cutter.GetOutput(), CONTOUR, 1.6)
     lines.SetPosition(towards * image.GetSpacing()[axis])  # in front of the slice
     actors = [render.slice_actor(image, axis, index, window), lines]

@@ -147,6 +147,17 @@ def caught_output():
         vtkLogger.SetStderrVerbosity(verbosity)
 
 
+@contextlib.contextmanager
+def warnings_only():
+    """Within this context VTK logs warnings and errors, not that a filter runs, as some tell."""
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)
+    try:
+        yield
+    finally:
+        vtkLogger.SetStderrVerbosity(verbosity)
+
+
 def plain_message(text):
     """The message of vtkErrorMacro without the place in the source code."""
     text = re.sub(r"^(ERROR|Warning): In .*?\n.*?\): ", "", text, flags=re.DOTALL)

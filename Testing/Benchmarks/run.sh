@@ -42,7 +42,7 @@ all_scans=
 growth=
 surface_options=()
 growth_options=()
-packages=("${tool_packages[@]}" libbenchmark-dev libcgal-dev invesalius-examples)
+packages=("${tool_packages[@]}" libbenchmark-dev libcgal-dev)
 while [ $# -gt 0 ]; do
   case $1 in
     --with-itk) packages+=(libinsighttoolkit5-dev) ;;
@@ -83,13 +83,14 @@ results=$build/benchmarks
 mkdir -p "$results"
 
 check_system
-plan_steps 4
-mapfile -t needed < <(vtk_packages)
+plan_steps $((4 + $(skull_steps)))
+mapfile -t needed < <(vtk_packages; skull_packages)
 install_packages "${packages[@]}" "${needed[@]}"
+prepare_skull
 build_vtk_flavour -DVOLUMIC_BUILD_BENCHMARKS=ON
 run_step "Reading the skull CT" benchmark-skull \
   "$(vtk_python)" "$root/Examples/Python/read_volume.py" \
-  /usr/share/doc/invesalius-examples/examples/Cranium.inv3 "$results/skull.vti"
+  "$(cranium)" "$results/skull.vti"
 
 # list_scans: name, file and iso-value of the volumes of ../shared/data, from the table there. Of
 # several iso-values the first; half a step up where voxels are whole numbers, so that none equals it.

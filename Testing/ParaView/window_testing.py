@@ -21,13 +21,19 @@ APPLY = gui.event(f"{gui.PANEL}/Accept", "activate")
 SHOW_ADVANCED = gui.event(f"{gui.PANEL}/SearchBox/AdvancedButton", "set_boolean", "true")
 
 
+def open_menu(name):
+    """Newer ParaViews fill a menu when it is opened."""
+    return gui.event(f"{gui.WINDOW}/menubar", "activate", name)
+
+
 def source(name):
     """Events that make a source of the Sources menu and apply it."""
-    return [gui.event(f"{gui.WINDOW}/menubar/menuSources/Alphabetical", "activate", name), APPLY]
+    return [open_menu("menuSources"),
+            gui.event(f"{gui.WINDOW}/menubar/menuSources/Alphabetical", "activate", name), APPLY]
 
 
 def filter_of_the_menu(name, category="Volumic"):
-    return gui.event(f"{FILTERS}/{category}", "activate", name)
+    return open_menu("menuFilters") + "\n" + gui.event(f"{FILTERS}/{category}", "activate", name)
 
 
 def in_the_pipeline(*places):

@@ -23,10 +23,10 @@ from examples_path import EXAMPLES
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
+from pipeline import SKULL
 from read_volume import read_volume
 from volume_image import VolumeError, direction_of, make_image, world_axes
 
-CRANIUM = "/usr/share/doc/invesalius-examples/examples/Cranium.inv3"
 TURNED = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 SPACING, ORIGIN = (0.5, 1.25, 2.0), (-7.0, 8.0, 9.5)
 
@@ -175,9 +175,9 @@ class FormatsTest(ReadVolumeTest):
         self.check(image, some_voxels(), origin=(0, 0, 0))
         self.assertEqual(world_axes(image), "LAS")
 
-    @unittest.skipUnless(os.path.exists(CRANIUM), "invesalius-examples is not installed")
+    @unittest.skipUnless(os.path.exists(SKULL), "invesalius-examples is not installed")
     def test_skull_of_invesalius(self):
-        image = read_volume(CRANIUM)
+        image = read_volume(SKULL)
         self.assertEqual(image.GetDimensions(), (256, 256, 108))
         np.testing.assert_allclose(image.GetSpacing(), (0.95703, 0.95703, 1.5), atol=1e-5)
         self.assertEqual(voxels_of(image).dtype, np.int16)

@@ -1,0 +1,367 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Sourced by debian.sh: which of Debian's packages are needed, how they are installed, and what is
+# put beside them under build/.
+#
+# Two facts make this long. In some releases python3-paraview and python3-vtk9 exclude each other:
+# whichever of them can't be installed without removing the other is unpacked into a folder under
+# build/ (prepare_paraview, prepare_vtk). And names of packages tell versions: what can be derived
+# from another package's dependencies, is, so that a new release needs no change here.
+
+tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
+# Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
+test_packages=(dpkg-dev file libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri
+  libxtst6)
+# The CT of a skull, from which the examples start.
+skull_package=invesalius-examples
+
+# What find_package(ParaView) looks for without paraview-dev depending on it, and what a plugin for
+# its window is made with.
+paraview_needs=(python3-mpi4py libxml2-dev libutfcpp-dev libhdf5-mpi-dev libogg-dev libtheora-dev
+  libavformat-dev libavcodec-dev libavutil-dev libswscale-dev libgl2ps-dev libpng-dev libnetcdf-dev
+  libgdal-dev libglew-dev libdouble-conversion-dev libfreetype-dev)
+qt5_packages=(qtbase5-dev libqt5svg5-dev qttools5-dev libqt5xmlpatterns5-dev
+  qtxmlpatterns5-dev-tools libqt5opengl5-dev libqt5x11extras5-dev qtdeclarative5-dev)
+qt6_packages=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev qt6-svg-plugins xsltproc)
+
+# ---- Packages ----------------------------------------------------------------------------------
+
+# check_system: a word where nobody has tried, and package lists where there are none yet.
+check_system()
+{
+  local system="another system"
+  if [ -r /etc/os-release ]; then
+    system=$(. /etc/os-release && echo "${PRETTY_NAME:-$ID}")
+    case $(. /etc/os-release && echo "$ID ${VERSION_CODENAME:-}") in
+      "debian bookworm" | "debian trixie" | "debian forky") ;;
+      *) say "Note: tried on Debian 12, 13 and forky; this is $system, whose packages may differ." ;;
+    esac
+  fi
+  if command -v apt-get > /dev/null && [ -z "$(package_version libvtk9-dev)" ]; then
+    if ! is_root_or_sudo; then
+      fail "There are no package lists yet. Please run
+  sudo apt-get update
+and start this script again."
+    fi
+    "${privileged[@]}" apt-get update -q > "$logs/package-lists.log" 2>&1 < /dev/null \
+      || fail "apt-get update failed. Its log: $logs/package-lists.log"
+    [ -n "$(package_version libvtk9-dev)" ] || fail "No package libvtk9-dev in $system's lists."
+  fi
+}
+
+is_installed()
+{
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
+}
+
+missing_packages()
+{
+  local package
+  for package in "$@"; do
+    is_installed "$package" || echo "$package"
+  done
+}
+
+# The version of a package that is installed, or of the one that could be; empty: there is none.
+package_version()
+{
+  if is_installed "$1"; then
+    dpkg-query -W -f='${Version}' "$1"
+  else
+    LC_ALL=C apt-cache policy "$1" | sed -n 's/^  Candidate: //p' | grep -vxF '(none)' || true
+  fi
+}
+
+# What apt-get is called through; empty when root.
+privileged=()
+
+is_root_or_sudo()
+{
+  [ "$(id -u)" -eq 0 ] && return
+  command -v sudo > /dev/null && { sudo -n true 2> /dev/null || { [ -t 0 ] && sudo -v; }; } \
+    && privileged=(sudo)
+}
+
+find_privilege()
+{
+  is_root_or_sudo || fail "These packages are missing, and installing them takes root's rights. Please run
+  sudo apt-get install --no-install-recommends $*
+and start this script again."
+}
+
+apt_install()
+{
+  local simulation removed
+  "${privileged[@]}" apt-get update -q
+  echo "To install: $*"
+  simulation=$(LC_ALL=C apt-get install -s --no-install-recommends "$@")
+  removed=$(sed -n 's/^Remv \([^ ]*\).*/\1/p' <<< "$simulation" | tr '\n' ' ')
+  if [ -n "$removed" ]; then
+    echo "Installing these packages would remove others that are installed: $removed"
+    echo "That is not done here. Decide about them yourself, then start this script again."
+    return 1
+  fi
+  "${privileged[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -q -o DPkg::Lock::Timeout=300 --no-install-recommends --no-remove "$@"
+}
+
+# install_packages PACKAGE...: one step, which installs those that are missing.
+install_packages()
+{
+  local missing
+  if ! command -v apt-get > /dev/null; then
+    run_step "Packages: no apt-get here, trusting that they are installed" packages true
+    return
+  fi
+  mapfile -t missing < <(missing_packages "$@")
+  if [ "${#missing[@]}" -eq 0 ]; then
+    run_step "Packages: all $# installed" packages true
+    return
+  fi
+  find_privilege "${missing[@]}"
+  run_step "Installing ${#missing[@]} packages and what they need" packages \
+    apt_install "${missing[@]}"
+}
+
+# dependencies PACKAGE: the names of the packages that it depends on.
+dependencies()
+{
+  LC_ALL=C apt-cache depends "$1" | sed -n 's/^ [ |]Depends: \([a-z0-9][^ ]*\)$/\1/p'
+}
+
+products_exclude_each_other()
+{
+  LC_ALL=C apt-cache depends python3-paraview 2> /dev/null \
+    | grep -x ' *Conflicts: python3-vtk9' > /dev/null
+}
+
+# vtk_is_beside: VTK can't be installed, since ParaView is. Then, and only then, VTK is unpacked;
+# where the two exclude each other otherwise, ParaView's Python modules are.
+vtk_is_beside()
+{
+  is_installed python3-paraview && products_exclude_each_other
+}
+
+# The packages of VTK: those that can always be installed, and those that python3-paraview may
+# exclude. libvtk9-dev's CMake files want all of VTK's libraries and headers.
+vtk_free_packages()
+{
+  local library
+  library=$(dependencies libvtk9-dev | grep -x 'libvtk9\.[0-9.]*')
+  echo "$library $library-qt libvtk9-java vtk9"
+}
+
+vtk_bound_packages() { echo "libvtk9-dev libvtk9-qt-dev python3-vtk9"; }
+
+paraview_product_packages() { echo "paraview paraview-dev python3-paraview"; }
+
+# vtk_packages and paraview_packages: the packages of a flavour that can be installed here.
+vtk_packages()
+{
+  local bound
+  read -ra bound <<< "$(vtk_bound_packages)"
+  if vtk_is_beside; then
+    # These are unpacked, so what they depend on has to be named.
+    local package
+    for package in "${bound[@]}"; do
+      dependencies "$package" | grep -vxFf <(printf '%s\n' "${bound[@]}")
+    done
+  else
+    printf '%s\n' "${bound[@]}"
+  fi
+  vtk_free_packages | tr ' ' '\n'
+}
+
+paraview_packages()
+{
+  paraview_product_packages | tr ' ' '\n' \
+    | if products_exclude_each_other; then grep -vx python3-paraview; else cat; fi
+  printf '%s\n' "${paraview_needs[@]}"
+  if dependencies paraview | grep '^libqt6core' > /dev/null; then
+    printf '%s\n' "${qt6_packages[@]}"
+  else
+    printf '%s\n' "${qt5_packages[@]}"
+  fi
+}
+
+# ---- Packages beside the system's --------------------------------------------------------------
+
+multiarch() { gcc -print-multiarch; }
+
+download_package()
+{
+  local package=$1 version=$2
+  LC_ALL=C apt-get download -q "$package=$version" && return
+  echo "Trying again with fresh package lists"
+  find_privilege "$package" # only apt-get update needs it
+  "${privileged[@]}" apt-get update -q
+  LC_ALL=C apt-get download -q "$package=$version"
+}
+
+# link_packages PREFIX PACKAGE...: make PREFIX/usr look as if all these packages were installed
+# there: the installed ones are linked, the others downloaded and unpacked. CMake's package files
+# are copied, since CMake resolves links to find its prefix. Nothing is done if the prefix holds
+# these versions already.
+link_packages()
+{
+  local prefix=$1 package stamp linked=()
+  shift
+  stamp=$(for package in "$@"; do
+    echo "$package $(package_version "$package") $(is_installed "$package" && echo linked)"
+  done)
+  if [ -f "$prefix/packages" ] && [ "$stamp" = "$(cat "$prefix/packages")" ]; then
+    echo "$prefix is up to date"
+    return
+  fi
+  rm -rf "$prefix"
+  mkdir -p "$prefix/download" "$prefix/bin"
+  cd "$prefix/download"
+  for package in "$@"; do
+    if is_installed "$package"; then
+      linked+=("$package")
+    else
+      download_package "$package" "$(package_version "$package")"
+    fi
+  done
+  for package in *.deb; do
+    [ ! -e "$package" ] || dpkg-deb -x "$package" "$prefix"
+  done
+  cd "$prefix"
+  rm -rf download
+  if [ "${#linked[@]}" -gt 0 ]; then
+    dpkg -L "${linked[@]}" | grep -E '^/usr/(bin|include|lib)/' | sort -u | while read -r path; do
+      if [ -d "$path" ]; then
+        continue
+      elif [[ $path == */cmake/* ]]; then
+        echo "$path" >> copies
+      else
+        echo "$path" >> links
+      fi
+    done
+  fi
+  touch copies links
+  xargs -r -d '\n' -a copies cp -n --parents -t "$prefix"
+  xargs -r -d '\n' -a links cp -s -n --parents -t "$prefix"
+  rm copies links
+  name_python_modules_plainly "$prefix"
+  echo "$stamp" > "$prefix/packages"
+}
+
+# The CMake files of VTK and ParaView look for NAME.so, where newer packages have
+# NAME.cpython-*.so: links with the former names.
+name_python_modules_plainly()
+{
+  local module
+  find "$1/usr/lib/python3" -name '*.cpython-*.so' 2> /dev/null | while read -r module; do
+    [ -e "${module%%.cpython-*}.so" ] || ln -s "${module##*/}" "${module%%.cpython-*}.so"
+  done
+}
+
+# write_launcher PREFIX NAME TARGET before|after: PREFIX/bin/NAME starts TARGET with the prefix's
+# Python packages before or after those that PYTHONPATH names.
+write_launcher()
+{
+  local prefix=$1 name=$2 target=$3 place=$4 packages=$1/usr/lib/python3/dist-packages
+  local value="$packages\${PYTHONPATH:+:\$PYTHONPATH}"
+  if [ "$place" = after ]; then
+    value="\${PYTHONPATH:+\$PYTHONPATH:}$packages"
+  fi
+  printf '#!/bin/sh\nPYTHONPATH="%s" exec "%s" "$@"\n' "$value" "$target" > "$prefix/bin/$name"
+  chmod +x "$prefix/bin/$name"
+}
+
+# The folder whose usr/ holds ParaView, complete, to find and to run (bin/paraview, pvbatch, pvpython,
+# pvserver).
+paraview_prefix() { echo "$build/paraview-prefix"; }
+
+# The same for VTK; empty where the system's own serves.
+vtk_prefix()
+{
+  if vtk_is_beside; then
+    echo "$build/vtk-prefix"
+  fi
+}
+
+prepare_paraview()
+{
+  local prefix program packages
+  prefix=$(paraview_prefix)
+  read -ra packages <<< "$(paraview_product_packages)"
+  link_packages "$prefix" "${packages[@]}"
+  for program in paraview pvbatch pvpython pvserver; do
+    write_launcher "$prefix" "$program" "$prefix/usr/bin/$program" before
+  done
+}
+
+prepare_vtk()
+{
+  local prefix packages
+  prefix=$(vtk_prefix)
+  [ -n "$prefix" ] || return 0
+  read -ra packages <<< "$(vtk_free_packages) $(vtk_bound_packages)"
+  link_packages "$prefix" "${packages[@]}"
+  write_launcher "$prefix" python3 "$python" after
+}
+
+# The interpreter that imports VTK's modules, whichever way VTK is there.
+vtk_python()
+{
+  local prefix
+  prefix=$(vtk_prefix)
+  echo "${prefix:+$prefix/bin/python3}" | grep . || echo "$python"
+}
+
+# ---- The skull ---------------------------------------------------------------------------------
+
+# A release may be without the skull's package (as forky is), which holds data only: there, the one
+# of the stable release is unpacked under build/.
+skull_is_beside()
+{
+  command -v apt-get > /dev/null && [ -z "$(package_version "$skull_package")" ]
+}
+
+# How many steps prepare_skull takes.
+skull_steps() { if skull_is_beside; then echo 1; else echo 0; fi; }
+
+# The skull's packages that can be installed.
+skull_packages() { skull_is_beside || echo "$skull_package"; }
+
+skull_prefix() { if skull_is_beside; then echo "$build/skull"; fi; }
+
+# The file of the skull.
+cranium() { echo "$(skull_prefix)/usr/share/doc/invesalius-examples/examples/Cranium.inv3"; }
+
+unpack_skull_of_stable()
+{
+  local prefix mirror options
+  prefix=$(skull_prefix)
+  rm -rf "$prefix"
+  mkdir -p "$prefix/lists/partial"
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' \
+    | sed -n 1p)
+  echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]" \
+    "${mirror:-http://deb.debian.org/debian} stable main" > "$prefix/sources.list"
+  # Lists of its own, so that the system's stay as they are and root's rights are not needed.
+  options=(-q -o Dir::Etc::sourcelist="$prefix/sources.list" -o Dir::Etc::sourceparts=-
+    -o Dir::State::lists="$prefix/lists" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache=
+    -o APT::Sandbox::User=)
+  cd "$prefix"
+  apt-get "${options[@]}" update
+  apt-get "${options[@]}" download "$skull_package"
+  dpkg-deb -x "$skull_package"_*.deb "$prefix"
+  rm -r "$skull_package"_*.deb lists sources.list
+}
+
+# prepare_skull: nothing, or a step that puts the skull where cranium says.
+prepare_skull()
+{
+  if skull_is_beside; then
+    if [ -e "$(cranium)" ]; then
+      run_step "The skull's package: unpacked" skull true
+    else
+      run_step "Unpacking the skull's package of Debian's stable release" skull \
+        unpack_skull_of_stable
+    fi
+  fi
+}
