@@ -37,6 +37,9 @@ inline void AskForNothing(vtkInformation* info)
   {
     const int none[6] = { 0, -1, 0, -1, 0, -1 };
     info->Set(Pipeline::UPDATE_EXTENT(), none, 6);
+    // In one piece: a part of nothing is nonsense where a source can produce sub-extents.
+    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   }
 }

@@ -106,3 +106,8 @@ if [ "$failed" -ne 0 ]; then
   fail "Some tests failed; see above, or the logs."
 fi
 say "All tests passed."
+if [[ " ${flavours[*]} " == *" paraview "* ]]; then
+  say "To use the plugin yourself, load
+  $(find "$build/install-paraview" -name Volumic.so)
+in $(paraview_prefix)/bin/paraview"
+fi

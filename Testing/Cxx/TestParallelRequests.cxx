@@ -56,6 +56,12 @@ protected:
     vtkInformation* info = output->GetInformationObject(0);
     int extent[6];
     info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_GE(extent[2 * axis], 0) << "within the whole extent, or nothing";
+      EXPECT_LT(extent[2 * axis], Side);
+      EXPECT_GE(extent[2 * axis + 1], extent[2 * axis] - 1);
+    }
     const auto whole = BallImage(Side, Side, Side);
     vtkImageData* image = vtkImageData::GetData(output);
     image->SetExtent(extent);

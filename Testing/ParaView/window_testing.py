@@ -33,7 +33,7 @@ def source(name):
 
 
 def filter_of_the_menu(name, category="Volumic"):
-    return open_menu("menuFilters") + "\n" + gui.event(f"{FILTERS}/{category}", "activate", name)
+    return open_menu("menuFilters") + "\n" + gui.pause(500) + "\n" + gui.event(f"{FILTERS}/{category}", "activate", name)
 
 
 def in_the_pipeline(*places):
