@@ -26,7 +26,6 @@ INITIALIZATION = f"{PROPERTIES}/Initialization/ComboBox"
 REPRESENTATION = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comboBox"
 # Places of the screen in the picture of `two_balls`, whose centre is that of the view.
 LEFT_BALL, BETWEEN, CENTRE = (645, 463), (725, 540), (725, 463)
-APPLY_BUTTON = (48, 424)
 
 # Runs in the window: tells each run's seeds, and between which x its surface lies.
 TELL_OF_RUNS = """
@@ -141,6 +140,13 @@ class PointsWindowTest(window.WindowTestCase):
         near = pixels[y - 12:y + 13, x - 12:x + 13].astype(int)
         return bool((near - (255, 0, 255) == 0).all(axis=2).any())
 
+    @staticmethod
+    def apply_button(pixels):
+        """Its middle: there is something to apply, so that it is green, as nothing else near."""
+        red, green, blue = numpy.moveaxis(pixels[380:480, :290].astype(int), 2, 0)
+        rows, columns = numpy.nonzero((green > red + 20) & (green > blue + 20))
+        return int(numpy.median(columns)), 380 + int(numpy.median(rows))
+
     @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
     def test_picked_and_dragged_in_the_view(self):
         self.play(a_slice_of(two_balls()) + FROM_SEEDS + [SHOW_LIST, gui.pause(500)],
@@ -157,8 +163,10 @@ class PointsWindowTest(window.WindowTestCase):
         dragged = self.picture("points-dragged")
         self.assertTrue(self.is_marked(dragged, *LEFT_BALL))
         self.assertFalse(self.is_marked(dragged, *BETWEEN))
-        hand.drag(APPLY_BUTTON, APPLY_BUTTON)
+        button = self.apply_button(dragged)
+        hand.drag(button, button)
         told = self.session.wait_for(" .\n")
+        self.assertIn("Run:", told, "nothing was applied")
         x, y, z, low, high = [float(n) for n in
                               re.search(r"Run: (\S+) (\S+) (\S+) surface: (\S+) (\S+)", told).groups()]
         # On the slice that was shown, where it was dragged to; the surface grew from there.

@@ -141,16 +141,16 @@ class VolumeWindowTest(window.WindowTestCase):
             window.value_range(*range_of_the_wavelet(Maximum=511))], "volume-range-changed")
 
     def test_undo_and_redo(self):
-        undone, save_undone = self.saved_state("undone.pvsm")
-        redone, save_redone = self.saved_state("redone.pvsm")
-        self.play(VOLUME + [
-            FILTER, APPLY,
-            gui.event(ISO_VALUE, "set_string", "140"), APPLY,
-            edit("actionEditUndo"), gui.pause(1000), *save_undone,
-            edit("actionEditRedo"), gui.pause(1000), *save_redone, gui.pause(1500)],
-            "volume-redone")
+        # In two windows: for ParaView 5.13 a state that is saved between leaves nothing to redo.
+        undo = [edit("actionEditUndo"), gui.pause(1000)]
+        redo = [edit("actionEditRedo"), gui.pause(1000)]
         iso = float(iso_of_the_wavelet())
-        for path, value in ((undone, iso), (redone, 140.0)):
+        for name, events, value in (("undone", undo, iso), ("redone", undo + redo, 140.0)):
+            path, save = self.saved_state(f"{name}.pvsm")
+            self.play(VOLUME + [
+                FILTER, APPLY, gui.event(ISO_VALUE, "set_string", "140"), APPLY, *events, *save,
+                gui.pause(1500)], f"volume-{name}")
+            self.session.close_window()
             filter_ = window.open_state(path, "VolumetoSurface1")
             self.assertAlmostEqual(filter_.IsoValue, value, places=9)
             self.assertGreater(testing.fetch(filter_).GetNumberOfPolys(), 0)
