@@ -62,7 +62,7 @@ say ""
 # A negative iso-value must not be taken for an option: hence the --.
 PYTHONPATH="$(dirname "$site")${PYTHONPATH:+:$PYTHONPATH}" PYTHONDONTWRITEBYTECODE=1 \
   VOLUMIC_CRANIUM=$(cranium) \
-  xvfb-run -a -s "-screen 0 1280x1024x24" \
+  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
   "$(vtk_python)" "$script_folder/Python/quickstart.py" --output "$output" -- "${inputs[@]}" \
   2> >(tee "$logs/quickstart-errors.log" >&2) \
   || fail "The example failed. Its errors are above and in $logs/quickstart-errors.log"

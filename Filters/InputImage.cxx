@@ -93,7 +93,9 @@ vtkImageData* ImageOf(vtkDataObject* input)
       return image;
     }
   }
-  if (auto* composite = vtkDataObjectTree::SafeDownCast(input))
+  // Refined grids are one dataset, though they are a tree of images from VTK 9.6 on.
+  auto* composite = vtkDataObjectTree::SafeDownCast(input);
+  if (composite && !input->IsA("vtkUniformGridAMR"))
   {
     return OnlyImageIn(composite);
   }

@@ -4,7 +4,7 @@
 writes in each mesh format is what VTK reads from there."""
 
 import gzip
-import importlib
+import importlib.util
 import os
 import sys
 import unittest
