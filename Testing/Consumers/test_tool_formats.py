@@ -12,7 +12,8 @@ import unittest
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkBYUReader, vtkOBJReader, vtkSTLReader
-from vtkmodules.vtkIOImage import vtkJPEGWriter, vtkMetaImageWriter, vtkPNGWriter, vtkTIFFWriter
+from vtkmodules.vtkIOImage import (
+    vtkBMPWriter, vtkJPEGWriter, vtkMetaImageWriter, vtkPNGWriter, vtkTIFFWriter)
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkStructuredPointsWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataReader
@@ -127,7 +128,9 @@ class VolumesTest(ToolTestCase):
             with self.subTest(pattern):
                 self.check(self.path(pattern), *options, **place)
         self.write_pictures(vtkJPEGWriter(), "jpg", ball("u1", scale=0.2))
+        self.write_pictures(vtkBMPWriter(), "bmp", ball("u1", scale=0.2))
         self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
+        self.check(self.path("*.bmp"), "--component", "0", *options, origin=np.zeros(3), iso=ISO / 5)
 
     def test_a_picture_with_pages(self):
         # VTK writes the slices of a volume from the last to the first page.

@@ -17,9 +17,10 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
 import x_input
-from window_testing import APPLY, FILTERS, PROPERTIES, SHOW_ADVANCED, eye_of, filter_of_the_menu
+from window_testing import (
+    APPLY, FILTERS, PROPERTIES, SHOW_ADVANCED, eye_of, filter_of_the_menu, open_menu_of_volumic)
 
-KEY_UP, KEY_RIGHT, KEY_DOWN = (f"6,{key},0,,0,1" for key in (16777235, 16777236, 16777237))
+KEY_DOWN = "6,16777237,0,,0,1"
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 MACRO = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                      "../../Examples/ParaView/compare_levels.py"))
@@ -69,10 +70,7 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
 """
     pictures = {
         # Two: the menu of a volume that has been opened.
-        "paraview-menu.png": ("", start + [
-            gui.event(f"{gui.WINDOW}/menubar", "activate", "menuFilters"), gui.pause(1000),
-            gui.event(FILTERS, "keyEvent", KEY_UP), gui.pause(500),
-            gui.event(FILTERS, "keyEvent", KEY_RIGHT), gui.pause(500),
+        "paraview-menu.png": ("", start + open_menu_of_volumic() + [gui.pause(500),
             *[gui.event(f"{FILTERS}/Volumic", "keyEvent", KEY_DOWN)] * 2, gui.pause(1500)]),
         # Four: the surface.
         "paraview-volume-to-surface.png": ("", start + [

@@ -12,6 +12,7 @@ import xml.etree.ElementTree as ElementTree
 
 import gui_session as gui
 import plugin_testing as testing
+from paraview import servermanager
 from paraview import simple
 
 FILTERS = f"{gui.WINDOW}/menubar/menuFilters"
@@ -24,6 +25,17 @@ SHOW_ADVANCED = gui.event(f"{gui.PANEL}/SearchBox/AdvancedButton", "set_boolean"
 def open_menu(name):
     """Newer ParaViews fill a menu when it is opened."""
     return gui.event(f"{gui.WINDOW}/menubar", "activate", name)
+
+
+def open_menu_of_volumic():
+    """Events that open Filters > Volumic by keys, for a picture: it is the last of the categories,
+    from ParaView 5.12 on the last but one."""
+    key_up, key_right = "6,16777235,0,,0,1", "6,16777236,0,,0,1"
+    manager = servermanager.vtkSMProxyManager
+    version = manager.GetVersionMajor(), manager.GetVersionMinor()
+    return [open_menu("menuFilters"), gui.pause(1000),
+            *[gui.event(FILTERS, "keyEvent", key_up)] * (1 if version < (5, 12) else 2),
+            gui.pause(500), gui.event(FILTERS, "keyEvent", key_right)]
 
 
 def source(name):

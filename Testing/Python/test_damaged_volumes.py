@@ -97,7 +97,7 @@ class FilesTest(DamagedTest):
         header = medical_files.meta_header(VOXELS, SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
         text = " ".join(map(str, VOXELS.ravel())).encode()
         self.cut("a.mha", header.replace(b"BinaryData = True", b"BinaryData = False") + text,
-                 "values, its header asks for 1620")
+                 "values, its header asks for 1620|cannot read data from file")
 
     def test_vtk_xml(self):
         content = self.write(vtkXMLImageDataWriter(), "a.vti")

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 namespace tool
@@ -44,6 +45,13 @@ void Refill(std::istream& packed, std::vector<char>& input, z_stream& stream)
     stream.next_in = reinterpret_cast<Bytef*>(input.data());
     stream.avail_in = static_cast<uInt>(packed.gcount());
   }
+}
+
+/// Whether a member of a gzip file begins here.
+bool IsGzip(const z_stream& stream)
+{
+  return stream.avail_in > 0 && stream.next_in[0] == 0x1f &&
+    (stream.avail_in == 1 || stream.next_in[1] == 0x8b);
 }
 }
 
@@ -96,27 +104,42 @@ void Inflate(std::istream& packed, std::uint64_t count, char* bytes)
   }
 }
 
+// Not by gzread, which takes a file that was cut off for a whole one in zlib 1.3.2.
 std::string GzipHead(const std::string& name, std::size_t count)
 {
-  gzFile file = gzopen(name.c_str(), "rb");
-  if (!file)
+  std::ifstream packed(name, std::ios::binary);
+  if (!packed)
   {
     throw Failure("cannot be opened");
   }
-  std::string head;
-  std::vector<char> piece(Piece);
-  int got = 0;
-  bool isPacked = true;
-  while (isPacked && (got = gzread(file, piece.data(), static_cast<unsigned int>(Piece))) > 0)
+  std::vector<char> input(Piece);
+  std::vector<char> output(Piece);
+  Inflater inflater;
+  z_stream& stream = inflater.Stream;
+  Refill(packed, input, stream);
+  if (!IsGzip(stream))
   {
-    head.append(
-      piece.data(), std::min(static_cast<std::size_t>(got), count - std::min(count, head.size())));
-    isPacked = gzdirect(file) == 0; // else the rest need not be looked at
+    return std::string(input.data(), std::min<std::size_t>(stream.avail_in, count));
   }
-  // At the end of a file that was cut off, reading gives an error of its own, or closing does.
-  if (gzclose(file) != Z_OK || got < 0)
+  std::string head;
+  int status = Z_OK;
+  while (status != Z_STREAM_END)
   {
-    throw Failure("the packed data are damaged or cut off");
+    Refill(packed, input, stream);
+    stream.next_out = reinterpret_cast<Bytef*>(output.data());
+    stream.avail_out = static_cast<uInt>(output.size());
+    status = stream.avail_in == 0 ? Z_BUF_ERROR : inflate(&stream, Z_NO_FLUSH);
+    if (status != Z_OK && status != Z_STREAM_END)
+    {
+      throw Failure("the packed data are damaged or cut off");
+    }
+    const std::size_t got = output.size() - stream.avail_out;
+    head.append(output.data(), std::min(got, count - head.size()));
+    if (status == Z_STREAM_END)
+    {
+      Refill(packed, input, stream);
+      status = IsGzip(stream) ? inflateReset(&stream) : Z_STREAM_END; // another member, or none
+    }
   }
   return head;
 }

@@ -63,6 +63,13 @@ public:
     return true;
   }
 
+  /// Whether there is room for so many bytes.
+  bool Reserve(std::size_t count)
+  {
+    errno = posix_fallocate(this->Number, 0, static_cast<off_t>(count));
+    return errno == 0;
+  }
+
   /// Whether the disk has it. Pipes and some network folders know no such request.
   bool Flush() { return fsync(this->Number) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
@@ -217,6 +224,15 @@ void WriteBytes(const std::string& path, const char* bytes, std::size_t count)
 {
   Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file.IsOpen() || !file.Write(bytes, count) || !file.Close())
+  {
+    throw Failure("cannot be written (" + SystemReason() + ")");
+  }
+}
+
+void NeedRoom(const std::string& path, std::size_t count)
+{
+  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.IsOpen() || !file.Reserve(count) || !file.Close() || truncate(path.c_str(), 0) != 0)
   {
     throw Failure("cannot be written (" + SystemReason() + ")");
   }

@@ -17,12 +17,14 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkVersion.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 namespace tool
 {
@@ -114,9 +116,12 @@ Slice ReadSlice(const std::string& file, const DicomHeader& header)
     slice.Across[c] = Decimal(orientation[c]);
     slice.Down[c] = Decimal(orientation[3 + c]);
   }
-  // The file has the distance of the rows first, and so has VTK's reader.
   const double* spacing = reader->GetPixelSpacing();
-  slice.Spacing = { Decimal(spacing[1]), Decimal(spacing[0]), Decimal(spacing[2]) };
+  slice.Spacing = { Decimal(spacing[0]), Decimal(spacing[1]), Decimal(spacing[2]) };
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 6, 0)
+  // The file has the distance of the rows first, and so had VTK's reader.
+  std::swap(slice.Spacing[0], slice.Spacing[1]);
+#endif
   slice.Series = header.Series;
   slice.Study = reader->GetStudyUID() ? reader->GetStudyUID() : "";
   slice.Image = reader->GetOutput();

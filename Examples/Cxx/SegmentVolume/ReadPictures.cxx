@@ -6,6 +6,7 @@
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
+#include <vtkImageAppend.h>
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkImageReader2Factory.h>
@@ -100,16 +101,37 @@ std::regex ExpressionOf(const std::string& pattern)
   return std::regex(expression);
 }
 
+vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
+{
+  auto reader = vtkSmartPointer<vtkImageReader2>::Take(
+    vtkImageReader2Factory::CreateImageReader2(file.c_str()));
+  reader->SetFileName(file.c_str());
+  reader->SetDataSpacing(1.0, 1.0, 1.0);
+  VtkMessages messages;
+  messages.UpdateReader(reader, file);
+  return reader->GetOutput();
+}
+
+/// For .bmp, of whose files the reader of VTK 9.6 and 9.7 gives the first one again and again.
+vtkSmartPointer<vtkImageData> ReadOneByOne(const std::vector<std::string>& files)
+{
+  vtkNew<vtkImageAppend> stack;
+  stack->SetAppendAxis(2);
+  for (const std::string& file : files)
+  {
+    stack->AddInputData(ReadPicture(file));
+  }
+  VtkMessages messages;
+  messages.UpdateReader(stack, files.front());
+  return stack->GetOutput();
+}
+
 /// The reader of many files does not tell in which one it failed. @throws Failure that does.
 void FindDamaged(const std::vector<std::string>& files)
 {
   for (const std::string& file : files)
   {
-    auto reader = vtkSmartPointer<vtkImageReader2>::Take(
-      vtkImageReader2Factory::CreateImageReader2(file.c_str()));
-    reader->SetFileName(file.c_str());
-    VtkMessages messages;
-    messages.UpdateReader(reader, file);
+    ReadPicture(file);
   }
 }
 }
@@ -198,6 +220,10 @@ vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files
   }
   auto reader = vtkSmartPointer<vtkImageReader2>::Take(
     vtkImageReader2Factory::CreateImageReader2(files.front().c_str()));
+  if (reader->IsA("vtkBMPReader"))
+  {
+    return ReadOneByOne(files);
+  }
   reader->SetFileNames(names);
   reader->SetDataSpacing(1.0, 1.0, 1.0);
   VtkMessages messages;

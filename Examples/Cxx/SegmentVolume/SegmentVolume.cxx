@@ -38,6 +38,7 @@
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -428,6 +429,16 @@ ExitCode Run(int argc, char* argv[])
   catch (const std::bad_alloc&)
   {
     throw Failure(options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
+  }
+  catch (const std::system_error& error)
+  {
+    if (error.code() != std::errc::resource_unavailable_try_again)
+    {
+      throw;
+    }
+    // One that VTK's own threads (TBB) tell of.
+    throw Failure(options.Volume + ": not enough memory to segment it: no thread can be started; "
+      "crop it, or resample it to fewer voxels");
   }
 }
 }

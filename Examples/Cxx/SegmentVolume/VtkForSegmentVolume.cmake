@@ -7,6 +7,6 @@
 # With ParaView, all of its own VTK was found already.
 if (NOT ParaView_FOUND)
   find_package(VTK REQUIRED
-    COMPONENTS FiltersCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML zlib
+    COMPONENTS FiltersCore ImagingCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML zlib
     OPTIONAL_COMPONENTS IOHDF IOMINC)
 endif ()

@@ -133,8 +133,24 @@ void WritePly(vtkPolyData* surface, const std::string& name, const std::string& 
   Run(writer.Get());
 }
 
+/// What a text of the surface takes at most: numbers of six digits, and each point with a colour.
+std::size_t LargestText(vtkPolyData* surface)
+{
+  return 1024 +
+    static_cast<std::size_t>(100 * surface->GetNumberOfPoints() + 64 * surface->GetNumberOfPolys());
+}
+
+/// On a full disk the writer of VTK 9.6 destroys memory instead of telling.
+void WriteInventor(vtkPolyData* surface, const std::string& name, const std::string& remark)
+{
+  NeedRoom(name, LargestText(surface));
+  WriteWith<vtkIVWriter>(surface, name, remark);
+}
+
+/// As WriteInventor.
 void WriteByu(vtkPolyData* surface, const std::string& name, const std::string&)
 {
+  NeedRoom(name, LargestText(surface));
   vtkNew<vtkBYUWriter> writer;
   writer->SetInputData(surface);
   writer->SetGeometryFileName(name.c_str());
@@ -223,7 +239,7 @@ const Format* FindFormat(const std::string& name)
     { ".stl", { WriteStl, CheckTriangles<84, 50> } },
     { ".ply", { WritePly, CheckWrittenPly } },
     { ".obj", { WriteWith<vtkOBJWriter>, CheckObj } },
-    { ".iv", { WriteWith<vtkIVWriter>, CheckPairs<14> } },
+    { ".iv", { WriteInventor, CheckPairs<14> } },
     { ".g", { WriteByu, CheckPairs<2> } },
     { ".geo", { WriteWith<vtkHoudiniPolyDataWriter>, CheckText<7> } },
     { ".facet", { WriteFacet, CheckText<8> } },
