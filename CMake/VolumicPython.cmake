@@ -57,14 +57,15 @@ install(FILES "${volumic_python_build_directory}/volumic/__init__.py"
   DESTINATION "${VOLUMIC_PYTHON_DESTINATION}/volumic"
   COMPONENT python)
 
-# The stubs are written by the built package itself, which must find VTK's Python package for that.
+# The stubs are written by the built package itself, which must find VTK's Python package for that:
+# without the module `site` (-S), by which pip hides the system's packages while it builds.
 set(volumic_stubs_path "${volumic_python_build_directory}" "${VTK_PREFIX_PATH}/${VTK_PYTHONPATH}")
 if (DEFINED ENV{PYTHONPATH})
   list(APPEND volumic_stubs_path "$ENV{PYTHONPATH}")
 endif ()
 list(JOIN volumic_stubs_path ":" volumic_stubs_path)
 set(volumic_stubs_command "${CMAKE_COMMAND}" -E env "PYTHONPATH=${volumic_stubs_path}"
-  "PYTHONDONTWRITEBYTECODE=1" "${Python3_EXECUTABLE}")
+  "PYTHONDONTWRITEBYTECODE=1" "${Python3_EXECUTABLE}" -S)
 
 # Whether this machine can run what it builds.
 set(volumic_stubs_obstacle "")

@@ -92,8 +92,6 @@ class Types:
             if number >= without:
                 entry += " = ..."
             written.append(entry)
-        if len(written) > written.count("self"):
-            written.append("/")  # the wrapper takes no keywords
         result = self.of(function.returns, True) if function.returns else "None"
         return f"({', '.join(written)}) -> {result}"
 
