@@ -111,18 +111,21 @@ class StubsTest(unittest.TestCase):
         for name, value in CLASSES.items():
             an_object = value()
             members = self.members(name)
+            # VTK's own, such as SetReferenceCount(), had better be left alone.
+            ours = {member for base in value.__mro__ if base.__name__ in CLASSES
+                    for member in vars(base)}
             taken = 0
             for member, parts in members.items():
                 getter = "Get" + member[3:]
-                if not member.startswith("Set") or getter not in members or len(parts) > 1:
+                if member not in ours or not member.startswith("Set") or getter not in members:
                     continue
                 types = [ast.unparse(a.annotation) for a in parts[0].args.args if a.annotation]
-                if types in (["int"], ["float"], ["bool"]) and member != "SetReferenceCount":
+                if types in (["int"], ["float"], ["bool"]):
                     current = getattr(an_object, getter)()
                     self.assertEqual(type(current).__name__, types[0], f"{name}.{member}")
                     getattr(an_object, member)(current)
                     taken += 1
-            self.assertGreater(taken, 3, name)
+            self.assertGreater(taken, 0, name)
 
     def test_texts_come_along(self):
         for name, value in CLASSES.items():
