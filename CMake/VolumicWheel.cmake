@@ -17,17 +17,17 @@ if (NOT Python3_FOUND OR NOT EXISTS "${Python3_INCLUDE_DIR}/Python.h")
   string(APPEND missing "\n  the header files of ${Python3_EXECUTABLE} (Debian: libpython3-dev)")
 endif ()
 if (NOT VTK_FOUND)
-  string(APPEND missing "\n  VTK 9.1 or later, with its header files, CMake files and Python package "
-    "(Debian: libvtk9-dev python3-vtk9)")
+  string(APPEND missing "\n  VTK 9.1 or later, with its header files, CMake files and Python "
+    "package (Debian: libvtk9-dev python3-vtk9)")
 endif ()
 if (missing)
   message(FATAL_ERROR "volumic is compiled for the VTK of this machine, and here is missing:"
-    "${missing}\nWhere VTK is elsewhere: pip install . -C cmake.define.VTK_DIR=<lib/cmake/vtk-...>\n"
+    "${missing}\nWhere VTK is elsewhere: -C cmake.define.VTK_DIR=<lib/cmake/vtk-...> tells pip.\n"
     "${VTK_NOT_FOUND_MESSAGE}")
 endif ()
 
-# From the program to the library, wherever pip puts the two: in an environment or a home; on Debian,
-# for all users; with --target.
+# From the program to the library, wherever pip puts the two: in an environment or a home; on
+# Debian, for all users; with --target.
 set(volumic_python_folder "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}")
 set(volumic_tool_rpath
   "$ORIGIN/../${volumic_python_folder}/site-packages/volumic"

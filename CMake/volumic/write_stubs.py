@@ -110,9 +110,13 @@ def signatures_and_text(name, doc):
 
 def group_text(owner, name):
     """The text of a property's Set..., which stands for Get..., ...On and others that have none."""
-    match = re.fullmatch(r"(?:Get|Set)(\w+?)(?:MinValue|MaxValue|To\w+)?|(\w+?)(?:On|Off)", name)
-    setter = match and vars(owner).get("Set" + (match[1] or match[2]))
-    return signatures_and_text(setter.__name__, setter.__doc__)[1] if setter else ""
+    stem = re.sub(r"^(Get|Set)|(On|Off)$", "", name)
+    for group in (stem, re.sub(r"(MinValue|MaxValue|To[A-Z]\w*)$", "", stem)):
+        setter = vars(owner).get(f"Set{group}")
+        text = signatures_and_text(setter.__name__, setter.__doc__)[1] if setter else ""
+        if text:
+            return text
+    return ""
 
 
 def indented(text):
@@ -130,7 +134,7 @@ def quoted(text):
 def function(signature, text="", decorators=()):
     lines = [f"@{decorator}" for decorator in decorators]
     body = quoted(text)
-    lines.append(f"def {signature}: ..." if body == "..." else f"def {signature}:\n{indented(body)}")
+    lines.append(f"def {signature}:" + (" ..." if body == "..." else f"\n{indented(body)}"))
     return "\n".join(lines)
 
 
@@ -142,8 +146,8 @@ def method(types, owner, name, value):
             signatures.append(signature)
     text = text or group_text(owner, name)
     if not signatures:
-        is_class_method = inspect.ismethoddescriptor(value) and "classmethod" in type(value).__name__
-        return function(name + UNKNOWN, text, ["classmethod"] if is_class_method else [])
+        kinds = ["classmethod"] if "classmethod" in type(value).__name__ else []
+        return function(name + UNKNOWN, text, kinds)
     written = []
     for signature in signatures:
         decorators = ["overload"] if len(signatures) > 1 else []
@@ -165,7 +169,8 @@ def property_of(types, owner, name, value):
     written = function(f"{name}(self) -> {result}", text, ["property"])
     if access != "read-only":
         accepted = result if result in TYPES.values() else "Any"
-        written += "\n" + function(f"{name}(self, value: {accepted}) -> None", "", [f"{name}.setter"])
+        setter = f"{name}(self, value: {accepted}) -> None"
+        written += "\n" + function(setter, decorators=[f"{name}.setter"])
     return written
 
 

@@ -85,8 +85,9 @@ class PackageTest(unittest.TestCase):
                                ("vtkCommonExecutionModel", "")):
                 with open(f"{folder}/vtkmodules/{name}.py", "w", encoding="utf-8") as file:
                     file.write(text)
+            ours = ".".join(vtkmodules.__version__.split(".")[:2])
             self.assertRegex(self.refusal(folder),
-                             rf"built for VTK {vtkmodules.__version__[:3]}, .* VTK 8\.90\.1 in {folder}")
+                             rf"built for VTK {ours}, .* VTK 8\.90\.1 in {folder}")
 
     def test_help_of_the_package_names_every_class(self):
         for name in dir(volumic):

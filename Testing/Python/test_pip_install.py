@@ -58,11 +58,12 @@ def run(*command, check=True, **options):
 
 def obstacle():
     """Why this can't be run here, or None."""
-    for module, package in (("scikit_build_core", "python3-scikit-build-core"), ("pip", "python3-pip"),
-                            ("ensurepip", "python3-venv")):
+    for module, package in (("scikit_build_core", "python3-scikit-build-core"),
+                            ("pip", "python3-pip"), ("ensurepip", "python3-venv")):
         if importlib.util.find_spec(module) is None:
             return f"no {module} (Debian: {package}, which Debian 12 may not have)"
-    found = run(sys.executable, "-c", "import vtkmodules; print(vtkmodules.__path__[0])", check=False)
+    code = "import vtkmodules; print(vtkmodules.__path__[0])"
+    found = run(sys.executable, "-c", code, check=False)
     if not os.path.realpath(found.strip()).startswith(os.path.realpath(VTK_PACKAGES)):
         return f"{sys.executable} finds another VTK by itself, or none: {found.strip()}"
     return None
@@ -77,18 +78,18 @@ class PipInstallTest(unittest.TestCase):
         run(sys.executable, "-m", "venv", "--system-site-packages", cls.folder / "env")
         cls.bin = cls.folder / "env" / "bin"
         cls.addClassCleanup(cls.uninstall)
-        print(cls.install())
+        # Kept, so that a second run of the test compiles nothing.
+        print(cls.install(os.environ["VOLUMIC_PIP_BUILD"]))
         values = (9 - sum((n - 14.5) ** 2 for n in (x, y, z)) ** 0.5
                   for z in range(30) for y in range(30) for x in range(30))
         ball = " ".join(f"{value:.4f}" for value in values)
         (cls.folder / "ball.vti").write_text(BALL.format(ball), encoding="utf-8")
 
     @classmethod
-    def install(cls, *arguments, check=True):
-        return run(cls.bin / "pip", "install", "--no-build-isolation", *arguments,
-                   "-C", f"cmake.define.VTK_DIR={os.environ['VOLUMIC_VTK_DIR']}",
-                   # Kept, so that a second run of the test compiles nothing.
-                   "-C", f"build-dir={os.environ['VOLUMIC_PIP_BUILD']}", SOURCE, check=check)
+    def install(cls, build, *arguments, check=True):
+        return run(cls.bin / "pip", "install", "--no-build-isolation", *arguments, "-C",
+                   f"build-dir={build}", "-C",
+                   f"cmake.define.VTK_DIR={os.environ['VOLUMIC_VTK_DIR']}", SOURCE, check=check)
 
     @classmethod
     def uninstall(cls):
@@ -146,17 +147,17 @@ class PipInstallTest(unittest.TestCase):
                     self.assertFalse(f"{place}/".encode() in content, f"{path} names {place}")
 
     def test_source_distribution(self):
-        name = run(sys.executable, "-c", "import sys; from scikit_build_core.build import build_sdist\n"
-                   "print(build_sdist(sys.argv[1]))", self.folder, cwd=SOURCE).split()[-1]
+        code = "import sys, scikit_build_core.build as b; print(b.build_sdist(sys.argv[1]))"
+        name = run(sys.executable, "-c", code, self.folder, cwd=SOURCE).split()[-1]
         self.assertEqual(name, f"volumic-{os.environ['VOLUMIC_VERSION']}.tar.gz")
         paths = run("tar", "-tf", self.folder / name).split()
         roots = {path.split("/")[1] for path in paths}
-        self.assertTrue({"CMakeLists.txt", "CMake", "Filters", "Examples", "LICENSE", "PKG-INFO"} < roots)
+        self.assertTrue({"CMakeLists.txt", "CMake", "Filters", "LICENSE", "PKG-INFO"} < roots)
         self.assertFalse({"build", ".git"} & roots)
 
     def test_without_vtk_it_says_what_to_install(self):
-        output = self.install("--force-reinstall", "-C", "cmake.define.CMAKE_DISABLE_FIND_PACKAGE_VTK=1",
-                              check=False)
+        output = self.install(self.folder / "build", "--force-reinstall", "-C",
+                              "cmake.define.CMAKE_DISABLE_FIND_PACKAGE_VTK=1", check=False)
         self.assertIn("Debian: libvtk9-dev python3-vtk9", output)
         self.assertNotIn("Debian: libpython3-dev", output)
 
