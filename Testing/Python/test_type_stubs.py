@@ -4,6 +4,7 @@
 
 import ast
 import inspect
+import os
 import re
 import shutil
 import subprocess
@@ -141,9 +142,11 @@ class StubsTest(unittest.TestCase):
             command = ["mypy", "--no-incremental", "--cache-dir=/dev/null", "--no-error-summary",
                        "--follow-imports=silent", "--ignore-missing-imports", *arguments]
             process = subprocess.run(command, cwd=folder, check=False, capture_output=True,
-                                     text=True, env={"PATH": "/usr/bin:/bin", "MYPYPATH": "site"})
+                                     text=True, env=environment)
             return process.stdout + process.stderr
 
+        environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        environment["MYPYPATH"] = "site"
         with tempfile.TemporaryDirectory() as folder:
             site = Path(folder, "site", "volumic")
             site.mkdir(parents=True)
