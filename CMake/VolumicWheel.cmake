@@ -22,7 +22,8 @@ if (NOT VTK_FOUND)
 endif ()
 if (missing)
   message(FATAL_ERROR "volumic is compiled for the VTK of this machine, and here is missing:"
-    "${missing}\nWhere VTK is elsewhere: -C cmake.define.VTK_DIR=<lib/cmake/vtk-...> tells pip.\n"
+    "${missing}\nWhere VTK is elsewhere, tell pip:\n"
+    "  --config-settings=cmake.define.VTK_DIR=<lib/cmake/vtk-...>\n"
     "${VTK_NOT_FOUND_MESSAGE}")
 endif ()
 

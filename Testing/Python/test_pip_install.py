@@ -87,9 +87,10 @@ class PipInstallTest(unittest.TestCase):
 
     @classmethod
     def install(cls, build, *arguments, check=True):
-        return run(cls.bin / "pip", "install", "--no-build-isolation", *arguments, "-C",
-                   f"build-dir={build}", "-C",
-                   f"cmake.define.VTK_DIR={os.environ['VOLUMIC_VTK_DIR']}", SOURCE, check=check)
+        return run(cls.bin / "pip", "install", "--no-build-isolation", *arguments,
+                   f"--config-settings=build-dir={build}",
+                   f"--config-settings=cmake.define.VTK_DIR={os.environ['VOLUMIC_VTK_DIR']}",
+                   SOURCE, check=check)
 
     @classmethod
     def uninstall(cls):
@@ -156,8 +157,9 @@ class PipInstallTest(unittest.TestCase):
         self.assertFalse({"build", ".git"} & roots)
 
     def test_without_vtk_it_says_what_to_install(self):
-        output = self.install(self.folder / "build", "--force-reinstall", "-C",
-                              "cmake.define.CMAKE_DISABLE_FIND_PACKAGE_VTK=1", check=False)
+        output = self.install(
+            self.folder / "build", "--force-reinstall",
+            "--config-settings=cmake.define.CMAKE_DISABLE_FIND_PACKAGE_VTK=1", check=False)
         self.assertIn("Debian: libvtk9-dev python3-vtk9", output)
         self.assertNotIn("Debian: libpython3-dev", output)
 
