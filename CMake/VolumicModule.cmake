@@ -27,6 +27,10 @@ function (volumic_build_module)
   # The folder of vtk.module is the project's own, and so would be its binary folder: a folder
   # below serves, within this function.
   set(library_destination "${CMAKE_INSTALL_LIBDIR}")
+  set(version VERSION "${Volumic_VERSION}" SOVERSION "${Volumic_VERSION_MAJOR}")
+  if (SKBUILD)
+    set(version "") # a wheel has no links, so the library has one name only
+  endif ()
   list(PREPEND CMAKE_INSTALL_RPATH "$ORIGIN")
   set(CMAKE_BINARY_DIR "${CMAKE_BINARY_DIR}/module")
   vtk_module_build(
@@ -34,8 +38,7 @@ function (volumic_build_module)
     PACKAGE Volumic
     INSTALL_EXPORT Volumic
     LIBRARY_NAME_SUFFIX "${volumic_flavour}"
-    VERSION "${Volumic_VERSION}"
-    SOVERSION "${Volumic_VERSION_MAJOR}"
+    ${version}
     ENABLE_WRAPPING ON
     HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/volumic"
     LIBRARY_DESTINATION "${library_destination}"

@@ -40,11 +40,11 @@ set(volumic_makes_packages OFF)
 if (CMAKE_LIBRARY_ARCHITECTURE
     AND CMAKE_INSTALL_LIBDIR STREQUAL "lib/${CMAKE_LIBRARY_ARCHITECTURE}")
   set(volumic_makes_packages ON)
-  # VTK's messages name the source file: not where it lay when the package was made.
-  if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-    add_compile_options("-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/="
-      "-fmacro-prefix-map=${CMAKE_BINARY_DIR}/=")
-  endif ()
+endif ()
+# VTK's messages name the source file: not where it lay when a package or a wheel was made.
+if ((volumic_makes_packages OR SKBUILD) AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  add_compile_options("-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/="
+    "-fmacro-prefix-map=${CMAKE_BINARY_DIR}/=")
 endif ()
 
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")

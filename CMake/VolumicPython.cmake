@@ -1,11 +1,15 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The Python package `volumic`: VTK's wrapper of the module and an __init__.py that finds it.
+# The Python package `volumic`: VTK's wrapper of the module, an __init__.py that finds it, and type
+# stubs for editors.
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 
-if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+if (SKBUILD)
+  # The root of a wheel is the folder of Python packages.
+  set(volumic_python_default ".")
+elseif (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   # pvpython looks in its own folder; ParaView's classes must not meet those of plain VTK.
   set(volumic_python_default "${CMAKE_INSTALL_LIBDIR}/paraview-${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}/python3/site-packages")
 else ()
@@ -38,8 +42,59 @@ endfunction ()
 
 volumic_wrap_python()
 
+# What helps where the package does not find the VTK that it was built for.
+if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+  set(volumic_python_hint "Use ParaView's pvpython or pvbatch.")
+else ()
+  set(volumic_python_hint "Use /usr/bin/python3, or python3 -m venv --system-site-packages.")
+  if (NOT EXISTS "/etc/debian_version")
+    set(volumic_python_hint "Use the Python of that VTK.")
+  endif ()
+endif ()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/volumic/__init__.py.in"
   "${volumic_python_build_directory}/volumic/__init__.py" @ONLY)
 install(FILES "${volumic_python_build_directory}/volumic/__init__.py"
   DESTINATION "${VOLUMIC_PYTHON_DESTINATION}/volumic"
   COMPONENT python)
+
+# The stubs are written by the built package itself, which must find VTK's Python package for that:
+# without the module `site` (-S), by which pip hides the system's packages while it builds.
+set(volumic_stubs_path "${volumic_python_build_directory}" "${VTK_PREFIX_PATH}/${VTK_PYTHONPATH}")
+if (DEFINED ENV{PYTHONPATH})
+  list(APPEND volumic_stubs_path "$ENV{PYTHONPATH}")
+endif ()
+list(JOIN volumic_stubs_path ":" volumic_stubs_path)
+set(volumic_stubs_command "${CMAKE_COMMAND}" -E env "PYTHONPATH=${volumic_stubs_path}"
+  "PYTHONDONTWRITEBYTECODE=1" "${Python3_EXECUTABLE}" -S)
+
+# Whether this machine can run what it builds.
+set(volumic_stubs_obstacle "")
+if (CMAKE_CROSSCOMPILING)
+  set(volumic_stubs_obstacle "cross-compiling")
+else ()
+  execute_process(COMMAND ${volumic_stubs_command} -c "import vtkmodules.vtkCommonExecutionModel"
+    RESULT_VARIABLE volumic_stubs_status OUTPUT_QUIET ERROR_QUIET)
+  if (NOT volumic_stubs_status EQUAL 0)
+    set(volumic_stubs_obstacle "${Python3_EXECUTABLE} does not find VTK's package vtkmodules")
+  endif ()
+endif ()
+
+if (volumic_stubs_obstacle)
+  message(STATUS "No type stubs of the Python package: ${volumic_stubs_obstacle}")
+else ()
+  set(volumic_stubs "${volumic_python_build_directory}/volumic/vtkFiltersVolumic.pyi"
+    "${volumic_python_build_directory}/volumic/__init__.pyi"
+    "${volumic_python_build_directory}/volumic/py.typed")
+  set(volumic_stubs_script "${CMAKE_CURRENT_LIST_DIR}/volumic/write_stubs.py")
+  add_custom_command(OUTPUT ${volumic_stubs}
+    COMMAND ${volumic_stubs_command} "${volumic_stubs_script}"
+      "${volumic_python_build_directory}/volumic"
+    DEPENDS "${volumic_stubs_script}" vtkFiltersVolumicPython
+      "${CMAKE_CURRENT_LIST_DIR}/volumic/__init__.py.in"
+    COMMENT "Writing the type stubs of the Python package"
+    VERBATIM)
+  add_custom_target(VolumicPythonStubs ALL DEPENDS ${volumic_stubs})
+  install(FILES ${volumic_stubs}
+    DESTINATION "${VOLUMIC_PYTHON_DESTINATION}/volumic"
+    COMPONENT python)
+endif ()

@@ -6,10 +6,15 @@
 
 add_subdirectory(Examples/Cxx/SegmentVolume)
 set_target_properties(SegmentVolume PROPERTIES OUTPUT_NAME volumic)
-file(RELATIVE_PATH volumic_tool_to_library
-  "/prefix/${CMAKE_INSTALL_BINDIR}" "/prefix/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(SegmentVolume PROPERTIES INSTALL_RPATH "$ORIGIN/${volumic_tool_to_library}")
+if (NOT SKBUILD) # else as VolumicWheel.cmake says
+  file(RELATIVE_PATH volumic_tool_to_library
+    "/prefix/${CMAKE_INSTALL_BINDIR}" "/prefix/${CMAKE_INSTALL_LIBDIR}")
+  set(volumic_tool_rpath "$ORIGIN/${volumic_tool_to_library}")
+  set(volumic_tool_destination "${CMAKE_INSTALL_BINDIR}")
+  set(volumic_manual_destination "${CMAKE_INSTALL_MANDIR}/man1")
+endif ()
+set_target_properties(SegmentVolume PROPERTIES INSTALL_RPATH "${volumic_tool_rpath}")
 install(TARGETS SegmentVolume
-  RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
+  RUNTIME DESTINATION "${volumic_tool_destination}" COMPONENT runtime)
 install(FILES Examples/Cxx/SegmentVolume/volumic.1
-  DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
+  DESTINATION "${volumic_manual_destination}" COMPONENT runtime)

@@ -17,6 +17,9 @@ LINTIAN_EXCEPTIONS = {"initial-upload-closes-no-bugs", "package-name-doesnt-matc
                       "copyright-without-copyright-notice", "maintscript-calls-ldconfig",
                       "bogus-mail-host"}
 
+# What editors go by, as patterns.
+STUBS = (r"__init__\.pyi", r"vtkFiltersVolumic\.pyi", r"py\.typed")
+
 
 class ContentsTest(unittest.TestCase):
     @classmethod
@@ -49,13 +52,15 @@ class ContentsTest(unittest.TestCase):
                    lib + r"/libvtkFiltersVolumic\.so", lib + "/cmake/Volumic/VolumicConfig.cmake",
                    lib + "/cmake/Volumic/Volumic-targets.cmake")
         self.holds("python3-volumic", "/usr/lib/python3/dist-packages/volumic/__init__.py",
-                   r"/usr/lib/python3/dist-packages/volumic/vtkFiltersVolumic\..*\.so")
+                   r"/usr/lib/python3/dist-packages/volumic/vtkFiltersVolumic\..*\.so",
+                   *(f"/usr/lib/python3/dist-packages/volumic/{name}" for name in STUBS))
 
     @unittest.skipUnless(FLAVOUR == "paraview", "packages of the build with ParaView")
     def test_files_for_paraview(self):
         lib = re.escape(self.library)
         self.holds("paraview-volumic", lib + r"/paraview-[0-9.]+/plugins/Volumic/Volumic\.so",
-                   lib + r"/libvtkFiltersVolumic-pv[0-9.]+\.so\.[0-9.]+")
+                   lib + r"/libvtkFiltersVolumic-pv[0-9.]+\.so\.[0-9.]+",
+                   *(f".*/python3/site-packages/volumic/{name}" for name in STUBS))
         for path in self.packages["paraview-volumic"].paths():
             # What the packages of the other flavour have.
             self.assertNotRegex(path, r"^/usr/bin|/include/|/dist-packages/|/cmake/|Volumic\.so\.")

@@ -26,7 +26,8 @@ from read_volume import read_volume
 
 ROOT = os.path.normpath(os.path.join(EXAMPLES, "..", ".."))
 DOCUMENTS = ("README.md", *(f"Documentation/{name}.md"
-                            for name in ("tutorial", "differences", "reference", "paraview")))
+                            for name in ("tutorial", "differences", "reference", "paraview",
+                                         "python")))
 
 
 def read(document):

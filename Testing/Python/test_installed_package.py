@@ -7,10 +7,12 @@ import pydoc
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import numpy as np
 import volumic
+import vtkmodules
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
@@ -63,6 +65,29 @@ class PackageTest(unittest.TestCase):
         code = "from volumic import vtkImagePyramid; print(vtkImagePyramid().GetClassName())"
         printed = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
         self.assertEqual(printed.stdout.decode().strip(), "vtkImagePyramid")
+
+    def refusal(self, *path):
+        """How the import ends where Python finds nothing but these folders."""
+        code = "import sys; sys.path[:0] = sys.argv[1:]; import volumic"
+        package = os.path.dirname(os.path.dirname(volumic.__file__))
+        process = subprocess.run([sys.executable, "-I", "-S", "-c", code, *path, package],
+                                 check=False, capture_output=True, text=True)
+        self.assertEqual(process.returncode, 1, process.stderr)
+        return process.stderr.splitlines()[-1]
+
+    def test_without_vtk_the_import_says_so(self):
+        self.assertIn("ImportError: volumic needs vtkmodules", self.refusal())
+
+    def test_another_vtk_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(os.path.join(folder, "vtkmodules"))
+            for name, text in (("__init__", "__version__ = '8.90.1'"),
+                               ("vtkCommonExecutionModel", "")):
+                with open(f"{folder}/vtkmodules/{name}.py", "w", encoding="utf-8") as file:
+                    file.write(text)
+            ours = ".".join(vtkmodules.__version__.split(".")[:2])
+            self.assertRegex(self.refusal(folder),
+                             rf"built for VTK {ours}, .* VTK 8\.90\.1 in {folder}")
 
     def test_help_of_the_package_names_every_class(self):
         for name in dir(volumic):

@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`pip install` into an environment of its own: what comes of it works, and can be removed.
+
+Skipped, with the reason, where something that it takes is missing. Needs no network.
+"""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SKIPPED = 77  # exit code
+SOURCE = Path(os.environ["VOLUMIC_SOURCE"])
+VTK_PACKAGES = os.environ["VOLUMIC_VTK_PACKAGES"]  # the folder of vtkmodules
+INSTALLED = Path(os.environ["VOLUMIC_TEST_INSTALL_PREFIX"])
+# Nothing of the build may be in the way of what pip installs.
+ENVIRONMENT = {name: value for name, value in os.environ.items()
+               if name not in ("PYTHONPATH", "LD_LIBRARY_PATH", "PYTHONDONTWRITEBYTECODE")}
+ENVIRONMENT.update(CXX=os.environ["VOLUMIC_COMPILER"], PIP_NO_INDEX="1",
+                   PIP_DISABLE_PIP_VERSION_CHECK="1")
+
+BALL = """<VTKFile type="ImageData" version="1.0"><ImageData WholeExtent="0 29 0 29 0 29"
+Origin="0 0 0" Spacing="1 1 1"><Piece Extent="0 29 0 29 0 29"><PointData Scalars="v">
+<DataArray type="Float32" Name="v" format="ascii">{}</DataArray></PointData></Piece></ImageData>
+</VTKFile>"""
+SCRIPT = """
+from hashlib import sha256
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+import volumic
+reader = vtkXMLImageDataReader()
+reader.SetFileName("ball.vti")
+surface = volumic.vtkVolumeToSurface()
+surface.SetInputConnection(reader.GetOutputPort())
+surface.SetIsoValue(0)
+surface.Update()
+mesh = surface.GetOutput()
+print(mesh.GetNumberOfPoints())
+for array in (mesh.GetPoints().GetData(), mesh.GetPolys().GetConnectivityArray()):
+    print(sha256(vtk_to_numpy(array).tobytes()).hexdigest())
+"""
+
+
+def run(*command, check=True, **options):
+    """Its output; an AssertionError with what it said if it fails (with check)."""
+    process = subprocess.run([str(word) for word in command], check=False, text=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                             stdin=subprocess.DEVNULL, **{"env": ENVIRONMENT, **options})
+    if check and process.returncode != 0:
+        raise AssertionError(f"{command} failed: {process.stdout}")
+    return process.stdout
+
+
+def obstacle():
+    """Why this can't be run here, or None."""
+    for module, package in (("scikit_build_core", "python3-scikit-build-core"),
+                            ("pip", "python3-pip"), ("ensurepip", "python3-venv")):
+        if importlib.util.find_spec(module) is None:
+            return f"no {module} (Debian: {package}, which Debian 12 may not have)"
+    code = "import vtkmodules; print(vtkmodules.__path__[0])"
+    found = run(sys.executable, "-c", code, check=False)
+    if not os.path.realpath(found.strip()).startswith(os.path.realpath(VTK_PACKAGES)):
+        return f"{sys.executable} finds another VTK by itself, or none: {found.strip()}"
+    return None
+
+
+class PipInstallTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        run(sys.executable, "-m", "venv", "--system-site-packages", cls.folder / "env")
+        cls.bin = cls.folder / "env" / "bin"
+        cls.addClassCleanup(cls.uninstall)
+        # Kept, so that a second run of the test compiles nothing.
+        print(cls.install(os.environ["VOLUMIC_PIP_BUILD"]))
+        values = (9 - sum((n - 14.5) ** 2 for n in (x, y, z)) ** 0.5
+                  for z in range(30) for y in range(30) for x in range(30))
+        ball = " ".join(f"{value:.4f}" for value in values)
+        (cls.folder / "ball.vti").write_text(BALL.format(ball), encoding="utf-8")
+
+    @classmethod
+    def install(cls, build, *arguments, check=True):
+        return run(cls.bin / "pip", "install", "--no-build-isolation", *arguments,
+                   f"--config-settings=build-dir={build}",
+                   f"--config-settings=cmake.define.VTK_DIR={os.environ['VOLUMIC_VTK_DIR']}",
+                   SOURCE, check=check)
+
+    @classmethod
+    def uninstall(cls):
+        """Nothing may be left."""
+        run(cls.bin / "pip", "uninstall", "-y", "volumic")
+        left = list((cls.folder / "env").rglob("*olumic*"))
+        if left:
+            raise AssertionError(f"left behind: {left}")
+
+    def files(self):
+        """What pip installed, below the environment and without the version of Python."""
+        shown = run(self.bin / "pip", "show", "-f", "volumic").partition("Files:")[2].split()
+        site = self.folder / "env" / "lib" / "python" / "site-packages"
+        return {os.path.relpath(site / path, self.folder / "env") for path in shown}
+
+    def test_files(self):
+        packages = "lib/python/site-packages"
+        files = {re.sub(r"\.cpython-[^.]*\.", ".*.", path) for path in self.files()
+                 if "__pycache__" not in path and ".dist-info/" not in path}
+        self.assertEqual(files, {"bin/volumic", "share/man/man1/volumic.1", *(
+            f"{packages}/volumic/{name}" for name in (
+                "__init__.py", "__init__.pyi", "py.typed", "libvtkFiltersVolumic.so",
+                "vtkFiltersVolumic.*.so", "vtkFiltersVolumic.pyi"))})
+
+    def test_import_and_version(self):
+        output = run(self.bin / "python", "-c", "import importlib.metadata as m, volumic\n"
+                     "print(volumic.__version__, m.version('volumic'), volumic.__file__)",
+                     cwd=self.folder)
+        version, distribution, file = output.split()
+        self.assertEqual(version, os.environ["VOLUMIC_VERSION"])
+        self.assertEqual(distribution, version)
+        self.assertTrue(file.startswith(str(self.folder)), file)
+
+    def test_the_same_surface(self):
+        ours = run(self.bin / "python", "-c", SCRIPT, cwd=self.folder)
+        other = {**ENVIRONMENT, "PYTHONPATH": os.environ["PYTHONPATH"],
+                 "LD_LIBRARY_PATH": os.environ["LD_LIBRARY_PATH"]}
+        self.assertEqual(ours, run(sys.executable, "-c", SCRIPT, cwd=self.folder, env=other))
+        self.assertGreater(int(ours.split()[0]), 100)
+
+    def test_the_program(self):
+        self.assertIn(f"volumic {os.environ['VOLUMIC_VERSION']} ",
+                      run(self.bin / "volumic", "--version"))
+        surfaces = []
+        for program in (self.bin / "volumic", INSTALLED / "bin" / "volumic"):
+            run(program, "ball.vti", "ball.stl", "--iso", "0", cwd=self.folder)
+            surfaces.append((self.folder / "ball.stl").read_bytes())
+        self.assertEqual(surfaces[0], surfaces[1])
+
+    def test_nothing_of_the_build_is_left(self):
+        for path in (self.folder / "env").rglob("*"):
+            if path.is_file() and "olumic" in str(path) and ".dist-info" not in str(path):
+                content = path.read_bytes()
+                for place in (SOURCE, os.environ["VOLUMIC_PIP_BUILD"]):
+                    self.assertFalse(f"{place}/".encode() in content, f"{path} names {place}")
+
+    def test_source_distribution(self):
+        code = "import sys, scikit_build_core.build as b; print(b.build_sdist(sys.argv[1]))"
+        name = run(sys.executable, "-c", code, self.folder, cwd=SOURCE).split()[-1]
+        self.assertEqual(name, f"volumic-{os.environ['VOLUMIC_VERSION']}.tar.gz")
+        paths = run("tar", "-tf", self.folder / name).split()
+        roots = {path.split("/")[1] for path in paths}
+        self.assertTrue({"CMakeLists.txt", "CMake", "Filters", "LICENSE", "PKG-INFO"} < roots)
+        self.assertFalse({"build", ".git"} & roots)
+
+    def test_without_vtk_it_says_what_to_install(self):
+        output = self.install(
+            self.folder / "build", "--force-reinstall",
+            "--config-settings=cmake.define.CMAKE_DISABLE_FIND_PACKAGE_VTK=1", check=False)
+        self.assertIn("Debian: libvtk9-dev python3-vtk9", output)
+        self.assertNotIn("Debian: libpython3-dev", output)
+
+
+if __name__ == "__main__":
+    reason = obstacle()
+    if reason:
+        print(f"Skipped: {reason}")
+        sys.exit(SKIPPED)
+    unittest.main()

@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The type stubs of the installed package say what its classes are: what editors go by."""
+
+import ast
+import inspect
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import volumic
+
+FOLDER = Path(volumic.__file__).parent
+CLASSES = {name: value for name, value in vars(volumic).items() if inspect.isclass(value)}
+
+# A user's script. Comments tell what mypy says of the line: a type, or a kind of error.
+SCRIPT = """
+import volumic
+from volumic import vtkDeformableSurface, vtkImagePyramid, vtkOtsuThreshold, vtkVolumeToSurface
+surface = vtkVolumeToSurface()
+surface.SetIsoValue(226.5)
+surface.SetMetric(surface.World)
+surface.AddSeedPosition(1, 2, 3)
+surface.AddObserver("ProgressEvent", lambda caller, event: None)
+surface.Update()
+reveal_type(surface.GetIsoValue())  # "float"
+reveal_type(surface.GetNumberOfLevels())  # "int"
+reveal_type(surface.GetProgressText())  # "str"
+reveal_type(surface.GetSnapToIsoValue())  # "bool"
+reveal_type(vtkOtsuThreshold().GetThreshold())  # "float"
+reveal_type(vtkImagePyramid().GetReductionFactor())  # "float"
+reveal_type(volumic.__version__)  # "str"
+start: vtkDeformableSurface = surface
+surface.SetIsoValue("high")  # [arg-type]
+surface.SetIsoValue()  # [call-arg]
+surface.GetIsoValue(0)  # [call-arg]
+volumic.vtkDeformedSurface()  # [attr-defined]
+"""
+
+
+def definitions(node):
+    """{name: [definitions]} of a module or a class of a stub."""
+    found = {}
+    for part in node.body:
+        if isinstance(part, ast.AnnAssign):
+            found.setdefault(part.target.id, []).append(part)
+        elif isinstance(part, (ast.ClassDef, ast.FunctionDef)):
+            found.setdefault(part.name, []).append(part)
+    return found
+
+
+def parsed(name):
+    return ast.parse((FOLDER / name).read_text(encoding="utf-8"))
+
+
+class StubsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.stubs = {name: part[0] for name, part in
+                     definitions(parsed("vtkFiltersVolumic.pyi")).items()}
+
+    def members(self, name):
+        """What the stub of a class says, and that of its base class if that is ours."""
+        node = self.stubs[name]
+        base = node.bases[0].id
+        return {**(self.members(base) if base in self.stubs else {}), **definitions(node)}
+
+    def test_the_package_is_marked_as_typed(self):
+        self.assertTrue((FOLDER / "py.typed").is_file())
+
+    def test_the_package_exports_the_classes(self):
+        exported = {alias.asname for node in parsed("__init__.pyi").body
+                    if isinstance(node, ast.ImportFrom) for alias in node.names}
+        self.assertEqual(exported, set(CLASSES))
+        self.assertEqual(set(self.stubs), set(CLASSES))
+
+    def test_base_classes(self):
+        for name, value in CLASSES.items():
+            self.assertEqual([base.id for base in self.stubs[name].bases],
+                             [base.__name__ for base in value.__bases__])
+
+    def test_every_name_is_there_and_no_other(self):
+        for name, value in CLASSES.items():
+            with self.subTest(name):
+                there = {member for member in dir(value) if not member.startswith("_")}
+                said = {member for member in self.members(name) if not member.startswith("_")}
+                self.assertEqual(said, there)
+
+    def test_getters_give_what_the_stubs_say(self):
+        for name, value in CLASSES.items():
+            an_object = value()
+            compared = 0
+            for member, parts in self.members(name).items():
+                for part in parts:
+                    if not isinstance(part, ast.FunctionDef) or not member.startswith("Get"):
+                        continue
+                    said = ast.unparse(part.returns)
+                    if len(part.args.args) != 1 or part.decorator_list:
+                        continue
+                    result = getattr(an_object, member)()
+                    if said in ("int", "float", "bool", "str") and result is not None:
+                        self.assertEqual(type(result).__name__, said, f"{name}.{member}")
+                        compared += 1
+            self.assertGreater(compared, 10, name)
+
+    def test_setters_take_what_the_stubs_say(self):
+        for name, value in CLASSES.items():
+            an_object = value()
+            members = self.members(name)
+            # VTK's own, such as SetReferenceCount(), had better be left alone.
+            ours = {member for base in value.__mro__ if base.__name__ in CLASSES
+                    for member in vars(base)}
+            taken = 0
+            for member, parts in members.items():
+                getter = "Get" + member[3:]
+                if member not in ours or not member.startswith("Set") or getter not in members:
+                    continue
+                types = [ast.unparse(a.annotation) for a in parts[0].args.args if a.annotation]
+                if types in (["int"], ["float"], ["bool"]):
+                    current = getattr(an_object, getter)()
+                    self.assertEqual(type(current).__name__, types[0], f"{name}.{member}")
+                    getattr(an_object, member)(current)
+                    taken += 1
+            self.assertGreater(taken, 0, name)
+
+    def test_texts_come_along(self):
+        for name, value in CLASSES.items():
+            said = " ".join(ast.get_docstring(self.stubs[name]).split())
+            self.assertEqual(said, " ".join(inspect.getdoc(value).split()))
+        members = self.members("vtkVolumeToSurface")
+        for member in ("SetMetric", "GetMetric", "SetMetricToVoxels"):
+            self.assertIn("stretched as the voxels", ast.get_docstring(members[member][0]), member)
+        self.assertIn("input port", ast.get_docstring(members["SetInputConnection"][0]))
+
+    @unittest.skipUnless(shutil.which("mypy"), "no mypy")
+    def test_mypy(self):
+        def mypy(*arguments):
+            command = ["mypy", "--no-incremental", "--cache-dir=/dev/null", "--no-error-summary",
+                       "--follow-imports=silent", "--ignore-missing-imports", *arguments]
+            process = subprocess.run(command, cwd=folder, check=False, capture_output=True,
+                                     text=True, env=environment)
+            return process.stdout + process.stderr
+
+        environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        environment["MYPYPATH"] = "site"
+        with tempfile.TemporaryDirectory() as folder:
+            site = Path(folder, "site", "volumic")
+            site.mkdir(parents=True)
+            for file in FOLDER.glob("*.pyi"):
+                shutil.copy(file, site)
+            self.assertEqual(mypy("-p", "volumic", "--follow-imports=skip"), "")
+            Path(folder, "script.py").write_text(SCRIPT, encoding="utf-8")
+            output = mypy("script.py").replace("builtins.", "")
+            found = {}
+            lines = re.findall(r"^script\.py:(\d+): (?:error|note): (.*)$", output, re.M)
+            for number, text in lines:
+                found.setdefault(int(number), []).append(text)
+            for number, line in enumerate(SCRIPT.splitlines(), 1):
+                expected = line.partition("  # ")[2]
+                said = found.get(number, [])
+                if not expected:
+                    self.assertEqual(said, [], line)
+                else:
+                    self.assertTrue(any(expected in text for text in said), f"{line}: {output}")
+
+
+if __name__ == "__main__":
+    unittest.main()
