@@ -13,6 +13,8 @@ tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
 test_packages=(dpkg-dev file libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri
   libxtst6)
+# What more tests use where the release has it; they are skipped elsewhere.
+optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy)
 # The CT of a skull, from which the examples start.
 skull_package=invesalius-examples
 
@@ -53,6 +55,15 @@ and start this script again."
 is_installed()
 {
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
+}
+
+# available PACKAGE...: those that this release has.
+available()
+{
+  local package
+  for package in "$@"; do
+    [ -z "$(package_version "$package")" ] || echo "$package"
+  done
 }
 
 missing_packages()

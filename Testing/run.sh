@@ -73,7 +73,7 @@ summarize()
 check_system
 plan_steps $((1 + $(skull_steps) + 3 * ${#flavours[@]}))
 
-mapfile -t packages < <(skull_packages)
+mapfile -t packages < <(skull_packages; available "${optional_test_packages[@]}")
 packages+=("${tool_packages[@]}" "${test_packages[@]}")
 for flavour in "${flavours[@]}"; do
   mapfile -t needed < <("${flavour}_packages")

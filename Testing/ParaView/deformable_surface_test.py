@@ -139,8 +139,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         filter_ = surface_of(simple.Wavelet())
         surface, blocks, table = (output(filter_, port) for port in (SURFACE, LEVELS, HISTORY))
         self.assertEqual(blocks.GetClassName(), "vtkMultiBlockDataSet")
-        self.assertEqual([blocks.GetMetaData(h).Get(blocks.NAME()) for h in range(2)],
-                         ["Level 0", "Level 1"])
+        self.assertEqual(testing.names(blocks), ["Level 0", "Level 1"])
         self.assertEqual(blocks.GetNumberOfBlocks(), 2)
         for h, level in enumerate(testing.levels(blocks)):
             self.check_valid(level)
@@ -277,7 +276,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         reports = []
 
         def stop_after_the_tenth(*_):
-            if "iteration" in algorithm.GetProgressText():
+            if "iteration" in (algorithm.GetProgressText() or ""):
                 reports.append(algorithm.GetProgressText())
             if len(reports) == 10:
                 algorithm.SetAbortExecute(1)

@@ -37,8 +37,7 @@ class ImagePyramidTest(unittest.TestCase):
         pyramid = pyramid_of(simple.Wavelet())
         self.assertEqual(pyramid.GetClassName(), "vtkMultiBlockDataSet")
         self.assertEqual(pyramid.GetNumberOfBlocks(), 2)
-        names = [pyramid.GetMetaData(h).Get(pyramid.NAME()) for h in range(2)]
-        self.assertEqual(names, ["Level 0", "Level 1"])
+        self.assertEqual(testing.names(pyramid), ["Level 0", "Level 1"])
         finest, coarsest = testing.levels(pyramid)
         self.assertEqual(finest.GetExtent(), (-10, 10, -10, 10, -10, 10))
         self.assertEqual(coarsest.GetDimensions(), (12, 12, 12))

@@ -82,6 +82,12 @@ def levels(pyramid):
     return [pyramid.GetBlock(h) for h in range(pyramid.GetNumberOfBlocks())]
 
 
+def names(blocks):
+    """Of a vtkMultiBlockDataSet that was fetched, to which ParaView 6.1 adds a prefix."""
+    given = [blocks.GetMetaData(b).Get(blocks.NAME()) for b in range(blocks.GetNumberOfBlocks())]
+    return [name.removeprefix("Block 0_") for name in given]
+
+
 def voxels(image, name):
     """Values of a point array as [z, y, x]."""
     return vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(image.GetDimensions()[::-1])

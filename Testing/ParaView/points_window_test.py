@@ -165,7 +165,7 @@ class PointsWindowTest(window.WindowTestCase):
         self.assertFalse(self.is_marked(dragged, *BETWEEN))
         button = self.apply_button(dragged)
         hand.drag(button, button)
-        told = self.session.wait_for(" .\n")
+        told = self.session.wait_for(" .\n", timeout=180)
         self.assertIn("Run:", told, "nothing was applied")
         x, y, z, low, high = [float(n) for n in
                               re.search(r"Run: (\S+) (\S+) (\S+) surface: (\S+) (\S+)", told).groups()]

@@ -113,9 +113,7 @@ class RemoteServerTest(unittest.TestCase):
         self.assertEqual(levels.GetNumberOfBlocks(), here[1].GetNumberOfBlocks())
         self.assertEqual(history.GetNumberOfRows(), here[2].GetNumberOfRows())
         self.assertEqual(history.GetNumberOfColumns(), here[2].GetNumberOfColumns())
-        names = [[blocks.GetMetaData(b).Get(blocks.NAME())
-                  for b in range(blocks.GetNumberOfBlocks())] for blocks in (snapshots, here[3])]
-        self.assertEqual(*names)
+        self.assertEqual(testing.names(snapshots), testing.names(here[3]))
         for there, local in zip(testing.levels(snapshots), testing.levels(here[3])):
             self.assertEqual(points(there), points(local))
 
