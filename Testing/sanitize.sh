@@ -54,6 +54,7 @@ configure_sanitized()
   if [ -n "$prefix" ]; then
     directory=(-DVTK_DIR="$(echo "$prefix/usr/lib/$(multiarch)"/cmake/vtk-*)")
   fi
+  cd "$root"
   # Afresh: with the preset's flags of today, and wherever the checkout was moved from.
   cmake --fresh --preset "$1" -DPython3_EXECUTABLE="$(vtk_python)" "${directory[@]}"
 }
