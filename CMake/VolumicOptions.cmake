@@ -9,6 +9,7 @@ option(VOLUMIC_BUILD_PARAVIEW_PLUGIN "Build against ParaView, with its plugin (O
 option(VOLUMIC_BUILD_TESTING "Build the tests" OFF)
 option(VOLUMIC_BUILD_EXAMPLES "Build the C++ examples" OFF)
 option(VOLUMIC_BUILD_BENCHMARKS "Build the benchmarks" OFF)
+option(VOLUMIC_EXTRA_WARNINGS "For developers: let the compiler warn of more than it does by default" OFF)
 
 set(volumic_builds_with_vtk ON)
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)

@@ -84,7 +84,8 @@ double ResidualQuantile(const std::vector<float>& residuals)
   std::vector<float> sizes(residuals.size());
   std::transform(residuals.begin(), residuals.end(), sizes.begin(),
     [](float residual) { return std::abs(residual); });
-  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * (sizes.size() - 1));
+  const auto last = static_cast<double>(sizes.size() - 1);
+  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * last);
   std::nth_element(sizes.begin(), place, sizes.end());
   return *place;
 }

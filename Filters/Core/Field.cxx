@@ -99,7 +99,8 @@ void Field::MeasureSlope()
     }
   }
   const double range = static_cast<double>(this->Best) - this->Worst;
-  this->Slope = static_cast<float>(crossings > 0 ? sum / crossings : range * this->Inverse[0]);
+  this->Slope = static_cast<float>(
+    crossings > 0 ? sum / static_cast<double>(crossings) : range * this->Inverse[0]);
   if (!(this->Slope > 0))
   {
     this->Slope = 1;

@@ -12,20 +12,6 @@ using namespace volumic;
 
 namespace
 {
-/** The vertex of a range that is the nearest to a place. */
-int Nearest(const SurfaceMesh& mesh, const Vector& place, int from, int to)
-{
-  int best = from;
-  for (int v = from; v < to; ++v)
-  {
-    if (SquaredDistance(mesh.Position[v], place) < SquaredDistance(mesh.Position[best], place))
-    {
-      best = v;
-    }
-  }
-  return best;
-}
-
 /** Two octahedra of radius 1.2 whose tips face each other along x. */
 struct Facing : Stage
 {

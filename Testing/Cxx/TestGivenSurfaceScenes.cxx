@@ -326,4 +326,4 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
 INSTANTIATE_TEST_SUITE_P(Starts, GivenSurfaces,
   ::testing::Values(
     "Cylinders", "Cones", "Boxes", "Spheres", "Outlines", "DecimatedScans", "DecimatedByQuadrics"),
-  [](const ::testing::TestParamInfo<const char*>& info) { return std::string(info.param); });
+  [](const ::testing::TestParamInfo<const char*>& start) { return std::string(start.param); });

@@ -127,7 +127,7 @@ class LevelReductionOf : public ::testing::Test
 };
 using Scalars = ::testing::Types<char, signed char, unsigned char, short, unsigned short, int,
   unsigned int, long, unsigned long, long long, unsigned long long, float, double>;
-TYPED_TEST_SUITE(LevelReductionOf, Scalars);
+TYPED_TEST_SUITE(LevelReductionOf, Scalars, ); // C++17 wants the comma
 
 TYPED_TEST(LevelReductionOf, GivesWhatDoublesGive)
 {

@@ -170,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(Of, RealScans,
     Scan{ "Engine", Shared + "/engine_ct_u8.vti", 75.5, 0.97, 0.04 },
     Scan{ "VisibleMaleHead", Shared + "/vismale_head_ct_u8.vti", 95.5, 0.97, 0.04 },
     Scan{ "SmallHeadMR", Shared + "/head_mr_small_u8.vti", 30.5, 0.80, 0.1 }),
-  [](const ::testing::TestParamInfo<Scan>& info) { return info.param.Name; });
+  [](const ::testing::TestParamInfo<Scan>& instance) { return instance.param.Name; });

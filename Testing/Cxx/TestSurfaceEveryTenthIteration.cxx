@@ -129,4 +129,4 @@ TEST_P(SurfaceEveryTenthIteration, IsValidWithoutPyramidInNoise)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SurfaceEveryTenthIteration,
   ::testing::Values(SceneKind::Torus, SceneKind::NestedBalls, SceneKind::ThinShellWithEightHoles),
-  [](const ::testing::TestParamInfo<SceneKind>& info) { return SceneName(info.param); });
+  [](const ::testing::TestParamInfo<SceneKind>& instance) { return SceneName(instance.param); });

@@ -202,7 +202,7 @@ TEST(SurfaceEvolution, DividesToAFinerLevel)
   const TestVolume fine = Ball(32, 10);
   TestVolume coarse;
   const int n = 18;
-  coarse = MakeVolume(n, [n](double x, double y, double z)
+  coarse = MakeVolume(n, [](double x, double y, double z)
     { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - 10. * n / 32.); });
   coarse.Image.Step = { 32. / n, 32. / n, 32. / n };
   coarse.Image.Unit = std::sqrt(3.);

@@ -296,7 +296,7 @@ TEST_P(SyntheticScenes, SurviveThePyramidAsFarAsTheySay)
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SyntheticScenes, ::testing::ValuesIn(AllSceneKinds()),
-  [](const auto& info) { return SceneName(info.param); });
+  [](const auto& instance) { return SceneName(instance.param); });
 
 TEST(SyntheticSceneShaded, FitsNoIsoValue)
 {

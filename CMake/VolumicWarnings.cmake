@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# VOLUMIC_EXTRA_WARNINGS: more warnings for every target that holds code of ours, and for none of
+# VTK's wrappings. Headers of VTK, ParaView, Qt and CGAL are the system's for the compiler, which is
+# silent about them. CMAKE_COMPILE_WARNING_AS_ERROR=ON (CMake 3.24) makes errors of the warnings.
+
+if (NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  message(WARNING "VOLUMIC_EXTRA_WARNINGS adds nothing: it knows the flags of GCC and Clang only, "
+    "not those of ${CMAKE_CXX_COMPILER_ID}.")
+  return ()
+endif ()
+
+set(volumic_warnings -Wall -Wextra -Wshadow)
+set(volumic_vtk_warnings ${volumic_warnings} -Wpedantic)
+if (CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # The semicolon that VTK's habits put behind vtkTypeMacro() is one too many.
+  list(APPEND volumic_vtk_warnings -Wno-extra-semi)
+elseif (CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  # The same; and this compiler has no flag of its own for it.
+  list(REMOVE_ITEM volumic_vtk_warnings -Wpedantic)
+endif ()
+list(APPEND volumic_warnings -Wpedantic)
+
+# Numbers are converted with care in what users run. Signs are left out, which Clang counts in:
+# vertices and voxels have signed numbers, containers unsigned ones.
+set(volumic_conversion_warnings -Wconversion -Wno-sign-conversion)
+
+function (volumic_add_warnings)
+  cmake_parse_arguments(arg "" "" "TARGETS;WARNINGS" ${ARGN})
+  foreach (target IN LISTS arg_TARGETS)
+    if (TARGET "${target}")
+      target_compile_options("${target}" PRIVATE
+        "$<$<COMPILE_LANGUAGE:CXX>:${arg_WARNINGS}>")
+    endif ()
+  endforeach ()
+endfunction ()
+
+volumic_add_warnings(
+  TARGETS VolumicCore
+  WARNINGS ${volumic_warnings} ${volumic_conversion_warnings})
+volumic_add_warnings(
+  TARGETS FiltersVolumic SegmentVolume BuildPyramid ServerManagerVolumic Volumic
+  WARNINGS ${volumic_vtk_warnings} ${volumic_conversion_warnings})
+volumic_add_warnings(
+  TARGETS TestCore VolumicTestSupport TestSupport
+  WARNINGS ${volumic_warnings})
+volumic_add_warnings(
+  TARGETS TestFilters TestRealScans TestScenes
+    BenchmarkImagePyramid BenchmarkSurface VolumicBenchmarkItk VolumicBenchmarkLevelSet
+  WARNINGS ${volumic_vtk_warnings})
