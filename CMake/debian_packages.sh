@@ -11,7 +11,7 @@
 
 tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
-test_packages=(dpkg-dev file libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri
+test_packages=(dpkg-dev file locales libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri
   libxtst6)
 # What more tests use where the release has it; they are skipped elsewhere.
 optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy)

@@ -195,6 +195,9 @@ else
   mv "$system.partial" "$system"
 fi
 system=$(realpath "$system")
+# Another run would have the sources replaced while they are compiled.
+exec 9> "$system/volumic.lock"
+flock -n 9 || fail "$system is in use by another run. Wait for its end, or choose another folder."
 
 prepare_system()
 {
