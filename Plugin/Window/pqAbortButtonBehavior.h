@@ -3,18 +3,30 @@
 #ifndef pqAbortButtonBehavior_h
 #define pqAbortButtonBehavior_h
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QPointer>
 
+#include <vtkWeakPointer.h>
+
 class QAbstractButton;
+class QEvent;
+class pqPipelineSource;
+class vtkAlgorithm;
+class vtkObject;
 
 /**
- * Lets a press of the abort button in ParaView's status bar through, which then stops a run.
+ * Lets the abort button in the status bar stop a run of Volumic's filters.
  *
- * While something runs, ParaView 6.1 lights the button up and swallows presses of the mouse, but for
- * those on objects that it has on a list. The button is on it; the window, which gets each press
- * first and hands it on, is not. Here it is, as long as the mouse is on the button. A press that
- * misses the button is still swallowed, by the widget that it is handed on to.
+ * ParaView 6.1 lights the button up while something runs, and looks for events with each progress,
+ * but swallows all presses of the mouse: a press comes to the window first, which hands it on to the
+ * button, and of the two only the button is on ParaView's list of exceptions. Before 6.1 the button
+ * does not light up, and nobody looks for events: this does both.
+ *
+ * While a filter runs the window takes nothing but a press of that button: what shortcuts and timers
+ * start would come upon a pipeline at work.
+ *
+ * Of the built-in server only: others run where the window can't reach them.
  */
 class pqAbortButtonBehavior : public QObject
 {
@@ -32,13 +44,21 @@ protected:
   bool eventFilter(QObject* object, QEvent* event) override;
 
 private Q_SLOTS:
-  /// Looks for the button, which may come after the plugin.
-  void findButton();
+  void watch(pqPipelineSource* source);
+  void onStart(vtkObject* filter);
+  void onProgress();
+  void onEnd();
+  void stop();
 
 private:
-  void letThrough(bool yes);
+  /// Whether the event is a press of the button, on its way there.
+  bool isPressOfButton(QObject* object, QEvent* event) const;
 
   QPointer<QAbstractButton> Button;
+  vtkWeakPointer<vtkAlgorithm> Running;
+  QElapsedTimer SinceEvents; ///< since events were looked for
+  bool IsLit = false;        ///< The button is, by this object.
+  bool IsLooking = false;    ///< for events
 
   Q_DISABLE_COPY(pqAbortButtonBehavior)
 };
