@@ -21,7 +21,8 @@ inline bool IsAbortRequested(vtkAlgorithm* algorithm)
 #endif
 }
 
-/// Takes back a request to stop that came before this run: from VTK 9.2 on nobody else does.
+/// Takes back a request to stop: from VTK 9.2 on nobody else does. One that came before a run isn't
+/// meant for it; and one that was met would make filters behind this one stop as well, with nothing.
 inline void ForgetAbort(vtkAlgorithm* algorithm)
 {
   if (algorithm->GetAbortExecute())

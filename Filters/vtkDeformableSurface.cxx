@@ -542,6 +542,9 @@ int vtkDeformableSurface::RequestData(
     this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro(<< error.what());
   }
+  const vtkMTimeType before = this->GetMTime();
+  volumic::ForgetAbort(this);
+  this->Internals->Cache.Allow(before, this->GetMTime());
   return 1;
 }
 

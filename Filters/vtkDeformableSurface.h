@@ -119,8 +119,8 @@
  * AbortExecute is looked at several times a second, with each progress event: the surface as it is
  * then is handed over, valid, with `StopReason` `cancelled`; an empty one if there is none yet. It
  * counts as up to date, so that what follows in the pipeline can show or write it: another Update()
- * gives it again. To run anew call Modified() first, or change an input or a property; the request
- * to stop is forgotten then.
+ * gives it again. The request to stop is forgotten then, or filters behind this one would stop at
+ * it, too. To run anew call Modified() first, or change an input or a property.
  *
  * @par Going on:
  * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,

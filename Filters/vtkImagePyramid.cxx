@@ -325,6 +325,7 @@ int vtkImagePyramid::RequestData(
     this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: " << error.what());
   }
+  volumic::ForgetAbort(this);
   return 1;
 }
 

@@ -142,6 +142,7 @@ TEST(DeformableSurfaceProgress, CancellingInAnyPartHandsOverAValidSurface)
       EXPECT_FALSE(filter->GetLevels()->GetBlock(level));
     }
     // Nothing of the request is left.
+    EXPECT_FALSE(filter->GetAbortExecute());
     filter->Modified();
     filter->Update();
     EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), whole->GetOutput()));

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# What the plugin adds to ParaView's window, where ParaView has one: sets volumic_window_interfaces
+# and volumic_window_sources for paraview_add_plugin.
+set(volumic_window_interfaces)
+set(volumic_window_sources)
+
+# volumic_panel_widget(KIND TYPE CLASS): `TYPE` is what the XML of the proxies says.
+function (volumic_panel_widget kind type class)
+  paraview_plugin_add_property_widget(
+    KIND "${kind}"
+    TYPE "${type}"
+    CLASS_NAME "${class}"
+    INTERFACES interfaces
+    SOURCES sources)
+  set(volumic_window_interfaces ${volumic_window_interfaces} ${interfaces} PARENT_SCOPE)
+  set(volumic_window_sources ${volumic_window_sources} ${sources}
+    "Widgets/${class}.cxx" "Widgets/${class}.h" PARENT_SCOPE)
+endfunction ()
+
+if (PARAVIEW_USE_QT)
+  volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
+  volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
+  volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
+  list(APPEND volumic_window_sources Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h)
+
+  paraview_plugin_add_auto_start(
+    CLASS_NAME pqAbortButtonBehavior
+    INTERFACES interfaces
+    SOURCES sources)
+  list(APPEND volumic_window_interfaces ${interfaces})
+  list(APPEND volumic_window_sources ${sources}
+    Window/pqAbortButtonBehavior.cxx Window/pqAbortButtonBehavior.h)
+endif ()
