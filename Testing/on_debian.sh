@@ -166,6 +166,8 @@ enter='
     LANG=C.UTF-8 TERM="${TERM:-dumb}" DEBIAN_FRONTEND=noninteractive \
     sh -c "cd /volumic/checkout && exec \"\$@\"" sh "$@"'
 
+# In braces, so that all of it is read before it runs: this file may be edited meanwhile.
+{
 plan_steps 3
 install_packages debootstrap debian-archive-keyring git
 [ -n "$mirror" ] || mirror=$(configured_mirror)
@@ -213,3 +215,4 @@ status=0
 apart sh -c "$enter" enter "$system" "${shared:+$(realpath "$shared")}" "${binds[@]}" -- \
   "${command[@]}" || status=$?
 exit "$status"
+}

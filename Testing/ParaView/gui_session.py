@@ -70,7 +70,7 @@ class Session:
         # A home of its own: neither the user's settings nor a first start's dialogs play a part.
         self._environment = dict(os.environ, DISPLAY=display, QT_QPA_PLATFORM="xcb",
                                  HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name,
-                                 LIBGL_ALWAYS_SOFTWARE="1")
+                                 LIBGL_ALWAYS_SOFTWARE="1", PYTHONUNBUFFERED="1")
         self._window = None
         self.output = ""
 

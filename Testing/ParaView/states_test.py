@@ -131,9 +131,10 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
         self.assertTrue(succeeded, self.session.output)
         runs = [(name, float(iso), int(points)) for name, iso, points in
                 re.findall(r"Told: '(\w*)' (\S+) (\d+)", self.session.output)]
-        self.assertEqual([(name, points > 0) for name, _, points in runs if points > 0 or not name],
-                         [("density", True), ("", False), ("density", True), ("density", True),
-                          ("voxels", True)], runs)
+        self.assertEqual([points > 0 for _, _, points in runs], [True, False, True, True, True], runs)
+        # Of the file without arrays ParaView 6.1 keeps the name that was chosen, older ones none.
+        self.assertEqual([name for name, _, points in runs if points > 0],
+                         ["density", "density", "density", "voxels"], runs)
         self.assertEqual(runs[2], runs[0])
         self.assertAlmostEqual(runs[3][1], 10 * runs[0][1] - 7, delta=0.1)
         self.assertAlmostEqual(runs[4][1], 100 * runs[0][1] + 1000, delta=1)
