@@ -95,9 +95,10 @@ class FilesTest(DamagedTest):
 
     def test_meta_image_as_text(self):
         header = medical_files.meta_header(VOXELS, SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
-        text = " ".join(map(str, VOXELS.ravel())).encode()
+        # VTK 9.6 wants something behind the last value.
+        text = " ".join(map(str, VOXELS.ravel())).encode() + b"\n"
         self.cut("a.mha", header.replace(b"BinaryData = True", b"BinaryData = False") + text,
-                 "values, its header asks for 1620|cannot read data from file")
+                 "values, its header asks for 1620")
 
     def test_vtk_xml(self):
         content = self.write(vtkXMLImageDataWriter(), "a.vti")

@@ -38,7 +38,7 @@
 #include <iostream>
 #include <new>
 #include <sstream>
-#include <system_error>
+#include <string>
 #include <unistd.h>
 #include <utility>
 
@@ -430,13 +430,13 @@ ExitCode Run(int argc, char* argv[])
   {
     throw Failure(options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
   }
-  catch (const std::system_error& error)
+  catch (const std::exception& error)
   {
-    if (error.code() != std::errc::resource_unavailable_try_again)
+    // By its words only TBB, which VTK's threads may be of, tells that it gets no memory for one.
+    if (std::string(error.what()).find("pthread_create") == std::string::npos)
     {
       throw;
     }
-    // One that VTK's own threads (TBB) tell of.
     throw Failure(options.Volume + ": not enough memory to segment it: no thread can be started; "
       "crop it, or resample it to fewer voxels");
   }
