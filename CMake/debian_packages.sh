@@ -11,8 +11,8 @@
 
 tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
-test_packages=(dpkg-dev file locales libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth libgl1-mesa-dri
-  libxtst6)
+test_packages=(dpkg-dev file locales libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth
+  libgl1-mesa-dri libxtst6)
 # What more tests use where the release has it; they are skipped elsewhere.
 optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy)
 # The CT of a skull, from which the examples start.
@@ -37,7 +37,7 @@ check_system()
     system=$(. /etc/os-release && echo "${PRETTY_NAME:-$ID}")
     case $(. /etc/os-release && echo "$ID ${VERSION_CODENAME:-}") in
       "debian bookworm" | "debian trixie" | "debian forky") ;;
-      *) say "Note: tried on Debian 12, 13 and forky; this is $system, whose packages may differ." ;;
+      *) say "Note: tried on Debian 12, 13 and forky; packages of $system may differ." ;;
     esac
   fi
   if command -v apt-get > /dev/null && [ -z "$(package_version libvtk9-dev)" ]; then
@@ -96,7 +96,8 @@ is_root_or_sudo()
 
 find_privilege()
 {
-  is_root_or_sudo || fail "These packages are missing, and installing them takes root's rights. Please run
+  is_root_or_sudo || fail "These packages are missing, and installing them takes root's rights.
+Please run
   sudo apt-get install --no-install-recommends $*
 and start this script again."
 }
@@ -282,8 +283,8 @@ write_launcher()
   chmod +x "$prefix/bin/$name"
 }
 
-# The folder whose usr/ holds ParaView, complete, to find and to run (bin/paraview, pvbatch, pvpython,
-# pvserver).
+# The folder whose usr/ holds ParaView, complete, to find and to run (bin/paraview, pvbatch,
+# pvpython, pvserver).
 paraview_prefix() { echo "$build/paraview-prefix"; }
 
 # The same for VTK; empty where the system's own serves.
