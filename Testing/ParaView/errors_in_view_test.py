@@ -64,6 +64,7 @@ BAD_FILES = {
 def written(name, image):
     path = testing.output_path(f"volume-{name}.vti")
     writer = vtkXMLImageDataWriter()
+    writer.SetDataModeToBinary()  # see output_files.py
     writer.SetFileName(path)
     writer.SetInputData(image)
     writer.Write()

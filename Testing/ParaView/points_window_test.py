@@ -51,6 +51,7 @@ def two_balls():
     distance = numpy.hypot(numpy.abs(x - 30.0) - 16.0, numpy.hypot(y - 20.0, z - 20.1)) - 9.0
     path = testing.output_path("two-balls.vti")
     writer = vtkXMLImageDataWriter()
+    writer.SetDataModeToBinary()  # see output_files.py
     writer.SetFileName(path)
     writer.SetInputData(testing.make_image(numpy.clip(50.0 - 50.0 * distance, 0.0, 100.0)))
     writer.Write()

@@ -70,6 +70,7 @@ def blob(scale=1.0, shift=0.0, name="density", size=24):
 def written(file_name, image):
     path = testing.output_path(file_name)
     writer = vtkXMLImageDataWriter()
+    writer.SetDataModeToBinary()  # see output_files.py
     writer.SetFileName(path)
     writer.SetInputData(image)
     writer.Write()

@@ -124,6 +124,7 @@ class VolumeWindowTest(window.WindowTestCase):
         image = testing.make_image(values, name="a")
         testing.add_array(image, 100.0 - values, "b")
         writer = vtkXMLImageDataWriter()
+        writer.SetDataModeToBinary()  # see output_files.py
         writer.SetFileName(path)
         writer.SetInputData(image)
         writer.Write()

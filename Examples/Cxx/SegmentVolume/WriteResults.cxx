@@ -27,6 +27,7 @@
 #include <vtkWriter.h>
 #include <vtkXMLMultiBlockDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLWriterBase.h>
 
 #include <algorithm>
 #include <cctype>
@@ -47,6 +48,11 @@ namespace fs = std::filesystem;
 template <class Writer>
 void Run(Writer* writer)
 {
+  // VTK's XML readers up to 9.3.0, with an expat of 2024 or later, take what is appended for damaged.
+  if (auto* xml = vtkXMLWriterBase::SafeDownCast(writer))
+  {
+    xml->SetDataModeToBinary();
+  }
   VtkMessages messages;
   messages.ListenTo(writer);
   messages.Catch([&] { writer->Write(); });
