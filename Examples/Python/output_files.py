@@ -78,7 +78,7 @@ def write_with(writer, data, path, check):
     """Have a VTK writer write the data; check(path) looks whether the disk took all of it."""
     failures = []
     if writer.IsA("vtkXMLWriterBase"):
-        # VTK's readers up to 9.3.0, with an expat of 2024 or later, take what is appended for damaged.
+        # ParaView 5.11's readers, with an expat of 2024 or later, take what is appended for damaged.
         writer.SetDataModeToBinary()
     writer.AddObserver("ErrorEvent", lambda *_: failures.append(writer.GetErrorCode()))
     writer.SetInputData(data)

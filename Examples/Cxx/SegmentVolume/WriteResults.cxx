@@ -48,7 +48,7 @@ namespace fs = std::filesystem;
 template <class Writer>
 void Run(Writer* writer)
 {
-  // VTK's XML readers up to 9.3.0, with an expat of 2024 or later, take what is appended for damaged.
+  // ParaView 5.11's readers, with an expat of 2024 or later, take what is appended for damaged.
   if (auto* xml = vtkXMLWriterBase::SafeDownCast(writer))
   {
     xml->SetDataModeToBinary();
