@@ -77,9 +77,12 @@ def beside(path):
 def write_with(writer, data, path, check):
     """Have a VTK writer write the data; check(path) looks whether the disk took all of it."""
     failures = []
-    if writer.IsA("vtkXMLWriterBase"):
-        # ParaView 5.11's readers, with an expat of 2024 or later, take what is appended for damaged.
+    # With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is
+    # appended for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
+    is_inline = writer.IsA("vtkXMLImageDataWriter") or writer.IsA("vtkXMLPolyDataWriter")
+    if is_inline:
         writer.SetDataModeToBinary()
+        writer.WriteToOutputStringOn()
     writer.AddObserver("ErrorEvent", lambda *_: failures.append(writer.GetErrorCode()))
     writer.SetInputData(data)
     with beside(path) as written, caught_output() as printed:
@@ -87,6 +90,9 @@ def write_with(writer, data, path, check):
         writer.Write()
         if failures or printed.GetOutput() or writer.GetErrorCode():
             raise OSError("is the disk full?")
+        if is_inline:
+            with open(written, "w", encoding="utf-8", newline="") as file:
+                file.write(writer.GetOutputString())
         check(written)
 
 

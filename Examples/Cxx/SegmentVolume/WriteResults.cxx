@@ -27,7 +27,6 @@
 #include <vtkWriter.h>
 #include <vtkXMLMultiBlockDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLWriterBase.h>
 
 #include <algorithm>
 #include <cctype>
@@ -48,11 +47,6 @@ namespace fs = std::filesystem;
 template <class Writer>
 void Run(Writer* writer)
 {
-  // ParaView 5.11's readers, with an expat of 2024 or later, take what is appended for damaged.
-  if (auto* xml = vtkXMLWriterBase::SafeDownCast(writer))
-  {
-    xml->SetDataModeToBinary();
-  }
   VtkMessages messages;
   messages.ListenTo(writer);
   messages.Catch([&] { writer->Write(); });
@@ -101,6 +95,19 @@ void WriteWith(vtkPolyData* surface, const std::string& name, const std::string&
   writer->SetInputData(surface);
   writer->SetFileName(name.c_str());
   Run(writer.Get());
+}
+
+/// With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is appended
+/// for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
+void WriteVtp(vtkPolyData* surface, const std::string& name, const std::string&)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(surface);
+  writer->SetDataModeToBinary();
+  writer->WriteToOutputStringOn();
+  Run(writer.Get());
+  const std::string text = writer->GetOutputString();
+  WriteBytes(name, text.data(), text.size());
 }
 
 void WriteLegacy(vtkPolyData* surface, const std::string& name, const std::string&)
@@ -240,7 +247,7 @@ struct Format
 const Format* FindFormat(const std::string& name)
 {
   static const std::map<std::string, Format> formats = {
-    { ".vtp", { WriteWith<vtkXMLPolyDataWriter>, CheckVtp } },
+    { ".vtp", { WriteVtp, CheckVtp } },
     { ".vtk", { WriteLegacy, nullptr } },
     { ".stl", { WriteStl, CheckTriangles<84, 50> } },
     { ".ply", { WritePly, CheckWrittenPly } },
@@ -312,7 +319,7 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
       {
         const std::string number = std::to_string(numbers ? numbers(surface) : static_cast<int>(i));
         const std::string path = files.Folder() + "/" + prefix + "-" + number + ".vtp";
-        WriteWith<vtkXMLPolyDataWriter>(surface, path, "");
+        WriteVtp(surface, path, "");
         CheckXml(path);
       }
     }
