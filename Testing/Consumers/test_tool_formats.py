@@ -132,6 +132,15 @@ class VolumesTest(ToolTestCase):
         self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
         self.check(self.path("*.bmp"), "--component", "0", *options, origin=np.zeros(3), iso=ISO / 5)
 
+    def test_xml_has_its_data_inline(self):
+        """What is appended ParaView 5.11 refuses, see WriteVtp."""
+        volume = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
+        self.run_tool(volume, "--iso", ISO, "-q", self.path("a.vtp"))
+        with open(self.path("a.vtp"), "rb") as file:
+            content = file.read()
+        self.assertNotIn(b"AppendedData", content)
+        self.assertIn(b'format="binary"', content)
+
     def test_a_picture_with_pages(self):
         # VTK writes the slices of a volume from the last to the first page.
         file = self.write(vtkTIFFWriter(), "a.tif", make_image(ball("u2")))
