@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef AlgorithmErrors_h
-#define AlgorithmErrors_h
+#ifndef volumicAlgorithmErrors_h
+#define volumicAlgorithmErrors_h
 
 #include <exception>
 #include <string>

@@ -3,7 +3,7 @@
 #include "AttractionInputs.h"
 
 #include "BuildPyramid.h"
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
 #include "ImageVoxels.h"
 #include "PolyDataPoints.h"
 #include "vtkImagePyramid.h"

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef AttractionInputs_h
-#define AttractionInputs_h
+#ifndef volumicAttractionInputs_h
+#define volumicAttractionInputs_h
 
-#include "Core/Monitor.h"
-#include "Core/PointAttraction.h"
+#include "Core/Common/Monitor.h"
+#include "Core/Image/PointAttraction.h"
 #include "PyramidLevels.h"
 #include "Workspace.h"
 

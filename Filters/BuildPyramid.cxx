@@ -3,7 +3,7 @@
 #include "BuildPyramid.h"
 
 #include "AlgorithmErrors.h"
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkCallbackCommand.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef BuildPyramid_h
-#define BuildPyramid_h
+#ifndef volumicBuildPyramid_h
+#define volumicBuildPyramid_h
 
-#include "Core/EdgeLengthPlan.h"
-#include "Core/Monitor.h"
+#include "Core/Common/Monitor.h"
+#include "Core/Evolution/EdgeLengthPlan.h"
 
 #include <vtkSmartPointer.h>
 

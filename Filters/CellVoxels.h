@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef CellVoxels_h
-#define CellVoxels_h
+#ifndef volumicCellVoxels_h
+#define volumicCellVoxels_h
 
 #include <vtkSmartPointer.h>
 

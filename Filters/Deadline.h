@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef Deadline_h
-#define Deadline_h
+#ifndef volumicDeadline_h
+#define volumicDeadline_h
 
 #include <chrono>
 

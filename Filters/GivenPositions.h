@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef GivenPositions_h
-#define GivenPositions_h
+#ifndef volumicGivenPositions_h
+#define volumicGivenPositions_h
 
-#include "Core/SurfaceFeatures.h"
+#include "Core/Common/IndexedSurface.h"
 #include "Workspace.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HostThreads.h"
 
-#include "Core/StandardThreads.h"
+#include "Core/Common/StandardThreads.h"
 
 #include <vtkSMPTools.h>
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef HostThreads_h
-#define HostThreads_h
+#ifndef volumicHostThreads_h
+#define volumicHostThreads_h
 
-#include "Core/Executor.h"
+#include "Core/Common/Executor.h"
 
 #include <functional>
 #include <memory>

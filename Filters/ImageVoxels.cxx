@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageVoxels.h"
 
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkAlgorithm.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ImageVoxels_h
-#define ImageVoxels_h
+#ifndef volumicImageVoxels_h
+#define volumicImageVoxels_h
 
 #include <vtkSmartPointer.h>
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialSurfaces.h"
 
-#include "Core/Executor.h"
-#include "Core/Field.h"
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/Field.h"
 #include "PolyDataPoints.h"
 
 #include <vtkCellArray.h>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef InitialSurfaces_h
-#define InitialSurfaces_h
+#ifndef volumicInitialSurfaces_h
+#define volumicInitialSurfaces_h
 
-#include "Core/LevelImage.h"
-#include "Core/SurfaceFeatures.h"
-#include "Core/SurfaceOptions.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/LevelImage.h"
 #include "Workspace.h"
 
 #include <vector>

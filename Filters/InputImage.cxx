@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InputImage.h"
 
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
 #include "PyramidLevels.h"
 
 #include <vtkCompositeDataIterator.h>

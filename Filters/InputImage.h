@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef InputImage_h
-#define InputImage_h
+#ifndef volumicInputImage_h
+#define volumicInputImage_h
 
 class vtkDataObject;
 class vtkImageData;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KeepComponents.h"
 
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "PolyDataPoints.h"
 #include "SurfaceOutput.h"
 #include "vtkDeformableSurface.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef KeepComponents_h
-#define KeepComponents_h
+#ifndef volumicKeepComponents_h
+#define volumicKeepComponents_h
 
-#include "Core/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceEvolution.h"
 #include "Workspace.h"
 
 #include <vector>

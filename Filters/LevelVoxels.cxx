@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LevelVoxels.h"
 
-#include "Core/Join.h"
-#include "Core/LevelReduction.h"
-#include "Core/Refuse.h"
-#include "Core/ValidReduction.h"
+#include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Image/LevelReduction.h"
+#include "Core/Image/ValidReduction.h"
 #include "ImageVoxels.h"
 
 #include <vtkAOSDataArrayTemplate.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef LevelVoxels_h
-#define LevelVoxels_h
+#ifndef volumicLevelVoxels_h
+#define volumicLevelVoxels_h
 
-#include "Core/Executor.h"
-#include "Core/PyramidGeometry.h"
+#include "Core/Common/Executor.h"
+#include "Core/Image/PyramidGeometry.h"
 #include "ValidVoxels.h"
 
 #include <vtkSmartPointer.h>

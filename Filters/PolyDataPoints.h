@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef PolyDataPoints_h
-#define PolyDataPoints_h
+#ifndef volumicPolyDataPoints_h
+#define volumicPolyDataPoints_h
 
 #include <vtkType.h>
 

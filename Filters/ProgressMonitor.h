@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ProgressMonitor_h
-#define ProgressMonitor_h
+#ifndef volumicProgressMonitor_h
+#define volumicProgressMonitor_h
 
-#include "Core/Monitor.h"
+#include "Core/Common/Monitor.h"
 #include "Deadline.h"
 
 #include <functional>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PyramidLevels.h"
 
-#include "Core/Refuse.h"
-#include "Core/ThickPart.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Image/ThickPart.h"
 #include "ImageVoxels.h"
 
 #include <vtkDataArray.h>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef PyramidLevels_h
-#define PyramidLevels_h
+#ifndef volumicPyramidLevels_h
+#define volumicPyramidLevels_h
 
-#include "Core/Executor.h"
-#include "Core/LevelImage.h"
-#include "Core/SurfaceFeatures.h"
+#include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Image/LevelImage.h"
 #include "ValidVoxels.h"
 #include "Workspace.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SegmentationCache_h
-#define SegmentationCache_h
+#ifndef volumicSegmentationCache_h
+#define volumicSegmentationCache_h
 
 #include "SegmentationResults.h"
 #include "SurfaceSegmentation.h"

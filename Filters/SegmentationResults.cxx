@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentationResults.h"
 
-#include "Core/Join.h"
+#include "Core/Common/Join.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SegmentationResults_h
-#define SegmentationResults_h
+#ifndef volumicSegmentationResults_h
+#define volumicSegmentationResults_h
 
-#include "Core/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceEvolution.h"
 #include "SurfaceOutput.h"
 #include "Workspace.h"
 

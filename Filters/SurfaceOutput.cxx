@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceOutput.h"
 
-#include "Core/SurfaceFeatures.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SurfaceOutput_h
-#define SurfaceOutput_h
+#ifndef volumicSurfaceOutput_h
+#define volumicSurfaceOutput_h
 
-#include "Core/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceEvolution.h"
 #include "Workspace.h"
 
 #include <vtkSmartPointer.h>

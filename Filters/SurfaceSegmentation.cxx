@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceSegmentation.h"
 
-#include "Core/EdgeLengthPlan.h"
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Evolution/EdgeLengthPlan.h"
+#include "Core/Evolution/SurfaceOptions.h"
 #include "GivenPositions.h"
 #include "InitialSurfaces.h"
 #include "SurfaceOutput.h"

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SurfaceSegmentation_h
-#define SurfaceSegmentation_h
+#ifndef volumicSurfaceSegmentation_h
+#define volumicSurfaceSegmentation_h
 
 #include "AttractionInputs.h"
-#include "Core/PointAttraction.h"
-#include "Core/SurfaceEvolution.h"
-#include "Core/SurfaceOptions.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/PointAttraction.h"
 #include "Deadline.h"
 #include "HostThreads.h"
 #include "KeepComponents.h"

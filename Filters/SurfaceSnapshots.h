@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SurfaceSnapshots_h
-#define SurfaceSnapshots_h
+#ifndef volumicSurfaceSnapshots_h
+#define volumicSurfaceSnapshots_h
 
-#include "Core/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceEvolution.h"
 #include "SegmentationResults.h"
 #include "Workspace.h"
 

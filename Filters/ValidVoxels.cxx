@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ValidVoxels.h"
 
-#include "Core/Join.h"
-#include "Core/LevelReduction.h"
-#include "Core/Refuse.h"
+#include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Image/LevelReduction.h"
 #include "ImageVoxels.h"
 
 #include <vtkCellData.h>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ValidVoxels_h
-#define ValidVoxels_h
+#ifndef volumicValidVoxels_h
+#define volumicValidVoxels_h
 
-#include "Core/Executor.h"
+#include "Core/Common/Executor.h"
 
 #include <array>
 #include <cstdint>

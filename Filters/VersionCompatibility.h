@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef VersionCompatibility_h
-#define VersionCompatibility_h
+#ifndef volumicVersionCompatibility_h
+#define volumicVersionCompatibility_h
 
 #include <vtkAlgorithm.h>
 #include <vtkVersion.h>

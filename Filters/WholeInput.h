@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef WholeInput_h
-#define WholeInput_h
+#ifndef volumicWholeInput_h
+#define volumicWholeInput_h
 
 #include <vtkExecutive.h>
 #include <vtkInformation.h>

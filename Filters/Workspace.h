@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef Workspace_h
-#define Workspace_h
+#ifndef volumicWorkspace_h
+#define volumicWorkspace_h
 
-#include "Core/SurfaceFeatures.h"
+#include "Core/Common/IndexedSurface.h"
 
 #include <array>
 

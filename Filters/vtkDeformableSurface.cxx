@@ -4,7 +4,8 @@
 
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Evolution/SurfaceOptions.h"
 #include "Deadline.h"
 #include "InputImage.h"
 #include "SegmentationCache.h"

@@ -3,7 +3,7 @@
 #include "vtkImagePyramid.h"
 
 #include "AlgorithmErrors.h"
-#include "Core/PyramidGeometry.h"
+#include "Core/Image/PyramidGeometry.h"
 #include "HostThreads.h"
 #include "ImageVoxels.h"
 #include "InputImage.h"

@@ -4,7 +4,7 @@
 
 #include "AlgorithmErrors.h"
 #include "CellVoxels.h"
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
 #include "HostThreads.h"
 #include "ImageVoxels.h"
 #include "InputImage.h"

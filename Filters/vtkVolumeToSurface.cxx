@@ -4,7 +4,7 @@
 
 #include "AlgorithmErrors.h"
 #include "CellVoxels.h"
-#include "Core/Refuse.h"
+#include "Core/Common/Refuse.h"
 #include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 

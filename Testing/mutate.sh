@@ -61,7 +61,7 @@ read_list()
   while IFS= read -r line; do
     number=$((number + 1))
     last=$((${#files[@]} - 1))
-    if [[ $line =~ ^([A-Za-z]+\.(cxx|h))\ +\[([^]]+)\]\ (.+)$ ]]; then
+    if [[ $line =~ ^([A-Za-z]+/[A-Za-z]+\.(cxx|h))\ +\[([^]]+)\]\ (.+)$ ]]; then
       files+=("${BASH_REMATCH[1]}")
       suites+=("${BASH_REMATCH[3]}")
       descriptions+=("${BASH_REMATCH[4]}")

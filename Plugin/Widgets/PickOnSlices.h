@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef PickOnSlices_h
-#define PickOnSlices_h
+#ifndef volumicPickOnSlices_h
+#define volumicPickOnSlices_h
 
 class pqRenderView;
 

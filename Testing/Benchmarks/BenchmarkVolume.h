@@ -3,8 +3,8 @@
 
 /** The volumes that are measured on. */
 
-#ifndef BenchmarkVolume_h
-#define BenchmarkVolume_h
+#ifndef volumicBenchmarkVolume_h
+#define volumicBenchmarkVolume_h
 
 #include <vtkImageData.h>
 #include <vtkSmartPointer.h>

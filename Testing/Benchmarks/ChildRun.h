@@ -3,8 +3,8 @@
 
 /** Runs this very program again, as a process of its own. */
 
-#ifndef ChildRun_h
-#define ChildRun_h
+#ifndef volumicChildRun_h
+#define volumicChildRun_h
 
 #include "RunFigures.h"
 

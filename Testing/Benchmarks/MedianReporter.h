@@ -3,8 +3,8 @@
 
 /** Medians over the repetitions of each benchmark of one run, to be compared with each other. */
 
-#ifndef MedianReporter_h
-#define MedianReporter_h
+#ifndef volumicMedianReporter_h
+#define volumicMedianReporter_h
 
 #include <benchmark/benchmark.h>
 

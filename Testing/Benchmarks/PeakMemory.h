@@ -3,8 +3,8 @@
 
 /** How far the memory of this process grows while something runs. */
 
-#ifndef PeakMemory_h
-#define PeakMemory_h
+#ifndef volumicPeakMemory_h
+#define volumicPeakMemory_h
 
 #include <functional>
 

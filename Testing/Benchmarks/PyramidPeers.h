@@ -6,8 +6,8 @@
  * images, and throws its results away.
  */
 
-#ifndef PyramidPeers_h
-#define PyramidPeers_h
+#ifndef volumicPyramidPeers_h
+#define volumicPyramidPeers_h
 
 #include <array>
 #include <cstdint>

@@ -4,8 +4,8 @@
 /** What was measured in one run: numbers and texts by name, and their way from one process to
    another and into CSV. */
 
-#ifndef RunFigures_h
-#define RunFigures_h
+#ifndef volumicRunFigures_h
+#define volumicRunFigures_h
 
 #include <iosfwd>
 #include <map>

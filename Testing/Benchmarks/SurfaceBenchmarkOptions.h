@@ -3,8 +3,8 @@
 
 /** The command line of BenchmarkSurface. */
 
-#ifndef SurfaceBenchmarkOptions_h
-#define SurfaceBenchmarkOptions_h
+#ifndef volumicSurfaceBenchmarkOptions_h
+#define volumicSurfaceBenchmarkOptions_h
 
 #include <limits>
 #include <stdexcept>

@@ -3,8 +3,8 @@
 
 /** The volume that BenchmarkSurface measures on, as each of those who are measured wants it. */
 
-#ifndef SurfaceBenchmarkVolume_h
-#define SurfaceBenchmarkVolume_h
+#ifndef volumicSurfaceBenchmarkVolume_h
+#define volumicSurfaceBenchmarkVolume_h
 
 #include "SurfaceBenchmarkOptions.h"
 #include "TriangleSurface.h"

@@ -3,8 +3,8 @@
 
 /** How time and memory grow with the volume. */
 
-#ifndef SurfaceGrowth_h
-#define SurfaceGrowth_h
+#ifndef volumicSurfaceGrowth_h
+#define volumicSurfaceGrowth_h
 
 #include "SurfaceBenchmarkOptions.h"
 

@@ -3,8 +3,8 @@
 
 /** CGAL's surfaces as those of the judge. Inline: only who includes it needs CGAL. */
 
-#ifndef SurfaceMeshConversions_h
-#define SurfaceMeshConversions_h
+#ifndef volumicSurfaceMeshConversions_h
+#define volumicSurfaceMeshConversions_h
 
 #include "TriangleSurface.h"
 

@@ -7,8 +7,8 @@
  * voxels. The image has to live as long as the job.
  */
 
-#ifndef SurfacePeers_h
-#define SurfacePeers_h
+#ifndef volumicSurfacePeers_h
+#define volumicSurfacePeers_h
 
 #include "TriangleSurface.h"
 

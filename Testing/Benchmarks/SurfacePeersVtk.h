@@ -3,8 +3,8 @@
 
 /** The steps of VTK that several peers begin or end with. */
 
-#ifndef SurfacePeersVtk_h
-#define SurfacePeersVtk_h
+#ifndef volumicSurfacePeersVtk_h
+#define volumicSurfacePeersVtk_h
 
 #include "SurfacePeers.h"
 

@@ -3,8 +3,8 @@
 
 /** One run of the benchmark: us, or a peer, on the volume, measured and judged. */
 
-#ifndef SurfaceRuns_h
-#define SurfaceRuns_h
+#ifndef volumicSurfaceRuns_h
+#define volumicSurfaceRuns_h
 
 #include "RunFigures.h"
 #include "SurfaceBenchmarkOptions.h"

@@ -3,8 +3,8 @@
 
 /** The tables of BenchmarkSurface, for people and as CSV. */
 
-#ifndef SurfaceTables_h
-#define SurfaceTables_h
+#ifndef volumicSurfaceTables_h
+#define volumicSurfaceTables_h
 
 #include "RunFigures.h"
 

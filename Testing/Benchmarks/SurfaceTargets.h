@@ -3,8 +3,8 @@
 
 /** What the project has set itself, and what became of it in these runs. */
 
-#ifndef SurfaceTargets_h
-#define SurfaceTargets_h
+#ifndef volumicSurfaceTargets_h
+#define volumicSurfaceTargets_h
 
 #include "SurfaceTables.h"
 

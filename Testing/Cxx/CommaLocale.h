@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef CommaLocale_h
-#define CommaLocale_h
+#ifndef volumicCommaLocale_h
+#define volumicCommaLocale_h
 
 #include <locale>
 #include <string>

@@ -3,10 +3,10 @@
 #ifndef volumicCoreTestTools_h
 #define volumicCoreTestTools_h
 
-#include "InitialSurface.h"
-#include "LevelImage.h"
-#include "SurfaceCheck.h"
-#include "SurfaceMesh.h"
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Image/LevelImage.h"
+#include "Core/Mesh/SurfaceCheck.h"
+#include "Core/Mesh/SurfaceMesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,12 @@
 #ifndef volumicDynamicsTestTools_h
 #define volumicDynamicsTestTools_h
 
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/Dynamics.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Surface/Proximity.h"
+#include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
-#include "Dynamics.h"
-#include "Executor.h"
-#include "Proximity.h"
-#include "SurfaceState.h"
 
 #include <numeric>
 #include <vector>

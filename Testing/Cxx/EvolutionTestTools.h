@@ -3,8 +3,9 @@
 #ifndef volumicEvolutionTestTools_h
 #define volumicEvolutionTestTools_h
 
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
 #include "CoreTestTools.h"
-#include "SurfaceEvolution.h"
 
 #include <functional>
 #include <vector>

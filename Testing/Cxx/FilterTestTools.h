@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef FilterTestTools_h
-#define FilterTestTools_h
+#ifndef volumicFilterTestTools_h
+#define volumicFilterTestTools_h
 
 #include "vtkImagePyramid.h"
 

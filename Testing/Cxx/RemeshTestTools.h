@@ -3,11 +3,11 @@
 #ifndef volumicRemeshTestTools_h
 #define volumicRemeshTestTools_h
 
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
-#include "Executor.h"
-#include "Field.h"
-#include "SurfaceOptions.h"
-#include "SurfaceState.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SurfaceTestTools_h
-#define SurfaceTestTools_h
+#ifndef volumicSurfaceTestTools_h
+#define volumicSurfaceTestTools_h
 
 #include "FilterTestTools.h"
 #include "vtkDeformableSurface.h"

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/EdgeAttraction.h"
+#include "Core/Image/Field.h"
+#include "Core/Image/PointAttraction.h"
 #include "CoreTestTools.h"
-#include "EdgeAttraction.h"
-#include "Executor.h"
-#include "Field.h"
-#include "PointAttraction.h"
 
 #include <gtest/gtest.h>
 

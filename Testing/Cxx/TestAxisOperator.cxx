@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AxisOperator.h"
+#include "Core/Image/AxisOperator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CellSurface.h"
-#include "SurfaceCheck.h"
+#include "Core/Mesh/CellSurface.h"
+#include "Core/Mesh/SurfaceCheck.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ComponentWatch.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Surface/ComponentWatch.h"
+#include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
-#include "SurfaceFeatures.h"
-#include "SurfaceState.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Which pairs count as contacts that remain, and which vertices as held by them.
-#include "RemainingContacts.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Surface/RemainingContacts.h"
 #include "RemeshTestTools.h"
 
 #include <gtest/gtest.h>

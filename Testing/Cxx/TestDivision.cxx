@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/Division.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "Division.h"
-#include "SurfaceEvolution.h"
 
 #include <gtest/gtest.h>
 

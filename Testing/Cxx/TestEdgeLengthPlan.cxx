@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "EdgeLengthPlan.h"
+#include "Core/Evolution/EdgeLengthPlan.h"
 
 #include <gtest/gtest.h>
 

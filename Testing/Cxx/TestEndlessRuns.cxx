@@ -6,9 +6,11 @@
  * vertices times iterations, which is the same on every machine.
  */
 
+#include "Core/Evolution/CycleCriterion.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "CycleCriterion.h"
-#include "SurfaceEvolution.h"
 
 #include <gtest/gtest.h>
 

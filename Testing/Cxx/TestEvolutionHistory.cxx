@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
-#include "SurfaceEvolution.h"
-#include "SurfaceState.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/Field.h"
 #include "CoreTestTools.h"
-#include "Field.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/Division.h"
+#include "Core/Mesh/LatticeSurface.h"
+#include "Core/Mesh/ObliqueRotation.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/Remesher.h"
 #include "CoreTestTools.h"
-#include "Division.h"
-#include "LatticeSurface.h"
-#include "ObliqueRotation.h"
-#include "Remesher.h"
-#include "SurfaceEvolution.h"
 
 #include <gtest/gtest.h>
 

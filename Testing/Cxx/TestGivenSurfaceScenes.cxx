@@ -4,7 +4,8 @@
 // What people give as initial surfaces: VTK's sources with their coarse facets, slivers and fans,
 // extruded outlines, decimated scans. Each must be legal before the first iteration and at the end,
 // by the judge's exact tests, or be refused because it is not legal itself.
-#include "SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
 #include "SurfaceJudge.h"
 
 #include <vtkCellArray.h>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What the history tells is what the surface does.
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>

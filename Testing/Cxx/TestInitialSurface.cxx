@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/Field.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "Executor.h"
-#include "Field.h"
-#include "InitialSurface.h"
 
 #include <gtest/gtest.h>
 

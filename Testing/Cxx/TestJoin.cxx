@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommaLocale.h"
-#include "Refuse.h"
+#include "Core/Common/Refuse.h"
 
 #include <gtest/gtest.h>
 

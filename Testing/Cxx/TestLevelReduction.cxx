@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "AxisOperator.h"
-#include "LevelReduction.h"
-#include "ValidReduction.h"
+#include "Core/Image/AxisOperator.h"
+#include "Core/Image/LevelReduction.h"
+#include "Core/Image/ValidReduction.h"
 
 #include <gtest/gtest.h>
 

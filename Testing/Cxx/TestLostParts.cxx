@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Evolution/LostParts.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/SurfaceCheck.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "InitialSurface.h"
-#include "LostParts.h"
-#include "SurfaceCheck.h"
 
 #include <gtest/gtest.h>
 

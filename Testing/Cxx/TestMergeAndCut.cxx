@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/CycleCut.h"
+#include "Core/Mesh/StarMerge.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "CycleCut.h"
-#include "StarMerge.h"
 
 #include <gtest/gtest.h>
 

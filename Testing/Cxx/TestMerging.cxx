@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What has come near is merged where the image wants it, nearest first.
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/Remesher.h"
 #include "RemeshTestTools.h"
-#include "Remesher.h"
-#include "SurfaceEvolution.h"
 
 #include <gtest/gtest.h>
 

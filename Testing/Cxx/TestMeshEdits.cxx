@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/EdgeCollapse.h"
+#include "Core/Mesh/EdgeFlip.h"
+#include "Core/Mesh/EdgeSplit.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Mesh/VertexRemoval.h"
 #include "CoreTestTools.h"
-#include "EdgeCollapse.h"
-#include "EdgeFlip.h"
-#include "EdgeSplit.h"
-#include "VertexRemoval.h"
 
 #include <gtest/gtest.h>
 

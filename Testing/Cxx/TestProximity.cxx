@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Executor.h"
+#include "Core/Mesh/TriangleTests.h"
+#include "Core/Surface/Proximity.h"
 #include "CoreTestTools.h"
-#include "Executor.h"
-#include "Proximity.h"
-#include "TriangleTests.h"
 
 #include <gtest/gtest.h>
 

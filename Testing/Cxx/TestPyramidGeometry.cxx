@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PyramidGeometry.h"
+#include "Core/Image/PyramidGeometry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Executor.h"
+#include "Core/Surface/SurfaceEditor.h"
 #include "CoreTestTools.h"
-#include "Executor.h"
-#include "SurfaceEditor.h"
 
-#include "CycleCut.h"
-#include "EdgeCollapse.h"
-#include "EdgeFlip.h"
-#include "EdgeSplit.h"
-#include "StarMerge.h"
-#include "VertexRemoval.h"
+#include "Core/Mesh/CycleCut.h"
+#include "Core/Mesh/EdgeCollapse.h"
+#include "Core/Mesh/EdgeFlip.h"
+#include "Core/Mesh/EdgeSplit.h"
+#include "Core/Mesh/StarMerge.h"
+#include "Core/Mesh/VertexRemoval.h"
 
 #include <gtest/gtest.h>
 

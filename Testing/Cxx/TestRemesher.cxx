@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Which edges are split, collapsed and flipped; lengths in delta.
-#include "EdgeFlip.h"
-#include "EdgeSplit.h"
+#include "Core/Mesh/EdgeFlip.h"
+#include "Core/Mesh/EdgeSplit.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/Remesher.h"
 #include "RemeshTestTools.h"
-#include "Remesher.h"
 
 #include <gtest/gtest.h>
 

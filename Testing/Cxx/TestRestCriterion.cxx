@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RestCriterion.h"
+#include "Core/Evolution/RestCriterion.h"
 
 #include <gtest/gtest.h>
 

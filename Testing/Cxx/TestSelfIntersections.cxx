@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/TriangleTests.h"
+#include "Core/Mesh/TriangleTree.h"
 #include "CoreTestTools.h"
-#include "SelfIntersections.h"
-#include "TriangleTests.h"
-#include "TriangleTree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StandardThreads.h"
+#include "Core/Common/StandardThreads.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Every check of a given surface and of a live one, each with a surface that only it refuses.
+#include "Core/Mesh/SurfaceCheck.h"
 #include "CoreTestTools.h"
 #include "RemeshTestTools.h"
-#include "SurfaceCheck.h"
 
 #include <gtest/gtest.h>
 

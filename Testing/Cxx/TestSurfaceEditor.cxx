@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What each edit refuses: illegal lengths, slivers, faces that turn over, and intersections.
-#include "EdgeFlip.h"
-#include "EdgeSplit.h"
-#include "Proximity.h"
+#include "Core/Mesh/EdgeFlip.h"
+#include "Core/Mesh/EdgeSplit.h"
+#include "Core/Surface/Proximity.h"
+#include "Core/Surface/SurfaceEditor.h"
 #include "RemeshTestTools.h"
-#include "SurfaceEditor.h"
 
 #include <gtest/gtest.h>
 

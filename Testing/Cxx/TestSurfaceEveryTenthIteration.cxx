@@ -3,9 +3,10 @@
 
 // No state of the surface ever intersects itself: looked at during the evolution, not only after
 // it.
-#include "LevelReduction.h"
-#include "PyramidGeometry.h"
-#include "SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/LevelReduction.h"
+#include "Core/Image/PyramidGeometry.h"
 #include "SurfaceJudge.h"
 #include "SyntheticScenes.h"
 

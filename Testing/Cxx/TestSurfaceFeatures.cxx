@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "SurfaceFeatures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/EdgeFlip.h"
+#include "Core/Surface/SurfacePolish.h"
 #include "CoreTestTools.h"
-#include "EdgeFlip.h"
-#include "Executor.h"
-#include "SurfacePolish.h"
 
 #include <gtest/gtest.h>
 

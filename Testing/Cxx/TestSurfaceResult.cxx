@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What an evolution hands over, and what it starts from.
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/ThickPart.h"
+#include "Core/Image/VoxelNumbers.h"
 #include "CoreTestTools.h"
-#include "SurfaceEvolution.h"
-#include "ThickPart.h"
-#include "VoxelNumbers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SurfaceMesh.h"
-#include "VoxelNumbers.h"
+#include "Core/Image/VoxelNumbers.h"
+#include "Core/Mesh/SurfaceMesh.h"
 
 #include <gtest/gtest.h>
 

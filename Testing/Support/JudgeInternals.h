@@ -3,8 +3,8 @@
 
 /** What the parts of the judge share. Include SurfaceJudge.h instead. */
 
-#ifndef JudgeInternals_h
-#define JudgeInternals_h
+#ifndef volumicJudgeInternals_h
+#define volumicJudgeInternals_h
 
 #include "TriangleSurface.h"
 

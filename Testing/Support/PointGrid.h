@@ -3,8 +3,8 @@
 
 /** Points sorted into cells, to find those near a place. Part of the judge. */
 
-#ifndef PointGrid_h
-#define PointGrid_h
+#ifndef volumicPointGrid_h
+#define volumicPointGrid_h
 
 #include <algorithm>
 #include <array>

@@ -6,8 +6,8 @@
  * Part of SyntheticScenes.cxx; nobody else needs it.
  */
 
-#ifndef SceneShapes_h
-#define SceneShapes_h
+#ifndef volumicSceneShapes_h
+#define volumicSceneShapes_h
 
 #include "SyntheticScenes.h"
 

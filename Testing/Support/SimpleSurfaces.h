@@ -3,8 +3,8 @@
 
 /** Small surfaces with known verdicts, as input for tests. */
 
-#ifndef SimpleSurfaces_h
-#define SimpleSurfaces_h
+#ifndef volumicSimpleSurfaces_h
+#define volumicSimpleSurfaces_h
 
 #include "TriangleSurface.h"
 

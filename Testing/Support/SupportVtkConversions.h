@@ -6,8 +6,8 @@
  * includes it links VTK::CommonCore, VTK::CommonDataModel.
  */
 
-#ifndef SupportVtkConversions_h
-#define SupportVtkConversions_h
+#ifndef volumicSupportVtkConversions_h
+#define volumicSupportVtkConversions_h
 
 #include "SurfaceJudge.h"
 #include "SyntheticScenes.h"

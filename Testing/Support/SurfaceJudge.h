@@ -14,8 +14,8 @@
  * for a coordinate that is not finite.
  */
 
-#ifndef SurfaceJudge_h
-#define SurfaceJudge_h
+#ifndef volumicSurfaceJudge_h
+#define volumicSurfaceJudge_h
 
 #include "TriangleSurface.h"
 

@@ -12,8 +12,8 @@
  * at the origin; world = origin + direction * (spacing * index) is left to the user of the scene.
  */
 
-#ifndef SyntheticScenes_h
-#define SyntheticScenes_h
+#ifndef volumicSyntheticScenes_h
+#define volumicSyntheticScenes_h
 
 #include <array>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#ifndef TriangleSurface_h
-#define TriangleSurface_h
+#ifndef volumicTriangleSurface_h
+#define volumicTriangleSurface_h
 
 #include <array>
 #include <vector>

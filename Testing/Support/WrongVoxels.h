@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef WrongVoxels_h
-#define WrongVoxels_h
+#ifndef volumicWrongVoxels_h
+#define volumicWrongVoxels_h
 
 #include "SyntheticScenes.h"
 #include "TriangleSurface.h"

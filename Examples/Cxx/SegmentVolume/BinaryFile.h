@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef BinaryFile_h
-#define BinaryFile_h
+#ifndef volumicBinaryFile_h
+#define volumicBinaryFile_h
 
 #include <cstdint>
 #include <fstream>

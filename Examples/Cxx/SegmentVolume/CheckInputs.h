@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef CheckInputs_h
-#define CheckInputs_h
+#ifndef volumicCheckInputs_h
+#define volumicCheckInputs_h
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef CheckWritten_h
-#define CheckWritten_h
+#ifndef volumicCheckWritten_h
+#define volumicCheckWritten_h
 
 #include <cstdint>
 #include <string>

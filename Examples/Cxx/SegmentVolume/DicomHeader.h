@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DicomHeader_h
-#define DicomHeader_h
+#ifndef volumicDicomHeader_h
+#define volumicDicomHeader_h
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef Inflate_h
-#define Inflate_h
+#ifndef volumicInflate_h
+#define volumicInflate_h
 
 #include <cstdint>
 #include <istream>

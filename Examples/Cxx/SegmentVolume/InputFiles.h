@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef InputFiles_h
-#define InputFiles_h
+#ifndef volumicInputFiles_h
+#define volumicInputFiles_h
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef JsonWriter_h
-#define JsonWriter_h
+#ifndef volumicJsonWriter_h
+#define volumicJsonWriter_h
 
 #include <ostream>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef OutputChecks_h
-#define OutputChecks_h
+#ifndef volumicOutputChecks_h
+#define volumicOutputChecks_h
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef OutputFiles_h
-#define OutputFiles_h
+#ifndef volumicOutputFiles_h
+#define volumicOutputFiles_h
 
 #include <cstddef>
 #include <string>

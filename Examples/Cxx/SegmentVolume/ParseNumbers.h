@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ParseNumbers_h
-#define ParseNumbers_h
+#ifndef volumicParseNumbers_h
+#define volumicParseNumbers_h
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ReadStart_h
-#define ReadStart_h
+#ifndef volumicReadStart_h
+#define volumicReadStart_h
 
 #include <vtkSmartPointer.h>
 

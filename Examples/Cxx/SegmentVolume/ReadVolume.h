@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ReadVolume_h
-#define ReadVolume_h
+#ifndef volumicReadVolume_h
+#define volumicReadVolume_h
 
 #include <vtkSmartPointer.h>
 

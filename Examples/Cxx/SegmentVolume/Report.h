@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef Report_h
-#define Report_h
+#ifndef volumicReport_h
+#define volumicReport_h
 
 #include "SurfaceProperties.h"
 

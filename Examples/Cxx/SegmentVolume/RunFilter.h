@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef RunFilter_h
-#define RunFilter_h
+#ifndef volumicRunFilter_h
+#define volumicRunFilter_h
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SegmentOptions_h
-#define SegmentOptions_h
+#ifndef volumicSegmentOptions_h
+#define volumicSegmentOptions_h
 
 #include "SurfaceProperties.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SurfaceProperties_h
-#define SurfaceProperties_h
+#ifndef volumicSurfaceProperties_h
+#define volumicSurfaceProperties_h
 
 #include <functional>
 #include <string>

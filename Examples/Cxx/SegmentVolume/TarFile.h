@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef TarFile_h
-#define TarFile_h
+#ifndef volumicTarFile_h
+#define volumicTarFile_h
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ToolErrors_h
-#define ToolErrors_h
+#ifndef volumicToolErrors_h
+#define volumicToolErrors_h
 
 #include <stdexcept>
 

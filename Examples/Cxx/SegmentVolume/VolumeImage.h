@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef VolumeImage_h
-#define VolumeImage_h
+#ifndef volumicVolumeImage_h
+#define volumicVolumeImage_h
 
 #include <vtkSmartPointer.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef VtkMessages_h
-#define VtkMessages_h
+#ifndef volumicVtkMessages_h
+#define volumicVtkMessages_h
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef WriteResults_h
-#define WriteResults_h
+#ifndef volumicWriteResults_h
+#define volumicWriteResults_h
 
 #include <string>
 

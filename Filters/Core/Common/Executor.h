@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicExecutor_h
+#define volumicExecutor_h
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+
+namespace volumic
+{
+/**
+ * A parallel for, so that the core needs no threading library of its own.
+ *
+ * Contract: For() calls `body(begin, end)` on ranges that cover [0, n) exactly once, in any
+ * order, on any threads, and returns when all are done. The bodies that the core hands in write
+ * to disjoint places only and reduce in fixed blocks, so the chunks an implementation chooses
+ * never change a result. For() may be called for small n: run those without threads.
+ * An exception thrown by `body` must leave For() on the calling thread.
+ */
+class Executor
+{
+public:
+  virtual ~Executor() = default;
+
+  /** `grain`: number of items under which a chunk is not worth a thread. */
+  virtual void For(std::size_t n, std::size_t grain,
+    const std::function<void(std::size_t begin, std::size_t end)>& body) = 0;
+};
+
+/** The default: everything on the calling thread, in order. */
+class SequentialExecutor final : public Executor
+{
+public:
+  void For(std::size_t n, std::size_t,
+    const std::function<void(std::size_t begin, std::size_t end)>& body) override
+  {
+    if (n > 0)
+    {
+      body(0, n);
+    }
+  }
+};
+
+/** Runs body(block, begin, end) over fixed blocks of [0, n): the same for any executor. */
+template <typename Body>
+void ForBlocks(Executor& executor, std::size_t n, std::size_t size, Body&& body)
+{
+  const std::size_t blocks = (n + size - 1) / size;
+  executor.For(blocks, 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t b = begin; b < end; ++b)
+      {
+        body(b, b * size, std::min(n, (b + 1) * size));
+      }
+    });
+}
+}
+
+#endif

@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/Dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+constexpr std::size_t BlockSize = 1024;
+/** Distance, in delta, over which the isopotential force grows to its bound. */
+constexpr float ForceRange = 0.75f;
+/** Floor of the gradient, in TypicalSlope. */
+constexpr float GradientFloor = 0.15f;
+/** A vertex has moved visibly when it is this far from its anchor, in delta. */
+constexpr float Visible = 0.03f;
+/** The same along the surface. */
+constexpr float Slide = 0.3f;
+/** Iterations without visible motion after which a vertex sleeps. */
+constexpr int Patience = 5;
+
+/** Of the stiffest shape of a mesh against it, per unit of weight: that of a zigzag. */
+constexpr float TensionStiffness = 4.f;
+constexpr float ElasticityStiffness = 12.f;
+/** By how much the time step may be shortened for the sake of internal forces. */
+constexpr float Shortening = 4.f;
+
+float Clamp(float x)
+{
+  return std::min(std::max(x, -1.f), 1.f);
+}
+}
+
+Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
+  : TheField(field)
+  , Options(options)
+  , Threads(executor)
+{
+  if (options.EdgeAttractionWeight > 0 && field.Image().Edges)
+  {
+    this->Edges = std::make_unique<EdgeAttraction>(field.Image(), executor);
+  }
+  this->SetPace();
+}
+
+void Dynamics::SetPace()
+{
+  const float drive =
+    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight +
+      (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
+  // Strong forces oscillate like weak ones: friction grows with them as it would have to if only
+  // the unit of time were another.
+  this->Drag = static_cast<float>(this->Options.Friction) * std::sqrt(std::max(drive, 1.f));
+  // A free vertex at its final speed under full force goes just the largest step.
+  this->Longest =
+    static_cast<float>(this->Options.MaximumStep) * this->Drag / std::max(drive, 0.5f);
+  // A spring of stiffness k swings itself up where k step^2 exceeds 4 + 2 friction step.
+  const float outer = drive / ForceRange;
+  const float inner = TensionStiffness * static_cast<float>(this->Options.TensionWeight) +
+    ElasticityStiffness * static_cast<float>(this->Options.ElasticityWeight);
+  const float stiffness = outer + inner;
+  const float stable =
+    (this->Drag + std::sqrt(this->Drag * this->Drag + 4 * stiffness)) / std::max(stiffness, 1e-6f);
+  this->Longest = std::min(this->Longest, std::max(stable, this->Longest / Shortening));
+  const float most =
+    (4 + 2 * this->Drag * this->Longest) / (this->Longest * this->Longest) - outer;
+  this->InnerShare = inner > 0 && inner > most ? std::max(most, 0.f) / inner : 1.f;
+}
+
+Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
+{
+  const Vector& n = state.Normal[v];
+  const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
+  value = sample.Value;
+  const float floor = GradientFloor * this->TheField.TypicalSlope();
+  const float slope = std::max(Length(sample.Gradient), floor);
+  float along = static_cast<float>(this->Options.IsopotentialWeight) *
+    Clamp(sample.Value / (slope * ForceRange * state.Delta));
+  float beside = 0;
+  float most = 0;
+  if (this->Options.GradientWeight > 0)
+  {
+    // Value has the sign of the object; the potential is the image itself.
+    const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
+    const float weight = static_cast<float>(this->Options.GradientWeight);
+    beside -=
+      weight * Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+    most += weight;
+  }
+  if (this->Edges)
+  {
+    const float weight = static_cast<float>(this->Options.EdgeAttractionWeight);
+    beside += weight * this->Edges->Along(state.Mesh.Position[v], n);
+    most += weight;
+  }
+  if (most > 0)
+  {
+    // They know of no background: beyond the margin of the image it takes over, as strong as they.
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    along += beside - share * (beside + most);
+  }
+  const Ring& ring = state.Mesh.Rings[v];
+  Vector tension = state.Pull[v];
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const int w = ring.Item[i];
+    tension -= state.Pull[w] * (1.f / static_cast<float>(state.Mesh.Rings[w].Count));
+  }
+  const float inverse = 1.f / state.Delta;
+  Vector force = n * along +
+    tension * (this->InnerShare * static_cast<float>(this->Options.TensionWeight) * inverse) +
+    state.Spring[v] *
+      (this->InnerShare * static_cast<float>(this->Options.ElasticityWeight) * inverse);
+  force.Unused = 0;
+  return force;
+}
+
+void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
+  const std::vector<Proximity::ClosePair>& pairs)
+{
+  const std::size_t n = awake.size();
+  this->Force.resize(n);
+  this->Fastest.assign((n + BlockSize - 1) / BlockSize, 0.f);
+  const float friction = this->Drag;
+  const float step = static_cast<float>(this->Options.MaximumStep) * state.Delta;
+  const float longest = this->Longest;
+  ForBlocks(this->Threads, n, BlockSize,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      float fastest = 0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = awake[i];
+        this->Force[i] = this->ForceAt(state, v, state.Value[v]) * state.Delta;
+        const Vector speed =
+          (state.Velocity[v] + this->Force[i] * longest) * (1 / (1 + friction * longest));
+        fastest = std::max(fastest, SquaredLength(speed));
+      }
+      this->Fastest[b] = fastest;
+    });
+  float fastest = 0;
+  for (float x : this->Fastest)
+  {
+    fastest = std::max(fastest, x);
+  }
+  fastest = std::sqrt(fastest);
+  this->Step = fastest * longest > step ? step / fastest : longest;
+  this->Threads.For(n, BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Vector& velocity = state.Velocity[awake[i]];
+        velocity =
+          (velocity + this->Force[i] * this->Step) * (1 / (1 + friction * this->Step));
+      }
+    });
+  this->Resist(state, pairs);
+}
+
+void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
+  const std::vector<Proximity::ClosePair>& pairs, bool snap)
+{
+  const float longest = 0.15f * state.Delta;
+  const float floor = GradientFloor * this->TheField.TypicalSlope();
+  this->Step = 1;
+  this->Threads.For(vertices.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = vertices[i];
+        Vector n = state.Normal[v];
+        n.Unused = 0;
+        Vector pull = state.Pull[v];
+        pull.Unused = 0;
+        Vector move = (pull - n * Dot(pull, n)) * 0.7f;
+        if (snap)
+        {
+          const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
+          const float slope = -Dot(sample.Gradient, n);
+          // Where the normal says nothing about the gradient the step would only do harm.
+          if (slope > floor && slope > 0.5f * Length(sample.Gradient))
+          {
+            const float step = sample.Value / slope;
+            move += n * std::min(std::max(step, -longest), longest);
+          }
+        }
+        if (this->Edges && this->Options.SnapToEdges)
+        {
+          const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+          move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
+        }
+        const float length = Length(move);
+        state.Velocity[v] = length > longest ? move * (longest / length) : move;
+      }
+    });
+  // Contacts: nothing may come nearer than it is.
+  this->Resist(state, pairs);
+}
+
+bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
+{
+  const Ring& ring = state.Mesh.Rings[v];
+  bool common = false;
+  for (int i = 0; i < ring.Count && !common; ++i)
+  {
+    common = state.Mesh.AreNeighbours(ring.Item[i], w);
+  }
+  if (!common)
+  {
+    return false;
+  }
+  const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
+  const bool front = Dot(state.Normal[v] - state.Normal[w], across) > 0;
+  const float value =
+    this->TheField.ValueAt((state.Mesh.Position[v] + state.Mesh.Position[w]) * 0.5f);
+  return front ? value > 0 : value < 0;
+}
+
+void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
+{
+  this->Groups.clear();
+  for (std::size_t begin = 0; begin < pairs.size();)
+  {
+    std::size_t end = begin + 1;
+    while (end < pairs.size() && pairs[end].V == pairs[begin].V)
+    {
+      ++end;
+    }
+    if (state.Mesh.IsAlive(pairs[begin].V) && state.Awake[pairs[begin].V])
+    {
+      this->Groups.push_back({ begin, end, Vector() });
+    }
+    begin = end;
+  }
+  const float near = constraint::NearestOthers * state.Delta;
+  constexpr int sweeps = 3;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+  {
+    this->Threads.For(this->Groups.size(), 256,
+      [&](std::size_t first, std::size_t last)
+      {
+        for (std::size_t g = first; g < last; ++g)
+        {
+          Group& group = this->Groups[g];
+          const int v = pairs[group.Begin].V;
+          Vector sum;
+          int count = 0;
+          for (std::size_t i = group.Begin; i < group.End; ++i)
+          {
+            const int w = pairs[i].W;
+            if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w) ||
+              this->MayClose(state, v, w))
+            {
+              continue;
+            }
+            const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
+            const float distance = Length(across);
+            if (distance > near || distance <= 0)
+            {
+              continue;
+            }
+            const Vector direction = across * (1 / distance);
+            float approach = Dot(state.Velocity[v], direction);
+            if (state.Awake[w])
+            {
+              approach = 0.5f * (approach - Dot(state.Velocity[w], direction));
+            }
+            if (sweep == 0 && distance < state.Delta)
+            {
+              approach =
+                std::max(approach, 0.f) + 0.25f * (state.Delta - distance) / this->Step;
+            }
+            if (approach > 0)
+            {
+              sum += direction * approach;
+              ++count;
+            }
+          }
+          group.Correction = sum * (1.f / static_cast<float>(std::max(count, 1)));
+        }
+      });
+    for (const Group& group : this->Groups)
+    {
+      state.Velocity[pairs[group.Begin].V] -= group.Correction;
+    }
+  }
+}
+
+void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
+{
+  const float longest = static_cast<float>(this->Options.MaximumStep) * state.Delta;
+  this->Threads.For(awake.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = awake[i];
+        Vector& p = state.Mesh.Position[v];
+        state.Before[v] = p;
+        Vector move = state.Velocity[v] * this->Step;
+        const float length = Length(move);
+        if (length > longest)
+        {
+          move *= longest / length;
+        }
+        state.Moved[v] = std::min(length, longest);
+        p = state.Around.Confined(p, p + move);
+      }
+    });
+  for (int v : awake)
+  {
+    state.Grid.Move(v, state.Mesh.Position[v]);
+  }
+}
+
+void Dynamics::Freeze(
+  SurfaceState& state, const std::vector<int>& awake, const std::vector<int>& working)
+{
+  const float visible = Visible * state.Delta;
+  const float slide = Slide * state.Delta;
+  this->HasMoved.resize(state.Mesh.Rings.size(), 0);
+  this->Threads.For(awake.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = awake[i];
+        if (!state.Mesh.IsAlive(v))
+        {
+          continue;
+        }
+        // Along the normal: sliding along the surface changes nothing, and is left to the end.
+        const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
+        if (std::abs(Dot(moved, state.Normal[v])) > visible ||
+          SquaredLength(moved) > slide * slide)
+        {
+          state.Anchor[v] = state.Mesh.Position[v];
+          this->HasMoved[v] = 1;
+        }
+      }
+    });
+  this->Threads.For(working.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = working[i];
+        const Ring& ring = state.Mesh.Rings[v];
+        bool moved = this->HasMoved[v];
+        for (int k = 0; k < ring.Count && !moved; ++k)
+        {
+          moved = this->HasMoved[ring.Item[k]];
+        }
+        if (moved)
+        {
+          state.Wake(v);
+        }
+        else if (this->Options.FreezeMotionlessVertices && state.Awake[v] &&
+          ++state.Quiet[v] >= Patience)
+        {
+          state.Awake[v] = 0;
+          state.Velocity[v] = Vector();
+        }
+      }
+    });
+  for (int v : awake)
+  {
+    this->HasMoved[v] = 0;
+  }
+}
+}

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicDynamics_h
+#define volumicDynamics_h
+
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/EdgeAttraction.h"
+#include "Core/Image/Field.h"
+#include "Core/Surface/Proximity.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <memory>
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Forces, time step, Newton's law with friction, contact, displacement and freezing: everything
+ * of an iteration that moves vertices. Forces are gathered per vertex, so threads need no locks.
+ *
+ * Forces, in delta per unit of time squared (mass 1):
+ * - tension F_c: TensionWeight times the pull to the barycentre of the neighbours, less its
+ *   reaction on them. The reaction keeps the sum of the forces zero, so closed surfaces do not
+ *   shrink (a pure barycentre pull does).
+ * - elasticity F_e: springs along the edges with rest length 1.6 delta.
+ * - isopotential F_i: along the normal, Value / (|gradient| 0.75 delta), clamped to 1; the
+ *   gradient has a floor, so that plateaus do not make the force arbitrarily stiff.
+ * - gradient F_di: the image is taken as a potential and the vertex descends it along its normal:
+ *   - (gradient of the image . n) / (0.5 TypicalSlope), clamped to 1. To segment by edges instead
+ *   of by value, give an image with valleys where the contours are (such as minus the gradient
+ *   magnitude), GradientWeight 1, and a small IsopotentialWeight whose iso-value drives the
+ *   surface over the flat parts.
+ * - edges: EdgeAttractionWeight times EdgeAttraction::Along, if the image of the field has a map
+ *   of edges.
+ *
+ * Friction is Options.Friction per unit of time; where the weights of the outer forces (the last
+ * three) add up to s > 1 it is times sqrt(s), so that strong forces swing no more than weak ones: a
+ * common factor of all is another unit of time. Tension and elasticity that the time step cannot
+ * follow would swing themselves up: the step is shortened down to a quarter, then the two are
+ * weakened to what it can follow.
+ *
+ * Beyond the margin of the image gradient and edges give way to a pull back, against the normal, of
+ * their weights; no displacement leads further out than ImageMargin allows.
+ */
+class Dynamics
+{
+public:
+  Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor);
+
+  /**
+   * Computes forces and velocities of the awake vertices; `pairs` are the contacts known from the
+   * last examination.
+   */
+  void Accelerate(SurfaceState& state, const std::vector<int>& awake,
+    const std::vector<Proximity::ClosePair>& pairs);
+
+  /**
+   * Instead of Accelerate, at the end of a level: velocities that even the mesh out tangentially
+   * and, on request, lead onto the isopotential (Newton's step along the normal), or, by
+   * SurfaceOptions::SnapToEdges, up to the ridge of the map of edges, never towards a contact.
+   */
+  void Relax(SurfaceState& state, const std::vector<int>& vertices,
+    const std::vector<Proximity::ClosePair>& pairs, bool snap);
+
+  /** Displaces them; the place before is kept in SurfaceState::Before. */
+  void Displace(SurfaceState& state, const std::vector<int>& awake);
+
+  /**
+   * After roll back: puts vertices at rest to sleep and wakes the neighbours of moved ones.
+   * `working` holds the awake vertices and all their neighbours.
+   */
+  void Freeze(
+    SurfaceState& state, const std::vector<int>& awake, const std::vector<int>& working);
+
+  /** Of the last step. */
+  double TimeStep() const { return this->Step; }
+
+private:
+  void SetPace();
+  Vector ForceAt(const SurfaceState& state, int v, float& value) const;
+  /**
+   * Whether two vertices with a common neighbour lie across a hole, or a waist, that the image
+   * wants closed: contact between them would keep it open for ever, short of the 3-cycle that a
+   * cut needs.
+   */
+  bool MayClose(const SurfaceState& state, int v, int w) const;
+  void Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs);
+
+  const Field& TheField;
+  const SurfaceOptions& Options;
+  Executor& Threads;
+  std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
+  float Drag = 0;       ///< Friction as it acts.
+  float Longest = 0;    ///< Time step, unless re-sampled.
+  float InnerShare = 1; ///< Of the internal forces that the time step can follow.
+  float Step = 0;
+  std::vector<Vector> Force;
+  std::vector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.
+  std::vector<float> Fastest;
+  struct Group
+  {
+    std::size_t Begin, End;
+    Vector Correction;
+  };
+  std::vector<Group> Groups;
+};
+}
+
+#endif

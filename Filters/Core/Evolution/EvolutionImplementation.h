@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicEvolutionImplementation_h
+#define volumicEvolutionImplementation_h
+
+#include "Core/Evolution/CycleCriterion.h"
+#include "Core/Evolution/Dynamics.h"
+#include "Core/Evolution/LostBoundary.h"
+#include "Core/Evolution/RestCriterion.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Image/Field.h"
+#include "Core/Surface/ComponentWatch.h"
+#include "Core/Surface/Proximity.h"
+#include "Core/Surface/Remesher.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace volumic
+{
+/** What an iteration is driven by: forces; shape and residual; shape alone. */
+enum class Mode
+{
+  Evolve,
+  Regularise,
+  Adapt
+};
+
+/**
+ * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
+ * recovery), GivenSurface.cxx makes a given one ready, EvolutionIteration.cxx does one iteration,
+ * EvolutionRun.cxx a whole level.
+ */
+struct SurfaceEvolution::Implementation
+{
+  SurfaceOptions Options;
+  Executor& Threads;
+  Monitor& Listener;
+  SurfaceState State;
+  std::unique_ptr<Field> TheField;
+  int Level = 0;
+  std::vector<HistoryRow> Rows;
+  int LastIterations = 0;
+  LostParts LastLost;
+  LostBoundary Lost; ///< Of the parts that the last division found.
+  Proximity Near;
+  Proximity Recheck;
+  ComponentWatch Watch;
+  RestCriterion Rest;
+  CycleCriterion Cycle;
+  std::vector<int> Awake;
+  std::vector<int> Working;
+  std::vector<int> Suspects;
+  std::vector<std::uint8_t> Marked;
+  std::vector<double> Partial;
+  double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
+  double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
+  std::chrono::steady_clock::time_point Booked = std::chrono::steady_clock::now();
+  double LevelSeconds = 0.; ///< What has been booked since the last level.
+  bool Stopped = false;     ///< By the monitor.
+  EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
+  int Shrunk = 0;    ///< Collapses since components were labelled last.
+  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
+
+  Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
+    : Options(options)
+    , Threads(executor)
+    , Listener(monitor)
+  {
+  }
+
+  bool Ask(bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share);
+  bool GoOn(Monitor::Activity doing, double share);
+  Checkpoint CheckpointOf(Monitor::Activity doing, double from = 0., double to = 1.);
+  bool HasIteration() const;
+  double Book();
+  void Enter(const LevelImage& image, int level);
+  void Reset();
+  void Recover();
+  void LayGrid();
+  void SplitLongEdges();
+  void FindMeetings();
+  void DivideOnce();
+  void Take(const IndexedSurface& surface);
+  void TakeRemeshed(const IndexedSurface& surface);
+  IndexedSurface Remesh(const IndexedSurface& surface);
+  void Begin(const IndexedSurface& surface);
+  void Adapt();
+  void WakeAll();
+  void SleepUnlessMoving(float least);
+  void CollectAwake();
+  void CollectWorking();
+  void CollectSuspects();
+  void MarkRing(int v);
+  void RollBack();
+  void UpdateTouched();
+  double EnclosedVolume();
+  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
+  void FillRow(HistoryRow& row);
+  double MeanEdgeLength();
+  void FillCounts(HistoryRow& row) const;
+  void FitMeanEdge(Dynamics& dynamics);
+  void DeleteInsideOut();
+  void FinishRow();
+  void FindMissing();
+  void Regularise(Dynamics& dynamics);
+  void RunPolish(HistoryRow& row);
+  StopReason Evolve();
+  StopReason Run();
+};
+}
+
+#endif

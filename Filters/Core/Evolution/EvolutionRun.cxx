@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Surface/SurfacePolish.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** Passes of tangential smoothing and snapping at the end of a level. */
+constexpr int RegularisationPasses = 12;
+/** Way in a pass, in delta, under which a vertex is left where it is. */
+constexpr float SmallestMove = 0.015f;
+/** Share of a level's progress that is left to what comes before and after its iterations. */
+constexpr double ShareBefore = 0.1;
+constexpr double ShareAfter = 0.2;
+/** Of a regularisation, the passes; the rest is the polish. */
+constexpr double PassesShare = 0.6;
+
+/** Of a level, in [0, 1]. */
+double FractionOf(Monitor::Activity doing, double share, int iterations)
+{
+  switch (doing)
+  {
+    case Monitor::Activity::Starting:
+      return ShareBefore * share;
+    case Monitor::Activity::Dividing:
+      return 0.5 * ShareBefore * share;
+    case Monitor::Activity::Recovering:
+      return 0.5 * ShareBefore * (1. + share);
+    case Monitor::Activity::Iterating:
+      return ShareBefore +
+        (1. - ShareBefore - ShareAfter) * (1. - std::exp(-iterations / 80.));
+    default:
+      return 1. - ShareAfter * (1. - share);
+  }
+}
+}
+
+bool SurfaceEvolution::Implementation::GoOn(Monitor::Activity doing, double share)
+{
+  return this->Ask(&Monitor::GoOn, doing, share);
+}
+
+bool SurfaceEvolution::Implementation::Ask(
+  bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share)
+{
+  if (this->Stopped)
+  {
+    return false;
+  }
+  Monitor::Status status;
+  status.Level = this->Level;
+  status.Doing = doing;
+  status.Iteration = this->LastIterations;
+  status.Vertices = this->State.Mesh.NumberOfVertices();
+  status.ActiveVertices = static_cast<int>(this->Awake.size());
+  status.Fraction = FractionOf(doing, std::clamp(share, 0., 1.), this->LastIterations);
+  this->Stopped = !(this->Listener.*question)(status);
+  return !this->Stopped;
+}
+
+Checkpoint SurfaceEvolution::Implementation::CheckpointOf(
+  Monitor::Activity doing, double from, double to)
+{
+  return [this, doing, from, to](double share)
+  { return this->GoOn(doing, from + (to - from) * share); };
+}
+
+double SurfaceEvolution::Implementation::Book()
+{
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - this->Booked).count();
+  this->Booked = now;
+  this->LevelSeconds += seconds;
+  return seconds;
+}
+
+bool SurfaceEvolution::Implementation::HasIteration() const
+{
+  return this->LastIterations > 0 && !this->Rows.empty();
+}
+
+double SurfaceEvolution::Implementation::EnclosedVolume()
+{
+  // Fixed blocks summed in order; each face is seen from its three corners.
+  const SurfaceMesh& mesh = this->State.Mesh;
+  constexpr std::size_t size = 2048;
+  this->Partial.assign((mesh.Rings.size() + size - 1) / size, 0.);
+  const VectorD origin(mesh.Position.front());
+  ForBlocks(this->Threads, mesh.Rings.size(), size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      double sum = 0;
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        const Ring& ring = mesh.Rings[v];
+        const VectorD p = VectorD(mesh.Position[v]) - origin;
+        VectorD fan;
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          fan += Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
+            VectorD(mesh.Position[ring.Next(i)]) - origin);
+        }
+        sum += ring.Count > 0 ? Dot(p, fan) : 0.;
+      }
+      this->Partial[b] = sum;
+    });
+  double sum = 0;
+  for (double x : this->Partial)
+  {
+    sum += x;
+  }
+  return sum / 18.;
+}
+
+StopReason SurfaceEvolution::Implementation::Evolve()
+{
+  SurfaceState& s = this->State;
+  this->LastIterations = 0;
+  this->Rest.Reset();
+  this->Cycle.Reset();
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  const bool evidence = this->Options.IsopotentialWeight > 0;
+  Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
+  const double cube = std::pow(static_cast<double>(s.Delta), 3);
+  while (true)
+  {
+    if (this->Stopped)
+    {
+      return StopReason::Cancelled;
+    }
+    if (s.Mesh.NumberOfVertices() == 0)
+    {
+      return StopReason::Vanished;
+    }
+    if (this->LastIterations >= this->Options.MaximumNumberOfIterations)
+    {
+      return StopReason::IterationLimit;
+    }
+    HistoryRow row;
+    row.SecondsBefore = this->Book();
+    row.AddedEulerCharacteristic = s.EulerCharacteristic -
+      (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
+    this->Iterate(row, dynamics, remesher, Mode::Evolve);
+    row.Seconds = this->Book();
+    if (this->LastIterations == 0)
+    {
+      row.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
+      row.PhaseSeconds[static_cast<int>(Phase::Division)] += this->Preparing;
+      this->Preparing = 0.;
+    }
+    this->Rows.push_back(row);
+    this->SinceEvolved = EditCounts();
+    ++this->LastIterations;
+    if (!this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.))
+    {
+      return StopReason::Cancelled;
+    }
+    if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
+    {
+      const double volume = this->EnclosedVolume();
+      const double limit =
+        std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume));
+      this->Rest.Add(volume);
+      this->Cycle.Add(volume);
+      if (this->Rest.IsMet(limit))
+      {
+        return StopReason::Converged;
+      }
+      if (this->Cycle.IsMet(limit))
+      {
+        return StopReason::LimitCycle;
+      }
+    }
+  }
+}
+
+void SurfaceEvolution::Implementation::SleepUnlessMoving(float least)
+{
+  // What went some way in the last pass stays awake, with its neighbours, and what was edited.
+  SurfaceState& s = this->State;
+  for (int v : this->Awake)
+  {
+    if (s.Mesh.IsAlive(v) && s.Quiet[v] > 0 && SquaredLength(s.Velocity[v]) <= least * least)
+    {
+      s.Awake[v] = 0;
+    }
+  }
+  for (int v : this->Awake)
+  {
+    if (s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least)
+    {
+      const Ring& ring = s.Mesh.Rings[v];
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        s.Awake[ring.Item[i]] = 1;
+      }
+    }
+  }
+}
+
+void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
+{
+  // Edges anywhere in [delta, 2.5 delta] are left as they are, so their mean depends on where they
+  // come from. With delta changing slowly the worst of them are collapsed or split first.
+  constexpr int steps = 30;
+  constexpr double close = 0.02;
+  constexpr double longestStep = 0.03;
+  SurfaceState& s = this->State;
+  const double unit = this->TheField->Image().Unit;
+  const float least = static_cast<float>(std::sqrt(3.) / 2.5 * unit);
+  const float most = static_cast<float>(unit);
+  Remesher remesher(s, this->TheField.get(), false);
+  double first = 0.;
+  for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0 &&
+       this->GoOn(Monitor::Activity::Regularising, 0.);
+       ++step)
+  {
+    const double missing = this->WantedMeanEdge / this->MeanEdgeLength() - 1.;
+    first = step == 0 ? missing : first;
+    const float delta = std::min(std::max(s.Delta *
+            static_cast<float>(1. + std::min(std::max(0.6 * missing, -longestStep), longestStep)),
+          least), most);
+    if (std::abs(missing) < close || missing * first < 0. || delta == s.Delta)
+    {
+      break;
+    }
+    s.Delta = delta;
+    this->Reset();
+    std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
+    HistoryRow row;
+    this->Iterate(row, dynamics, remesher, Mode::Regularise);
+  }
+}
+
+void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
+{
+  // The same verified displacements and edits, driven by shape and residual instead of forces.
+  SurfaceState& s = this->State;
+  const std::vector<std::uint8_t> awake = s.Awake;
+  Remesher remesher(s, this->TheField.get(), false);
+  std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
+  HistoryRow row;
+  this->WakeAll();
+  for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0 &&
+       this->GoOn(Monitor::Activity::Regularising, PassesShare * pass / RegularisationPasses);
+       ++pass)
+  {
+    if (pass > 0)
+    {
+      this->SleepUnlessMoving(SmallestMove * s.Delta);
+    }
+    std::fill(s.Quiet.begin(), s.Quiet.end(), std::uint8_t(1)); // An edit makes it 0 again.
+    this->Iterate(row, dynamics, remesher, Mode::Regularise);
+  }
+  this->RunPolish(row);
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.Awake[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(awake.size()) || awake[v]);
+    s.Velocity[v] = Vector();
+  }
+  if (!this->Rows.empty())
+  {
+    this->Rows.back().PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
+  }
+}
+
+void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
+{
+  SurfaceState& s = this->State;
+  const auto start = std::chrono::steady_clock::now();
+  s.Counts = EditCounts();
+  SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
+    this->Options.TopologyChanges, this->Threads,
+    this->CheckpointOf(Monitor::Activity::Regularising, PassesShare))
+    .Run();
+  this->UpdateTouched();
+  if (s.Counts.Cuts > 0)
+  {
+    this->Watch.Label(s, this->Threads);
+    this->Watch.DeleteDoomed(s);
+  }
+  this->SinceEvolved.Cuts += s.Counts.Cuts;
+  this->SinceEvolved.Removed += s.Counts.Removed;
+  row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void SurfaceEvolution::Implementation::DeleteInsideOut()
+{
+  this->State.Counts = EditCounts();
+  this->Watch.DeleteInsideOut(this->State, this->Threads);
+  this->SinceEvolved.Removed += this->State.Counts.Removed;
+  this->Unchecked = 0;
+}
+
+void SurfaceEvolution::Implementation::FinishRow()
+{
+  if (!this->HasIteration())
+  {
+    return;
+  }
+  HistoryRow& last = this->Rows.back();
+  this->FillCounts(last);
+  last.MeanEdgeLength = this->MeanEdgeLength();
+  last.RegularisationCuts = this->SinceEvolved.Cuts;
+  last.RegularisationDeletions = this->SinceEvolved.Removed;
+}
+
+void SurfaceEvolution::Implementation::FindMissing()
+{
+  const LostBoundary::Missing missing =
+    this->Lost.MissedBy(this->State, *this->TheField, this->Threads);
+  this->LastLost.Missing = missing.Parts;
+  this->LastLost.MissingBoundary = missing.Share;
+}
+
+StopReason SurfaceEvolution::Implementation::Run()
+{
+  const StopReason reason = this->Evolve();
+  this->DeleteInsideOut();
+  if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
+  {
+    this->FinishRow();
+    this->FindMissing();
+    return reason;
+  }
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  if (this->WantedMeanEdge > 0.)
+  {
+    this->FitMeanEdge(dynamics);
+  }
+  this->Regularise(dynamics);
+  this->DeleteInsideOut(); // The polish may have cut.
+  this->FinishRow();
+  this->FindMissing();
+  if (this->Stopped)
+  {
+    return StopReason::Cancelled;
+  }
+  return this->State.Mesh.NumberOfVertices() > 0 ? reason : StopReason::Vanished;
+}
+}

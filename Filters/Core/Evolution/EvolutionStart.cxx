@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Evolution/LostParts.h"
+#include "Core/Mesh/Division.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+float LongestEdge(const SurfaceMesh& mesh)
+{
+  float longest = 0;
+  mesh.VisitFaces(
+    [&](int a, int b, int c)
+    {
+      for (const auto& edge : { std::make_pair(a, b), std::make_pair(b, c), std::make_pair(c, a) })
+      {
+        longest = std::max(
+          longest, SquaredDistance(mesh.Position[edge.first], mesh.Position[edge.second]));
+      }
+    });
+  return std::sqrt(longest);
+}
+}
+
+void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
+{
+  this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
+  this->State.Around = this->TheField->Margin();
+  this->Level = level;
+  this->LastIterations = 0;
+  this->State.Delta = static_cast<float>(this->Options.SamplingRatio * image.Unit);
+}
+
+void SurfaceEvolution::Implementation::Reset()
+{
+  SurfaceState& s = this->State;
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  this->LayGrid();
+  this->SplitLongEdges();
+  this->Near.Examine(s, this->Awake, this->Threads);
+  this->Watch.Label(s, this->Threads);
+}
+
+void SurfaceEvolution::Implementation::SplitLongEdges()
+{
+  // Verification relies on it that no edge is longer than the constraints allow.
+  SurfaceState& s = this->State;
+  this->CollectAwake();
+  s.UpdateShape(this->Awake, this->Threads);
+  Remesher(s, nullptr, false).Split(this->Awake);
+  this->UpdateTouched();
+  if (LongestEdge(s.Mesh) > 1.0001f * constraint::LongestEdge * s.Delta)
+  {
+    this->TakeRemeshed(s.Mesh.ToIndexed()); // Full rings all about it: not seen yet.
+  }
+}
+
+void SurfaceEvolution::Implementation::LayGrid()
+{
+  SurfaceState& s = this->State;
+  const LevelImage& image = this->TheField->Image();
+  Vector low(0, 0, 0);
+  Vector high(static_cast<float>(image.Size[0] * image.Step[0]),
+    static_cast<float>(image.Size[1] * image.Step[1]),
+    static_cast<float>(image.Size[2] * image.Step[2]));
+  for (const Vector& p : s.Mesh.Position)
+  {
+    low = Vector(std::min(low.X, p.X), std::min(low.Y, p.Y), std::min(low.Z, p.Z));
+    high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
+  }
+  const Vector margin(2 * s.Delta, 2 * s.Delta, 2 * s.Delta);
+  this->Near.Clear();
+  this->Recheck.Clear();
+  s.Reset(low - margin, high + margin);
+}
+
+namespace
+{
+/** Keeps the edges whose flips made the face; from the second round on others about it, too. */
+void KeepAbout(const std::array<int, 3>& face, const std::vector<std::array<int, 3>>& faces,
+  const SurfaceMesh& old, int round, KeptEdges& kept)
+{
+  const int olds = old.Size();
+  const int centres = olds + static_cast<int>(faces.size());
+  const auto isCentre = [=](int v) { return v >= olds && v < centres; };
+  std::vector<int> about;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (!isCentre(face[k]))
+    {
+      continue;
+    }
+    const std::array<int, 3>& own = faces[face[k] - olds];
+    about.insert(about.end(), own.begin(), own.end());
+    const int next = face[(k + 1) % 3];
+    if (isCentre(next))
+    {
+      const std::array<int, 3>& other = faces[next - olds];
+      for (int i = 0; i < 3; ++i)
+      {
+        const auto has = [&other](int v)
+        { return std::find(other.begin(), other.end(), v) != other.end(); };
+        if (has(own[i]) && has(own[(i + 1) % 3]))
+        {
+          kept.Keep(own[i], own[(i + 1) % 3]);
+        }
+      }
+    }
+  }
+  for (int ring = 0; ring < round; ++ring)
+  {
+    std::sort(about.begin(), about.end());
+    about.erase(std::unique(about.begin(), about.end()), about.end());
+    for (std::size_t i = 0, n = about.size(); i < n; ++i)
+    {
+      kept.KeepAllAt(about[i]);
+      const Ring& neighbours = old.Rings[about[i]];
+      about.insert(about.end(), neighbours.Item, neighbours.Item + neighbours.Count);
+    }
+  }
+}
+}
+
+void SurfaceEvolution::Implementation::FindMeetings()
+{
+  // A division leaves some edges longer than verification may rely on; it looks further for them.
+  SurfaceState& s = this->State;
+  const float delta = s.Delta;
+  s.Delta = std::max(delta, LongestEdge(s.Mesh) / constraint::LongestEdge);
+  this->LayGrid();
+  this->CollectAwake();
+  s.UpdateShape(this->Awake, this->Threads);
+  this->Near.Examine(s, this->Awake, this->Threads);
+  s.Delta = delta;
+}
+
+void SurfaceEvolution::Implementation::DivideOnce()
+{
+  SurfaceState& s = this->State;
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  const int olds = s.Mesh.Size();
+  const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh);
+  this->FindMeetings();
+  if (this->Near.Meetings().empty())
+  {
+    return;
+  }
+  // The division flips edges of the old surface; in narrow places these may pass through each
+  // other. Such edges are kept, then more and more about them, and all of them at last, which
+  // leaves the old surface, with more vertices.
+  const SurfaceMesh old = Undivided(s.Mesh, olds);
+  KeptEdges kept(old);
+  constexpr int rounds = 6;
+  for (int round = 0; round < rounds && !this->Near.Meetings().empty(); ++round)
+  {
+    for (const Proximity::Meeting& meeting : this->Near.Meetings())
+    {
+      KeepAbout(meeting.First, faces, old, round, kept);
+      KeepAbout(meeting.Second, faces, old, round, kept);
+    }
+    if (round == rounds - 1)
+    {
+      kept.KeepAll();
+    }
+    kept.MakeRoom();
+    s.Mesh = old;
+    volumic::Divide(s.Mesh, &kept);
+    this->FindMeetings();
+  }
+  if (!this->Near.Meetings().empty())
+  {
+    this->TakeRemeshed(old.ToIndexed()); // The old surface has met itself: not seen yet.
+  }
+}
+
+void SurfaceEvolution::Implementation::WakeAll()
+{
+  for (int v = 0; v < this->State.Mesh.Size(); ++v)
+  {
+    this->State.Awake[v] = this->State.Mesh.IsAlive(v);
+  }
+}
+
+void SurfaceEvolution::Implementation::Recover()
+{
+  this->LastLost = LostParts();
+  this->Lost = LostBoundary();
+  // Without an isopotential there is no object's side to look for.
+  if (!(this->Options.IsopotentialWeight > 0.))
+  {
+    return;
+  }
+  const bool recovers = this->Options.RecoverLostParts;
+  const double objectShare = recovers && this->Options.RecoverCavities ? 0.5 : 1.;
+  const auto find = [this](PartKind kind, double from, double to)
+  {
+    return FindLostParts(this->State, *this->TheField, kind, this->Options.MinimumPartSize,
+      this->Threads, this->CheckpointOf(Monitor::Activity::Recovering, from, to));
+  };
+  const LostPartCover objects = find(PartKind::Object, 0., objectShare);
+  this->LastLost.Found = objects.Found;
+  this->LastLost.Enclosed = recovers ? objects.Covered : 0;
+  this->Lost = objects.Boundary;
+  LostPartCover cavities;
+  if (recovers && this->Options.RecoverCavities && !this->Stopped)
+  {
+    cavities = find(PartKind::Cavity, objectShare, 1.);
+    this->LastLost.FoundCavities = cavities.Found;
+    this->LastLost.EnclosedCavities = cavities.Covered;
+    this->Lost.Add(cavities.Boundary);
+  }
+  if (this->Stopped)
+  {
+    this->LastLost = LostParts();
+    this->Lost = LostBoundary();
+    return;
+  }
+  if (this->LastLost.Enclosed > 0)
+  {
+    this->State.Mesh.Append(objects.Surface);
+  }
+  if (this->LastLost.EnclosedCavities > 0)
+  {
+    this->State.Mesh.Append(cavities.Surface);
+  }
+}
+}

@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Refuse.h"
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Mesh/LatticeSurface.h"
+#include "Core/Mesh/ObliqueRotation.h"
+#include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+struct EdgeLengths
+{
+  double Shortest = std::numeric_limits<double>::max();
+  double Longest = 0.;
+};
+
+EdgeLengths LengthsOf(const IndexedSurface& surface)
+{
+  EdgeLengths lengths;
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& p = surface.Points[t[k]];
+      const Point& q = surface.Points[t[(k + 1) % 3]];
+      const double length = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+      lengths.Shortest = std::min(lengths.Shortest, length);
+      lengths.Longest = std::max(lengths.Longest, length);
+    }
+  }
+  return lengths;
+}
+
+IndexedSurface WithoutUnusedPoints(const IndexedSurface& surface)
+{
+  IndexedSurface result;
+  std::vector<int> place(surface.Points.size(), -1);
+  result.Triangles.reserve(surface.Triangles.size());
+  for (Triangle t : surface.Triangles)
+  {
+    for (int& corner : t)
+    {
+      if (place[corner] < 0)
+      {
+        place[corner] = static_cast<int>(result.Points.size());
+        result.Points.push_back(surface.Points[corner]);
+      }
+      corner = place[corner];
+    }
+    result.Triangles.push_back(t);
+  }
+  return result;
+}
+
+/** Whether no point has more neighbours than a ring can take. */
+bool FitsRings(const IndexedSurface& surface)
+{
+  std::vector<int> valence(surface.Points.size(), 0);
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int corner : t)
+    {
+      if (++valence[corner] > Ring::Capacity)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/** Whether so many points share a place of the size of a triangle that a search finds too many. */
+bool IsCrowded(const IndexedSurface& surface, double delta)
+{
+  constexpr int most = 60;
+  const double cell = constraint::Reach * delta;
+  std::unordered_map<std::uint64_t, int> count;
+  for (const Point& p : surface.Points)
+  {
+    std::uint64_t key = 0;
+    for (double x : p)
+    {
+      key = key << 21 | (static_cast<std::uint64_t>(std::llround(x / cell)) & 0x1fffff);
+    }
+    if (++count[key] > most)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+struct Topology
+{
+  int Components = 0;
+  int EulerCharacteristic = 0;
+  double Area = 0.;
+
+  static Topology Of(const IndexedSurface& surface)
+  {
+    const SurfaceFeatures features = ComputeFeatures(surface);
+    return { static_cast<int>(features.Components.size()), features.EulerCharacteristic,
+      features.Area };
+  }
+};
+
+bool IsSound(const IndexedSurface& surface, double delta)
+{
+  const EdgeLengths lengths = LengthsOf(surface);
+  return !surface.Triangles.empty() && lengths.Shortest > 0. &&
+    lengths.Longest <= constraint::LongestEdge * 1.0001 * delta &&
+    CountSelfIntersections(surface, 1) == 0;
+}
+}
+
+IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& surface)
+{
+  // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
+  // mesh that has the components and tunnels of what was given, or else the nearest to it.
+  constexpr double pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 }; // in delta
+  // Large surfaces get one of the coarsest that still shows parts of two edges, for the sake of
+  // time.
+  constexpr double coarse = 2.;
+  constexpr double large = 100000.; // delta^2
+  const double delta = this->State.Delta;
+  const Topology wanted = Topology::Of(surface);
+  const bool isLarge = wanted.Area > large * delta * delta;
+  IndexedSurface best;
+  int least = std::numeric_limits<int>::max();
+  for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
+  {
+    const double pitch = delta * (isLarge ? coarse : pitches[attempt]);
+    IndexedSurface mesh = RemeshOnLattice(surface, pitch, attempt, this->Threads,
+      [this](double share) { return this->GoOn(Monitor::Activity::Starting, 0.5 * share); });
+    if (this->Stopped)
+    {
+      return {};
+    }
+    const Topology found = Topology::Of(mesh);
+    const int difference = std::abs(found.Components - wanted.Components) +
+      std::abs(found.EulerCharacteristic - wanted.EulerCharacteristic);
+    if (difference < least)
+    {
+      least = difference;
+      best = std::move(mesh);
+    }
+    if (isLarge)
+    {
+      break;
+    }
+  }
+  return best;
+}
+
+void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
+{
+  const IndexedSurface surface = WithoutUnusedPoints(given);
+  // A mesh that is near to the constraints is brought within them as it is, by the edits of an
+  // iteration. They rely on edges that are not too long and rings that have room; where long edges,
+  // slivers or fans deny them that, the same surface gets another mesh first.
+  const SurfaceState& s = this->State;
+  const EdgeLengths lengths = LengthsOf(surface);
+  if (lengths.Longest <= constraint::LongestEdge * s.Delta && FitsRings(surface) &&
+    !IsCrowded(surface, s.Delta))
+  {
+    this->Begin(surface);
+    if (this->Near.Meetings().empty())
+    {
+      if (lengths.Shortest < s.Delta)
+      {
+        this->Adapt();
+      }
+      if (this->Stopped || IsSound(s.Mesh.ToIndexed(), s.Delta))
+      {
+        return;
+      }
+    }
+  }
+  this->TakeRemeshed(surface);
+}
+
+void SurfaceEvolution::Implementation::Begin(const IndexedSurface& surface)
+{
+  this->State.Mesh.Clear();
+  this->State.Mesh.Append(surface);
+  this->Reset();
+}
+
+void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surface)
+{
+  const SurfaceState& s = this->State;
+  const IndexedSurface fine = this->Remesh(surface);
+  if (!this->Stopped)
+  {
+    // Of what is thinner than the lattice only shreds are left.
+    const double share = ComputeFeatures(fine).Volume / ComputeFeatures(surface).Volume;
+    if (!(share > 0.5))
+    {
+      Refuse("The initial surface is too thin for this level, whose triangles have edges of about ",
+        constraint::RestLength * s.Delta, " voxel distances: they would hold ",
+        std::lround(100. * std::max(share, 0.)),
+        " % of its volume. Start at a finer level, give a thicker surface, or check that its "
+        "coordinates are in the image's unit.");
+    }
+  }
+  this->Begin(fine);
+  this->Adapt();
+  if (!this->Stopped && s.Mesh.NumberOfVertices() == 0)
+  {
+    Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
+      constraint::RestLength * s.Delta,
+      " voxel distances: none of it is left. Start at a finer level, give a larger surface, or check that "
+      "its coordinates are in the image's unit.");
+  }
+  if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Delta))
+  {
+    Refuse("The initial surface could not be brought to edges between ", s.Delta, " and ",
+      constraint::LongestEdge * s.Delta,
+      " voxel distances without an intersection. Remesh it to such edges before it is given, or choose "
+      "another Initialization.");
+  }
+}
+
+void SurfaceEvolution::Implementation::Adapt()
+{
+  // The verified displacements and edits of an iteration, until the lengths are legal.
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  Remesher remesher(this->State, this->TheField.get(), false);
+  constexpr int rounds = 40;
+  for (int round = 0; round < rounds && this->GoOn(Monitor::Activity::Starting, 0.5 + 0.5 * round / rounds); ++round)
+  {
+    HistoryRow row;
+    this->WakeAll();
+    this->Iterate(row, dynamics, remesher, Mode::Adapt);
+    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
+    {
+      break;
+    }
+  }
+  if (this->State.Mesh.NumberOfVertices() > 0)
+  {
+    this->Reset();
+  }
+}
+}

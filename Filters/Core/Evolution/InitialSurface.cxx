@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/InitialSurface.h"
+
+#include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Mesh/Division.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace volumic
+{
+IndexedSurface Icosahedron(const Point& centre, double radius)
+{
+  const double golden = 0.5 * (1. + std::sqrt(5.));
+  const double scale = radius / std::sqrt(1. + golden * golden);
+  const double s = scale;
+  const double l = scale * golden;
+  IndexedSurface surface;
+  for (const Point& p : { Point{ -s, l, 0 }, Point{ s, l, 0 }, Point{ -s, -l, 0 },
+         Point{ s, -l, 0 }, Point{ 0, -s, l }, Point{ 0, s, l }, Point{ 0, -s, -l },
+         Point{ 0, s, -l }, Point{ l, 0, -s }, Point{ l, 0, s }, Point{ -l, 0, -s },
+         Point{ -l, 0, s } })
+  {
+    surface.Points.push_back({ p[0] + centre[0], p[1] + centre[1], p[2] + centre[2] });
+  }
+  surface.Triangles = { { 0, 11, 5 }, { 0, 5, 1 }, { 0, 1, 7 }, { 0, 7, 10 }, { 0, 10, 11 },
+    { 1, 5, 9 }, { 5, 11, 4 }, { 11, 10, 2 }, { 10, 7, 6 }, { 7, 1, 8 }, { 3, 9, 4 },
+    { 3, 4, 2 }, { 3, 2, 6 }, { 3, 6, 8 }, { 3, 8, 9 }, { 4, 9, 5 }, { 2, 4, 11 },
+    { 6, 2, 10 }, { 8, 6, 7 }, { 9, 8, 1 } };
+  return surface;
+}
+
+namespace
+{
+/** On the unit sphere about the origin. */
+SurfaceMesh DividedSphere(double meanEdge)
+{
+  SurfaceMesh mesh;
+  mesh.Append(Icosahedron({ 0., 0., 0. }, 1.));
+  double edge = 1.0515;
+  constexpr int most = 16;
+  for (int i = 0; i < most && edge > meanEdge; ++i)
+  {
+    Divide(mesh);
+    for (Vector& p : mesh.Position)
+    {
+      p = Normalized(p);
+    }
+    edge /= std::sqrt(3.);
+  }
+  return mesh;
+}
+}
+
+IndexedSurface DividedIcosahedron(const Point& centre, double radius, double meanEdge)
+{
+  IndexedSurface surface = DividedSphere(meanEdge / radius).ToIndexed();
+  for (Point& p : surface.Points)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      p[k] = centre[k] + radius * p[k];
+    }
+  }
+  return surface;
+}
+
+IndexedSurface EnclosingSurface(const LevelImage& image, double meanEdge)
+{
+  Point centre;
+  Point axis;
+  double largest = 0.;
+  for (int k = 0; k < 3; ++k)
+  {
+    // Voxels lie at 0 .. (Size - 1) Step; the field falls to the background one Step beyond.
+    centre[k] = 0.5 * (image.Size[k] - 1) * image.Step[k];
+    axis[k] = std::pow(3., 0.25) * (centre[k] + image.Step[k]);
+    largest = std::max(largest, axis[k]);
+  }
+  IndexedSurface surface = DividedSphere(meanEdge / largest).ToIndexed();
+  for (Point& p : surface.Points)
+  {
+    double sum = 0.;
+    for (int k = 0; k < 3; ++k)
+    {
+      sum += p[k] * p[k] * p[k] * p[k];
+    }
+    const double scale = std::pow(sum, -0.25);
+    for (int k = 0; k < 3; ++k)
+    {
+      p[k] = centre[k] + axis[k] * scale * p[k];
+    }
+  }
+  return surface;
+}
+
+void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
+{
+  double low[3];
+  double high[3];
+  double widest = 0.;
+  double widestImage = 0.;
+  for (int k = 0; k < 3; ++k)
+  {
+    low[k] = std::numeric_limits<double>::max();
+    high[k] = -low[k];
+    for (const Triangle& t : surface.Triangles)
+    {
+      for (int corner : t)
+      {
+        low[k] = std::min(low[k], surface.Points[corner][k]);
+        high[k] = std::max(high[k], surface.Points[corner][k]);
+      }
+    }
+    widest = std::max(widest, high[k] - low[k]);
+    widestImage = std::max(widestImage, image.Size[k] * image.Step[k]);
+  }
+  // What encloses a flat image as a ball does is not yet wrong.
+  constexpr double most = 5.;
+  if (widest > most * widestImage)
+  {
+    Refuse("The initial surface is too large for the image: it is ", widest,
+      " voxel distances wide, the image ", widestImage,
+      ". Are its coordinates in another unit than the image's, for example micrometres instead of "
+      "millimetres? Scale it to the image's.");
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    if (high[k] < 0. || low[k] > image.Size[k] * image.Step[k])
+    {
+      Refuse("The initial surface lies wholly outside the image: along axis ", k, " it runs from ",
+        low[k], " to ", high[k], " voxel distances, the image from 0 to ",
+        image.Size[k] * image.Step[k], ". Check that both use the same space.");
+    }
+  }
+}
+
+namespace
+{
+bool IsInside(const Field& field, const Point& p)
+{
+  return field.ValueAt(Vector(static_cast<float>(p[0]), static_cast<float>(p[1]),
+           static_cast<float>(p[2]))) > 0;
+}
+}
+
+std::vector<Point> ChooseSeeds(
+  const Field& field, const std::vector<Point>& centres, double spacing)
+{
+  const LevelImage& image = field.Image();
+  std::vector<Point> chosen;
+  for (std::size_t i = 0; i < centres.size(); ++i)
+  {
+    const Point& p = centres[i];
+    for (int k = 0; k < 3; ++k)
+    {
+      if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
+      {
+        throw std::invalid_argument(Join("Seed ", i, " lies outside the image: ", p[k],
+          " voxel distances along axis ", k, ", the image has ", image.Size[k] * image.Step[k], "."));
+      }
+    }
+    bool free = IsInside(field, p);
+    for (const Point& q : chosen)
+    {
+      const double x = p[0] - q[0];
+      const double y = p[1] - q[1];
+      const double z = p[2] - q[2];
+      free = free && x * x + y * y + z * z >= spacing * spacing;
+    }
+    if (free)
+    {
+      chosen.push_back(p);
+    }
+  }
+  if (centres.empty())
+  {
+    int count[3];
+    double first[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      const double extent = (image.Size[k] - 1) * image.Step[k];
+      count[k] = static_cast<int>(extent / spacing) + 1;
+      first[k] = 0.5 * (extent - (count[k] - 1) * spacing);
+    }
+    for (int z = 0; z < count[2]; ++z)
+    {
+      for (int y = 0; y < count[1]; ++y)
+      {
+        for (int x = 0; x < count[0]; ++x)
+        {
+          const Point p = { first[0] + x * spacing, first[1] + y * spacing,
+            first[2] + z * spacing };
+          if (IsInside(field, p))
+          {
+            chosen.push_back(p);
+          }
+        }
+      }
+    }
+  }
+  if (chosen.empty())
+  {
+    throw std::invalid_argument(centres.empty()
+        ? "No point of the grid of seeds lies inside the object. Give a smaller Seed Radius or "
+          "another Iso Value."
+        : "None of the " + std::to_string(centres.size()) +
+          " seeds lies inside the object. Move them, or check Iso Value and Object Is Bright.");
+  }
+  return chosen;
+}
+}

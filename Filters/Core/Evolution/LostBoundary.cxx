@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/LostBoundary.h"
+
+#include "Core/Image/VoxelNumbers.h"
+
+#include <cstddef>
+#include <numeric>
+
+namespace volumic
+{
+namespace
+{
+/** Of a smooth surface of no preferred direction: the faces of its voxels over its own area. */
+constexpr double FacesOverArea = 1.5;
+
+double AreaOf(const SurfaceMesh& mesh, Executor& executor)
+{
+  // Fixed blocks summed in order; each face is seen from its three corners.
+  constexpr std::size_t size = 2048;
+  std::vector<double> partial((mesh.Rings.size() + size - 1) / size, 0.);
+  ForBlocks(executor, mesh.Rings.size(), size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        const Ring& ring = mesh.Rings[v];
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          const Vector& p = mesh.Position[v];
+          partial[b] += Length(
+            Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
+        }
+      }
+    });
+  return std::accumulate(partial.begin(), partial.end(), 0.) / 6.;
+}
+
+bool HasVertexWithin(const SurfaceState& state, const Vector& place, float radius)
+{
+  bool found = false;
+  state.Grid.Visit(place, radius,
+    [&](int v)
+    { found = found || SquaredDistance(place, state.Mesh.Position[v]) <= radius * radius; });
+  return found;
+}
+}
+
+void LostBoundary::Add(
+  const std::vector<std::int64_t>& part, const Field& field, PartKind kind)
+{
+  const LevelImage& image = field.Image();
+  const VoxelNumbers numbers(image.Size);
+  const bool isObject = kind == PartKind::Object;
+  for (const std::int64_t voxel : part)
+  {
+    const std::array<int, 3> place = numbers.PlaceOf(voxel);
+    double area = 0.;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double face = image.Step[(axis + 1) % 3] * image.Step[(axis + 2) % 3];
+      for (const int side : { -1, 1 })
+      {
+        std::array<int, 3> next = place;
+        next[axis] += side;
+        const bool isOutside = next[axis] < 0 || next[axis] >= image.Size[axis];
+        const bool isOther =
+          isOutside ? isObject : (field.Voxel(next[0], next[1], next[2]) > 0) != isObject;
+        area += isOther ? face : 0.;
+      }
+    }
+    if (area > 0.)
+    {
+      this->Patches.push_back(
+        { voxel, static_cast<float>(area), this->Parts });
+    }
+  }
+  ++this->Parts;
+}
+
+void LostBoundary::Add(const LostBoundary& other)
+{
+  for (const Patch& patch : other.Patches)
+  {
+    this->Patches.push_back({ patch.Voxel, patch.Area, this->Parts + patch.Part });
+  }
+  this->Parts += other.Parts;
+}
+
+LostBoundary::Missing LostBoundary::MissedBy(
+  const SurfaceState& state, const Field& field, Executor& executor) const
+{
+  const LevelImage& image = field.Image();
+  const VoxelNumbers numbers(image.Size);
+  const float reach = static_cast<float>(2. * image.Unit);
+  std::vector<std::uint8_t> isMissed(this->Patches.size(), 0);
+  ForBlocks(executor, this->Patches.size(), 256,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const std::array<int, 3> index = numbers.PlaceOf(this->Patches[i].Voxel);
+        const Vector place(static_cast<float>(index[0] * image.Step[0]),
+          static_cast<float>(index[1] * image.Step[1]),
+          static_cast<float>(index[2] * image.Step[2]));
+        isMissed[i] = !HasVertexWithin(state, place, reach);
+      }
+    });
+  std::vector<double> missed(static_cast<std::size_t>(this->Parts), 0.);
+  std::vector<double> whole(static_cast<std::size_t>(this->Parts), 0.);
+  for (std::size_t i = 0; i < this->Patches.size(); ++i)
+  {
+    missed[this->Patches[i].Part] += isMissed[i] ? this->Patches[i].Area : 0.;
+    whole[this->Patches[i].Part] += this->Patches[i].Area;
+  }
+  const double area = std::accumulate(missed.begin(), missed.end(), 0.) / FacesOverArea;
+  Missing result;
+  for (std::size_t part = 0; part < missed.size(); ++part)
+  {
+    result.Parts += missed[part] > 0.5 * whole[part];
+  }
+  result.Share = area > 0. ? area / (area + AreaOf(state.Mesh, executor)) : 0.;
+  return result;
+}
+}

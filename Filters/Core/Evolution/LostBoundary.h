@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLostBoundary_h
+#define volumicLostBoundary_h
+
+#include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/** What a surface may have lost. */
+enum class PartKind
+{
+  Object, ///< Object outside the surface.
+  Cavity  ///< Background inside the surface.
+};
+
+/**
+ * The boundary of the parts that a surface has lost, kept from when they were found, so that it can
+ * be told later what of it the surface still misses. Costs nothing for voxels that were not lost.
+ */
+class LostBoundary
+{
+public:
+  /** Takes the boundary of a part: the faces of its voxels towards the other side. */
+  void Add(const std::vector<std::int64_t>& part, const Field& field, PartKind kind);
+  void Add(const LostBoundary& other);
+
+  struct Missing
+  {
+    int Parts = 0; ///< Those of which the surface misses more than half of the boundary.
+    double Share = 0.; ///< Area of all the boundary that is missed, over that and the surface's.
+  };
+  /** What has no vertex of the surface within two units of the level. Areas: workspace. */
+  Missing MissedBy(const SurfaceState& state, const Field& field, Executor& executor) const;
+
+private:
+  struct Patch
+  {
+    std::int64_t Voxel;
+    float Area;
+    int Part;
+  };
+  std::vector<Patch> Patches;
+  int Parts = 0;
+};
+}
+
+#endif

@@ -1,0 +1,386 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/LostParts.h"
+
+#include "Core/Image/VoxelNumbers.h"
+#include "Core/Mesh/CellSurface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+enum : std::uint8_t
+{
+  Unknown = 0,
+  Covered = 1,
+  Lost = 2
+};
+
+class Search
+{
+public:
+  Search(const SurfaceState& state, const Field& field, PartKind kind)
+    : State(state)
+    , TheField(field)
+    , Kind(kind)
+    , Size(field.Image().Size)
+    , Numbers(Size)
+    , Mark(static_cast<std::size_t>(Numbers.Count()),
+        kind == PartKind::Object ? Unknown : Covered)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Inverse[k] = 1. / field.Image().Step[k];
+      this->Pieces[k] =
+        std::max(1, static_cast<int>(std::ceil(field.Image().Step[k] / field.Image().Unit / 1.5)));
+    }
+  }
+
+  /** Marks what lies inside the surface: of no interest for lost objects, all for cavities. */
+  void MarkInside();
+  void CoverNear();
+  /** @return false if asked to stop. */
+  bool MarkLost(Executor& executor, const Checkpoint& goOn);
+  /**
+   * The next connected set of lost voxels, in the order of their first ones; empty after the last.
+   * It is valid until the next call.
+   */
+  const std::vector<std::int64_t>& NextPart();
+
+  /** Calls visit(point) for the middle of a voxel, or, where it is longer than 1.5 units along an
+      axis, for the middles of equal pieces of it that are not. */
+  template <typename Visit>
+  void VisitPieces(std::int64_t voxel, Visit&& visit) const
+  {
+    const auto& step = this->TheField.Image().Step;
+    const std::array<int, 3> index = this->Numbers.PlaceOf(voxel);
+    const auto place = [&](int axis, int piece)
+    { return step[axis] * (index[axis] + (piece + 0.5) / this->Pieces[axis] - 0.5); };
+    for (int c = 0; c < this->Pieces[2]; ++c)
+    {
+      for (int b = 0; b < this->Pieces[1]; ++b)
+      {
+        for (int a = 0; a < this->Pieces[0]; ++a)
+        {
+          visit(Point{ place(0, a), place(1, b), place(2, c) });
+        }
+      }
+    }
+  }
+
+private:
+  void Cross(int a, int b, int c);
+
+  const SurfaceState& State;
+  const Field& TheField;
+  PartKind Kind;
+  std::array<int, 3> Size;
+  VoxelNumbers Numbers;
+  double Inverse[3];
+  int Pieces[3]; ///< Of a voxel along each axis, see VisitPieces.
+  std::vector<std::uint8_t> Mark;
+  /** Number of the first voxel of a row, and place along it. */
+  std::vector<std::pair<std::int64_t, float>> Crossings;
+  std::vector<std::int64_t> Part;
+  std::size_t Searched = 0; ///< No voxel before this one is lost, but for those of earlier parts.
+};
+
+void Search::Cross(int a, int b, int c)
+{
+  // Rows pass a little beside the voxels, so that none meets an edge or a corner exactly.
+  constexpr double aside = 1.2345e-4;
+  double x[3];
+  double y[3];
+  double z[3];
+  const int corner[3] = { a, b, c };
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vector& p = this->State.Mesh.Position[corner[k]];
+    x[k] = p.X * this->Inverse[0];
+    y[k] = p.Y * this->Inverse[1] - aside;
+    z[k] = p.Z * this->Inverse[2] - 1.7 * aside;
+  }
+  const double area = (y[1] - y[0]) * (z[2] - z[0]) - (z[1] - z[0]) * (y[2] - y[0]);
+  if (area == 0.)
+  {
+    return;
+  }
+  const int firstJ = std::max(0, static_cast<int>(std::ceil(std::min({ y[0], y[1], y[2] }))));
+  const int lastJ =
+    std::min(this->Size[1] - 1, static_cast<int>(std::floor(std::max({ y[0], y[1], y[2] }))));
+  const int firstK = std::max(0, static_cast<int>(std::ceil(std::min({ z[0], z[1], z[2] }))));
+  const int lastK =
+    std::min(this->Size[2] - 1, static_cast<int>(std::floor(std::max({ z[0], z[1], z[2] }))));
+  for (int k = firstK; k <= lastK; ++k)
+  {
+    for (int j = firstJ; j <= lastJ; ++j)
+    {
+      double weight[3];
+      bool inside = true;
+      for (int e = 0; e < 3; ++e)
+      {
+        // An edge gives both its triangles the same number, so that exactly one has the row.
+        int from = (e + 1) % 3;
+        int to = (e + 2) % 3;
+        const bool swapped = corner[from] > corner[to];
+        if (swapped)
+        {
+          std::swap(from, to);
+        }
+        const double side =
+          (y[to] - y[from]) * (k - z[from]) - (z[to] - z[from]) * (j - y[from]);
+        weight[e] = (swapped ? -side : side) / area;
+        inside = inside && weight[e] >= 0.;
+      }
+      if (inside)
+      {
+        const double at = weight[0] * x[0] + weight[1] * x[1] + weight[2] * x[2];
+        this->Crossings.emplace_back(this->Numbers.Of(0, j, k), static_cast<float>(at));
+      }
+    }
+  }
+}
+
+void Search::MarkInside()
+{
+  this->State.Mesh.VisitFaces([this](int a, int b, int c) { this->Cross(a, b, c); });
+  std::sort(this->Crossings.begin(), this->Crossings.end());
+  for (std::size_t i = 0; i + 1 < this->Crossings.size();)
+  {
+    if (this->Crossings[i].first != this->Crossings[i + 1].first)
+    {
+      ++i; // An odd crossing, from a row that runs in a face: ignored.
+      continue;
+    }
+    const std::int64_t row = this->Crossings[i].first;
+    const int first = std::max(0, static_cast<int>(std::ceil(this->Crossings[i].second)));
+    const int last =
+      std::min(this->Size[0] - 1, static_cast<int>(std::floor(this->Crossings[i + 1].second)));
+    for (int x = first; x <= last; ++x)
+    {
+      this->Mark[row + x] = this->Kind == PartKind::Object ? Covered : Unknown;
+    }
+    i += 2;
+  }
+}
+
+void Search::CoverNear()
+{
+  // Two units of the level, whatever the distances of its voxels.
+  const double width = 2. * this->TheField.Image().Unit;
+  const auto& step = this->TheField.Image().Step;
+  for (int v = 0; v < this->State.Mesh.Size(); ++v)
+  {
+    if (!this->State.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const Vector& p = this->State.Mesh.Position[v];
+    const double place[3] = { p.X * this->Inverse[0], p.Y * this->Inverse[1],
+      p.Z * this->Inverse[2] };
+    int low[3];
+    int high[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      const double reach = width * this->Inverse[k];
+      low[k] = std::max(0, static_cast<int>(std::ceil(place[k] - reach)));
+      high[k] = std::min(this->Size[k] - 1, static_cast<int>(std::floor(place[k] + reach)));
+    }
+    for (int k = low[2]; k <= high[2]; ++k)
+    {
+      for (int j = low[1]; j <= high[1]; ++j)
+      {
+        const std::int64_t row = this->Numbers.Of(0, j, k);
+        const double y = (j - place[1]) * step[1];
+        const double z = (k - place[2]) * step[2];
+        for (int i = low[0]; i <= high[0]; ++i)
+        {
+          const double x = (i - place[0]) * step[0];
+          if (x * x + y * y + z * z <= width * width)
+          {
+            this->Mark[row + i] = Covered;
+          }
+        }
+      }
+    }
+  }
+}
+
+bool Search::MarkLost(Executor& executor, const Checkpoint& goOn)
+{
+  constexpr std::int64_t most = 1 << 22; // Voxels between two looks whether to go on.
+  const int batch =
+    static_cast<int>(std::clamp<std::int64_t>(most / this->Numbers.Stride(2), 1, this->Size[2]));
+  for (int first = 0; first < this->Size[2]; first += batch)
+  {
+    const int last = std::min(first + batch, this->Size[2]);
+    ForBlocks(executor, static_cast<std::size_t>(last - first), 1,
+      [&](std::size_t slab, std::size_t, std::size_t)
+      {
+        const int k = first + static_cast<int>(slab);
+        std::int64_t voxel = this->Numbers.Of(0, 0, k);
+        for (int j = 0; j < this->Size[1]; ++j)
+        {
+          for (int i = 0; i < this->Size[0]; ++i, ++voxel)
+          {
+            if (this->Mark[voxel] == Unknown &&
+              (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object))
+            {
+              this->Mark[voxel] = Lost;
+            }
+          }
+        }
+      });
+    if (!goOn(static_cast<double>(last) / this->Size[2]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+const std::vector<std::int64_t>& Search::NextPart()
+{
+  this->Part.clear();
+  const auto from = this->Mark.begin() + static_cast<std::ptrdiff_t>(this->Searched);
+  const auto seed = std::find(from, this->Mark.end(), Lost);
+  this->Searched = static_cast<std::size_t>(seed - this->Mark.begin());
+  if (seed == this->Mark.end())
+  {
+    return this->Part;
+  }
+  *seed = Covered;
+  this->Part.push_back(static_cast<std::int64_t>(this->Searched));
+  for (std::size_t n = 0; n < this->Part.size(); ++n)
+  {
+    const std::int64_t voxel = this->Part[n];
+    const std::array<int, 3> place = this->Numbers.PlaceOf(voxel);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (int side : { -1, 1 })
+      {
+        const int next = place[axis] + side;
+        const std::int64_t other = voxel + side * this->Numbers.Stride(axis);
+        if (next >= 0 && next < this->Size[axis] && this->Mark[other] == Lost)
+        {
+          this->Mark[other] = Covered;
+          this->Part.push_back(other);
+        }
+      }
+    }
+  }
+  return this->Part;
+}
+
+/**
+ * Edge length of the cells, in delta. Edges are then 1.7 and 2.4 delta long, within eq. (1), and
+ * corners that no edge joins keep 1.7 delta, over lambda.
+ */
+constexpr double CellEdge = 1.7;
+
+/** Whether no triangle of the surface can reach the cell. */
+bool KeepsClear(
+  const SurfaceState& state, const CellLattice& lattice, const CellLattice::Cell& cell)
+{
+  const auto hasWithin = [&state](const Point& p, float radius)
+  {
+    const Vector place(
+      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    bool found = false;
+    state.Grid.Visit(place, radius,
+      [&](int v)
+      {
+        found = found || SquaredDistance(place, state.Mesh.Position[v]) < radius * radius;
+      });
+    return found;
+  };
+  const float reach = constraint::Reach * state.Delta;
+  const float radius = static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Delta;
+  if (!hasWithin(lattice.Centre(cell), radius + reach))
+  {
+    return true;
+  }
+  for (int i = 0; i < CellLattice::NumberOfCorners; ++i)
+  {
+    if (hasWithin(lattice.Corner(cell, i), reach))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}
+
+LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
+  int minimumSize, Executor& executor, const Checkpoint& goOn)
+{
+  LostPartCover stopped;
+  stopped.IsStopped = true;
+  Search search(state, field, kind);
+  search.MarkInside();
+  if (!goOn(0.25))
+  {
+    return stopped;
+  }
+  search.CoverNear();
+  if (!search.MarkLost(executor, [&goOn](double share) { return goOn(0.4 + 0.3 * share); }))
+  {
+    return stopped;
+  }
+  LostPartCover result;
+  const CellLattice lattice(CellEdge * state.Delta);
+  std::vector<CellLattice::Cell> cells;
+  std::vector<CellLattice::Cell> own;
+  std::size_t seen = 0;
+  for (const auto* part = &search.NextPart(); !part->empty(); part = &search.NextPart())
+  {
+    if (static_cast<std::int64_t>(part->size()) < minimumSize)
+    {
+      continue;
+    }
+    ++result.Found;
+    result.Boundary.Add(*part, field, kind);
+    own.clear();
+    for (std::int64_t voxel : *part)
+    {
+      search.VisitPieces(
+        voxel, [&](const Point& place) { own.push_back(lattice.CellAt(place)); });
+    }
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    const std::size_t before = cells.size();
+    for (const CellLattice::Cell& cell : own)
+    {
+      if (KeepsClear(state, lattice, cell))
+      {
+        cells.push_back(cell);
+      }
+      if (++seen % 4096 == 0 && !goOn(0.8))
+      {
+        return stopped;
+      }
+    }
+    result.Covered += cells.size() > before;
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  result.Surface = lattice.Boundary(cells);
+  if (kind == PartKind::Cavity)
+  {
+    for (Triangle& triangle : result.Surface.Triangles)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  if (!goOn(1.))
+  {
+    return stopped;
+  }
+  return result;
+}
+}

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLostParts_h
+#define volumicLostParts_h
+
+#include "Core/Common/Monitor.h"
+#include "Core/Evolution/LostBoundary.h"
+#include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceState.h"
+
+namespace volumic
+{
+/** Result of FindLostParts. */
+struct LostPartCover
+{
+  int Found = 0;          ///< Parts that the surface has lost.
+  int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
+  IndexedSurface Surface; ///< Closed, manifold, oriented as the kind wants it; workspace.
+  LostBoundary Boundary;  ///< Of all that were found.
+  bool IsStopped = false; ///< The checkpoint said stop: nothing is told, there is no surface.
+};
+
+/**
+ * Looks for what coarser levels have lost (Documentation/differences.md): connected sets of at
+ * least `minimumSize` voxels on the object's side outside the surface, or on the other side
+ * inside it, all farther than two units of the level from any vertex; and encloses them with a new
+ * surface, which then shrinks onto them as the first one did onto the object.
+ *
+ * It is the boundary of the truncated octahedra (CellLattice) that hold voxels of such parts and
+ * keep clear of the surface as it is, with edges and distances that respect eq. (1). Seeds inside
+ * the parts, as the paper starts from, would have to grow through places that are too thin for
+ * them, and meet with holes left between them.
+ *
+ * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
+ * of the state must be up to date, and no edge longer than 2.5 delta.
+ */
+LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
+  int minimumSize, Executor& executor, const Checkpoint& goOn = NeverStop);
+}
+
+#endif

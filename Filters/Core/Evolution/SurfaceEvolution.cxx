@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceEvolution.h"
+
+#include "Core/Common/Join.h"
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Mesh/SurfaceCheck.h"
+#include "Core/Surface/RemainingContacts.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+void CheckRange(const char* name, double value, double low, double high)
+{
+  if (!(value >= low && value <= high))
+  {
+    throw std::invalid_argument(
+      Join(name, " is ", value, ", it must lie in [", low, ", ", high, "]."));
+  }
+}
+}
+
+namespace
+{
+/** Adds the time of its life. */
+class Timer
+{
+public:
+  explicit Timer(double& seconds) : Seconds(seconds), Start(std::chrono::steady_clock::now()) {}
+  ~Timer()
+  {
+    this->Seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  }
+
+private:
+  double& Seconds;
+  std::chrono::steady_clock::time_point Start;
+};
+}
+
+const char* Describe(StopReason reason)
+{
+  switch (reason)
+  {
+    case StopReason::Converged:
+      return "converged";
+    case StopReason::LimitCycle:
+      return "limit cycle";
+    case StopReason::IterationLimit:
+      return "iteration limit";
+    case StopReason::Cancelled:
+      return "cancelled";
+    default:
+      return "vanished";
+  }
+}
+
+SurfaceEvolution::SurfaceEvolution(
+  const SurfaceOptions& options, Executor& executor, Monitor& monitor)
+{
+  CheckRange("Sampling Ratio", options.SamplingRatio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
+  CheckRange("Tension Weight", options.TensionWeight, 0., 1e6);
+  CheckRange("Elasticity Weight", options.ElasticityWeight, 0., 1e6);
+  CheckRange("Isopotential Weight", options.IsopotentialWeight, 0., 1e6);
+  CheckRange("Gradient Weight", options.GradientWeight, 0., 1e6);
+  CheckRange("Point Attraction Weight", options.PointAttractionWeight, 0., 1e6);
+  CheckRange("Edge Attraction Weight", options.EdgeAttractionWeight, 0., 1e6);
+  CheckRange("Friction", options.Friction, 1e-6, 1e6);
+  CheckRange("Seed Radius", options.SeedRadius, 0., 1e9);
+  CheckRange("Convergence Tolerance", options.ConvergenceTolerance, 0., 1.);
+  CheckRange("MaximumStep", options.MaximumStep, 1e-3, 0.5);
+  SurfaceOptions adjusted = options;
+  adjusted.SnapToEdges = options.SnapToIsoValue && options.EdgeAttractionWeight > 0.;
+  adjusted.SnapToIsoValue = options.SnapToIsoValue && !adjusted.SnapToEdges;
+  this->Self = std::make_unique<Implementation>(adjusted, executor, monitor);
+}
+
+SurfaceEvolution::~SurfaceEvolution() = default;
+
+void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
+{
+  Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
+  self.Enter(image, level);
+  self.State.Mesh.Clear();
+  self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Delta));
+  self.Reset();
+  self.GoOn(Monitor::Activity::Starting, 1.);
+}
+
+int SurfaceEvolution::StartSeeds(
+  const LevelImage& image, int level, const std::vector<Point>& centres)
+{
+  Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
+  self.Enter(image, level);
+  const double delta = self.State.Delta;
+  const double radius = std::max(
+    self.Options.SeedRadius > 0. ? self.Options.SeedRadius : 1.2 * delta, SmallestSeed * delta);
+  const std::vector<Point> places =
+    ChooseSeeds(*self.TheField, centres, 2. * radius + 1.6 * delta);
+  self.State.Mesh.Clear();
+  for (const Point& centre : places)
+  {
+    self.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
+  }
+  self.Reset();
+  return static_cast<int>(places.size());
+}
+
+void SurfaceEvolution::StartSurface(
+  const LevelImage& image, int level, const IndexedSurface& surface)
+{
+  CheckInitialSurface(surface);
+  CheckOverlapsImage(surface, image);
+  Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
+  self.Enter(image, level);
+  self.Take(surface);
+}
+
+StopReason SurfaceEvolution::Run()
+{
+  return this->Self->Run();
+}
+
+void SurfaceEvolution::SetMeanEdgeLength(double length)
+{
+  this->Self->WantedMeanEdge = length;
+}
+
+bool SurfaceEvolution::Divide(const LevelImage& image, int level)
+{
+  Implementation& self = *this->Self;
+  const Timer timer(self.Preparing);
+  if (!self.GoOn(Monitor::Activity::Regularising, 1.))
+  {
+    return false;
+  }
+  const double coarse = self.State.Delta;
+  self.LastLost = LostParts();
+  self.Lost = LostBoundary();
+  self.Enter(image, level);
+  // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
+  // the mesh's, sqrt 3.
+  const int divisions = static_cast<int>(
+    std::lround(std::log(coarse / self.State.Delta) / std::log(std::sqrt(3.))));
+  // After each of these steps the surface is one to hand over.
+  bool goesOn = true;
+  for (int i = 0; i < divisions && goesOn; ++i)
+  {
+    self.DivideOnce();
+    goesOn = self.GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
+  }
+  if (divisions < 1)
+  {
+    self.LayGrid();
+  }
+  self.SplitLongEdges();
+  if (goesOn && self.GoOn(Monitor::Activity::Dividing, 1.))
+  {
+    self.Recover();
+  }
+  self.Reset();
+  self.GoOn(Monitor::Activity::Recovering, 1.);
+  return true;
+}
+
+SurfaceResult SurfaceEvolution::Result() const
+{
+  const SurfaceState& s = this->Self->State;
+  SurfaceResult result;
+  static_cast<IndexedSurface&>(result) = s.Mesh.ToIndexed();
+  result.Delta = s.Delta;
+  const float sign = this->Self->Options.ObjectIsBright ? 1.f : -1.f;
+  std::vector<int> index(static_cast<std::size_t>(s.Mesh.Size()), -1); // As ToIndexed numbers them.
+  int points = 0;
+  RemainingContacts contacts;
+  if (s.Mesh.NumberOfVertices() > 0)
+  {
+    contacts = FindRemainingContacts(s, *this->Self->TheField, this->Self->Threads);
+  }
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      const Vector& n = s.Normal[v];
+      result.Normals.push_back({ n.X, n.Y, n.Z });
+      result.Residual.push_back(sign * this->Self->TheField->ValueAt(s.Mesh.Position[v]));
+      result.Motionless.push_back(!s.Awake[v]);
+      result.Held.push_back(contacts.Held[v]);
+      index[v] = points++;
+    }
+  }
+  result.Contacts = std::move(contacts.Pairs);
+  for (std::array<int, 2>& pair : result.Contacts)
+  {
+    pair = { index[pair[0]], index[pair[1]] };
+  }
+  return result;
+}
+
+const std::vector<HistoryRow>& SurfaceEvolution::History() const
+{
+  return this->Self->Rows;
+}
+
+int SurfaceEvolution::Iterations() const
+{
+  return this->Self->LastIterations;
+}
+
+bool SurfaceEvolution::IsStopped() const
+{
+  return this->Self->Stopped;
+}
+
+void SurfaceEvolution::StartClock(std::chrono::steady_clock::time_point start)
+{
+  this->Self->Booked = start;
+}
+
+double SurfaceEvolution::EndLevel()
+{
+  Implementation& self = *this->Self;
+  const double seconds = self.Book();
+  if (self.HasIteration())
+  {
+    self.Rows.back().SecondsAfter += seconds;
+  }
+  return std::exchange(self.LevelSeconds, 0.);
+}
+
+SurfaceEvolution::LostParts SurfaceEvolution::Lost() const
+{
+  return this->Self->LastLost;
+}
+}

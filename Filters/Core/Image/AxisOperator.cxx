@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Image/AxisOperator.h"
+
+#include "Core/Common/Join.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace volumic
+{
+namespace
+{
+constexpr std::array<double, 5> Kernel = { 1 / 16., 4 / 16., 6 / 16., 4 / 16., 1 / 16. };
+
+/// The weights of one output voxel before all of them are brought to the same number.
+struct Band
+{
+  std::int64_t First = 0;
+  std::int64_t Last = 0;
+  std::array<double, AxisOperator::MaximumNumberOfTaps> Weight{};
+};
+
+/// Lower voxel and share of the upper one for a place along the axis.
+struct Place
+{
+  std::int64_t Voxel;
+  double Share;
+};
+
+Place Locate(double place, std::int64_t size)
+{
+  const double last = static_cast<double>(size - 1);
+  const double inside = std::clamp(place, 0.0, last);
+  const auto voxel = static_cast<std::int64_t>(std::floor(inside));
+  return { voxel, inside - static_cast<double>(voxel) };
+}
+
+Band MakeBand(double centre, double offset, std::int64_t size)
+{
+  std::array<Place, 5> places;
+  Band band;
+  band.First = size;
+  for (int m = -2; m <= 2; ++m)
+  {
+    Place& place = places[m + 2];
+    place = Locate(centre + m * offset, size);
+    band.First = std::min(band.First, place.Voxel);
+    band.Last = std::max(band.Last, place.Voxel + (place.Share > 0.0 ? 1 : 0));
+  }
+  for (int m = 0; m < 5; ++m)
+  {
+    const auto tap = static_cast<std::size_t>(places[m].Voxel - band.First);
+    band.Weight[tap] += Kernel[m] * (1.0 - places[m].Share);
+    if (places[m].Share > 0.0)
+    {
+      band.Weight[tap + 1] += Kernel[m] * places[m].Share;
+    }
+  }
+  return band;
+}
+}
+
+AxisOperator::AxisOperator(std::int64_t inputSize, std::int64_t outputSize, double offset)
+  : Input(inputSize)
+{
+  if (inputSize < 1 || outputSize < 1 || !(offset >= 0.0 && offset <= 1.0))
+  {
+    throw std::invalid_argument(Join("AxisOperator: ", inputSize, " to ", outputSize,
+      " voxels with an offset of ", offset,
+      " voxels; sizes must be at least 1, the offset in [0, 1]."));
+  }
+  std::vector<Band> bands(outputSize);
+  const double step = static_cast<double>(inputSize) / static_cast<double>(outputSize);
+  for (std::int64_t i = 0; i < outputSize; ++i)
+  {
+    bands[i] = MakeBand(static_cast<double>(i) * step, offset, inputSize);
+    this->Taps = std::max(this->Taps, static_cast<int>(bands[i].Last - bands[i].First) + 1);
+  }
+
+  this->FirstVoxel.resize(outputSize);
+  this->Weight.assign(outputSize * this->Taps, 0.0);
+  for (std::int64_t i = 0; i < outputSize; ++i)
+  {
+    // Short bands at the upper border start earlier, so that no tap lies past the last voxel.
+    const std::int64_t first = std::min(bands[i].First, inputSize - this->Taps);
+    const std::int64_t shift = bands[i].First - first;
+    this->FirstVoxel[i] = first;
+    const std::int64_t length = bands[i].Last - bands[i].First + 1;
+    std::copy_n(bands[i].Weight.begin(), length, this->Weight.begin() + i * this->Taps + shift);
+  }
+}
+}

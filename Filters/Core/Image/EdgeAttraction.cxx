@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Image/EdgeAttraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+LevelImage MapOf(const LevelImage& image)
+{
+  LevelImage map = image;
+  map.Values = image.Edges;
+  map.Edges = nullptr;
+  map.Base = 0.; // Only differences count.
+  return map;
+}
+
+FieldOptions MapOptions()
+{
+  FieldOptions options;
+  options.BorderValue = Border::Replicate;
+  return options;
+}
+}
+
+EdgeAttraction::EdgeAttraction(const LevelImage& image, Executor& executor)
+  : Map(MapOf(image), MapOptions(), executor)
+{
+  // Central differences of the inner voxels, a sum per slice.
+  const auto& size = image.Size;
+  struct Sums
+  {
+    double First = 0;
+    double Second = 0;
+  };
+  std::vector<Sums> slices(static_cast<std::size_t>(size[2]));
+  const std::ptrdiff_t dy = size[0];
+  const std::ptrdiff_t dz = dy * size[1];
+  executor.For(slices.size(), 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t k = std::max<std::size_t>(begin, 1);
+           k < std::min(end, slices.size() - 1); ++k)
+      {
+        Sums sums;
+        for (int j = 1; j + 1 < size[1]; ++j)
+        {
+          const float* row = image.Edges + static_cast<std::ptrdiff_t>(k) * dz + j * dy;
+          for (int i = 1; i + 1 < size[0]; ++i)
+          {
+            const double x = (row[i + 1] - row[i - 1]) / image.Step[0];
+            const double y = (row[i + dy] - row[i - dy]) / image.Step[1];
+            const double z = (row[i + dz] - row[i - dz]) / image.Step[2];
+            const double squared = 0.25 * (x * x + y * y + z * z);
+            sums.First += std::sqrt(squared);
+            sums.Second += squared;
+          }
+        }
+        slices[k] = sums;
+      }
+    });
+  Sums all;
+  for (const Sums& sums : slices)
+  {
+    all.First += sums.First;
+    all.Second += sums.Second;
+  }
+  if (all.Second > 0)
+  {
+    this->Scale = static_cast<float>(all.First / (0.5 * all.Second));
+  }
+}
+
+float EdgeAttraction::Along(const Vector& position, const Vector& normal) const
+{
+  const float slope = Dot(this->Map.At(position).Gradient, normal);
+  return std::min(std::max(slope * this->Scale, -1.f), 1.f);
+}
+}

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicField_h
+#define volumicField_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Common/Vector.h"
+#include "Core/Image/FieldOptions.h"
+#include "Core/Image/ImageMargin.h"
+#include "Core/Image/LevelImage.h"
+
+namespace volumic
+{
+/**
+ * The continuous field of a level (the paper's section 4.1), as the surface wants it: Value is the
+ * image minus the iso-value, with the sign changed for dark objects, so that it is positive on
+ * the object's side. Trilinear between voxels; the gradient is the trilinear interpolation of
+ * the discrete gradient (central differences), not the derivative of the interpolant.
+ *
+ * Outside the image the voxels count as background (the extreme value of the image away from the
+ * object, or as far below the iso-value as the object is above it, whichever is the stronger), so
+ * the field ramps over one voxel; or, for Border::Replicate, as the nearest voxel as far as
+ * ImageMargin::Width, and from there on as background, ramping over ImageMargin::Ramp.
+ */
+class Field
+{
+public:
+  struct Sample
+  {
+    float Value;
+    Vector Gradient; ///< Of Value, per unit of length of the workspace.
+  };
+
+  /** @throws std::invalid_argument for an image without voxels. */
+  Field(const LevelImage& image, const FieldOptions& options, Executor& executor);
+
+  float ValueAt(const Vector& position) const;
+  Sample At(const Vector& position) const;
+
+  /** Largest Value in the image; where it is not positive there is no object. */
+  float Highest() const { return this->Best; }
+  float Lowest() const { return this->Worst; }
+
+  /**
+   * Mean absolute slope of the pairs of neighbouring voxels between which the iso-value lies: the
+   * steepness that a typical piece of the searched surface has. Value per workspace length.
+   */
+  float TypicalSlope() const { return this->Slope; }
+
+  /** What the image counts as outside its voxels, with Border::Background. */
+  float Background() const { return this->Outside; }
+
+  const LevelImage& Image() const { return this->Level; }
+  const ImageMargin& Margin() const { return this->Around; }
+  /** Value at a voxel inside the image. */
+  float Voxel(int i, int j, int k) const
+  {
+    return this->Sign * (this->Level.Values[this->Offset(i, j, k)] - this->Iso);
+  }
+
+private:
+  struct Cell
+  {
+    int I, J, K;
+    float X, Y, Z;
+  };
+  std::ptrdiff_t Offset(int i, int j, int k) const
+  {
+    return i + static_cast<std::ptrdiff_t>(this->Level.Size[0]) *
+      (j + static_cast<std::ptrdiff_t>(this->Level.Size[1]) * k);
+  }
+  Cell Locate(const Vector& position) const;
+  float Fetch(int i, int j, int k) const;
+  Sample Faded(const Vector& position, const Sample& sample) const;
+  void MeasureRange(Executor& executor);
+  void MeasureSlope();
+
+  LevelImage Level;
+  ImageMargin Around;
+  float Iso = 0; ///< The iso-value less the image's Base, as Level.Values are.
+  float Sign = 1;
+  float Inverse[3] = { 1, 1, 1 };
+  float Outside = 0; ///< Of the background, as Level.Values.
+  float Best = 0;
+  float Worst = 0;
+  float Slope = 1;
+  bool Replicate = false;
+};
+}
+
+#endif

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Image/LevelReduction.h"
+
+#include "Core/Image/AxisOperator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+/// Input bytes that a tile of rows should touch per output slice: they stay in a core's cache.
+constexpr std::int64_t TileBytes = 768 * 1024;
+/// Input voxels between two calls of the progress: about a millisecond of work.
+constexpr std::int64_t VoxelsPerBatch = 4 * 1024 * 1024;
+/// Voxels that one thread looks through at a time for values that are not finite.
+constexpr std::int64_t ScanBlock = 64 * 1024;
+
+/// An axis operator with its weights in the type of the computation.
+template <typename Real>
+struct Axis
+{
+  std::vector<std::int64_t> First;
+  std::vector<Real> Weights;
+  int Taps;
+
+  Axis(const LevelGeometry& input, const LevelGeometry& output, int axis)
+  {
+    const double distance = std::abs(input.Spacing[axis]);
+    // Eq. 4 keeps U_h <= mu/M_h; a rounding error must not make it more.
+    const double offset = input.Size[axis] > 1 ? std::min(1.0, input.Unit / distance) : 0.0;
+    const AxisOperator axisOperator(input.Size[axis], output.Size[axis], offset);
+    this->Taps = axisOperator.NumberOfTaps();
+    this->First.resize(output.Size[axis]);
+    this->Weights.resize(output.Size[axis] * this->Taps);
+    for (std::int64_t i = 0; i < output.Size[axis]; ++i)
+    {
+      this->First[i] = axisOperator.First(i);
+      std::transform(axisOperator.Weights(i), axisOperator.Weights(i) + this->Taps,
+        this->Weights.begin() + i * this->Taps, [](double w) { return static_cast<Real>(w); });
+    }
+  }
+
+  const Real* Weight(std::int64_t i) const { return this->Weights.data() + i * this->Taps; }
+};
+
+template <typename T>
+class Reduction
+{
+public:
+  using Real = typename RealOf<T>::Type;
+
+  Reduction(const T* input, const LevelGeometry& inputGeometry, Real* output,
+    const LevelGeometry& outputGeometry)
+    : Input(input), Output(output), InputSize(inputGeometry.Size), OutputSize(outputGeometry.Size),
+      X(inputGeometry, outputGeometry, 0), Y(inputGeometry, outputGeometry, 1),
+      Z(inputGeometry, outputGeometry, 2),
+      Stride((InputSize[0] + RowsPerBlock - 1) / RowsPerBlock * RowsPerBlock)
+  {
+    const std::int64_t rowBytes = InputSize[0] * Z.Taps * static_cast<std::int64_t>(sizeof(T));
+    const std::int64_t inputRows = TileBytes / std::max<std::int64_t>(rowBytes, 1);
+    const std::int64_t rows = inputRows * OutputSize[1] / InputSize[1];
+    // Short tiles make many rows twice, at their borders.
+    this->RowsPerTile =
+      std::max<std::int64_t>(rows, 4 * RowsPerBlock) / RowsPerBlock * RowsPerBlock;
+    this->Tiles = (OutputSize[1] + this->RowsPerTile - 1) / this->RowsPerTile;
+  }
+
+  bool Run(Executor& executor, const LevelProgress& progress) const
+  {
+    // Slices of one tile follow each other, so that a thread finds their input in its cache.
+    const std::int64_t tasks = this->Tiles * this->OutputSize[2];
+    const std::int64_t voxels = InputSize[0] * InputSize[1] * InputSize[2];
+    const std::int64_t batches = std::clamp<std::int64_t>(voxels / VoxelsPerBatch, 1, tasks);
+    for (std::int64_t batch = 0; batch < batches; ++batch)
+    {
+      const std::int64_t begin = tasks * batch / batches;
+      const std::int64_t end = tasks * (batch + 1) / batches;
+      executor.For(static_cast<std::size_t>(end - begin), 4,
+        [&](std::size_t first, std::size_t last) { this->RunTasks(begin + first, begin + last); });
+      const bool goOn = progress(static_cast<double>(batch + 1) / static_cast<double>(batches));
+      if (!goOn && batch + 1 < batches)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+private:
+  /// Rows in work, of one thread.
+  struct WorkSpace
+  {
+    // Enough for the rows of one band along y: the ring's size is a power of two over six.
+    static constexpr std::int64_t RingRows = 8;
+    std::vector<Real> Ring;    ///< rows combined along z, by their y modulo RingRows
+    std::vector<Real> Block;   ///< rows combined along z and y
+    std::vector<Real> Columns; ///< work space of ReduceRows
+
+    explicit WorkSpace(std::int64_t stride)
+      : Ring(RingRows * stride), Block(RowsPerBlock * stride), Columns(RowsPerBlock * stride)
+    {
+    }
+  };
+
+  void RunTasks(std::int64_t begin, std::int64_t end) const
+  {
+    WorkSpace work(this->Stride);
+    for (std::int64_t task = begin; task < end; ++task)
+    {
+      const std::int64_t tile = task / this->OutputSize[2];
+      const std::int64_t slice = task % this->OutputSize[2];
+      const std::int64_t row = tile * this->RowsPerTile;
+      this->MakeRows(slice, row, std::min(row + this->RowsPerTile, this->OutputSize[1]), work);
+    }
+  }
+
+  /// Output rows [begin, end) of one output slice.
+  void MakeRows(std::int64_t slice, std::int64_t begin, std::int64_t end, WorkSpace& work) const
+  {
+    std::int64_t made = this->Y.First[begin]; // rows of the ring before this one are done
+    for (std::int64_t block = begin; block < end; block += RowsPerBlock)
+    {
+      const auto rows = static_cast<int>(std::min<std::int64_t>(RowsPerBlock, end - block));
+      std::array<Real*, RowsPerBlock> out{};
+      for (int r = 0; r < rows; ++r)
+      {
+        const std::int64_t y = block + r;
+        const std::int64_t last = this->Y.First[y] + this->Y.Taps;
+        for (made = std::max(made, this->Y.First[y]); made < last; ++made)
+        {
+          this->CombineAlongZ(slice, made, this->RingRow(work, made));
+        }
+        this->CombineAlongY(y, work, work.Block.data() + r * this->Stride);
+        out[r] = this->Output + (slice * this->OutputSize[1] + y) * this->OutputSize[0];
+      }
+      ReduceRows(work.Block.data(), this->Stride, this->X.First.data(), this->X.Weights.data(),
+        this->X.Taps, this->OutputSize[0], work.Columns.data(), out.data(), rows);
+    }
+  }
+
+  Real* RingRow(WorkSpace& work, std::int64_t y) const
+  {
+    return work.Ring.data() + (y % WorkSpace::RingRows) * this->Stride;
+  }
+
+  void CombineAlongZ(std::int64_t slice, std::int64_t y, Real* out) const
+  {
+    std::array<const T*, AxisOperator::MaximumNumberOfTaps> rows{};
+    for (int t = 0; t < this->Z.Taps; ++t)
+    {
+      const std::int64_t z = this->Z.First[slice] + t;
+      rows[t] = this->Input + (z * this->InputSize[1] + y) * this->InputSize[0];
+    }
+    CombineRows(rows.data(), this->Z.Weight(slice), this->Z.Taps, out, this->InputSize[0]);
+  }
+
+  void CombineAlongY(std::int64_t y, WorkSpace& work, Real* out) const
+  {
+    std::array<const Real*, AxisOperator::MaximumNumberOfTaps> rows{};
+    for (int t = 0; t < this->Y.Taps; ++t)
+    {
+      rows[t] = this->RingRow(work, this->Y.First[y] + t);
+    }
+    // The whole stride, so that the loop has no remainder; ReduceRows does not look past the row.
+    CombineRows(rows.data(), this->Y.Weight(y), this->Y.Taps, out, this->Stride);
+  }
+
+  const T* Input;
+  Real* Output;
+  LevelSize InputSize;
+  LevelSize OutputSize;
+  Axis<Real> X;
+  Axis<Real> Y;
+  Axis<Real> Z;
+  std::int64_t Stride;
+  std::int64_t RowsPerTile;
+  std::int64_t Tiles;
+};
+}
+
+template <typename T>
+bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
+  typename RealOf<T>::Type* output, const LevelGeometry& outputGeometry, Executor& executor,
+  const LevelProgress& progress)
+{
+  const Reduction<T> reduction(input, inputGeometry, output, outputGeometry);
+  return reduction.Run(executor, progress);
+}
+
+template <typename T>
+NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& executor)
+{
+  NotFiniteVoxels found;
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    std::vector<std::int64_t> counts((n + ScanBlock - 1) / ScanBlock);
+    const auto sizeOf = [n](std::int64_t block)
+    { return std::min(ScanBlock, n - block * ScanBlock); };
+    executor.For(counts.size(), 8,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t block = begin; block < end; ++block)
+        {
+          const auto b = static_cast<std::int64_t>(block);
+          counts[block] = CountNotFinite(values + b * ScanBlock, sizeOf(b));
+        }
+      });
+    for (std::int64_t block = 0; block < static_cast<std::int64_t>(counts.size()); ++block)
+    {
+      if (counts[block] > 0 && found.First < 0)
+      {
+        const T* begin = values + block * ScanBlock;
+        const auto isNotFinite = [](T value) { return !std::isfinite(value); };
+        found.First = std::find_if(begin, begin + sizeOf(block), isNotFinite) - values;
+      }
+      found.Count += counts[block];
+    }
+  }
+  else
+  {
+    static_cast<void>(values);
+    static_cast<void>(n);
+    static_cast<void>(executor);
+  }
+  return found;
+}
+
+#define VOLUMIC_INSTANTIATE(T)                                                   \
+  template bool ReduceLevel<T>(const T*, const LevelGeometry&, RealOf<T>::Type*, \
+    const LevelGeometry&, Executor&, const LevelProgress&);                      \
+  template NotFiniteVoxels FindNotFiniteVoxels<T>(const T*, std::int64_t, Executor&);
+VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
+#undef VOLUMIC_INSTANTIATE
+}

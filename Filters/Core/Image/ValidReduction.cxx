@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Image/ValidReduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+namespace volumic
+{
+template <typename T>
+bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
+  const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
+  const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress)
+{
+  using Real = typename RealOf<T>::Type;
+  std::vector<T> values(valid.size());
+  std::transform(valid.begin(), valid.end(), input, values.begin(),
+    [](std::uint8_t mark, T value) { return mark != 0 ? value : T(0); });
+  const auto firstHalf = [&](double share) { return progress(0.5 * share); };
+  const auto secondHalf = [&](double share) { return progress(0.5 + 0.5 * share); };
+  if (!ReduceLevel(values.data(), inputGeometry, output, outputGeometry, executor, firstHalf))
+  {
+    return false;
+  }
+  values = std::vector<T>();
+  // The weights are as precise as the voxels: as bytes they would give single precision.
+  using Mark = std::conditional_t<std::is_same_v<Real, double>, double, std::uint8_t>;
+  const std::vector<Mark> marks(valid.begin(), valid.end());
+  std::vector<Real> weights(static_cast<std::size_t>(outputGeometry.NumberOfVoxels()));
+  if (!ReduceLevel(
+        marks.data(), inputGeometry, weights.data(), outputGeometry, executor, secondHalf))
+  {
+    return false;
+  }
+  std::transform(weights.begin(), weights.end(), output, output,
+    [](Real weight, Real sum)
+    { return weight >= Real(0.5) ? sum / weight : std::numeric_limits<Real>::quiet_NaN(); });
+  return true;
+}
+
+template <typename Real>
+std::vector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n)
+{
+  std::vector<std::uint8_t> marks(static_cast<std::size_t>(n));
+  std::transform(values, values + n, marks.begin(),
+    [](Real value) { return static_cast<std::uint8_t>(std::isnan(value) ? 0 : 1); });
+  return marks;
+}
+
+#define VOLUMIC_INSTANTIATE(T)                                                                  \
+  template bool ReduceValidVoxels<T>(const T*, const std::vector<std::uint8_t>&,               \
+    const LevelGeometry&, RealOf<T>::Type*, const LevelGeometry&, Executor&, const LevelProgress&);
+VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
+#undef VOLUMIC_INSTANTIATE
+template std::vector<std::uint8_t> MarkNumbers<float>(const float*, std::int64_t);
+template std::vector<std::uint8_t> MarkNumbers<double>(const double*, std::int64_t);
+}

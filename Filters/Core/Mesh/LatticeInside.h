@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLatticeInside_h
+#define volumicLatticeInside_h
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Mesh/RowCrossing.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/** A point of a body-centred cubic lattice: of the corners of cubes (0) or of their centres (1). */
+struct LatticePoint
+{
+  int Kind;
+  std::array<std::int64_t, 3> At;
+};
+
+/**
+ * Which points of such a lattice a closed surface encloses, layer by layer: how often the surface
+ * goes round a point is counted along the rows of points. All points of the outermost layers are
+ * outside. The surface must outlive it; lengths are those of its points.
+ */
+class LatticeInside
+{
+public:
+  /** The lattice is laid over the surface; `pitch` is the side of its cubes. */
+  LatticeInside(const IndexedSurface& surface, double pitch);
+
+  /** Finds what is enclosed in a layer; layers must come in order, the last three are kept. */
+  void Fill(std::int64_t k);
+
+  const std::array<std::int64_t, 3>& Size() const { return this->Count; }
+  double Coordinate(int kind, int axis, std::int64_t i) const
+  {
+    return this->Origin[axis] + this->Pitch * (static_cast<double>(i) + 0.5 * kind);
+  }
+  /** A number of its own for each point. */
+  std::int64_t Index(const LatticePoint& p) const
+  {
+    return ((p.Kind * this->Count[2] + p.At[2]) * this->Count[1] + p.At[1]) * this->Count[0] +
+      p.At[0];
+  }
+  bool IsInside(const LatticePoint& p) const
+  {
+    return this->Word(p.Kind, p.At[1], p.At[2], p.At[0] / WordSize) >> (p.At[0] % WordSize) & 1u;
+  }
+
+  /** Points of a row are looked at this many at a time. */
+  static constexpr std::int64_t WordSize = 64;
+  std::int64_t WordsInRow() const { return this->Words; }
+  /** Whether all cubes at word w of the row j of layer k are on one side. */
+  bool IsUniform(std::int64_t w, std::int64_t j, std::int64_t k) const;
+
+  /** About one per squared pitch of the surface. */
+  std::size_t NumberOfCrossings() const
+  {
+    return this->Crossings[0].size() + this->Crossings[1].size();
+  }
+
+private:
+  struct Crossing
+  {
+    std::int64_t Row; ///< Of all rows of points of its kind.
+    RowCrossing Where;
+  };
+  static constexpr std::int64_t Kept = 3;
+
+  std::size_t PlaceOfWord(int kind, std::int64_t j, std::int64_t k, std::int64_t w) const
+  {
+    return static_cast<std::size_t>(
+      ((kind * Kept + k % Kept) * this->Count[1] + j) * this->Words + w);
+  }
+  std::uint64_t Word(int kind, std::int64_t j, std::int64_t k, std::int64_t w) const
+  {
+    return this->Bits[this->PlaceOfWord(kind, j, k, w)];
+  }
+  void FindCrossings(int kind);
+
+  const IndexedSurface& Surface;
+  double Pitch;
+  Point Origin;
+  std::array<std::int64_t, 3> Count; ///< Points along each axis.
+  std::int64_t Words;                ///< Of bits in a row.
+  std::vector<std::uint64_t> Bits;
+  std::vector<Crossing> Crossings[2]; ///< Of the two kinds of points, row by row.
+  std::size_t Next[2] = { 0, 0 };     ///< The first of them in the layer to be filled.
+};
+}
+
+#endif

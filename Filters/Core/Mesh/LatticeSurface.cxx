@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/LatticeSurface.h"
+
+#include "Core/Mesh/LatticeInside.h"
+#include "Core/Mesh/ObliqueRotation.h"
+#include "Core/Mesh/TriangleTree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+using Key = std::uint64_t;
+
+/** Cuts the tetrahedra of a lattice where a surface passes them. */
+class TetrahedraCutter
+{
+public:
+  TetrahedraCutter(const IndexedSurface& surface, double pitch)
+    : Surface(surface), Lattice(surface, pitch)
+  {
+    this->EdgeOf.reserve(7 * this->Lattice.NumberOfCrossings());
+    this->AskedOf.reserve(5 * this->Lattice.NumberOfCrossings());
+    this->Lattice.Fill(0);
+  }
+
+  /** Layers must be cut in order from 0 to one less than there are. */
+  void Cut(std::int64_t k);
+  std::int64_t NumberOfLayers() const { return this->Lattice.Size()[2]; }
+  /** The surface that the cuts make. */
+  IndexedSurface Finish(Executor& executor);
+
+private:
+  /** An edge of the lattice with ends on either side. */
+  struct CutEdge
+  {
+    int Ends[2]; ///< Places in Asked.
+  };
+
+  void CutAbout(const LatticePoint& own);
+  void CutTetrahedron(const LatticePoint (&corner)[4], unsigned inside);
+  int CornerOn(const LatticePoint& p, const LatticePoint& q);
+  int Ask(const LatticePoint& p);
+
+  const IndexedSurface& Surface;
+  LatticeInside Lattice;
+  std::vector<Triangle> Triangles;
+  std::vector<CutEdge> Edges;      ///< One per corner of the result.
+  std::vector<LatticePoint> Asked; ///< Whose distance from the surface is needed.
+  std::unordered_map<Key, int> EdgeOf;
+  std::unordered_map<std::int64_t, int> AskedOf;
+};
+
+void TetrahedraCutter::Cut(std::int64_t k)
+{
+  this->Lattice.Fill(k + 1);
+  if (k < 1)
+  {
+    return; // All is outside there.
+  }
+  constexpr std::int64_t word = LatticeInside::WordSize;
+  const std::array<std::int64_t, 3>& size = this->Lattice.Size();
+  for (std::int64_t j = 1; j + 1 < size[1]; ++j)
+  {
+    for (std::int64_t w = 0; w < this->Lattice.WordsInRow(); ++w)
+    {
+      if (this->Lattice.IsUniform(w, j, k))
+      {
+        continue;
+      }
+      const std::int64_t end = std::min(word * (w + 1), size[0] - 1);
+      for (std::int64_t i = std::max<std::int64_t>(word * w, 1); i < end; ++i)
+      {
+        this->CutAbout({ 0, { i, j, k } });
+      }
+    }
+  }
+}
+
+void TetrahedraCutter::CutAbout(const LatticePoint& own)
+{
+  // Each tetrahedron has one edge between corners of cubes, and one between centres: it belongs to
+  // the lower end of the former.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    LatticePoint next = own;
+    ++next.At[axis];
+    LatticePoint about[4];
+    const int first = (axis + 1) % 3;
+    const int second = (axis + 2) % 3;
+    for (int turn = 0; turn < 4; ++turn)
+    {
+      about[turn] = { 1, own.At };
+      about[turn].At[first] -= turn == 0 || turn == 3;
+      about[turn].At[second] -= turn == 0 || turn == 1;
+    }
+    const unsigned ends = static_cast<unsigned>(this->Lattice.IsInside(own)) |
+      static_cast<unsigned>(this->Lattice.IsInside(next)) << 1;
+    bool inside[4];
+    for (int turn = 0; turn < 4; ++turn)
+    {
+      inside[turn] = this->Lattice.IsInside(about[turn]);
+    }
+    for (int turn = 0; turn < 4; ++turn)
+    {
+      const int after = (turn + 1) % 4;
+      const unsigned bits =
+        ends | static_cast<unsigned>(inside[turn]) << 2 | static_cast<unsigned>(inside[after]) << 3;
+      if (bits != 0 && bits != 15)
+      {
+        this->CutTetrahedron({ own, next, about[turn], about[after] }, bits);
+      }
+    }
+  }
+}
+
+void TetrahedraCutter::CutTetrahedron(const LatticePoint (&corner)[4], unsigned inside)
+{
+  // Even permutations, so that all tetrahedra are looked at with the same handedness: those with
+  // each corner first, and those with each pair first.
+  static constexpr int single[4][4] = { { 0, 1, 2, 3 }, { 1, 0, 3, 2 }, { 2, 3, 0, 1 },
+    { 3, 2, 1, 0 } };
+  static constexpr int pairs[6][4] = { { 0, 1, 2, 3 }, { 0, 2, 3, 1 }, { 0, 3, 1, 2 },
+    { 1, 2, 0, 3 }, { 1, 3, 2, 0 }, { 2, 3, 0, 1 } };
+  const auto has = [inside](int c) { return (inside >> c & 1u) != 0; };
+  const int count = has(0) + has(1) + has(2) + has(3);
+  if (count != 2)
+  {
+    const bool wanted = count == 1;
+    int lone = 0;
+    while (has(lone) != wanted)
+    {
+      ++lone;
+    }
+    const int* c = single[lone];
+    Triangle t;
+    for (int n = 0; n < 3; ++n)
+    {
+      t[n] = this->CornerOn(corner[c[0]], corner[c[n + 1]]);
+    }
+    if (!wanted)
+    {
+      std::swap(t[1], t[2]);
+    }
+    this->Triangles.push_back(t);
+    return;
+  }
+  const int* c = *std::find_if(std::begin(pairs), std::end(pairs),
+    [&has](const int(&pair)[4]) { return has(pair[0]) && has(pair[1]); });
+  const int quad[4] = { this->CornerOn(corner[c[0]], corner[c[2]]),
+    this->CornerOn(corner[c[0]], corner[c[3]]), this->CornerOn(corner[c[1]], corner[c[3]]),
+    this->CornerOn(corner[c[1]], corner[c[2]]) };
+  this->Triangles.push_back({ quad[0], quad[1], quad[2] });
+  this->Triangles.push_back({ quad[2], quad[3], quad[0] });
+}
+
+int TetrahedraCutter::CornerOn(const LatticePoint& p, const LatticePoint& q)
+{
+  // An edge is known by its lower end, or the one at a corner of cubes, and its direction.
+  const bool swapped = p.Kind != q.Kind ? p.Kind == 1 : p.At > q.At;
+  const LatticePoint& from = swapped ? q : p;
+  const LatticePoint& to = swapped ? p : q;
+  Key direction = from.Kind == to.Kind ? 0 : 3;
+  for (int k = 0; k < 3; ++k)
+  {
+    const bool differs = from.At[k] != to.At[k];
+    direction += static_cast<Key>(differs) * (from.Kind == to.Kind ? k : 1 << k);
+  }
+  const Key key = static_cast<Key>(this->Lattice.Index(from)) * 16 + direction;
+  const auto found = this->EdgeOf.emplace(key, static_cast<int>(this->Edges.size()));
+  if (found.second)
+  {
+    this->Edges.push_back({ { this->Ask(from), this->Ask(to) } });
+  }
+  return found.first->second;
+}
+
+int TetrahedraCutter::Ask(const LatticePoint& p)
+{
+  const auto found =
+    this->AskedOf.emplace(this->Lattice.Index(p), static_cast<int>(this->Asked.size()));
+  if (found.second)
+  {
+    this->Asked.push_back(p);
+  }
+  return found.first->second;
+}
+
+IndexedSurface TetrahedraCutter::Finish(Executor& executor)
+{
+  const TriangleTree tree(this->Surface);
+  std::vector<double> distance(this->Asked.size());
+  std::vector<Point> place(this->Asked.size());
+  executor.For(this->Asked.size(), 256,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t n = begin; n < end; ++n)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          place[n][k] = this->Lattice.Coordinate(this->Asked[n].Kind, k, this->Asked[n].At[k]);
+        }
+        distance[n] = std::sqrt(tree.SquaredDistance(place[n]));
+      }
+    });
+  // Not so near to the ends that triangles become slivers.
+  constexpr double least = 0.15;
+  IndexedSurface result;
+  result.Points.reserve(this->Edges.size());
+  for (const CutEdge& edge : this->Edges)
+  {
+    const int a = edge.Ends[0];
+    const int b = edge.Ends[1];
+    const double both = distance[a] + distance[b];
+    const double share = std::clamp(both > 0. ? distance[a] / both : 0.5, least, 1. - least);
+    Point p;
+    for (int k = 0; k < 3; ++k)
+    {
+      p[k] = place[a][k] + share * (place[b][k] - place[a][k]);
+    }
+    result.Points.push_back(p);
+  }
+  result.Triangles = std::move(this->Triangles);
+  return result;
+}
+}
+
+IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int attempt,
+  Executor& executor, const std::function<bool(double share)>& goOn)
+{
+  const ObliqueRotation rotation(attempt);
+  IndexedSurface turned = surface;
+  for (Point& p : turned.Points)
+  {
+    p = rotation.Apply(p);
+  }
+  TetrahedraCutter cutter(turned, pitch);
+  for (std::int64_t k = 0; k + 1 < cutter.NumberOfLayers(); ++k)
+  {
+    if (!goOn(0.8 * static_cast<double>(k) / static_cast<double>(cutter.NumberOfLayers())))
+    {
+      return {};
+    }
+    cutter.Cut(k);
+  }
+  IndexedSurface result = cutter.Finish(executor);
+  for (Point& p : result.Points)
+  {
+    p = rotation.Undo(p);
+  }
+  return goOn(1.) ? std::move(result) : IndexedSurface();
+}
+}

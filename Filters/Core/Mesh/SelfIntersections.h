@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSelfIntersections_h
+#define volumicSelfIntersections_h
+
+#include "Core/Common/IndexedSurface.h"
+
+namespace volumic
+{
+/** What a search for intersections has looked at. */
+struct IntersectionWork
+{
+  long long Boxes = 0; ///< Of the tree.
+  long long Pairs = 0; ///< Of triangles.
+};
+
+/**
+ * Number of intersecting pairs of triangles, neighbours included, by exact tests of the points
+ * rounded to float. Triangles of all sizes may be mixed: the time is that of n log n boxes, and of
+ * the pairs whose boxes meet. Stops counting at `limit` (0: never).
+ */
+int CountSelfIntersections(
+  const IndexedSurface& surface, int limit = 0, IntersectionWork* work = nullptr);
+}
+
+#endif

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/StarMerge.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace volumic
+{
+bool StarMerge::PlanFrom(int offset, float best, float& cost)
+{
+  // State (i, k): the rung from place i of the first rim to place offset + k of the second.
+  const int n = this->FirstRim.Count;
+  const int m = this->SecondRim.Count;
+  float sum[Ring::Capacity + 1][Ring::Capacity + 1];
+  bool alongFirst[Ring::Capacity + 1][Ring::Capacity + 1];
+  for (int i = 0; i <= n; ++i)
+  {
+    for (int k = 0; k <= m; ++k)
+    {
+      const float fromFirst = i > 0 ? sum[i - 1][k] : std::numeric_limits<float>::max();
+      const float fromSecond = k > 0 ? sum[i][k - 1] : std::numeric_limits<float>::max();
+      const float rung = this->Squared[i % n][(offset + k) % m];
+      alongFirst[i][k] = fromFirst < fromSecond;
+      sum[i][k] = (i == 0 && k == 0) ? 0.f : rung + std::min(fromFirst, fromSecond);
+    }
+  }
+  cost = sum[n][m];
+  if (cost >= best)
+  {
+    return false;
+  }
+  this->Candidate.clear();
+  for (int i = n, k = m; i > 0 || k > 0;)
+  {
+    (alongFirst[i][k] ? i : k) -= 1;
+    this->Candidate.push_back({ i % n, (offset + k) % m });
+  }
+  std::reverse(this->Candidate.begin(), this->Candidate.end());
+  // A whole turn about one rim vertex: it has more rungs than the other rim has vertices.
+  int perFirst[Ring::Capacity] = {};
+  int perSecond[Ring::Capacity] = {};
+  for (const Rung& rung : this->Candidate)
+  {
+    if (++perFirst[rung.First] > m || ++perSecond[rung.Second] > n)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool StarMerge::Fits(const SurfaceMesh& mesh) const
+{
+  int perFirst[Ring::Capacity] = {};
+  int perSecond[Ring::Capacity] = {};
+  for (const Rung& rung : this->Rungs)
+  {
+    ++perFirst[rung.First];
+    ++perSecond[rung.Second];
+  }
+  for (int i = 0; i < this->FirstRim.Count; ++i)
+  {
+    if (mesh.Rings[this->FirstRim.Item[i]].Count - 1 + perFirst[i] > Ring::Capacity)
+    {
+      return false;
+    }
+  }
+  for (int k = 0; k < this->SecondRim.Count; ++k)
+  {
+    if (mesh.Rings[this->SecondRim.Item[k]].Count - 1 + perSecond[k] > Ring::Capacity)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool StarMerge::Plan(const SurfaceMesh& mesh)
+{
+  this->FirstRim = mesh.Rings[this->U];
+  this->SecondRim = mesh.Rings[this->V];
+  std::reverse(this->SecondRim.Item, this->SecondRim.Item + this->SecondRim.Count);
+  const int n = this->FirstRim.Count;
+  const int m = this->SecondRim.Count;
+  for (int i = 0; i < n; ++i)
+  {
+    const int r = this->FirstRim.Item[i];
+    if (r == this->V)
+    {
+      return false;
+    }
+    for (int k = 0; k < m; ++k)
+    {
+      const int s = this->SecondRim.Item[k];
+      if (r == s || mesh.AreNeighbours(r, s))
+      {
+        return false;
+      }
+      this->Squared[i][k] = SquaredDistance(mesh.Position[r], mesh.Position[s]);
+    }
+  }
+  float best = std::numeric_limits<float>::max();
+  this->Rungs.clear();
+  for (int offset = 0; offset < m; ++offset)
+  {
+    float cost = 0;
+    if (this->PlanFrom(offset, best, cost))
+    {
+      best = cost;
+      this->Rungs.swap(this->Candidate);
+    }
+  }
+  if (this->Rungs.empty())
+  {
+    // Far or skew stars: nothing is better than turning about both rims evenly.
+    float least = std::numeric_limits<float>::max();
+    for (int offset = 0; offset < m; ++offset)
+    {
+      this->Candidate.clear();
+      float cost = 0;
+      int i = 0;
+      int k = 0;
+      while (i < n || k < m)
+      {
+        (k == m || (i < n && i * m <= k * n) ? i : k) += 1;
+        this->Candidate.push_back({ i % n, (offset + k) % m });
+        cost += this->Squared[i % n][(offset + k) % m];
+      }
+      if (cost < least)
+      {
+        least = cost;
+        this->Rungs.swap(this->Candidate);
+      }
+    }
+  }
+  if (!this->Fits(mesh))
+  {
+    return false;
+  }
+  this->Triangles.clear();
+  this->Longest = 0;
+  for (std::size_t i = 0; i < this->Rungs.size(); ++i)
+  {
+    const Rung& here = this->Rungs[i];
+    const Rung& next = this->Rungs[(i + 1) % this->Rungs.size()];
+    const int r = this->FirstRim.Item[here.First];
+    const int s = this->SecondRim.Item[here.Second];
+    this->Longest = std::max(this->Longest, this->Squared[here.First][here.Second]);
+    if (here.Second == next.Second)
+    {
+      this->Triangles.push_back({ r, this->FirstRim.Item[next.First], s });
+    }
+    else
+    {
+      this->Triangles.push_back({ this->SecondRim.Item[next.Second], s, r });
+    }
+  }
+  return true;
+}
+
+void StarMerge::InsertRungs(SurfaceMesh& mesh, bool first) const
+{
+  const auto own = [first](const Rung& rung) { return first ? rung.First : rung.Second; };
+  const std::size_t count = this->Rungs.size();
+  const int centre = first ? this->U : this->V;
+  const Ring& rim = first ? this->FirstRim : this->SecondRim;
+  const Ring& facing = first ? this->SecondRim : this->FirstRim;
+  for (std::size_t begin = 0; begin < count; ++begin)
+  {
+    const int place = own(this->Rungs[begin]);
+    if (place == own(this->Rungs[(begin + count - 1) % count]))
+    {
+      continue; // Not the first rung of this rim vertex.
+    }
+    int run[Ring::Capacity];
+    int length = 0;
+    for (std::size_t i = begin; own(this->Rungs[i % count]) == place; ++i)
+    {
+      const Rung& rung = this->Rungs[i % count];
+      run[length++] = facing.Item[first ? rung.Second : rung.First];
+    }
+    if (first)
+    {
+      std::reverse(run, run + length);
+    }
+    // The run takes the place of the centre.
+    Ring& ring = mesh.Rings[rim.Item[place]];
+    const int at = ring.Find(centre);
+    const Ring old = ring;
+    ring.Count = 0;
+    for (int i = 0; i < at; ++i)
+    {
+      ring.Item[ring.Count++] = old.Item[i];
+    }
+    for (int i = 0; i < length; ++i)
+    {
+      ring.Item[ring.Count++] = run[i];
+    }
+    for (int i = at + 1; i < old.Count; ++i)
+    {
+      ring.Item[ring.Count++] = old.Item[i];
+    }
+  }
+}
+
+void StarMerge::Apply(SurfaceMesh& mesh) const
+{
+  this->InsertRungs(mesh, true);
+  this->InsertRungs(mesh, false);
+  mesh.RemoveVertex(this->U);
+  mesh.RemoveVertex(this->V);
+}
+}

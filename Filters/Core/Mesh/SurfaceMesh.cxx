@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/SurfaceMesh.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace volumic
+{
+bool SurfaceMesh::AreStrangers(int v, int w) const
+{
+  const Ring& first = this->Rings[v];
+  const Ring& second = this->Rings[w];
+  if (first.Contains(w))
+  {
+    return false;
+  }
+  for (int i = 0; i < first.Count; ++i)
+  {
+    if (second.Contains(first.Item[i]))
+    {
+      return false; // Two edges: nearly all that are near and no neighbours.
+    }
+  }
+  for (int i = 0; i < first.Count; ++i)
+  {
+    const Ring& between = this->Rings[first.Item[i]];
+    for (int j = 0; j < second.Count; ++j)
+    {
+      if (between.Contains(second.Item[j]))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+int SurfaceMesh::AddVertex(const Vector& position)
+{
+  if (!this->Free.empty())
+  {
+    const int v = this->Free.back();
+    this->Free.pop_back();
+    this->Position[v] = position;
+    return v;
+  }
+  this->Position.push_back(position);
+  this->Rings.emplace_back();
+  return this->Size() - 1;
+}
+
+void SurfaceMesh::RemoveVertex(int v)
+{
+  this->Rings[v].Count = 0;
+  this->Free.push_back(v);
+}
+
+int SurfaceMesh::NumberOfFaces() const
+{
+  std::int64_t ends = 0;
+  for (const Ring& ring : this->Rings)
+  {
+    ends += ring.Count;
+  }
+  return static_cast<int>(ends / 3);
+}
+
+int SurfaceMesh::CountEulerCharacteristic() const
+{
+  // Every face has three half edges, every edge two: V - E + F = V - F / 2.
+  return this->NumberOfVertices() - this->NumberOfFaces() / 2;
+}
+
+IndexedSurface SurfaceMesh::ToIndexed(std::vector<int>* placeOf) const
+{
+  IndexedSurface surface;
+  std::vector<int> place(this->Rings.size(), -1);
+  surface.Points.reserve(this->NumberOfVertices());
+  for (int v = 0; v < this->Size(); ++v)
+  {
+    if (this->IsAlive(v))
+    {
+      place[v] = static_cast<int>(surface.Points.size());
+      const Vector& p = this->Position[v];
+      surface.Points.push_back({ p.X, p.Y, p.Z });
+    }
+  }
+  surface.Triangles.reserve(this->NumberOfFaces());
+  this->VisitFaces([&](int a, int b, int c)
+    { surface.Triangles.push_back({ place[a], place[b], place[c] }); });
+  if (placeOf)
+  {
+    *placeOf = std::move(place);
+  }
+  return surface;
+}
+
+int SurfaceMesh::Append(const IndexedSurface& surface)
+{
+  const int n = static_cast<int>(surface.Points.size());
+  // For each vertex the directed edges (b, c) that its triangles have opposite to it.
+  std::vector<int> start(n + 1, 0);
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int corner : t)
+    {
+      ++start[corner + 1];
+    }
+  }
+  for (int v = 0; v < n; ++v)
+  {
+    start[v + 1] += start[v];
+  }
+  std::vector<std::pair<int, int>> opposite(start[n]);
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      opposite[fill[t[k]]++] = { t[(k + 1) % 3], t[(k + 2) % 3] };
+    }
+  }
+  std::vector<Ring> rings(n);
+  for (int v = 0; v < n; ++v)
+  {
+    const int count = start[v + 1] - start[v];
+    if (count < 3)
+    {
+      throw std::invalid_argument("the surface is not closed: vertex " + std::to_string(v) +
+        " has " + std::to_string(count) + " triangles");
+    }
+    if (count > Ring::Capacity)
+    {
+      throw std::invalid_argument("vertex " + std::to_string(v) + " of the surface has " +
+        std::to_string(count) + " neighbours, more than " + std::to_string(Ring::Capacity));
+    }
+    auto* edges = &opposite[start[v]];
+    for (int i = 0; i < count; ++i)
+    {
+      rings[v].Item[i] = edges[i].first;
+      // Bring the edge that begins where this one ends to the next place.
+      for (int j = i + 1; j < count; ++j)
+      {
+        if (edges[j].first == edges[i].second)
+        {
+          std::swap(edges[i + 1], edges[j]);
+          break;
+        }
+      }
+      const bool follows = edges[(i + 1) % count].first == edges[i].second;
+      const bool closesEarly = i + 1 < count && edges[i].second == edges[0].first;
+      if (!follows || closesEarly)
+      {
+        throw std::invalid_argument("the surface is not a closed oriented manifold at vertex " +
+          std::to_string(v));
+      }
+    }
+    rings[v].Count = count;
+  }
+  const int first = this->Size();
+  for (int v = 0; v < n; ++v)
+  {
+    for (int i = 0; i < rings[v].Count; ++i)
+    {
+      rings[v].Item[i] += first;
+    }
+    const Point& p = surface.Points[v];
+    this->Position.emplace_back(
+      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    this->Rings.push_back(rings[v]);
+  }
+  return first;
+}
+
+void SurfaceMesh::Reorder(const std::vector<int>& order)
+{
+  std::vector<int> place(this->Rings.size(), -1);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    place[order[i]] = static_cast<int>(i);
+  }
+  std::vector<Vector> position(order.size());
+  std::vector<Ring> rings(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    position[i] = this->Position[order[i]];
+    const Ring& from = this->Rings[order[i]];
+    rings[i].Count = from.Count;
+    for (int k = 0; k < from.Count; ++k)
+    {
+      rings[i].Item[k] = place[from.Item[k]];
+    }
+  }
+  this->Position.swap(position);
+  this->Rings.swap(rings);
+  this->Free.clear();
+}
+
+void SurfaceMesh::Clear()
+{
+  this->Position.clear();
+  this->Rings.clear();
+  this->Free.clear();
+}
+
+namespace
+{
+std::uint64_t SpreadBits(std::uint64_t x)
+{
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffff;
+  x = (x | x << 16) & 0x1f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  x = (x | x << 2) & 0x1249249249249249;
+  return x;
+}
+}
+
+std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell)
+{
+  float low[3] = { std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
+    std::numeric_limits<float>::max() };
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      low[0] = std::min(low[0], mesh.Position[v].X);
+      low[1] = std::min(low[1], mesh.Position[v].Y);
+      low[2] = std::min(low[2], mesh.Position[v].Z);
+    }
+  }
+  std::vector<std::pair<std::uint64_t, int>> keys;
+  keys.reserve(mesh.NumberOfVertices());
+  const auto code = [cell](float x, float from)
+  { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      const Vector& p = mesh.Position[v];
+      keys.emplace_back(code(p.X, low[0]) | code(p.Y, low[1]) << 1 | code(p.Z, low[2]) << 2, v);
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<int> order;
+  order.reserve(keys.size());
+  for (const auto& key : keys)
+  {
+    order.push_back(key.second);
+  }
+  return order;
+}
+}

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfaceMesh_h
+#define volumicSurfaceMesh_h
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Common/Vector.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/** Of a closed surface of triangles: E = 3 (V - chi), soon more than an int counts. */
+constexpr std::int64_t NumberOfEdges(std::int64_t vertices, std::int64_t eulerCharacteristic)
+{
+  return 3 * (vertices - eulerCharacteristic);
+}
+
+/**
+ * The neighbours of a vertex, counter-clockwise seen from outside. A whole ring is one cache line,
+ * which is what bounds the valence.
+ */
+struct alignas(64) Ring
+{
+  static constexpr int Capacity = 15;
+
+  int Count = 0; ///< 0 marks a place without vertex.
+  int Item[Capacity];
+
+  /** Place of a neighbour, -1 where it is none. */
+  int Find(int vertex) const
+  {
+    for (int i = 0; i < this->Count; ++i)
+    {
+      if (this->Item[i] == vertex)
+      {
+        return i;
+      }
+    }
+    return -1;
+  }
+  bool Contains(int vertex) const { return this->Find(vertex) >= 0; }
+  int Next(int i) const { return this->Item[i + 1 < this->Count ? i + 1 : 0]; }
+  int Previous(int i) const { return this->Item[i > 0 ? i - 1 : this->Count - 1]; }
+  /** The neighbour that follows `vertex`, which must be one. */
+  int After(int vertex) const { return this->Next(this->Find(vertex)); }
+  int Before(int vertex) const { return this->Previous(this->Find(vertex)); }
+
+  void Replace(int from, int to) { this->Item[this->Find(from)] = to; }
+  void Remove(int vertex)
+  {
+    for (int i = this->Find(vertex); i + 1 < this->Count; ++i)
+    {
+      this->Item[i] = this->Item[i + 1];
+    }
+    --this->Count;
+  }
+  void InsertAfter(int vertex, int added)
+  {
+    const int at = this->Find(vertex) + 1;
+    for (int i = this->Count; i > at; --i)
+    {
+      this->Item[i] = this->Item[i - 1];
+    }
+    this->Item[at] = added;
+    ++this->Count;
+  }
+};
+
+/**
+ * A closed oriented triangulated mesh, possibly of several components.
+ *
+ * The rings alone are the connectivity: the faces are the triangles (v, ring[i], ring[i + 1]).
+ * There are no face or edge records to keep in step, and a vertex finds all it needs for the
+ * forces in two cache lines. Places of removed vertices are used again, so indices are stable.
+ */
+class SurfaceMesh
+{
+public:
+  std::vector<Vector> Position;
+  std::vector<Ring> Rings;
+
+  /** Places, alive or not: indices run below this. */
+  int Size() const { return static_cast<int>(this->Rings.size()); }
+  int NumberOfVertices() const { return this->Size() - static_cast<int>(this->Free.size()); }
+  bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
+  bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
+
+  /** Whether two different vertices are at least four edges apart, or not connected at all. */
+  bool AreStrangers(int v, int w) const;
+
+  /** A place for a vertex; its ring is the caller's to fill before anything else happens. */
+  int AddVertex(const Vector& position);
+  void RemoveVertex(int v);
+
+  /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
+  template <typename Visitor>
+  void VisitFaces(Visitor&& visit) const
+  {
+    for (int v = 0; v < this->Size(); ++v)
+    {
+      const Ring& ring = this->Rings[v];
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        const int b = ring.Item[i];
+        const int c = ring.Next(i);
+        if (v < b && v < c)
+        {
+          visit(v, b, c);
+        }
+      }
+    }
+  }
+
+  int NumberOfFaces() const;
+  /** V - E + F, counted. */
+  int CountEulerCharacteristic() const;
+
+  /** All alive vertices in order of index; `placeOf` (optional) gets the new index or -1. */
+  IndexedSurface ToIndexed(std::vector<int>* placeOf = nullptr) const;
+
+  /**
+   * Adds the components of a closed oriented manifold triangle mesh.
+   * @return index of the first vertex added; the rest follow in order.
+   * @throws std::invalid_argument if it is not closed, oriented and manifold, or a vertex has
+   * more neighbours than a ring holds.
+   */
+  int Append(const IndexedSurface& surface);
+
+  /** Renumbers: place i of the result holds vertex order[i]; all alive ones must occur once. */
+  void Reorder(const std::vector<int>& order);
+
+  void Clear();
+
+private:
+  std::vector<int> Free;
+};
+
+/** Alive vertices along a Z-order curve with cells of side `cell`: near in space and memory. */
+std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell);
+}
+
+#endif

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/TriangleTests.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+struct Plane
+{
+  VectorD Normal; ///< Not normalised.
+  double Size;    ///< Its length.
+};
+
+Plane PlaneOf(const VectorD* t)
+{
+  const VectorD normal = Cross(t[1] - t[0], t[2] - t[0]);
+  return { normal, Length(normal) };
+}
+
+double Side(const double* a, const double* b, const double* c)
+{
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/** In the plane, without tolerance: products of differences of floats are exact in double. */
+bool SegmentsCross(const double* p, const double* q, const double* a, const double* b)
+{
+  const double sp = Side(a, b, p);
+  const double sq = Side(a, b, q);
+  const double sa = Side(p, q, a);
+  const double sb = Side(p, q, b);
+  if (sp == 0 && sq == 0)
+  {
+    const int k = std::abs(b[0] - a[0]) > std::abs(b[1] - a[1]) ? 0 : 1;
+    return std::max(std::min(p[k], q[k]), std::min(a[k], b[k])) <=
+      std::min(std::max(p[k], q[k]), std::max(a[k], b[k]));
+  }
+  return ((sp <= 0 && sq >= 0) || (sp >= 0 && sq <= 0)) &&
+    ((sa <= 0 && sb >= 0) || (sa >= 0 && sb <= 0));
+}
+
+bool Inside(const double* p, const double* a, const double* b, const double* c)
+{
+  const double s0 = Side(a, b, p);
+  const double s1 = Side(b, c, p);
+  const double s2 = Side(c, a, p);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+bool MeetInPlane(
+  const VectorD& normal, const VectorD& p, const VectorD& q, const VectorD* t)
+{
+  const double ax = std::abs(normal.X);
+  const double ay = std::abs(normal.Y);
+  const double az = std::abs(normal.Z);
+  const int drop = (ax >= ay && ax >= az) ? 0 : (ay >= az ? 1 : 2);
+  double flat[5][2];
+  const VectorD* points[5] = { &p, &q, t, t + 1, t + 2 };
+  for (int i = 0; i < 5; ++i)
+  {
+    flat[i][0] = drop == 0 ? points[i]->Y : points[i]->X;
+    flat[i][1] = drop == 2 ? points[i]->Y : points[i]->Z;
+  }
+  return Inside(flat[0], flat[2], flat[3], flat[4]) ||
+    SegmentsCross(flat[0], flat[1], flat[2], flat[3]) ||
+    SegmentsCross(flat[0], flat[1], flat[3], flat[4]) ||
+    SegmentsCross(flat[0], flat[1], flat[4], flat[2]);
+}
+
+/**
+ * Whether two sets of points are apart along an axis. The tests below measure distances to lines
+ * and planes: they stretch a triangle that is nearly a line far beyond its tips, where the
+ * three lines, each set off by the tolerance, meet. Its box bounds that.
+ */
+bool BoxesApart(
+  const VectorD* p, int countP, const VectorD* q, int countQ, double VectorD::*axis, double room)
+{
+  double lowP = p[0].*axis;
+  double highP = lowP;
+  for (int i = 1; i < countP; ++i)
+  {
+    lowP = std::min(lowP, p[i].*axis);
+    highP = std::max(highP, p[i].*axis);
+  }
+  double lowQ = q[0].*axis;
+  double highQ = lowQ;
+  for (int i = 1; i < countQ; ++i)
+  {
+    lowQ = std::min(lowQ, q[i].*axis);
+    highQ = std::max(highQ, q[i].*axis);
+  }
+  return lowP > highQ + room || lowQ > highP + room;
+}
+
+bool BoxesApart(const VectorD* p, int countP, const VectorD* q, int countQ, double room)
+{
+  return BoxesApart(p, countP, q, countQ, &VectorD::X, room) ||
+    BoxesApart(p, countP, q, countQ, &VectorD::Y, room) ||
+    BoxesApart(p, countP, q, countQ, &VectorD::Z, room);
+}
+
+bool SegmentMeets(
+  const VectorD& p, const VectorD& q, const VectorD* t, const Plane& plane, double tolerance)
+{
+  const double thick = tolerance * plane.Size;
+  const double dp = Dot(plane.Normal, p - t[0]);
+  const double dq = Dot(plane.Normal, q - t[0]);
+  if ((dp > thick && dq > thick) || (dp < -thick && dq < -thick))
+  {
+    return false;
+  }
+  if (std::abs(dp) <= thick && std::abs(dq) <= thick)
+  {
+    const VectorD ends[2] = { p, q };
+    return !BoxesApart(ends, 2, t, 3, tolerance) && MeetInPlane(plane.Normal, p, q, t);
+  }
+  // Where the segment passes the plane, or comes nearest to it: is that inside?
+  const double share = std::min(std::max(dp / (dp - dq), 0.), 1.);
+  const VectorD x = p + (q - p) * share;
+  if (BoxesApart(&x, 1, t, 3, 2 * tolerance))
+  {
+    return false;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    const VectorD edge = t[(k + 1) % 3] - t[k];
+    if (Dot(Cross(edge, x - t[k]), plane.Normal) < -thick * Length(edge))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Plane& plane,
+  double tolerance)
+{
+  const double thick = tolerance * plane.Size;
+  bool above = true;
+  bool below = true;
+  for (int i = 0; i < count; ++i)
+  {
+    const double d = Dot(plane.Normal, points[i] - origin);
+    above = above && d > thick;
+    below = below && d < -thick;
+  }
+  return above || below;
+}
+}
+
+bool TrianglesMeet(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
+{
+  int inF[3];
+  int inG[3];
+  int shared = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      if (f.Name[i] == g.Name[j] && shared < 3)
+      {
+        inF[shared] = i;
+        inG[shared++] = j;
+      }
+    }
+  }
+  if (shared == 3)
+  {
+    return true;
+  }
+  if (shared == 0 && BoxesApart(f.Corner, 3, g.Corner, 3, tolerance))
+  {
+    return false;
+  }
+  const Plane planeF = PlaneOf(f.Corner);
+  const Plane planeG = PlaneOf(g.Corner);
+  if (shared == 2)
+  {
+    return Dot(planeF.Normal, planeG.Normal) < -0.9998 * planeF.Size * planeG.Size;
+  }
+  if (shared == 1)
+  {
+    const VectorD endsF[2] = { f.Corner[(inF[0] + 1) % 3], f.Corner[(inF[0] + 2) % 3] };
+    const VectorD endsG[2] = { g.Corner[(inG[0] + 1) % 3], g.Corner[(inG[0] + 2) % 3] };
+    if (OnOneSide(endsG, 2, f.Corner[0], planeF, tolerance) ||
+      OnOneSide(endsF, 2, g.Corner[0], planeG, tolerance))
+    {
+      return false;
+    }
+    return SegmentMeets(endsF[0], endsF[1], g.Corner, planeG, tolerance) ||
+      SegmentMeets(endsG[0], endsG[1], f.Corner, planeF, tolerance);
+  }
+  if (OnOneSide(g.Corner, 3, f.Corner[0], planeF, tolerance) ||
+    OnOneSide(f.Corner, 3, g.Corner[0], planeG, tolerance))
+  {
+    return false;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    if (SegmentMeets(f.Corner[k], f.Corner[(k + 1) % 3], g.Corner, planeG, tolerance) ||
+      SegmentMeets(g.Corner[k], g.Corner[(k + 1) % 3], f.Corner, planeF, tolerance))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}

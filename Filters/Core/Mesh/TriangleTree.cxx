@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/TriangleTree.h"
+
+#include "Core/Common/Vector.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+constexpr int LeafSize = 4;
+
+double SquaredDistanceToBox(const Point& place, const TriangleTree::Node& node)
+{
+  double sum = 0.;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double beyond = std::max({ node.Low[k] - place[k], place[k] - node.High[k], 0. });
+    sum += beyond * beyond;
+  }
+  return sum;
+}
+
+double SquaredDistanceToSegment(const VectorD& p, const VectorD& a, const VectorD& b)
+{
+  const VectorD along = b - a;
+  const double length = SquaredLength(along);
+  const double share = length > 0. ? std::clamp(Dot(p - a, along) / length, 0., 1.) : 0.;
+  return SquaredLength(p - a - along * share);
+}
+
+double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
+{
+  // Where the foot on the plane lies in the triangle it is nearest, else a point of an edge is.
+  const VectorD normal = Cross(t[1] - t[0], t[2] - t[0]);
+  const double size = SquaredLength(normal);
+  bool inside = size > 0.;
+  for (int k = 0; k < 3 && inside; ++k)
+  {
+    inside = Dot(Cross(t[(k + 1) % 3] - t[k], p - t[k]), normal) >= 0.;
+  }
+  if (inside)
+  {
+    const double height = Dot(normal, p - t[0]);
+    return height * height / size;
+  }
+  return std::min({ SquaredDistanceToSegment(p, t[0], t[1]),
+    SquaredDistanceToSegment(p, t[1], t[2]), SquaredDistanceToSegment(p, t[2], t[0]) });
+}
+}
+
+TriangleTree::TriangleTree(const IndexedSurface& surface)
+  : Surface(surface), Places(surface.Triangles.size())
+{
+  std::iota(this->Places.begin(), this->Places.end(), 0);
+  std::vector<Point> centres;
+  centres.reserve(surface.Triangles.size());
+  for (const Triangle& t : surface.Triangles)
+  {
+    Point centre;
+    for (int k = 0; k < 3; ++k)
+    {
+      centre[k] = surface.Points[t[0]][k] + surface.Points[t[1]][k] + surface.Points[t[2]][k];
+    }
+    centres.push_back(centre);
+  }
+  if (!centres.empty())
+  {
+    this->Nodes.reserve(centres.size());
+    this->Build(0, static_cast<int>(centres.size()), centres);
+  }
+}
+
+int TriangleTree::Build(int begin, int end, const std::vector<Point>& centres)
+{
+  const int at = static_cast<int>(this->Nodes.size());
+  constexpr double most = std::numeric_limits<double>::max();
+  Node node{ { most, most, most }, { -most, -most, -most }, begin, end, -1, 0 };
+  Point low = node.Low;
+  Point high = node.High;
+  for (int i = begin; i < end; ++i)
+  {
+    const int triangle = this->Places[i];
+    node.Largest = std::max(node.Largest, triangle);
+    for (int k = 0; k < 3; ++k)
+    {
+      low[k] = std::min(low[k], centres[triangle][k]);
+      high[k] = std::max(high[k], centres[triangle][k]);
+      for (int corner : this->Surface.Triangles[triangle])
+      {
+        node.Low[k] = std::min(node.Low[k], this->Surface.Points[corner][k]);
+        node.High[k] = std::max(node.High[k], this->Surface.Points[corner][k]);
+      }
+    }
+  }
+  this->Nodes.push_back(node);
+  if (end - begin <= LeafSize)
+  {
+    return at;
+  }
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+  {
+    axis = high[k] - low[k] > high[axis] - low[axis] ? k : axis;
+  }
+  const int middle = begin + (end - begin) / 2;
+  const auto first = this->Places.begin();
+  std::nth_element(first + begin, first + middle, first + end,
+    [&](int a, int b)
+    { return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b; });
+  this->Build(begin, middle, centres);
+  const int second = this->Build(middle, end, centres);
+  this->Nodes[at].Second = second;
+  return at;
+}
+
+double TriangleTree::SquaredDistance(const Point& place) const
+{
+  const VectorD p(place[0], place[1], place[2]);
+  double nearest = std::numeric_limits<double>::max();
+  struct Branch
+  {
+    int Node;
+    double Squared;
+  };
+  Branch stack[MostDeep];
+  int height = 0;
+  stack[height++] = { 0, 0. };
+  while (height > 0)
+  {
+    const Branch branch = stack[--height];
+    if (branch.Squared >= nearest)
+    {
+      continue;
+    }
+    const Node& node = this->Nodes[branch.Node];
+    if (node.Second >= 0)
+    {
+      Branch closer{ branch.Node + 1, SquaredDistanceToBox(place, this->Nodes[branch.Node + 1]) };
+      Branch further{ node.Second, SquaredDistanceToBox(place, this->Nodes[node.Second]) };
+      if (closer.Squared > further.Squared)
+      {
+        std::swap(closer, further);
+      }
+      stack[height++] = further;
+      stack[height++] = closer;
+      continue;
+    }
+    for (int i = node.Begin; i < node.End; ++i)
+    {
+      VectorD t[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        const Point& q = this->Surface.Points[this->Surface.Triangles[this->Places[i]][k]];
+        t[k] = VectorD(q[0], q[1], q[2]);
+      }
+      nearest = std::min(nearest, SquaredDistanceToTriangle(p, t));
+    }
+  }
+  return nearest;
+}
+}

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicTriangleTree_h
+#define volumicTriangleTree_h
+
+#include "Core/Common/IndexedSurface.h"
+
+#include <vector>
+
+namespace volumic
+{
+/**
+ * The triangles of a surface in a binary tree of boxes. Unlike a grid it suits triangles of any
+ * mixture of sizes: it has fewer nodes than there are triangles, however large these are. It is
+ * made the same way in every run. The surface must outlive it; lengths are those of its points.
+ */
+class TriangleTree
+{
+public:
+  struct Node
+  {
+    Point Low;
+    Point High;
+    int Begin; ///< Of its triangles in the order of the tree.
+    int End;
+    int Second;  ///< Node of the second half, the first one follows its parent; -1: a leaf.
+    int Largest; ///< Of the indices of its triangles.
+  };
+
+  explicit TriangleTree(const IndexedSurface& surface);
+
+  /**
+   * Calls visit(triangle) for the triangles of all leaves that are reached: below nodes for which
+   * enter(node) says so. Stops where visit returns false.
+   */
+  template <typename Enter, typename Visit>
+  void Traverse(Enter&& enter, Visit&& visit) const
+  {
+    int stack[MostDeep];
+    int height = 0;
+    if (!this->Nodes.empty())
+    {
+      stack[height++] = 0;
+    }
+    while (height > 0)
+    {
+      const int at = stack[--height];
+      const Node& node = this->Nodes[at];
+      if (!enter(node))
+      {
+        continue;
+      }
+      if (node.Second >= 0)
+      {
+        stack[height++] = node.Second;
+        stack[height++] = at + 1;
+        continue;
+      }
+      for (int i = node.Begin; i < node.End; ++i)
+      {
+        if (!visit(this->Places[i]))
+        {
+          return;
+        }
+      }
+    }
+  }
+
+  /** Distance to the nearest of the triangles, squared. */
+  double SquaredDistance(const Point& place) const;
+
+private:
+  /** The tree is balanced: this serves any number of triangles. */
+  static constexpr int MostDeep = 64;
+
+  int Build(int begin, int end, const std::vector<Point>& centres);
+
+  const IndexedSurface& Surface;
+  std::vector<int> Places;
+  std::vector<Node> Nodes;
+};
+}
+
+#endif

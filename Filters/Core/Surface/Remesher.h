@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRemesher_h
+#define volumicRemesher_h
+
+#include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceEditor.h"
+
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts, the
+ * paper's changes of topology, with the rules of Documentation/differences.md (Constraints,
+ * Changes of topology). Edits are applied one after another in a fixed order; what may be edited
+ * has been found in parallel before.
+ */
+class Remesher
+{
+public:
+  /** `field` null: no image evidence is asked for. */
+  Remesher(SurfaceState& state, const Field* field, bool topologyChanges)
+    : State(state)
+    , Editor(state)
+    , TheField(field)
+    , TopologyChanges(topologyChanges)
+  {
+  }
+
+  /**
+   * Splits all edges over 2.5 delta at these vertices, where a ring is full after others that make
+   * room. New vertices are appended to the list.
+   * Changes no geometry, so it comes before verification, which relies on it.
+   */
+  void Split(std::vector<int>& vertices);
+
+  /** Merges stars that have come too near and that the image wants joined; nearest first. */
+  void Merge(const std::vector<Proximity::ClosePair>& pairs);
+
+  /** Collapses edges under delta, cutting along 3-cycles where they are blocked. */
+  void Collapse(const std::vector<int>& vertices);
+
+  /** Flips edges that are not locally Delaunay where the surface is nearly flat. */
+  void Flip(const std::vector<int>& vertices);
+
+  /** Vertices rolled back again and again: collapses and smooths, verified. */
+  void Unstick(const std::vector<int>& vertices);
+
+private:
+  bool SplitEdge(int u, int v, std::vector<int>& added, int depth);
+  bool WantsMerge(int u, int v) const;
+  bool FlipBetween(int u, int v);
+  void CollapseAt(int v);
+
+  SurfaceState& State;
+  SurfaceEditor Editor;
+  const Field* TheField;
+  bool TopologyChanges;
+  std::vector<Proximity::ClosePair> Sorted;
+  std::vector<int> Band; ///< Corners of the last merge's.
+};
+}
+
+#endif

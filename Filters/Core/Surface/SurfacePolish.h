@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfacePolish_h
+#define volumicSurfacePolish_h
+
+#include "Core/Common/Monitor.h"
+#include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceEditor.h"
+
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * The last touch at the end of a level: looks at the few vertices whose stars hold an edge outside
+ * [delta, 2.5 delta] or an uneven triangle, which smoothing as a whole leaves behind, and tries
+ * what would make the worst of each star better: removing a vertex of valence 3, a collapse, a
+ * flip, or a slide along the surface. Before and after, vertices that are nearer than lambda delta
+ * though far along the surface are pushed apart. The topology stays as it is, but for cuts
+ * along 3-cycles where nothing else mends an edge under delta.
+ *
+ * Every edit is one of SurfaceEditor's, verified, so the mesh stays manifold and free of
+ * intersections; one is made only where the worst of the faces concerned gets better, so it ends.
+ * What needs an edit is looked for on all threads, edits are made one after the other in order of
+ * index: the same for any executor.
+ */
+class SurfacePolish
+{
+public:
+  /** `snapTo` (may be null): vertices that slide are led back onto its isopotential. */
+  SurfacePolish(SurfaceState& state, const Field* snapTo, bool topologyChanges, Executor& executor,
+    Checkpoint goOn = NeverStop)
+    : State(state)
+    , Editor(state)
+    , Threads(executor)
+    , SnapTo(snapTo)
+    , TopologyChanges(topologyChanges)
+    , Goes(std::move(goOn))
+  {
+  }
+
+  /** Stops after an edit, if asked to. Normals must be up to date; SurfaceState::Touched holds what has been edited after it. */
+  void Run();
+
+private:
+  float FaceScore(const Vector& a, const Vector& b, const Vector& c) const;
+  float EdgeScore(float squared) const;
+  float StarScore(int v, const Vector& position) const;
+  float CollapseScore(int u, int v, const Vector& position) const;
+  Vector Snapped(int v, const Vector& position) const;
+  bool CollapseEdges(int v);
+  bool CollapseEdge(int u, int v, float before);
+  bool FlipEdges(int v);
+  bool Strays(int v, const Vector& position) const;
+  bool Approaches(int v, const Vector& position) const;
+  bool Slide(int v);
+  Vector PushAt(int v) const;
+  bool Separate(int v);
+  bool Improve(int v);
+  void SeparateAll();
+  void ImproveAll(float good); ///< Stars whose worst scores less than `good`.
+  bool IsToStop();             ///< Asked now and then.
+
+  struct Candidate
+  {
+    float Score;
+    Vector Position;
+  };
+
+  SurfaceState& State;
+  SurfaceEditor Editor;
+  Executor& Threads;
+  const Field* SnapTo;
+  bool TopologyChanges;
+  Checkpoint Goes;
+  double Done = 0.; ///< Share of the work.
+  bool Stopped = false;
+  bool MayCut = false;
+  std::vector<float> Scores;
+  std::vector<Candidate> Candidates;
+};
+}
+
+#endif
