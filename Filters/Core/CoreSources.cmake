@@ -34,12 +34,15 @@ set(volumic_core_sources
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
   Surface/ComponentWatch.cxx
+  Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
+  Surface/StarScore.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
   Surface/SurfaceState.cxx
+  Surface/TopologyEdits.cxx
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
   Evolution/EvolutionIteration.cxx
@@ -51,6 +54,7 @@ set(volumic_core_sources
   Evolution/LostParts.cxx
   Evolution/SurfaceEvolution.cxx)
 set(volumic_core_headers
+  Common/Box.h
   Common/Executor.h
   Common/IndexedSurface.h
   Common/Join.h
@@ -91,12 +95,18 @@ set(volumic_core_headers
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
   Surface/ComponentWatch.h
+  Surface/FaceShape.h
+  Surface/NewFaces.h
+  Surface/NormalCone.h
   Surface/Proximity.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
+  Surface/SizingField.h
+  Surface/StarScore.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h
   Surface/SurfaceState.h
+  Surface/VertexProperties.h
   Evolution/CycleCriterion.h
   Evolution/Dynamics.h
   Evolution/EdgeLengthPlan.h

@@ -32,7 +32,7 @@ struct Stage
     this->Options.TensionWeight = 0;
     this->Options.ElasticityWeight = 0;
     this->State.Mesh.Append(surface);
-    this->State.Delta = delta;
+    this->State.Sizing = SizingField(delta);
     this->State.Reset(Vector(-40, -40, -40), Vector(80, 80, 80));
     this->All.resize(this->State.Mesh.Size());
     std::iota(this->All.begin(), this->All.end(), 0);

@@ -44,7 +44,7 @@ struct Bench
   explicit Bench(const IndexedSurface& surface)
   {
     this->State.Mesh.Append(surface);
-    this->State.Delta = 1;
+    this->State.Sizing = SizingField(1);
     this->State.Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
     this->UpdateShape();
   }

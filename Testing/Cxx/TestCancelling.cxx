@@ -172,7 +172,7 @@ TEST(Cancelling, EndsTheSearchForLostParts)
   const Field field(scene.Fine.Image, Options(), Threads);
   SurfaceState state;
   state.Mesh = MakeSphere({ 13, 18, 18 }, 10., 1.2);
-  state.Delta = 0.85f;
+  state.Sizing = SizingField(0.85f);
   state.Reset(Vector(-2, -2, -2), Vector(38, 38, 38));
   int questions = 0;
   const auto count = [&questions](double) { return ++questions > 0; };

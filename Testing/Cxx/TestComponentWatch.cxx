@@ -34,7 +34,7 @@ void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
   {
     state.Mesh.Append(component);
   }
-  state.Delta = 1;
+  state.Sizing = SizingField(1);
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
 }
 }
@@ -163,7 +163,7 @@ TEST(ComponentWatch, DeletesSmallOnesAndKeepsCount)
   // Wholly in the background, and tiny.
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
-    state.Value[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
+    state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
   }
   const bool deleted = watch.DeleteDoomed(state);
   EXPECT_TRUE(deleted);
@@ -194,7 +194,7 @@ bool IsDeleted(double edge, double value, bool isCavity)
   watch.Label(state, executor);
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
-    state.Value[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
+    state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
   }
   const bool deleted = watch.DeleteDoomed(state);
   EXPECT_EQ(watch.NumberOfComponents(), deleted ? 1 : 2);
@@ -257,7 +257,7 @@ TEST(ComponentWatch, LabelsComponentsOfManyBlocks)
   state.Mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 10, 0.3));
   state.Mesh.Append(DividedIcosahedron({ 30, 0, 0 }, 10, 0.3));
   ASSERT_GT(state.Mesh.Size(), 40000);
-  state.Delta = 1;
+  state.Sizing = SizingField(1);
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
   SequentialExecutor executor;
   ComponentWatch watch;

@@ -79,7 +79,7 @@ TEST(Contact, AtAFrozenVertexStopsAltogether)
 {
   Facing stage(1.2);
   stage.State.Velocity[Facing::Left] = Vector(0.2f, 0, 0);
-  stage.State.Awake[Facing::Right] = 0;
+  stage.State.Active[Facing::Right] = 0;
   stage.All.erase(stage.All.begin() + Facing::Right);
   stage.Push(stage.Pairs());
   EXPECT_NEAR(stage.State.Velocity[Facing::Left].X, 0, 1e-5);
@@ -120,7 +120,7 @@ TEST(Contact, StopsSmoothingToo)
     stage.Volume = MakeVolume(33, [](double x, double, double) { return 20. - x; });
     stage.Options.IsoValue = 0; // Both sides are led to x = 20, far to the right.
     stage.UpdateShape();
-    stage.State.Awake[Facing::Right] = 0;
+    stage.State.Active[Facing::Right] = 0;
     stage.All.erase(stage.All.begin() + Facing::Right);
     stage.Relax(true, contact ? stage.Pairs() : std::vector<Proximity::ClosePair>());
     if (contact)

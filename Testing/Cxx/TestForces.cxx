@@ -174,9 +174,9 @@ TEST(Forces, AreTheSameAtEveryScale)
     {
       Vector& p = stage->State.Mesh.Position[v];
       p += Vector(0.1f * (v % 3), 0.07f * (v % 5), -0.05f * (v % 4));
-      p *= stage->State.Delta;
+      p *= stage->State.Sizing.OfLevel();
     }
-    stage->Volume.Image.Step = { stage->State.Delta, stage->State.Delta, stage->State.Delta };
+    stage->Volume.Image.Step = { stage->State.Sizing.OfLevel(), stage->State.Sizing.OfLevel(), stage->State.Sizing.OfLevel() };
     stage->UpdateShape();
     stage->Push();
   }

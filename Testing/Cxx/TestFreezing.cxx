@@ -24,10 +24,10 @@ protected:
   {
   }
 
-  bool IsAwake(int v) const { return this->Actors.State.Awake[v] != 0; }
+  bool IsAwake(int v) const { return this->Actors.State.Active[v] != 0; }
   int CountAwake() const
   {
-    const auto& awake = this->Actors.State.Awake;
+    const auto& awake = this->Actors.State.Active;
     return static_cast<int>(std::count_if(awake.begin(), awake.end(), [](int x) { return x; }));
   }
 
@@ -38,10 +38,10 @@ protected:
     std::vector<int> awake;
     for (int v : this->Actors.All)
     {
-      if (s.Awake[v])
+      if (s.Active[v])
       {
         awake.push_back(v);
-        s.Before[v] = s.Mesh.Position[v];
+        s.PreviousPosition[v] = s.Mesh.Position[v];
       }
     }
     s.MoveTo(Mover, s.Mesh.Position[Mover] + way);
@@ -99,7 +99,7 @@ TEST_F(Freezing, SleepingNeighboursAreWokenByMotion)
     this->Iterate();
   }
   ASSERT_FALSE(this->IsAwake(this->Neighbour));
-  this->Actors.State.Awake[Mover] = 1;
+  this->Actors.State.Active[Mover] = 1;
   this->Iterate(this->Actors.OutwardAt(Mover) * 0.05f);
   EXPECT_TRUE(this->IsAwake(this->Neighbour));
   EXPECT_EQ(this->CountAwake(), 1 + this->Actors.State.Mesh.Rings[Mover].Count);
@@ -142,7 +142,7 @@ TEST_F(Freezing, SlidingAlongTheSurfaceCountsOnlyWhenItLeadsFar)
   }
   EXPECT_FALSE(this->IsAwake(Mover)) << "to and fro";
   ASSERT_LT(Length(stage.State.Mesh.Position[Mover] - start), 1e-5);
-  stage.State.Awake[Mover] = 1;
+  stage.State.Active[Mover] = 1;
   this->Iterate(along * 0.4f);
   EXPECT_TRUE(this->IsAwake(this->Neighbour));
 }

@@ -42,7 +42,7 @@ SurfaceOptions Half()
 void Fill(SurfaceState& state)
 {
   state.Mesh = MakeSphere({ 18, 24, 24 }, 13., 1.4 * Delta);
-  state.Delta = Delta;
+  state.Sizing = SizingField(Delta);
   state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
 }
 
@@ -94,7 +94,7 @@ TEST(LostParts, EnclosesObjectOutsideTheSurface)
   EXPECT_LT(Distance(features.Components[0].Centroid[0], features.Components[0].Centroid[1],
               features.Components[0].Centroid[2], 40, 24, 24),
     1.);
-  EXPECT_GE(NearestVertex(state, cover.Surface), constraint::NearestOthers * Delta);
+  EXPECT_GE(NearestVertex(state, cover.Surface), SizingField::LambdaInDelta * Delta);
 }
 
 TEST(LostParts, EnclosesBackgroundInsideTheSurface)
@@ -112,7 +112,7 @@ TEST(LostParts, EnclosesBackgroundInsideTheSurface)
   EXPECT_LT(Distance(features.Components[0].Centroid[0], features.Components[0].Centroid[1],
               features.Components[0].Centroid[2], 17, 24, 24),
     1.);
-  EXPECT_GE(NearestVertex(state, cover.Surface), constraint::NearestOthers * Delta);
+  EXPECT_GE(NearestVertex(state, cover.Surface), SizingField::LambdaInDelta * Delta);
 }
 
 TEST(LostParts, KeepsClearOfTheSurface)
@@ -129,7 +129,7 @@ TEST(LostParts, KeepsClearOfTheSurface)
   Fill(state);
   const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
   ASSERT_EQ(cover.Covered, 1);
-  EXPECT_GE(NearestVertex(state, cover.Surface), constraint::NearestOthers * Delta);
+  EXPECT_GE(NearestVertex(state, cover.Surface), SizingField::LambdaInDelta * Delta);
 }
 
 TEST(LostParts, LeavesPartsUnderTheMinimumSize)
@@ -180,7 +180,7 @@ TEST(LostParts, FindsAllWithoutAnySurface)
   const TestVolume volume = Scene();
   const Field field(volume.Image, Half(), Threads);
   SurfaceState state;
-  state.Delta = Delta;
+  state.Sizing = SizingField(Delta);
   state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
   const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
   EXPECT_EQ(cover.Found, 2);

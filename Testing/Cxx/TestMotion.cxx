@@ -107,7 +107,7 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
     stage.State.Velocity[3] *= 100.f;
     stage.State.Velocity[4] *= 0.1f;
     const std::vector<Vector> before = stage.State.Mesh.Position;
-    std::fill(stage.State.Before.begin(), stage.State.Before.end(), Vector()); // Of long ago.
+    std::fill(stage.State.PreviousPosition.begin(), stage.State.PreviousPosition.end(), Vector()); // Of long ago.
     dynamics.Displace(stage.State, stage.All);
     for (int v : stage.All)
     {
@@ -115,8 +115,8 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
       const double speed = Length(stage.State.Velocity[v]);
       EXPECT_NEAR(Length(way), std::min(speed * dynamics.TimeStep(), largest), 1e-5);
       EXPECT_GT(Dot(way, stage.State.Velocity[v]), 0);
-      EXPECT_NEAR(stage.State.Moved[v], Length(way), 1e-5);
-      EXPECT_EQ(Length(stage.State.Before[v] - before[v]), 0) << "to go back to";
+      EXPECT_NEAR(stage.State.Displacement[v], Length(way), 1e-5);
+      EXPECT_EQ(Length(stage.State.PreviousPosition[v] - before[v]), 0) << "to go back to";
     }
   }
 }

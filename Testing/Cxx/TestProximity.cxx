@@ -28,7 +28,7 @@ SurfaceState MakeState(const IndexedSurface& surface, float delta)
 {
   SurfaceState state;
   state.Mesh.Append(surface);
-  state.Delta = delta;
+  state.Sizing = SizingField(delta);
   state.Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
   return state;
 }
@@ -55,26 +55,26 @@ TEST(TriangleTests, FindsACrossing)
 {
   const NamedTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
   EXPECT_TRUE(
-    TrianglesMeet(f, Named(3, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 1, 1 }), 1e-9));
+    TrianglesIntersect(f, Named(3, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 1, 1 }), 1e-9));
   EXPECT_FALSE(
-    TrianglesMeet(f, Named(3, { 3, 3, -1 }, { 3, 3, 1 }, { 4, 3, 1 }), 1e-9));
+    TrianglesIntersect(f, Named(3, { 3, 3, -1 }, { 3, 3, 1 }, { 4, 3, 1 }), 1e-9));
   EXPECT_FALSE(
-    TrianglesMeet(f, Named(3, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 1, 1 }), 1e-9));
+    TrianglesIntersect(f, Named(3, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 1, 1 }), 1e-9));
 }
 
 TEST(TriangleTests, CountsWhatComesNearerThanTheTolerance)
 {
   const NamedTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
   const NamedTriangle g = Named(3, { 1, 1, 0.001 }, { 1, 1, 1 }, { 2, 1, 1 });
-  EXPECT_FALSE(TrianglesMeet(f, g, 1e-4));
-  EXPECT_TRUE(TrianglesMeet(f, g, 1e-2));
+  EXPECT_FALSE(TrianglesIntersect(f, g, 1e-4));
+  EXPECT_TRUE(TrianglesIntersect(f, g, 1e-2));
 }
 
 TEST(TriangleTests, TellsCoplanarTrianglesApart)
 {
   const NamedTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
-  EXPECT_TRUE(TrianglesMeet(f, Named(3, { 1, 1, 0 }, { 5, 1, 0 }, { 1, 5, 0 }), 1e-9));
-  EXPECT_FALSE(TrianglesMeet(f, Named(3, { 5, 5, 0 }, { 9, 5, 0 }, { 5, 9, 0 }), 1e-9));
+  EXPECT_TRUE(TrianglesIntersect(f, Named(3, { 1, 1, 0 }, { 5, 1, 0 }, { 1, 5, 0 }), 1e-9));
+  EXPECT_FALSE(TrianglesIntersect(f, Named(3, { 5, 5, 0 }, { 9, 5, 0 }, { 5, 9, 0 }), 1e-9));
 }
 
 TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
@@ -85,14 +85,14 @@ TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
   const NamedTriangle needle = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, thin, 0 } } };
   const NamedTriangle behind = { { 0, 3, 4 },
     { { 0, 0, 0 }, { -0.25, -0.5, -0.25 }, { -0.25, 0.5, 0.25 } } };
-  EXPECT_FALSE(TrianglesMeet(needle, behind, 1e-4));
-  EXPECT_FALSE(TrianglesMeet(behind, needle, 1e-4));
+  EXPECT_FALSE(TrianglesIntersect(needle, behind, 1e-4));
+  EXPECT_FALSE(TrianglesIntersect(behind, needle, 1e-4));
   const NamedTriangle across = { { 0, 3, 4 },
     { { 0, 0, 0 }, { 0.25, -0.5, -0.25 }, { 0.25, 0.5, 0.25 } } };
-  EXPECT_TRUE(TrianglesMeet(needle, across, 1e-4));
+  EXPECT_TRUE(TrianglesIntersect(needle, across, 1e-4));
   // All corners on one line.
   const NamedTriangle line = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } };
-  EXPECT_FALSE(TrianglesMeet(line, behind, 1e-4));
+  EXPECT_FALSE(TrianglesIntersect(line, behind, 1e-4));
 }
 
 TEST(TriangleTests, FindsACrossingWhicheverHasTheEdge)
@@ -100,8 +100,8 @@ TEST(TriangleTests, FindsACrossingWhicheverHasTheEdge)
   // The second pierces the first with an edge; seen from the second, no edge of its own is met.
   const NamedTriangle large = Named(0, { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 });
   const NamedTriangle small = Named(3, { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 1 });
-  EXPECT_TRUE(TrianglesMeet(large, small, 1e-9));
-  EXPECT_TRUE(TrianglesMeet(small, large, 1e-9));
+  EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9));
+  EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9));
 }
 
 TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
@@ -115,10 +115,10 @@ TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
     };
     const NamedTriangle large = Named(0, turned(-9, -9), turned(9, -9), turned(0, 9));
     const NamedTriangle small = Named(3, turned(0, 0), turned(1, 0), turned(0, 1));
-    EXPECT_TRUE(TrianglesMeet(large, small, 1e-9)) << axis;
-    EXPECT_TRUE(TrianglesMeet(small, large, 1e-9)) << axis;
+    EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9)) << axis;
+    EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9)) << axis;
     const NamedTriangle beside = Named(3, turned(8, 8), turned(9, 8), turned(8, 9));
-    EXPECT_FALSE(TrianglesMeet(large, beside, 1e-9)) << axis;
+    EXPECT_FALSE(TrianglesIntersect(large, beside, 1e-9)) << axis;
   }
 }
 
@@ -127,14 +127,14 @@ TEST(TriangleTests, AllowsSharedCornersAndEdgesOnly)
   const NamedTriangle f = { { 0, 1, 2 }, { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 } } };
   // A common edge, flat and folded.
   EXPECT_FALSE(
-    TrianglesMeet(f, { { 1, 3, 2 }, { { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 } } }, 1e-9));
+    TrianglesIntersect(f, { { 1, 3, 2 }, { { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 } } }, 1e-9));
   EXPECT_TRUE(
-    TrianglesMeet(f, { { 1, 3, 2 }, { { 4, 0, 0 }, { 1, 1, 0 }, { 0, 4, 0 } } }, 1e-9));
+    TrianglesIntersect(f, { { 1, 3, 2 }, { { 4, 0, 0 }, { 1, 1, 0 }, { 0, 4, 0 } } }, 1e-9));
   // A common corner, beside and through.
   EXPECT_FALSE(
-    TrianglesMeet(f, { { 0, 3, 4 }, { { 0, 0, 0 }, { -4, 0, 0 }, { 0, -4, 0 } } }, 1e-9));
+    TrianglesIntersect(f, { { 0, 3, 4 }, { { 0, 0, 0 }, { -4, 0, 0 }, { 0, -4, 0 } } }, 1e-9));
   EXPECT_TRUE(
-    TrianglesMeet(f, { { 0, 3, 4 }, { { 0, 0, 0 }, { 2, 2, 1 }, { 1, 1, -1 } } }, 1e-9));
+    TrianglesIntersect(f, { { 0, 3, 4 }, { { 0, 0, 0 }, { 2, 2, 1 }, { 1, 1, -1 } } }, 1e-9));
 }
 
 TEST(VertexGrid, FindsAllWithinTheRadius)
@@ -198,8 +198,8 @@ TEST(Proximity, FindsNothingOnASmoothSphere)
   Proximity proximity;
   proximity.Examine(state, all, Threads);
   EXPECT_TRUE(proximity.Pairs().empty());
-  EXPECT_TRUE(proximity.Meetings().empty());
-  EXPECT_EQ(std::count(state.Near.begin(), state.Near.end(), 1), 0);
+  EXPECT_TRUE(proximity.Intersections().empty());
+  EXPECT_EQ(std::count(state.NearOthers.begin(), state.NearOthers.end(), 1), 0);
 }
 
 TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
@@ -218,7 +218,7 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
     for (int w = second; w < state.Mesh.Size(); ++w)
     {
       if (SquaredDistance(state.Mesh.Position[v], state.Mesh.Position[w]) <
-        constraint::NearestOthers * constraint::NearestOthers)
+        SizingField::LambdaInDelta * SizingField::LambdaInDelta)
       {
         expected.insert({ v, w });
         expected.insert({ w, v });
@@ -229,7 +229,7 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   std::set<std::pair<int, int>> found;
   for (const Proximity::ClosePair& pair : proximity.Pairs())
   {
-    if (pair.Squared < constraint::NearestOthers * constraint::NearestOthers)
+    if (pair.Squared < SizingField::LambdaInDelta * SizingField::LambdaInDelta)
     {
       found.insert({ pair.V, pair.W });
     }
@@ -252,16 +252,16 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
     // The tolerance may find a touch where there is none by less than it; never the other way.
     if (meets)
     {
-      EXPECT_FALSE(proximity.Meetings().empty()) << "at distance " << distance;
+      EXPECT_FALSE(proximity.Intersections().empty()) << "at distance " << distance;
     }
     else if (distance > 11.6)
     {
-      EXPECT_TRUE(proximity.Meetings().empty()) << "at distance " << distance;
+      EXPECT_TRUE(proximity.Intersections().empty()) << "at distance " << distance;
     }
   }
 }
 
-TEST(NewFacesMeet, SeesWhatIsThereButNotWhatGoes)
+TEST(NewFacesIntersect, SeesWhatIsThereButNotWhatGoes)
 {
   SurfaceState state = MakeState(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
   state.UpdateShape(All(state), Threads);
@@ -271,26 +271,26 @@ TEST(NewFacesMeet, SeesWhatIsThereButNotWhatGoes)
   const VectorD side(0.1, 0.2, 0.1);
   const std::vector<NamedTriangle> through = { Named(
     1000, VectorD(p) * 1.1 + side, VectorD(p) * 0.9 + side, VectorD(p) * 0.9 + side * 2.) };
-  EXPECT_TRUE(NewFacesMeet(state, through, GoneFaces()));
-  EXPECT_FALSE(NewFacesMeet(state, through, { { 9 }, 1, false }));
+  EXPECT_TRUE(NewFacesIntersect(state, through, RemovedFaces()));
+  EXPECT_FALSE(NewFacesIntersect(state, through, { { 9 }, 1, false }));
 }
 
-TEST(NewFacesMeet, SeesNewFacesThatMeetEachOther)
+TEST(NewFacesIntersect, SeesNewFacesThatMeetEachOther)
 {
   SurfaceState state = MakeState(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
   state.UpdateShape(All(state), Threads);
   const NamedTriangle flat = Named(1000, { 10, 0, 0 }, { 12, 0, 0 }, { 10, 2, 0 });
   const NamedTriangle across = Named(2000, { 10.5, 0.5, -1 }, { 10.5, 0.5, 1 }, { 11, 0.5, 1 });
   const NamedTriangle beside = Named(2000, { 10.5, 0.5, 1 }, { 10.5, 0.5, 2 }, { 11, 0.5, 2 });
-  EXPECT_TRUE(NewFacesMeet(state, { flat, across }, GoneFaces()));
-  EXPECT_FALSE(NewFacesMeet(state, { flat, beside }, GoneFaces()));
+  EXPECT_TRUE(NewFacesIntersect(state, { flat, across }, RemovedFaces()));
+  EXPECT_FALSE(NewFacesIntersect(state, { flat, beside }, RemovedFaces()));
 }
 
-TEST(NewFacesMeet, SeesTheMiddleOfTheLargestLegalTriangle)
+TEST(NewFacesIntersect, SeesTheMiddleOfTheLargestLegalTriangle)
 {
   // All its corners are lambda delta away from where a needle passes through it.
   IndexedSurface surface;
-  const double lambda = constraint::NearestOthers;
+  const double lambda = SizingField::LambdaInDelta;
   for (int i = 0; i < 3; ++i)
   {
     const double a = 2 * 3.14159265358979 * i / 3;
@@ -301,19 +301,19 @@ TEST(NewFacesMeet, SeesTheMiddleOfTheLargestLegalTriangle)
   const SurfaceState state = MakeState(surface, 1);
   const std::vector<NamedTriangle> needle = { Named(
     1000, { 0, 0, 0.3 }, { 0, 0, -0.3 }, { 0.02, 0.02, 0.3 }) };
-  EXPECT_TRUE(NewFacesMeet(state, needle, GoneFaces()));
+  EXPECT_TRUE(NewFacesIntersect(state, needle, RemovedFaces()));
   const std::vector<NamedTriangle> above = { Named(
     1000, { 0, 0, 0.3 }, { 0, 0, 0.1 }, { 0.02, 0.02, 0.3 }) };
-  EXPECT_FALSE(NewFacesMeet(state, above, GoneFaces()));
+  EXPECT_FALSE(NewFacesIntersect(state, above, RemovedFaces()));
 }
 
-TEST(NewFacesMeet, OfAnEdgeTakesAwayTheTwoFacesOnly)
+TEST(NewFacesIntersect, OfAnEdgeTakesAwayTheTwoFacesOnly)
 {
-  GoneFaces edge{ { 4, 5 }, 2, true };
+  RemovedFaces edge{ { 4, 5 }, 2, true };
   EXPECT_TRUE(edge.Contains({ 4, 5, 6 }));
   EXPECT_TRUE(edge.Contains({ 5, 9, 4 }));
   EXPECT_FALSE(edge.Contains({ 4, 6, 7 }));
-  GoneFaces stars{ { 4, 5 }, 2, false };
+  RemovedFaces stars{ { 4, 5 }, 2, false };
   EXPECT_TRUE(stars.Contains({ 4, 6, 7 }));
   EXPECT_FALSE(stars.Contains({ 8, 6, 7 }));
 }
@@ -331,7 +331,7 @@ TEST(Proximity, ToldRoomIsThere)
     state.UpdateShape(all, Threads);
     Proximity proximity;
     proximity.Examine(state, all, Threads);
-    if (!proximity.Meetings().empty())
+    if (!proximity.Intersections().empty())
     {
       continue;
     }
@@ -378,7 +378,7 @@ TEST(Proximity, ToldRoomIsThere)
               }
               return triangle;
             };
-            ASSERT_FALSE(TrianglesMeet(named(i), named(j), 1e-9)) << "at distance " << distance;
+            ASSERT_FALSE(TrianglesIntersect(named(i), named(j), 1e-9)) << "at distance " << distance;
           }
         }
       }
@@ -400,8 +400,8 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   ASSERT_GT(pairs, 3u);
   for (const Proximity::ClosePair& pair : proximity.Pairs())
   {
-    EXPECT_EQ(state.Near[pair.V], 1);
-    EXPECT_EQ(state.Near[pair.W], 1);
+    EXPECT_EQ(state.NearOthers[pair.V], 1);
+    EXPECT_EQ(state.NearOthers[pair.W], 1);
     EXPECT_NE(pair.V < second, pair.W < second) << "never neighbours along the surface";
   }
   proximity.Examine(state, { 0 }, Threads);
@@ -425,7 +425,7 @@ TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
   Proximity proximity;
   proximity.Examine(state, All(state), Threads);
   EXPECT_TRUE(proximity.Pairs().empty());
-  EXPECT_EQ(state.Near[0], 1) << "though edits must be verified there";
+  EXPECT_EQ(state.NearOthers[0], 1) << "though edits must be verified there";
 }
 
 TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
@@ -443,8 +443,8 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
   ASSERT_GT(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0);
   Proximity proximity;
   proximity.Examine(state, all, Threads);
-  EXPECT_FALSE(proximity.Meetings().empty());
-  for (const Proximity::Meeting& meeting : proximity.Meetings())
+  EXPECT_FALSE(proximity.Intersections().empty());
+  for (const Proximity::FacePair& meeting : proximity.Intersections())
   {
     for (const std::array<int, 3>& face : { meeting.First, meeting.Second })
     {

@@ -145,12 +145,12 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
     SurfaceState state;
     state.Mesh.Append(MakeTorus({ 0, 0, 0 }, 4, 1.3, 18, 6));
     state.Mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 1.6, 1.2));
-    state.Delta = 1;
+    state.Sizing = SizingField(1);
     state.Reset(Vector(-10, -10, -10), Vector(10, 10, 10));
     std::vector<int> all(state.Mesh.Size());
     std::iota(all.begin(), all.end(), 0);
     state.UpdateShape(all, threads);
-    std::fill(state.Near.begin(), state.Near.end(), 1);
+    std::fill(state.NearOthers.begin(), state.NearOthers.end(), 1);
     SurfaceEditor editor(state);
     Dice dice(state.Mesh, seed);
     for (int step = 0; step < 800 && state.Mesh.NumberOfVertices() > 20; ++step)
@@ -172,13 +172,13 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
           did = step % 3 != 0 && editor.Split(v, w) >= 0;
           break;
         case 3:
-          did = editor.Collapse(v, w, SurfaceEditor::Care::Rough);
+          did = editor.Collapse(v, w, EditTolerance::Loose);
           break;
         case 4:
           did = editor.Remove(v);
           break;
         case 5:
-          did = editor.Move(v, state.Mesh.Position[v] + shake, SurfaceEditor::Care::Rough);
+          did = editor.Move(v, state.Mesh.Position[v] + shake, EditTolerance::Loose);
           break;
         case 6:
           did = editor.Merge(v, dice.Vertex());
@@ -189,7 +189,7 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
       if (did)
       {
         ++edits;
-        std::fill(state.Near.begin(), state.Near.end(), 1);
+        std::fill(state.NearOthers.begin(), state.NearOthers.end(), 1);
         ASSERT_EQ(DescribeBrokenInvariant(state.Mesh), "") << "step " << step;
         ASSERT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
         ASSERT_EQ(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0) << "step " << step;

@@ -44,7 +44,7 @@ int SetIntoAFace(SurfaceState& s, int u)
   s.Mesh.Position[m] = (s.Mesh.Position[ring.Item[0]] + s.Mesh.Position[ring.Item[1]] +
                          s.Mesh.Position[ring.Item[2]]) *
     (1.f / 3);
-  s.Adopt(m, u);
+  s.AddVertex(m, u);
   return m;
 }
 }
@@ -93,7 +93,7 @@ TEST(Remesher, LeavesEdgesOfDeltaAndMore)
   Bench bench(FineSphere());
   ASSERT_GT(bench.Shortest(), 1.f);
   ASSERT_LT(bench.Shortest(), 1.2f);
-  std::fill(bench.State.Wants.begin(), bench.State.Wants.end(), SurfaceState::Longer);
+  std::fill(bench.State.RemeshFlags.begin(), bench.State.RemeshFlags.end(), HasShortEdge);
   Remesher(bench.State, nullptr, true).Collapse(bench.All());
   EXPECT_EQ(bench.State.Counts.Collapses, 0);
 }
@@ -138,7 +138,7 @@ TEST(Remesher, CutsThroughATubeOfThreeUnlessTheTopologyMustStay)
 TEST(Remesher, FlipsWhatIsNotDelaunayAndNothingElse)
 {
   Bench bench(FineSphere());
-  std::fill(bench.State.Wants.begin(), bench.State.Wants.end(), SurfaceState::Flip);
+  std::fill(bench.State.RemeshFlags.begin(), bench.State.RemeshFlags.end(), IsNotDelaunay);
   Remesher(bench.State, nullptr, true).Flip(bench.All());
   EXPECT_EQ(bench.State.Counts.Flips, 0) << "all edges are the shorter ones";
   const int u = 40;
@@ -159,22 +159,22 @@ TEST(Remesher, SmoothsWhatIsStuckButNotAtOnce)
     Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 2.1));
     ASSERT_GT(bench.Shortest(), 1.3f) << "nothing to collapse";
     const Vector before = bench.State.Mesh.Position[40];
-    bench.State.Stuck[40] = static_cast<std::uint8_t>(rollBacks);
+    bench.State.RollbackCount[40] = static_cast<std::uint8_t>(rollBacks);
     bench.State.Velocity[40] = Vector(1, 0, 0);
     Remesher(bench.State, nullptr, true).Unstick(bench.All());
     const double way = Length(bench.State.Mesh.Position[40] - before);
     if (rollBacks < 6)
     {
       EXPECT_EQ(way, 0) << rollBacks;
-      EXPECT_EQ(bench.State.Stuck[40], rollBacks);
+      EXPECT_EQ(bench.State.RollbackCount[40], rollBacks);
     }
     else
     {
       EXPECT_GT(way, 0.01);
-      EXPECT_EQ(bench.State.Stuck[40], 0);
+      EXPECT_EQ(bench.State.RollbackCount[40], 0);
       EXPECT_EQ(Length(bench.State.Velocity[40]), 0);
     }
-    EXPECT_EQ(bench.State.Mesh.NumberOfVertices(), static_cast<int>(bench.State.Awake.size()));
+    EXPECT_EQ(bench.State.Mesh.NumberOfVertices(), static_cast<int>(bench.State.Active.size()));
   }
 }
 
@@ -184,13 +184,13 @@ TEST(Remesher, EditsWakeWhatTheyTouch)
   const int w = bench.State.Mesh.Rings[40].Item[0];
   const Vector p = bench.State.Mesh.Position[40];
   bench.MoveTo(w, p + (bench.State.Mesh.Position[w] - p) * 0.4f);
-  std::fill(bench.State.Awake.begin(), bench.State.Awake.end(), std::uint8_t(0));
+  std::fill(bench.State.Active.begin(), bench.State.Active.end(), std::uint8_t(0));
   Remesher(bench.State, nullptr, true).Collapse(bench.All());
   const SurfaceState& s = bench.State;
   const int kept = s.Mesh.IsAlive(40) ? 40 : w;
-  EXPECT_TRUE(s.Awake[kept]);
+  EXPECT_TRUE(s.Active[kept]);
   for (int v : bench.All())
   {
-    EXPECT_EQ(s.Awake[v] != 0, v == kept || s.Mesh.AreNeighbours(v, kept));
+    EXPECT_EQ(s.Active[v] != 0, v == kept || s.Mesh.AreNeighbours(v, kept));
   }
 }

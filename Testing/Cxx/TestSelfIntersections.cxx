@@ -94,7 +94,7 @@ TEST(SelfIntersections, AreThoseOfAllPairs)
     {
       for (int j = i + 1; j < 400; ++j)
       {
-        expected += TrianglesMeet(Rounded(soup, i), Rounded(soup, j), 1e-9);
+        expected += TrianglesIntersect(Rounded(soup, i), Rounded(soup, j), 1e-9);
       }
     }
     ASSERT_GT(expected, 20);

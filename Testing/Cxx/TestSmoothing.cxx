@@ -38,7 +38,7 @@ TEST(Smoothing, GoesAlongTheSurfaceToTheBarycentre)
     Vector n = stage.State.Normal[v];
     n.Unused = 0;
     EXPECT_NEAR(Dot(move, n), 0, 1e-5) << "it would shrink";
-    along += Dot(move, stage.State.Pull[v]);
+    along += Dot(move, stage.State.Laplacian[v]);
     EXPECT_LE(Length(move), 0.15 + 1e-5) << "little enough to stay free of intersections";
   }
   EXPECT_GT(along / static_cast<double>(stage.All.size()), 0.002);

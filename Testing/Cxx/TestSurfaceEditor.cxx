@@ -39,7 +39,7 @@ struct Workbench : Bench
   explicit Workbench(double edge)
     : Bench(DividedIcosahedron({ 0, 0, 0 }, 10.2, edge)), Editor(this->State)
   {
-    std::fill(this->State.Near.begin(), this->State.Near.end(), std::uint8_t(0));
+    std::fill(this->State.NearOthers.begin(), this->State.NearOthers.end(), std::uint8_t(0));
   }
 
   /** Sets a small octahedron and marks what is near it, as examinations do. */
@@ -49,13 +49,13 @@ struct Workbench : Bench
       this->State.Mesh.Append(Octahedron({ place.X, place.Y, place.Z }, size, size, size));
     for (int v = first; v < this->State.Mesh.Size(); ++v)
     {
-      this->State.Adopt(v, V);
+      this->State.AddVertex(v, V);
     }
     this->State.EulerCharacteristic += 2;
     this->UpdateShape();
     for (int v = 0; v < this->State.Mesh.Size(); ++v)
     {
-      this->State.Near[v] = Length(this->State.Mesh.Position[v] - place) < 4;
+      this->State.NearOthers[v] = Length(this->State.Mesh.Position[v] - place) < 4;
     }
     ASSERT_TRUE(this->IsSound());
   }
@@ -78,14 +78,14 @@ TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
   SurfaceState& s = bench.State;
   s.Velocity[bench.V] = Vector(1, 0, 0);
   s.Velocity[bench.W] = Vector(0, 3, 0);
-  s.Before[bench.V] = Vector(1, 2, 3);
-  s.Before[bench.W] = Vector(3, 2, 1);
+  s.PreviousPosition[bench.V] = Vector(1, 2, 3);
+  s.PreviousPosition[bench.W] = Vector(3, 2, 1);
   const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
   const int m = bench.Editor.Split(bench.V, bench.W);
   ASSERT_GE(m, 0);
   EXPECT_LT(Length(bench.At(m) - middle), 1e-6);
   EXPECT_LT(Length(s.Velocity[m] - Vector(0.5f, 1.5f, 0)), 1e-6);
-  EXPECT_LT(Length(s.Before[m] - Vector(2, 2, 2)), 1e-6) << "where a roll back leads it";
+  EXPECT_LT(Length(s.PreviousPosition[m] - Vector(2, 2, 2)), 1e-6) << "where a roll back leads it";
 }
 
 TEST(SurfaceEditor, CollapseMakesNoLongEdges)
@@ -158,7 +158,7 @@ TEST(SurfaceEditor, FlipForShapeKeepsToLegalLengths)
 TEST(SurfaceEditor, FlipForShapeLeavesCreases)
 {
   Bench bench(Octahedron({ 0, 0, 0 }, 1.2, 1.2, 1.2));
-  std::fill(bench.State.Near.begin(), bench.State.Near.end(), std::uint8_t(0));
+  std::fill(bench.State.NearOthers.begin(), bench.State.NearOthers.end(), std::uint8_t(0));
   EXPECT_FALSE(SurfaceEditor(bench.State).FlipForShape(0, 2));
   EXPECT_TRUE(SurfaceEditor(bench.State).FlipForConstraint(0, 2)) << "though it is possible";
 }
@@ -201,7 +201,7 @@ TEST(SurfaceEditor, RemovalKeepsClearOfWhatIsNear)
     const Vector floor =
       (bench.At(ring.Item[0]) + bench.At(ring.Item[1]) + bench.At(ring.Item[2])) * (1.f / 3);
     mesh.Position[m] = floor + Normalized(floor) * 1.5f;
-    bench.State.Adopt(m, bench.V);
+    bench.State.AddVertex(m, bench.V);
     bench.UpdateShape();
     if (obstructed)
     {

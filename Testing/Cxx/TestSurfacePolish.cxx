@@ -20,13 +20,13 @@ SurfaceState MakeState(const SurfaceMesh& mesh)
 {
   SurfaceState state;
   state.Mesh = mesh;
-  state.Delta = 1;
+  state.Sizing = SizingField(1);
   state.Reset(Vector(-20, -20, -20), Vector(20, 20, 20));
   std::vector<int> all(state.Mesh.Size());
   std::iota(all.begin(), all.end(), 0);
   SequentialExecutor threads;
   state.UpdateShape(all, threads);
-  std::fill(state.Near.begin(), state.Near.end(), 1);
+  std::fill(state.NearOthers.begin(), state.NearOthers.end(), 1);
   return state;
 }
 
@@ -61,7 +61,7 @@ Shape ShapeOf(const SurfaceState& state)
       {
         edge[k] = Length(VectorD(state.Mesh.Position[corner[(k + 1) % 3]]) -
           VectorD(state.Mesh.Position[corner[k]]));
-        shape.EdgesOutside += edge[k] < state.Delta || edge[k] > 2.5 * state.Delta;
+        shape.EdgesOutside += edge[k] < state.Sizing.OfLevel() || edge[k] > 2.5 * state.Sizing.OfLevel();
       }
       shape.WorstRatio = std::min(shape.WorstRatio,
         (edge[0] + edge[1] - edge[2]) * (edge[1] + edge[2] - edge[0]) *
@@ -167,7 +167,7 @@ TEST(SurfacePolish, StaysOnTheIsopotential)
       }
       SurfaceState state;
       state.Mesh = mesh;
-      state.Delta = 1;
+      state.Sizing = SizingField(1);
       state.Reset(Vector(0, 0, 0), Vector(33, 33, 33));
       std::vector<int> all(mesh.Size());
       std::iota(all.begin(), all.end(), 0);

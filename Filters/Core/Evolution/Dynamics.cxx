@@ -12,14 +12,23 @@ namespace
 constexpr std::size_t BlockSize = 1024;
 /** Distance, in delta, over which the isopotential force grows to its bound. */
 constexpr float ForceRange = 0.75f;
-/** Floor of the gradient, in TypicalSlope. */
-constexpr float GradientFloor = 0.15f;
-/** A vertex has moved visibly when it is this far from its anchor, in delta. */
-constexpr float Visible = 0.03f;
-/** The same along the surface. */
-constexpr float Slide = 0.3f;
-/** Iterations without visible motion after which a vertex sleeps. */
-constexpr int Patience = 5;
+/** A vertex has moved visibly when it is this far from its anchor along its normal, in delta. */
+constexpr float VisibleAlongNormal = 0.03f;
+/** The same in any direction: sliding along the surface changes nothing, and is left to the end. */
+constexpr float Visible = 0.3f;
+/** Iterations without visible motion after which a vertex is motionless. */
+constexpr int RestingIterations = 5;
+
+/** Longest way of a vertex in a pass of the regularisation, in delta. */
+constexpr float LongestRelaxation = 0.15f;
+/** Share of the way to the barycentre of the neighbours, along the surface, that it goes in it. */
+constexpr float SmoothingShare = 0.7f;
+/** Gradient of the image over TypicalSlope at which the gradient force is as strong as it gets. */
+constexpr float FullGradient = 0.5f;
+/** Sweeps over the contacts, each of which sees the velocities that the one before has left. */
+constexpr int ContactSweeps = 3;
+/** Share of what is missing to delta that two vertices in contact recover in a step. */
+constexpr float ContactRecovery = 0.25f;
 
 /** Of the stiffest shape of a mesh against it, per unit of weight: that of a zigzag. */
 constexpr float TensionStiffness = 4.f;
@@ -71,13 +80,12 @@ void Dynamics::SetPace()
 
 Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
 {
-  const Vector& n = state.Normal[v];
+  const Vector n = state.Normal[v].Axis();
+  const float delta = state.Sizing.At(v);
   const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
   value = sample.Value;
-  const float floor = GradientFloor * this->TheField.TypicalSlope();
-  const float slope = std::max(Length(sample.Gradient), floor);
   float along = static_cast<float>(this->Options.IsopotentialWeight) *
-    Clamp(sample.Value / (slope * ForceRange * state.Delta));
+    Clamp(sample.Value / (this->TheField.SlopeOf(sample) * ForceRange * delta));
   float beside = 0;
   float most = 0;
   if (this->Options.GradientWeight > 0)
@@ -86,7 +94,7 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
     const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
     const float weight = static_cast<float>(this->Options.GradientWeight);
     beside -=
-      weight * Clamp(sign * Dot(sample.Gradient, n) / (0.5f * this->TheField.TypicalSlope()));
+      weight * Clamp(sign * Dot(sample.Gradient, n) / (FullGradient * this->TheField.TypicalSlope()));
     most += weight;
   }
   if (this->Edges)
@@ -102,29 +110,29 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
     along += beside - share * (beside + most);
   }
   const Ring& ring = state.Mesh.Rings[v];
-  Vector tension = state.Pull[v];
+  Vector tension = state.Laplacian[v];
   for (int i = 0; i < ring.Count; ++i)
   {
     const int w = ring.Item[i];
-    tension -= state.Pull[w] * (1.f / static_cast<float>(state.Mesh.Rings[w].Count));
+    tension -= state.Laplacian[w] * (1.f / static_cast<float>(state.Mesh.Rings[w].Count));
   }
-  const float inverse = 1.f / state.Delta;
+  const float inverse = 1.f / delta;
   Vector force = n * along +
     tension * (this->InnerShare * static_cast<float>(this->Options.TensionWeight) * inverse) +
-    state.Spring[v] *
+    state.SpringPull[v] *
       (this->InnerShare * static_cast<float>(this->Options.ElasticityWeight) * inverse);
   force.Unused = 0;
   return force;
 }
 
-void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
+void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
   const std::vector<Proximity::ClosePair>& pairs)
 {
-  const std::size_t n = awake.size();
+  const std::size_t n = active.size();
   this->Force.resize(n);
   this->Fastest.assign((n + BlockSize - 1) / BlockSize, 0.f);
   const float friction = this->Drag;
-  const float step = static_cast<float>(this->Options.MaximumStep) * state.Delta;
+  const float step = static_cast<float>(this->Options.MaximumStep) * state.Sizing.Smallest();
   const float longest = this->Longest;
   ForBlocks(this->Threads, n, BlockSize,
     [&](std::size_t b, std::size_t begin, std::size_t end)
@@ -132,8 +140,8 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
       float fastest = 0;
       for (std::size_t i = begin; i < end; ++i)
       {
-        const int v = awake[i];
-        this->Force[i] = this->ForceAt(state, v, state.Value[v]) * state.Delta;
+        const int v = active[i];
+        this->Force[i] = this->ForceAt(state, v, state.FieldValue[v]) * state.Sizing.At(v);
         const Vector speed =
           (state.Velocity[v] + this->Force[i] * longest) * (1 / (1 + friction * longest));
         fastest = std::max(fastest, SquaredLength(speed));
@@ -152,7 +160,7 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        Vector& velocity = state.Velocity[awake[i]];
+        Vector& velocity = state.Velocity[active[i]];
         velocity =
           (velocity + this->Force[i] * this->Step) * (1 / (1 + friction * this->Step));
       }
@@ -163,8 +171,6 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& awake,
 void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
   const std::vector<Proximity::ClosePair>& pairs, bool snap)
 {
-  const float longest = 0.15f * state.Delta;
-  const float floor = GradientFloor * this->TheField.TypicalSlope();
   this->Step = 1;
   this->Threads.For(vertices.size(), BlockSize,
     [&](std::size_t begin, std::size_t end)
@@ -172,21 +178,14 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
       for (std::size_t i = begin; i < end; ++i)
       {
         const int v = vertices[i];
-        Vector n = state.Normal[v];
-        n.Unused = 0;
-        Vector pull = state.Pull[v];
-        pull.Unused = 0;
-        Vector move = (pull - n * Dot(pull, n)) * 0.7f;
+        const float longest = LongestRelaxation * state.Sizing.At(v);
+        const Vector n = state.Normal[v].Axis();
+        const Vector pull = state.Laplacian[v];
+        Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
         if (snap)
         {
           const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
-          const float slope = -Dot(sample.Gradient, n);
-          // Where the normal says nothing about the gradient the step would only do harm.
-          if (slope > floor && slope > 0.5f * Length(sample.Gradient))
-          {
-            const float step = sample.Value / slope;
-            move += n * std::min(std::max(step, -longest), longest);
-          }
+          move += n * this->TheField.StepToIso(sample, n, longest);
         }
         if (this->Edges && this->Options.SnapToEdges)
         {
@@ -214,7 +213,7 @@ bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
     return false;
   }
   const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
-  const bool front = Dot(state.Normal[v] - state.Normal[w], across) > 0;
+  const bool front = Dot(state.Normal[v].Axis() - state.Normal[w].Axis(), across) > 0;
   const float value =
     this->TheField.ValueAt((state.Mesh.Position[v] + state.Mesh.Position[w]) * 0.5f);
   return front ? value > 0 : value < 0;
@@ -222,7 +221,7 @@ bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
 
 void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
 {
-  this->Groups.clear();
+  this->Contacts.clear();
   for (std::size_t begin = 0; begin < pairs.size();)
   {
     std::size_t end = begin + 1;
@@ -230,113 +229,116 @@ void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePai
     {
       ++end;
     }
-    if (state.Mesh.IsAlive(pairs[begin].V) && state.Awake[pairs[begin].V])
+    if (state.Mesh.IsAlive(pairs[begin].V) && state.Active[pairs[begin].V])
     {
-      this->Groups.push_back({ begin, end, Vector() });
+      this->Contacts.push_back({ begin, end, Vector() });
     }
     begin = end;
   }
-  const float near = constraint::NearestOthers * state.Delta;
-  constexpr int sweeps = 3;
-  for (int sweep = 0; sweep < sweeps; ++sweep)
+  for (int sweep = 0; sweep < ContactSweeps; ++sweep)
   {
-    this->Threads.For(this->Groups.size(), 256,
+    this->Threads.For(this->Contacts.size(), 256,
       [&](std::size_t first, std::size_t last)
       {
-        for (std::size_t g = first; g < last; ++g)
+        for (std::size_t i = first; i < last; ++i)
         {
-          Group& group = this->Groups[g];
-          const int v = pairs[group.Begin].V;
-          Vector sum;
-          int count = 0;
-          for (std::size_t i = group.Begin; i < group.End; ++i)
-          {
-            const int w = pairs[i].W;
-            if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w) ||
-              this->MayClose(state, v, w))
-            {
-              continue;
-            }
-            const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
-            const float distance = Length(across);
-            if (distance > near || distance <= 0)
-            {
-              continue;
-            }
-            const Vector direction = across * (1 / distance);
-            float approach = Dot(state.Velocity[v], direction);
-            if (state.Awake[w])
-            {
-              approach = 0.5f * (approach - Dot(state.Velocity[w], direction));
-            }
-            if (sweep == 0 && distance < state.Delta)
-            {
-              approach =
-                std::max(approach, 0.f) + 0.25f * (state.Delta - distance) / this->Step;
-            }
-            if (approach > 0)
-            {
-              sum += direction * approach;
-              ++count;
-            }
-          }
-          group.Correction = sum * (1.f / static_cast<float>(std::max(count, 1)));
+          ContactsOfVertex& contacts = this->Contacts[i];
+          contacts.Correction = this->CorrectionOf(state, pairs, contacts, sweep == 0);
         }
       });
-    for (const Group& group : this->Groups)
+    for (const ContactsOfVertex& contacts : this->Contacts)
     {
-      state.Velocity[pairs[group.Begin].V] -= group.Correction;
+      state.Velocity[pairs[contacts.Begin].V] -= contacts.Correction;
     }
   }
 }
 
-void Dynamics::Displace(SurfaceState& state, const std::vector<int>& awake)
+Vector Dynamics::CorrectionOf(const SurfaceState& state,
+  const std::vector<Proximity::ClosePair>& pairs, const ContactsOfVertex& contacts,
+  bool separates) const
 {
-  const float longest = static_cast<float>(this->Options.MaximumStep) * state.Delta;
-  this->Threads.For(awake.size(), BlockSize,
+  const int v = pairs[contacts.Begin].V;
+  Vector sum;
+  int count = 0;
+  for (std::size_t i = contacts.Begin; i < contacts.End; ++i)
+  {
+    const int w = pairs[i].W;
+    if (!state.Mesh.IsAlive(w) || state.Mesh.AreNeighbours(v, w) || this->MayClose(state, v, w))
+    {
+      continue;
+    }
+    const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
+    const float distance = Length(across);
+    if (distance > state.Sizing.Clearance(v, w) || distance <= 0)
+    {
+      continue;
+    }
+    const Vector direction = across * (1 / distance);
+    float approach = Dot(state.Velocity[v], direction);
+    if (state.Active[w])
+    {
+      approach = 0.5f * (approach - Dot(state.Velocity[w], direction));
+    }
+    const float least = state.Sizing.ShortestEdge(v, w);
+    if (separates && distance < least)
+    {
+      approach = std::max(approach, 0.f) + ContactRecovery * (least - distance) / this->Step;
+    }
+    if (approach > 0)
+    {
+      sum += direction * approach;
+      ++count;
+    }
+  }
+  return sum * (1.f / static_cast<float>(std::max(count, 1)));
+}
+
+void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active)
+{
+  this->Threads.For(active.size(), BlockSize,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const int v = awake[i];
+        const int v = active[i];
+        const float longest = static_cast<float>(this->Options.MaximumStep) * state.Sizing.At(v);
         Vector& p = state.Mesh.Position[v];
-        state.Before[v] = p;
+        state.PreviousPosition[v] = p;
         Vector move = state.Velocity[v] * this->Step;
         const float length = Length(move);
         if (length > longest)
         {
           move *= longest / length;
         }
-        state.Moved[v] = std::min(length, longest);
+        state.Displacement[v] = std::min(length, longest);
         p = state.Around.Confined(p, p + move);
       }
     });
-  for (int v : awake)
+  for (int v : active)
   {
     state.Grid.Move(v, state.Mesh.Position[v]);
   }
 }
 
 void Dynamics::Freeze(
-  SurfaceState& state, const std::vector<int>& awake, const std::vector<int>& working)
+  SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working)
 {
-  const float visible = Visible * state.Delta;
-  const float slide = Slide * state.Delta;
   this->HasMoved.resize(state.Mesh.Rings.size(), 0);
-  this->Threads.For(awake.size(), BlockSize,
+  this->Threads.For(active.size(), BlockSize,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const int v = awake[i];
+        const int v = active[i];
         if (!state.Mesh.IsAlive(v))
         {
           continue;
         }
-        // Along the normal: sliding along the surface changes nothing, and is left to the end.
+        const float alongNormal = VisibleAlongNormal * state.Sizing.At(v);
+        const float anywhere = Visible * state.Sizing.At(v);
         const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
-        if (std::abs(Dot(moved, state.Normal[v])) > visible ||
-          SquaredLength(moved) > slide * slide)
+        if (std::abs(Dot(moved, state.Normal[v].Axis())) > alongNormal ||
+          SquaredLength(moved) > anywhere * anywhere)
         {
           state.Anchor[v] = state.Mesh.Position[v];
           this->HasMoved[v] = 1;
@@ -357,17 +359,17 @@ void Dynamics::Freeze(
         }
         if (moved)
         {
-          state.Wake(v);
+          state.Activate(v);
         }
-        else if (this->Options.FreezeMotionlessVertices && state.Awake[v] &&
-          ++state.Quiet[v] >= Patience)
+        else if (this->Options.FreezeMotionlessVertices && state.Active[v] &&
+          ++state.RestCount[v] >= RestingIterations)
         {
-          state.Awake[v] = 0;
+          state.Active[v] = 0;
           state.Velocity[v] = Vector();
         }
       }
     });
-  for (int v : awake)
+  for (int v : active)
   {
     this->HasMoved[v] = 0;
   }

@@ -49,10 +49,10 @@ public:
   Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor);
 
   /**
-   * Computes forces and velocities of the awake vertices; `pairs` are the contacts known from the
+   * Computes forces and velocities of the active vertices; `pairs` are the contacts known from the
    * last examination.
    */
-  void Accelerate(SurfaceState& state, const std::vector<int>& awake,
+  void Accelerate(SurfaceState& state, const std::vector<int>& active,
     const std::vector<Proximity::ClosePair>& pairs);
 
   /**
@@ -63,15 +63,15 @@ public:
   void Relax(SurfaceState& state, const std::vector<int>& vertices,
     const std::vector<Proximity::ClosePair>& pairs, bool snap);
 
-  /** Displaces them; the place before is kept in SurfaceState::Before. */
-  void Displace(SurfaceState& state, const std::vector<int>& awake);
+  /** Displaces them; the place before is kept in SurfaceState::PreviousPosition. */
+  void Displace(SurfaceState& state, const std::vector<int>& active);
 
   /**
-   * After roll back: puts vertices at rest to sleep and wakes the neighbours of moved ones.
-   * `working` holds the awake vertices and all their neighbours.
+   * After roll back: vertices at rest become motionless, the neighbours of moved ones active.
+   * `working` holds the active vertices and all their neighbours.
    */
   void Freeze(
-    SurfaceState& state, const std::vector<int>& awake, const std::vector<int>& working);
+    SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working);
 
   /** Of the last step. */
   double TimeStep() const { return this->Step; }
@@ -85,25 +85,30 @@ private:
    * cut needs.
    */
   bool MayClose(const SurfaceState& state, int v, int w) const;
+  /** The close pairs of a vertex, and what of its velocity they forbid. */
+  struct ContactsOfVertex
+  {
+    std::size_t Begin; ///< Of the pairs.
+    std::size_t End;
+    Vector Correction;
+  };
+  /** Takes from the velocities what would bring vertices nearer than eq. (1) allows. */
   void Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs);
+  Vector CorrectionOf(const SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs,
+    const ContactsOfVertex& contacts, bool separates) const;
 
   const Field& TheField;
   const SurfaceOptions& Options;
   Executor& Threads;
   std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
   float Drag = 0;       ///< Friction as it acts.
-  float Longest = 0;    ///< Time step, unless re-sampled.
+  float Longest = 0;    ///< Time step, unless shortened.
   float InnerShare = 1; ///< Of the internal forces that the time step can follow.
   float Step = 0;
   std::vector<Vector> Force;
   std::vector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.
   std::vector<float> Fastest;
-  struct Group
-  {
-    std::size_t Begin, End;
-    Vector Correction;
-  };
-  std::vector<Group> Groups;
+  std::vector<ContactsOfVertex> Contacts;
 };
 }
 

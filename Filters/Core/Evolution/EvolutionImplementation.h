@@ -51,10 +51,10 @@ struct SurfaceEvolution::Implementation
   ComponentWatch Watch;
   RestCriterion Rest;
   CycleCriterion Cycle;
-  std::vector<int> Awake;
-  std::vector<int> Working;
+  std::vector<int> Active;
+  std::vector<int> Working;            ///< Of an iteration, see CollectWorking.
+  std::vector<std::uint8_t> IsWorking; ///< Whether that has it.
   std::vector<int> Suspects;
-  std::vector<std::uint8_t> Marked;
   std::vector<double> Partial;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
@@ -62,7 +62,7 @@ struct SurfaceEvolution::Implementation
   double LevelSeconds = 0.; ///< What has been booked since the last level.
   bool Stopped = false;     ///< By the monitor.
   EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
-  int Shrunk = 0;    ///< Collapses since components were labelled last.
+  int CollapsesSinceLabels = 0; ///< Since components were labelled last.
   int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
@@ -82,21 +82,25 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void LayGrid();
   void SplitLongEdges();
-  void FindMeetings();
+  void FindIntersections();
   void DivideOnce();
   void Take(const IndexedSurface& surface);
   void TakeRemeshed(const IndexedSurface& surface);
   IndexedSurface Remesh(const IndexedSurface& surface);
   void Begin(const IndexedSurface& surface);
   void Adapt();
-  void WakeAll();
-  void SleepUnlessMoving(float least);
-  void CollectAwake();
+  void ActivateAll();
+  void KeepActiveIfMoving();
+  void CollectActive();
   void CollectWorking();
+  void AddUnmoved(int v);
   void CollectSuspects();
-  void MarkRing(int v);
   void RollBack();
-  void UpdateTouched();
+  void RollBackVertex(int v);
+  void UpdateChanged(std::vector<int> changed);
+  void SplitBeforeVerification(Remesher& remesher);
+  void RestoreConstraints(Remesher& remesher);
+  void WatchComponents();
   double EnclosedVolume();
   void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
   void FillRow(HistoryRow& row);

@@ -16,6 +16,19 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
+/** A displacement, in delta, that uses little of a vertex's slack. */
+constexpr float SlowDisplacement = 0.08f;
+/** Collapses after which a component may have become a small one. */
+constexpr int SuspiciousCollapses = 40;
+/** Iterations between two looks for components that are inside out. */
+constexpr int InsideOutPeriod = 10;
+
+void SortUnique(std::vector<int>& vertices)
+{
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+}
+
 /** Adds the time since the last call to a phase. */
 class Stopwatch
 {
@@ -40,48 +53,45 @@ private:
 };
 }
 
-void SurfaceEvolution::Implementation::CollectAwake()
+void SurfaceEvolution::Implementation::CollectActive()
 {
-  this->Awake.clear();
+  this->Active.clear();
   for (int v = 0; v < this->State.Mesh.Size(); ++v)
   {
-    if (this->State.Awake[v])
+    if (this->State.Active[v])
     {
-      this->Awake.push_back(v);
-    }
-  }
-}
-
-void SurfaceEvolution::Implementation::MarkRing(int v)
-{
-  const Ring& ring = this->State.Mesh.Rings[v];
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    const int w = ring.Item[i];
-    if (!this->Marked[w])
-    {
-      this->Marked[w] = 1;
-      this->Working.push_back(w);
+      this->Active.push_back(v);
     }
   }
 }
 
 void SurfaceEvolution::Implementation::CollectWorking()
 {
-  // The awake vertices and the corners of all triangles that move with them.
-  this->Marked.assign(this->State.Mesh.Rings.size(), 0);
-  this->Working = this->Awake;
-  for (int v : this->Awake)
+  // The active vertices and the corners of all faces that move with them.
+  SurfaceState& s = this->State;
+  this->IsWorking.assign(s.Mesh.Rings.size(), 0);
+  this->Working = this->Active;
+  for (int v : this->Active)
   {
-    this->Marked[v] = 1;
+    this->IsWorking[v] = 1;
   }
-  for (int v : this->Awake)
+  for (int v : this->Active)
   {
-    this->MarkRing(v);
+    const Ring& ring = s.Mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      this->AddUnmoved(ring.Item[i]);
+    }
   }
-  for (std::size_t i = this->Awake.size(); i < this->Working.size(); ++i)
+}
+
+void SurfaceEvolution::Implementation::AddUnmoved(int v)
+{
+  if (!this->IsWorking[v])
   {
-    this->State.Before[this->Working[i]] = this->State.Mesh.Position[this->Working[i]];
+    this->IsWorking[v] = 1;
+    this->State.PreviousPosition[v] = this->State.Mesh.Position[v];
+    this->Working.push_back(v);
   }
 }
 
@@ -97,13 +107,13 @@ void SurfaceEvolution::Implementation::CollectSuspects()
       {
         const int v = this->Working[i];
         const Ring& ring = s.Mesh.Rings[v];
-        float moved = s.Moved[v];
+        float moved = s.Displacement[v];
         for (int k = 0; k < ring.Count; ++k)
         {
-          moved = std::max(moved, s.Moved[ring.Item[k]]);
+          moved = std::max(moved, s.Displacement[ring.Item[k]]);
         }
         s.Drift[v] += moved;
-        s.Slow[v] = moved < 0.08f * s.Delta;
+        s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
       }
     });
   this->Suspects.clear();
@@ -115,41 +125,49 @@ void SurfaceEvolution::Implementation::CollectSuspects()
       this->Suspects.push_back(v);
     }
   }
-  for (int v : this->Awake)
+  for (int v : this->Active)
   {
-    s.Moved[v] = 0;
+    s.Displacement[v] = 0;
   }
 }
 
-void SurfaceEvolution::Implementation::UpdateTouched()
+void SurfaceEvolution::Implementation::UpdateChanged(std::vector<int> changed)
 {
-  std::vector<int>& touched = this->State.Touched;
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  this->State.UpdateShape(touched, this->Threads);
-  for (int v : touched)
+  SortUnique(changed);
+  this->State.UpdateShape(changed, this->Threads);
+  for (int v : changed)
   {
-    this->State.Drift[v] = 1e6f; // Its star is another one: what was examined tells nothing.
+    this->State.Drift[v] = SurfaceState::NotExamined; // Its star is another one.
   }
-  touched.clear();
+}
+
+void SurfaceEvolution::Implementation::RollBackVertex(int v)
+{
+  constexpr int most = 200; // Of what fits into the count.
+  SurfaceState& s = this->State;
+  s.MoveTo(v, s.PreviousPosition[v]);
+  s.Velocity[v] = Vector();
+  s.RollbackCount[v] = static_cast<std::uint8_t>(std::min(s.RollbackCount[v] + 2, most));
+  s.Activate(v);
+  s.Drift[v] = SurfaceState::NotExamined;
 }
 
 void SurfaceEvolution::Implementation::RollBack()
 {
   // The mesh before the displacement was free of intersections, and so is any mesh all of whose
-  // vertices have gone back: take back more and more about each hit until none is left.
+  // vertices have gone back: roll back more and more about each intersection until none is left.
   SurfaceState& s = this->State;
-  const std::vector<Proximity::Meeting>* meetings = &this->Near.Meetings();
+  const std::vector<Proximity::FacePair>* intersections = &this->Near.Intersections();
   std::vector<int> back;
-  std::vector<int> list;
+  std::vector<int> examined;
   constexpr int rounds = 12;
-  for (int round = 0; round < rounds && !meetings->empty(); ++round)
+  for (int round = 0; round < rounds && !intersections->empty(); ++round)
   {
     back.clear();
-    for (const Proximity::Meeting& meeting : *meetings)
+    for (const Proximity::FacePair& pair : *intersections)
     {
-      back.insert(back.end(), meeting.First.begin(), meeting.First.end());
-      back.insert(back.end(), meeting.Second.begin(), meeting.Second.end());
+      back.insert(back.end(), pair.First.begin(), pair.First.end());
+      back.insert(back.end(), pair.Second.begin(), pair.Second.end());
     }
     for (int widening = 0; widening < round - 1; ++widening)
     {
@@ -159,36 +177,87 @@ void SurfaceEvolution::Implementation::RollBack()
         const Ring& ring = s.Mesh.Rings[back[i]];
         back.insert(back.end(), ring.Item, ring.Item + ring.Count);
       }
-      std::sort(back.begin(), back.end());
-      back.erase(std::unique(back.begin(), back.end()), back.end());
+      SortUnique(back);
     }
     if (round == rounds - 1)
     {
       back = this->Working; // All that has moved: the mesh before, which was free of them.
     }
-    std::sort(back.begin(), back.end());
-    back.erase(std::unique(back.begin(), back.end()), back.end());
-    list = back;
+    SortUnique(back);
+    examined = back;
     for (int v : back)
     {
-      // Vertices that are not in the working list have not moved; their Before may be old.
-      if (!this->Marked[v])
+      // Vertices that are not in the working list have not moved; their previous position is old.
+      if (this->IsWorking[v])
       {
-        continue;
+        this->RollBackVertex(v);
+        const Ring& ring = s.Mesh.Rings[v];
+        examined.insert(examined.end(), ring.Item, ring.Item + ring.Count);
       }
-      s.MoveTo(v, s.Before[v]);
-      s.Velocity[v] = Vector();
-      s.Stuck[v] = static_cast<std::uint8_t>(std::min(s.Stuck[v] + 2, 200));
-      s.Awake[v] = 1;
-      s.Quiet[v] = 0;
-      s.Drift[v] = 1e6f;
-      list.insert(list.end(), s.Mesh.Rings[v].Item, s.Mesh.Rings[v].Item + s.Mesh.Rings[v].Count);
     }
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    s.UpdateShape(list, this->Threads);
-    this->Recheck.Examine(s, list, this->Threads);
-    meetings = &this->Recheck.Meetings();
+    SortUnique(examined);
+    s.UpdateShape(examined, this->Threads);
+    this->Recheck.Examine(s, examined, this->Threads);
+    intersections = &this->Recheck.Intersections();
+  }
+}
+
+void SurfaceEvolution::Implementation::SplitBeforeVerification(Remesher& remesher)
+{
+  const std::size_t unsplit = this->Working.size();
+  remesher.Split(this->Working);
+  this->IsWorking.resize(this->State.Mesh.Rings.size(), 0);
+  for (std::size_t i = unsplit; i < this->Working.size(); ++i)
+  {
+    this->IsWorking[this->Working[i]] = 1; // New, with a previous position of its own.
+  }
+  for (int v : remesher.Changed())
+  {
+    this->AddUnmoved(v);
+  }
+  this->UpdateChanged(remesher.TakeChanged());
+}
+
+void SurfaceEvolution::Implementation::RestoreConstraints(Remesher& remesher)
+{
+  SurfaceState& s = this->State;
+  remesher.Collapse(this->Working);
+  remesher.Flip(this->Working);
+  remesher.Unstick(this->Working);
+  for (int v : this->Working)
+  {
+    if (s.RollbackCount[v] > 0)
+    {
+      --s.RollbackCount[v];
+    }
+  }
+  // What was rolled back, or drawn back from a cut, may have made edges too long.
+  const std::vector<int>& changed = remesher.Changed();
+  this->Working.insert(this->Working.end(), changed.begin(), changed.end());
+  this->UpdateChanged(remesher.TakeChanged());
+  remesher.Split(this->Working);
+  this->UpdateChanged(remesher.TakeChanged());
+}
+
+void SurfaceEvolution::Implementation::WatchComponents()
+{
+  SurfaceState& s = this->State;
+  // A component may become a small one without any change of topology.
+  this->CollapsesSinceLabels += s.Counts.Collapses;
+  // After a merge a small cavity may be a part of the main component, and must not be judged as the
+  // cavity it was: labels are made afresh before anything is deleted.
+  if (s.Counts.Merges + s.Counts.Cuts > 0 || this->CollapsesSinceLabels > SuspiciousCollapses)
+  {
+    this->Watch.Label(s, this->Threads);
+    this->CollapsesSinceLabels = 0;
+  }
+  const bool deleted = this->Watch.DeleteDoomed(s);
+  // Only a cut can give birth to one, and what was inside a deleted component is bare.
+  this->Unchecked += s.Counts.Cuts + (deleted ? 1 : 0);
+  if (this->LastIterations % InsideOutPeriod == 0 && this->Unchecked > 0)
+  {
+    this->Watch.DeleteInsideOut(s, this->Threads);
+    this->Unchecked = 0;
   }
 }
 
@@ -196,58 +265,42 @@ void SurfaceEvolution::Implementation::Iterate(
   HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode)
 {
   SurfaceState& s = this->State;
+  const bool evolves = mode == Mode::Evolve;
   Stopwatch watch(row);
   s.Counts = EditCounts();
-  this->CollectAwake();
-  row.ActiveVertices = static_cast<int>(this->Awake.size());
+  this->CollectActive();
+  row.ActiveVertices = static_cast<int>(this->Active.size());
   row.Vertices = s.Mesh.NumberOfVertices();
-  const bool relax = mode != Mode::Evolve;
-  if (relax)
+  if (evolves)
   {
-    dynamics.Relax(
-      s, this->Awake, this->Near.Pairs(), mode == Mode::Regularise && this->Options.SnapToIsoValue);
+    dynamics.Accelerate(s, this->Active, this->Near.Pairs());
   }
   else
   {
-    dynamics.Accelerate(s, this->Awake, this->Near.Pairs());
+    dynamics.Relax(s, this->Active, this->Near.Pairs(),
+      mode == Mode::Regularise && this->Options.SnapToIsoValue);
   }
   row.TimeStep = dynamics.TimeStep();
   watch.Lap(Phase::Forces);
 
-  dynamics.Displace(s, this->Awake);
+  dynamics.Displace(s, this->Active);
   this->CollectWorking();
   s.UpdateShape(this->Working, this->Threads);
   watch.Lap(Phase::Contact);
 
-  const std::size_t unsplit = this->Working.size();
-  remesher.Split(this->Working);
-  this->Marked.resize(s.Mesh.Rings.size(), 0);
-  for (std::size_t i = unsplit; i < this->Working.size(); ++i)
-  {
-    this->Marked[this->Working[i]] = 1; // New, with a place before of its own.
-  }
-  for (int v : s.Touched)
-  {
-    if (!this->Marked[v])
-    {
-      this->Marked[v] = 1;
-      s.Before[v] = s.Mesh.Position[v];
-      this->Working.push_back(v);
-    }
-  }
-  this->UpdateTouched();
+  this->SplitBeforeVerification(remesher);
   watch.Lap(Phase::Remeshing);
 
   this->CollectSuspects();
   this->Near.Examine(s, this->Suspects, this->Threads);
   watch.Lap(Phase::Proximity);
   this->RollBack();
-  if (!relax)
+  if (evolves)
   {
-    dynamics.Freeze(s, this->Awake, this->Working);
+    dynamics.Freeze(s, this->Active, this->Working);
   }
   watch.Lap(Phase::Verification);
-  if (mode == Mode::Evolve && !this->GoOn(Monitor::Activity::Iterating, 1.))
+  if (evolves && !this->GoOn(Monitor::Activity::Iterating, 1.))
   {
     // The surface is free of intersections; a run that ends here needs no edits.
     this->FillRow(row);
@@ -255,47 +308,14 @@ void SurfaceEvolution::Implementation::Iterate(
     return;
   }
 
-  if (!relax)
+  if (evolves)
   {
     remesher.Merge(this->Near.Pairs());
   }
   watch.Lap(Phase::Topology);
-  remesher.Collapse(this->Working);
-  remesher.Flip(this->Working);
-  remesher.Unstick(this->Working);
-  for (int v : this->Working)
-  {
-    if (s.Stuck[v] > 0)
-    {
-      --s.Stuck[v];
-    }
-  }
-  // What was rolled back, or drawn back from a cut, may have made edges too long.
-  this->Working.insert(this->Working.end(), s.Touched.begin(), s.Touched.end());
-  this->UpdateTouched();
-  remesher.Split(this->Working);
-  this->UpdateTouched();
+  this->RestoreConstraints(remesher);
   watch.Lap(Phase::Remeshing);
-
-  // A component may become a small one without any change of topology.
-  this->Shrunk += s.Counts.Collapses;
-  constexpr int suspicious = 40;
-  // After a merge a small cavity may be a part of the main component, and must not be judged as the
-  // cavity it was: labels are made afresh before anything is deleted.
-  if (s.Counts.Merges + s.Counts.Cuts > 0 || this->Shrunk > suspicious)
-  {
-    this->Watch.Label(s, this->Threads);
-    this->Shrunk = 0;
-  }
-  const bool deleted = this->Watch.DeleteDoomed(s);
-  // Only a cut can give birth to one, and what was inside a deleted component is bare.
-  this->Unchecked += s.Counts.Cuts + (deleted ? 1 : 0);
-  constexpr int period = 10;
-  if (this->LastIterations % period == 0 && this->Unchecked > 0)
-  {
-    this->Watch.DeleteInsideOut(s, this->Threads);
-    this->Unchecked = 0;
-  }
+  this->WatchComponents();
   watch.Lap(Phase::Topology);
   this->FillRow(row);
   this->SinceEvolved.Cuts += s.Counts.Cuts;
@@ -324,15 +344,15 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.DeletedGenus = s.Counts.RemovedGenus;
   this->FillCounts(row);
   constexpr std::size_t size = 4096;
-  this->Partial.assign((this->Awake.size() + size - 1) / size, 0.);
-  ForBlocks(this->Threads, this->Awake.size(), size,
+  this->Partial.assign((this->Active.size() + size - 1) / size, 0.);
+  ForBlocks(this->Threads, this->Active.size(), size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       double sum = 0;
       for (std::size_t i = begin; i < end; ++i)
       {
-        const int v = this->Awake[i];
-        const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v]) : 0.;
+        const int v = this->Active[i];
+        const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
         sum += 0.5 * speed * speed;
       }
       this->Partial[b] = sum;
@@ -357,7 +377,7 @@ double SurfaceEvolution::Implementation::MeanEdgeLength()
       double sum = 0;
       for (std::size_t v = begin; v < end; ++v)
       {
-        sum += this->State.EdgeSum[v];
+        sum += this->State.EdgeLengthSum[v];
       }
       this->Partial[b] = sum;
     });

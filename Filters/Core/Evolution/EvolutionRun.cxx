@@ -15,6 +15,8 @@ namespace
 constexpr int RegularisationPasses = 12;
 /** Way in a pass, in delta, under which a vertex is left where it is. */
 constexpr float SmallestMove = 0.015f;
+/** Iterations after which the estimate of a level's progress is 1 - 1/e of its way. */
+constexpr double TypicalIterations = 80.;
 /** Share of a level's progress that is left to what comes before and after its iterations. */
 constexpr double ShareBefore = 0.1;
 constexpr double ShareAfter = 0.2;
@@ -34,7 +36,7 @@ double FractionOf(Monitor::Activity doing, double share, int iterations)
       return 0.5 * ShareBefore * (1. + share);
     case Monitor::Activity::Iterating:
       return ShareBefore +
-        (1. - ShareBefore - ShareAfter) * (1. - std::exp(-iterations / 80.));
+        (1. - ShareBefore - ShareAfter) * (1. - std::exp(-iterations / TypicalIterations));
     default:
       return 1. - ShareAfter * (1. - share);
   }
@@ -58,7 +60,7 @@ bool SurfaceEvolution::Implementation::Ask(
   status.Doing = doing;
   status.Iteration = this->LastIterations;
   status.Vertices = this->State.Mesh.NumberOfVertices();
-  status.ActiveVertices = static_cast<int>(this->Awake.size());
+  status.ActiveVertices = static_cast<int>(this->Active.size());
   status.Fraction = FractionOf(doing, std::clamp(share, 0., 1.), this->LastIterations);
   this->Stopped = !(this->Listener.*question)(status);
   return !this->Stopped;
@@ -127,7 +129,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   const bool evidence = this->Options.IsopotentialWeight > 0;
   Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
-  const double cube = std::pow(static_cast<double>(s.Delta), 3);
+  const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
   while (true)
   {
     if (this->Stopped)
@@ -180,25 +182,30 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   }
 }
 
-void SurfaceEvolution::Implementation::SleepUnlessMoving(float least)
+void SurfaceEvolution::Implementation::KeepActiveIfMoving()
 {
-  // What went some way in the last pass stays awake, with its neighbours, and what was edited.
+  // What went some way in the last pass stays active, with its neighbours, and what was edited.
   SurfaceState& s = this->State;
-  for (int v : this->Awake)
+  const auto moves = [&s](int v)
   {
-    if (s.Mesh.IsAlive(v) && s.Quiet[v] > 0 && SquaredLength(s.Velocity[v]) <= least * least)
+    const float least = SmallestMove * s.Sizing.At(v);
+    return SquaredLength(s.Velocity[v]) > least * least;
+  };
+  for (int v : this->Active)
+  {
+    if (s.Mesh.IsAlive(v) && !s.Disturbed[v] && !moves(v))
     {
-      s.Awake[v] = 0;
+      s.Active[v] = 0;
     }
   }
-  for (int v : this->Awake)
+  for (int v : this->Active)
   {
-    if (s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least)
+    if (s.Mesh.IsAlive(v) && moves(v))
     {
       const Ring& ring = s.Mesh.Rings[v];
       for (int i = 0; i < ring.Count; ++i)
       {
-        s.Awake[ring.Item[i]] = 1;
+        s.Active[ring.Item[i]] = 1;
       }
     }
   }
@@ -210,6 +217,7 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
   // come from. With delta changing slowly the worst of them are collapsed or split first.
   constexpr int steps = 30;
   constexpr double close = 0.02;
+  constexpr double share = 0.6; // of what is missing, in a step
   constexpr double longestStep = 0.03;
   SurfaceState& s = this->State;
   const double unit = this->TheField->Image().Unit;
@@ -223,16 +231,16 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
   {
     const double missing = this->WantedMeanEdge / this->MeanEdgeLength() - 1.;
     first = step == 0 ? missing : first;
-    const float delta = std::min(std::max(s.Delta *
-            static_cast<float>(1. + std::min(std::max(0.6 * missing, -longestStep), longestStep)),
-          least), most);
-    if (std::abs(missing) < close || missing * first < 0. || delta == s.Delta)
+    const double change = std::min(std::max(share * missing, -longestStep), longestStep);
+    const float old = s.Sizing.OfLevel();
+    const float delta = std::min(std::max(old * static_cast<float>(1. + change), least), most);
+    if (std::abs(missing) < close || missing * first < 0. || delta == old)
     {
       break;
     }
-    s.Delta = delta;
+    s.Sizing = SizingField(delta);
     this->Reset();
-    std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
+    s.Velocity.Fill(Vector());
     HistoryRow row;
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
   }
@@ -242,26 +250,26 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = this->State;
-  const std::vector<std::uint8_t> awake = s.Awake;
+  const std::vector<std::uint8_t> active = s.Active.AsVector();
   Remesher remesher(s, this->TheField.get(), false);
-  std::fill(s.Velocity.begin(), s.Velocity.end(), Vector());
+  s.Velocity.Fill(Vector());
   HistoryRow row;
-  this->WakeAll();
+  this->ActivateAll();
   for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0 &&
        this->GoOn(Monitor::Activity::Regularising, PassesShare * pass / RegularisationPasses);
        ++pass)
   {
     if (pass > 0)
     {
-      this->SleepUnlessMoving(SmallestMove * s.Delta);
+      this->KeepActiveIfMoving();
     }
-    std::fill(s.Quiet.begin(), s.Quiet.end(), std::uint8_t(1)); // An edit makes it 0 again.
+    s.Disturbed.Fill(0);
     this->Iterate(row, dynamics, remesher, Mode::Regularise);
   }
   this->RunPolish(row);
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
-    s.Awake[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(awake.size()) || awake[v]);
+    s.Active[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(active.size()) || active[v]);
     s.Velocity[v] = Vector();
   }
   if (!this->Rows.empty())
@@ -275,11 +283,11 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
   SurfaceState& s = this->State;
   const auto start = std::chrono::steady_clock::now();
   s.Counts = EditCounts();
-  SurfacePolish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
+  SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
     this->Options.TopologyChanges, this->Threads,
-    this->CheckpointOf(Monitor::Activity::Regularising, PassesShare))
-    .Run();
-  this->UpdateTouched();
+    this->CheckpointOf(Monitor::Activity::Regularising, PassesShare));
+  polish.Run();
+  this->UpdateChanged(polish.TakeChanged());
   if (s.Counts.Cuts > 0)
   {
     this->Watch.Label(s, this->Threads);

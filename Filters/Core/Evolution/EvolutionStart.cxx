@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Box.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LostParts.h"
@@ -29,6 +30,24 @@ float LongestEdge(const SurfaceMesh& mesh)
     });
   return std::sqrt(longest);
 }
+
+/** Whether an edge is longer than this share of the longest that eq. (1) allows. */
+bool HasEdgeOver(const SurfaceState& state, float share)
+{
+  const SurfaceMesh& mesh = state.Mesh;
+  bool found = false;
+  mesh.VisitFaces(
+    [&](int a, int b, int c)
+    {
+      for (const auto& edge : { std::make_pair(a, b), std::make_pair(b, c), std::make_pair(c, a) })
+      {
+        found = found ||
+          std::sqrt(SquaredDistance(mesh.Position[edge.first], mesh.Position[edge.second])) >
+            state.Sizing.LongestEdge(edge.first, edge.second, share);
+      }
+    });
+  return found;
+}
 }
 
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
@@ -37,16 +56,16 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
   this->State.Around = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;
-  this->State.Delta = static_cast<float>(this->Options.SamplingRatio * image.Unit);
+  this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
 }
 
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
-  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest()));
   this->LayGrid();
   this->SplitLongEdges();
-  this->Near.Examine(s, this->Awake, this->Threads);
+  this->Near.Examine(s, this->Active, this->Threads);
   this->Watch.Label(s, this->Threads);
 }
 
@@ -54,11 +73,12 @@ void SurfaceEvolution::Implementation::SplitLongEdges()
 {
   // Verification relies on it that no edge is longer than the constraints allow.
   SurfaceState& s = this->State;
-  this->CollectAwake();
-  s.UpdateShape(this->Awake, this->Threads);
-  Remesher(s, nullptr, false).Split(this->Awake);
-  this->UpdateTouched();
-  if (LongestEdge(s.Mesh) > 1.0001f * constraint::LongestEdge * s.Delta)
+  this->CollectActive();
+  s.UpdateShape(this->Active, this->Threads);
+  Remesher remesher(s, nullptr, false);
+  remesher.Split(this->Active);
+  this->UpdateChanged(remesher.TakeChanged());
+  if (HasEdgeOver(s, 1.0001f))
   {
     this->TakeRemeshed(s.Mesh.ToIndexed()); // Full rings all about it: not seen yet.
   }
@@ -74,10 +94,11 @@ void SurfaceEvolution::Implementation::LayGrid()
     static_cast<float>(image.Size[2] * image.Step[2]));
   for (const Vector& p : s.Mesh.Position)
   {
-    low = Vector(std::min(low.X, p.X), std::min(low.Y, p.Y), std::min(low.Z, p.Z));
-    high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
+    low = Minimum(low, p);
+    high = Maximum(high, p);
   }
-  const Vector margin(2 * s.Delta, 2 * s.Delta, 2 * s.Delta);
+  const float delta = s.Sizing.Largest();
+  const Vector margin(2 * delta, 2 * delta, 2 * delta);
   this->Near.Clear();
   this->Recheck.Clear();
   s.Reset(low - margin, high + margin);
@@ -130,27 +151,28 @@ void KeepAbout(const std::array<int, 3>& face, const std::vector<std::array<int,
 }
 }
 
-void SurfaceEvolution::Implementation::FindMeetings()
+void SurfaceEvolution::Implementation::FindIntersections()
 {
   // A division leaves some edges longer than verification may rely on; it looks further for them.
   SurfaceState& s = this->State;
-  const float delta = s.Delta;
-  s.Delta = std::max(delta, LongestEdge(s.Mesh) / constraint::LongestEdge);
+  const SizingField sizing = s.Sizing;
+  s.Sizing = SizingField(
+    std::max(sizing.Largest(), LongestEdge(s.Mesh) / SizingField::LongestEdgeInDelta));
   this->LayGrid();
-  this->CollectAwake();
-  s.UpdateShape(this->Awake, this->Threads);
-  this->Near.Examine(s, this->Awake, this->Threads);
-  s.Delta = delta;
+  this->CollectActive();
+  s.UpdateShape(this->Active, this->Threads);
+  this->Near.Examine(s, this->Active, this->Threads);
+  s.Sizing = sizing;
 }
 
 void SurfaceEvolution::Implementation::DivideOnce()
 {
   SurfaceState& s = this->State;
-  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Delta));
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest()));
   const int olds = s.Mesh.Size();
   const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh);
-  this->FindMeetings();
-  if (this->Near.Meetings().empty())
+  this->FindIntersections();
+  if (this->Near.Intersections().empty())
   {
     return;
   }
@@ -160,12 +182,12 @@ void SurfaceEvolution::Implementation::DivideOnce()
   const SurfaceMesh old = Undivided(s.Mesh, olds);
   KeptEdges kept(old);
   constexpr int rounds = 6;
-  for (int round = 0; round < rounds && !this->Near.Meetings().empty(); ++round)
+  for (int round = 0; round < rounds && !this->Near.Intersections().empty(); ++round)
   {
-    for (const Proximity::Meeting& meeting : this->Near.Meetings())
+    for (const Proximity::FacePair& pair : this->Near.Intersections())
     {
-      KeepAbout(meeting.First, faces, old, round, kept);
-      KeepAbout(meeting.Second, faces, old, round, kept);
+      KeepAbout(pair.First, faces, old, round, kept);
+      KeepAbout(pair.Second, faces, old, round, kept);
     }
     if (round == rounds - 1)
     {
@@ -174,19 +196,19 @@ void SurfaceEvolution::Implementation::DivideOnce()
     kept.MakeRoom();
     s.Mesh = old;
     volumic::Divide(s.Mesh, &kept);
-    this->FindMeetings();
+    this->FindIntersections();
   }
-  if (!this->Near.Meetings().empty())
+  if (!this->Near.Intersections().empty())
   {
-    this->TakeRemeshed(old.ToIndexed()); // The old surface has met itself: not seen yet.
+    this->TakeRemeshed(old.ToIndexed()); // The old surface intersects itself: not seen yet.
   }
 }
 
-void SurfaceEvolution::Implementation::WakeAll()
+void SurfaceEvolution::Implementation::ActivateAll()
 {
   for (int v = 0; v < this->State.Mesh.Size(); ++v)
   {
-    this->State.Awake[v] = this->State.Mesh.IsAlive(v);
+    this->State.Active[v] = this->State.Mesh.IsAlive(v);
   }
 }
 

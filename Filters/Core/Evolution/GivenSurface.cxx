@@ -86,7 +86,7 @@ bool FitsRings(const IndexedSurface& surface)
 bool IsCrowded(const IndexedSurface& surface, double delta)
 {
   constexpr int most = 60;
-  const double cell = constraint::Reach * delta;
+  const double cell = SizingField::ReachInDelta * delta;
   std::unordered_map<std::uint64_t, int> count;
   for (const Point& p : surface.Points)
   {
@@ -121,7 +121,7 @@ bool IsSound(const IndexedSurface& surface, double delta)
 {
   const EdgeLengths lengths = LengthsOf(surface);
   return !surface.Triangles.empty() && lengths.Shortest > 0. &&
-    lengths.Longest <= constraint::LongestEdge * 1.0001 * delta &&
+    lengths.Longest <= SizingField::LongestEdgeInDelta * 1.0001 * delta &&
     CountSelfIntersections(surface, 1) == 0;
 }
 }
@@ -135,7 +135,7 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   // time.
   constexpr double coarse = 2.;
   constexpr double large = 100000.; // delta^2
-  const double delta = this->State.Delta;
+  const double delta = this->State.Sizing.OfLevel();
   const Topology wanted = Topology::Of(surface);
   const bool isLarge = wanted.Area > large * delta * delta;
   IndexedSurface best;
@@ -173,17 +173,17 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
   // slivers or fans deny them that, the same surface gets another mesh first.
   const SurfaceState& s = this->State;
   const EdgeLengths lengths = LengthsOf(surface);
-  if (lengths.Longest <= constraint::LongestEdge * s.Delta && FitsRings(surface) &&
-    !IsCrowded(surface, s.Delta))
+  if (lengths.Longest <= SizingField::LongestEdgeInDelta * s.Sizing.OfLevel() && FitsRings(surface) &&
+    !IsCrowded(surface, s.Sizing.OfLevel()))
   {
     this->Begin(surface);
-    if (this->Near.Meetings().empty())
+    if (this->Near.Intersections().empty())
     {
-      if (lengths.Shortest < s.Delta)
+      if (lengths.Shortest < s.Sizing.OfLevel())
       {
         this->Adapt();
       }
-      if (this->Stopped || IsSound(s.Mesh.ToIndexed(), s.Delta))
+      if (this->Stopped || IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
       {
         return;
       }
@@ -210,7 +210,7 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
     if (!(share > 0.5))
     {
       Refuse("The initial surface is too thin for this level, whose triangles have edges of about ",
-        constraint::RestLength * s.Delta, " voxel distances: they would hold ",
+        SizingField::RestLengthInDelta * s.Sizing.OfLevel(), " voxel distances: they would hold ",
         std::lround(100. * std::max(share, 0.)),
         " % of its volume. Start at a finer level, give a thicker surface, or check that its "
         "coordinates are in the image's unit.");
@@ -221,14 +221,14 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   if (!this->Stopped && s.Mesh.NumberOfVertices() == 0)
   {
     Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
-      constraint::RestLength * s.Delta,
+      SizingField::RestLengthInDelta * s.Sizing.OfLevel(),
       " voxel distances: none of it is left. Start at a finer level, give a larger surface, or check that "
       "its coordinates are in the image's unit.");
   }
-  if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Delta))
+  if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
   {
-    Refuse("The initial surface could not be brought to edges between ", s.Delta, " and ",
-      constraint::LongestEdge * s.Delta,
+    Refuse("The initial surface could not be brought to edges between ", s.Sizing.OfLevel(), " and ",
+      SizingField::LongestEdgeInDelta * s.Sizing.OfLevel(),
       " voxel distances without an intersection. Remesh it to such edges before it is given, or choose "
       "another Initialization.");
   }
@@ -243,7 +243,7 @@ void SurfaceEvolution::Implementation::Adapt()
   for (int round = 0; round < rounds && this->GoOn(Monitor::Activity::Starting, 0.5 + 0.5 * round / rounds); ++round)
   {
     HistoryRow row;
-    this->WakeAll();
+    this->ActivateAll();
     this->Iterate(row, dynamics, remesher, Mode::Adapt);
     if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
     {

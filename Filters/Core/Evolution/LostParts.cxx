@@ -299,8 +299,8 @@ bool KeepsClear(
       });
     return found;
   };
-  const float reach = constraint::Reach * state.Delta;
-  const float radius = static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Delta;
+  const float reach = state.Sizing.LargestReach();
+  const float radius = static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Sizing.OfLevel();
   if (!hasWithin(lattice.Centre(cell), radius + reach))
   {
     return true;
@@ -333,7 +333,7 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     return stopped;
   }
   LostPartCover result;
-  const CellLattice lattice(CellEdge * state.Delta);
+  const CellLattice lattice(CellEdge * state.Sizing.OfLevel());
   std::vector<CellLattice::Cell> cells;
   std::vector<CellLattice::Cell> own;
   std::size_t seen = 0;

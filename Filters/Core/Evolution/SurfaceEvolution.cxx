@@ -93,7 +93,7 @@ void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
   const Timer timer(self.Preparing);
   self.Enter(image, level);
   self.State.Mesh.Clear();
-  self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Delta));
+  self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Sizing.OfLevel()));
   self.Reset();
   self.GoOn(Monitor::Activity::Starting, 1.);
 }
@@ -104,7 +104,7 @@ int SurfaceEvolution::StartSeeds(
   Implementation& self = *this->Self;
   const Timer timer(self.Preparing);
   self.Enter(image, level);
-  const double delta = self.State.Delta;
+  const double delta = self.State.Sizing.OfLevel();
   const double radius = std::max(
     self.Options.SeedRadius > 0. ? self.Options.SeedRadius : 1.2 * delta, SmallestSeed * delta);
   const std::vector<Point> places =
@@ -147,14 +147,14 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   {
     return false;
   }
-  const double coarse = self.State.Delta;
+  const double coarse = self.State.Sizing.OfLevel();
   self.LastLost = LostParts();
   self.Lost = LostBoundary();
   self.Enter(image, level);
   // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
   // the mesh's, sqrt 3.
   const int divisions = static_cast<int>(
-    std::lround(std::log(coarse / self.State.Delta) / std::log(std::sqrt(3.))));
+    std::lround(std::log(coarse / self.State.Sizing.OfLevel()) / std::log(std::sqrt(3.))));
   // After each of these steps the surface is one to hand over.
   bool goesOn = true;
   for (int i = 0; i < divisions && goesOn; ++i)
@@ -181,7 +181,7 @@ SurfaceResult SurfaceEvolution::Result() const
   const SurfaceState& s = this->Self->State;
   SurfaceResult result;
   static_cast<IndexedSurface&>(result) = s.Mesh.ToIndexed();
-  result.Delta = s.Delta;
+  result.Delta = s.Sizing.OfLevel();
   const float sign = this->Self->Options.ObjectIsBright ? 1.f : -1.f;
   std::vector<int> index(static_cast<std::size_t>(s.Mesh.Size()), -1); // As ToIndexed numbers them.
   int points = 0;
@@ -194,10 +194,10 @@ SurfaceResult SurfaceEvolution::Result() const
   {
     if (s.Mesh.IsAlive(v))
     {
-      const Vector& n = s.Normal[v];
+      const NormalCone& n = s.Normal[v];
       result.Normals.push_back({ n.X, n.Y, n.Z });
       result.Residual.push_back(sign * this->Self->TheField->ValueAt(s.Mesh.Position[v]));
-      result.Motionless.push_back(!s.Awake[v]);
+      result.Motionless.push_back(!s.Active[v]);
       result.Held.push_back(contacts.Held[v]);
       index[v] = points++;
     }

@@ -264,4 +264,28 @@ Field::Sample Field::At(const Vector& position) const
       Vector(half * gx * this->Inverse[0], half * gy * this->Inverse[1],
         half * gz * this->Inverse[2]) });
 }
+
+namespace
+{
+/** Floor of the gradient, in TypicalSlope. */
+constexpr float GradientFloor = 0.15f;
+/** Least cosine between a normal and the gradient, for a step along the one to follow the other. */
+constexpr float LeastAlignment = 0.5f;
+}
+
+float Field::SlopeOf(const Sample& sample) const
+{
+  return std::max(Length(sample.Gradient), GradientFloor * this->Slope);
+}
+
+float Field::StepToIso(const Sample& sample, const Vector& normal, float longest) const
+{
+  // Value grows against the normal: towards the inside.
+  const float slope = -Dot(sample.Gradient, normal);
+  if (slope <= GradientFloor * this->Slope || slope < LeastAlignment * Length(sample.Gradient))
+  {
+    return 0.f;
+  }
+  return std::min(std::max(sample.Value / slope, -longest), longest);
+}
 }

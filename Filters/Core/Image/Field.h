@@ -47,6 +47,16 @@ public:
    */
   float TypicalSlope() const { return this->Slope; }
 
+  /** Length of the gradient, but at least 0.15 TypicalSlope(): safe to divide by on plateaus. */
+  float SlopeOf(const Sample& sample) const;
+
+  /**
+   * Newton's step along a unit normal onto the isopotential, from where the sample is: its length,
+   * at most `longest`; 0 where the normal says little about the gradient, as a step would only do
+   * harm there.
+   */
+  float StepToIso(const Sample& sample, const Vector& normal, float longest) const;
+
   /** What the image counts as outside its voxels, with Border::Background. */
   float Background() const { return this->Outside; }
 

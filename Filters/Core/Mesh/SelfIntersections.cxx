@@ -107,7 +107,7 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
       {
         if (j > i)
         {
-          found += TrianglesMeet(triangle, RoundedTriangle(surface, j), tolerance);
+          found += TrianglesIntersect(triangle, RoundedTriangle(surface, j), tolerance);
           if (work)
           {
             ++work->Pairs;

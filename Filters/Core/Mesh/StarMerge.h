@@ -28,8 +28,8 @@ public:
   bool Plan(const SurfaceMesh& mesh);
 
   /** After Plan: the triangles of the band, and its longest rung, squared. */
-  const std::vector<std::array<int, 3>>& Band() const { return this->Triangles; }
-  float SquaredLongestRung() const { return this->Longest; }
+  const std::vector<std::array<int, 3>>& Strip() const { return this->Triangles; }
+  float SquaredLongestBridgeEdge() const { return this->Longest; }
 
   void Apply(SurfaceMesh& mesh) const;
 

@@ -11,7 +11,7 @@
 
 namespace volumic
 {
-bool SurfaceMesh::AreStrangers(int v, int w) const
+bool SurfaceMesh::AreFarApart(int v, int w) const
 {
   const Ring& first = this->Rings[v];
   const Ring& second = this->Rings[w];

@@ -89,7 +89,7 @@ public:
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
 
   /** Whether two different vertices are at least four edges apart, or not connected at all. */
-  bool AreStrangers(int v, int w) const;
+  bool AreFarApart(int v, int w) const;
 
   /** A place for a vertex; its ring is the caller's to fill before anything else happens. */
   int AddVertex(const Vector& position);

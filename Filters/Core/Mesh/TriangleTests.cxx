@@ -152,7 +152,7 @@ bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Pl
 }
 }
 
-bool TrianglesMeet(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
+bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
 {
   int inF[3];
   int inG[3];

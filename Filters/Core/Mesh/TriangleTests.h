@@ -22,7 +22,7 @@ struct NamedTriangle
  * later map to world coordinates. Two that share an edge meet when they are folded onto each other
  * to within a degree.
  */
-bool TrianglesMeet(const NamedTriangle& f, const NamedTriangle& g, double tolerance);
+bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double tolerance);
 }
 
 #endif

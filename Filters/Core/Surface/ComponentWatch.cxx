@@ -115,7 +115,7 @@ void ComponentWatch::Label(SurfaceState& state, Executor& executor)
   // Trees of vertices, each linked to a smaller one, in the place of the labels: first within
   // blocks, side by side, then across their borders.
   const std::size_t n = state.Mesh.Rings.size();
-  std::vector<int>& parent = state.Component;
+  std::vector<int>& parent = state.Component.AsVector();
   const auto root = [&parent](int v)
   {
     while (parent[v] != v)
@@ -275,7 +275,7 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
       doomed = true;
       for (int v : small.Vertices)
       {
-        doomed = doomed && (positive ? state.Value[v] < 0 : state.Value[v] > 0);
+        doomed = doomed && (positive ? state.FieldValue[v] < 0 : state.FieldValue[v] > 0);
       }
     }
     if (doomed)
@@ -337,7 +337,7 @@ bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
       {
         if (mesh.IsAlive(static_cast<int>(v)))
         {
-          FindCrossings(mesh, state.Component, static_cast<int>(v), rays, crossings[b]);
+          FindCrossings(mesh, state.Component.AsVector(), static_cast<int>(v), rays, crossings[b]);
         }
       }
     });

@@ -2,37 +2,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/Proximity.h"
 
+#include "Core/Common/Box.h"
+#include "Core/Surface/NewFaces.h"
+
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace volumic
 {
 namespace
 {
-/** Lengths in delta. Room between two stars that needs no test of their triangles. */
+// Lengths in delta.
+/** Room between two stars that needs no test of their triangles. */
 constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
+/** Room along the normals that needs no look for more along the line between the vertices. */
+constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
 constexpr float ReachSlack = 0.1f;
-/** A slow vertex looks this much further, and may be left in peace for longer. */
+/** A slow vertex looks this much further, and needs no new look for longer. */
 constexpr float FurtherReach = 0.25f;
 /** Pairs are kept while their vertices use up their slack: look a little further. */
-constexpr float PairReach = constraint::NearestOthers + ReachSlack;
+constexpr float PairReach = SizingField::LambdaInDelta + ReachSlack;
 
-Vector Minimum(const Vector& a, const Vector& b)
-{
-  return Vector(std::min(a.X, b.X), std::min(a.Y, b.Y), std::min(a.Z, b.Z));
-}
-Vector Maximum(const Vector& a, const Vector& b)
-{
-  return Vector(std::max(a.X, b.X), std::max(a.Y, b.Y), std::max(a.Z, b.Z));
-}
-bool Apart(const Vector& lowA, const Vector& highA, const Vector& lowB, const Vector& highB)
-{
-  return lowA.X > highB.X || lowB.X > highA.X || lowA.Y > highB.Y || lowB.Y > highA.Y ||
-    lowA.Z > highB.Z || lowB.Z > highA.Z;
-}
+/** Least cosine between two faces at an edge that are certainly not folded onto each other. */
+constexpr float Unfolded = -0.99f;
+/** By what a squared reach is less, so that rounding can't make each of two pairs leave a test to
+    the other. */
+constexpr float RoundedReach = 0.999f;
+/** By what a room in floats must be more than the same in doubles. */
+constexpr float FloatRounding = 1.2f;
 
 /** Room between the stars of v and w along a unit direction, v's side below; negative: none. */
 float RoomAlong(const SurfaceMesh& mesh, int v, int w, const Vector& direction)
@@ -53,18 +54,18 @@ float RoomAlong(const SurfaceMesh& mesh, int v, int w, const Vector& direction)
 float RoomBetween(const SurfaceState& state, int v, int w)
 {
   const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
-  Vector direction = state.Normal[v] - state.Normal[w];
-  direction.Unused = 0;
+  Vector direction = state.Normal[v].Axis() - state.Normal[w].Axis();
   if (Dot(direction, across) < 0)
   {
     direction = -direction;
   }
   const float room = RoomAlong(state.Mesh, v, w, Normalized(direction));
-  return room > 0.02f * state.Delta ? room
-                                    : std::max(room,
-                                        RoomAlong(state.Mesh, v, w, Normalized(across)));
+  return room > EnoughRoom * state.Sizing.At(v)
+    ? room
+    : std::max(room, RoomAlong(state.Mesh, v, w, Normalized(across)));
 }
 
+/** A vertex and the faces about it. */
 struct Star
 {
   Star(const SurfaceMesh& mesh, int v)
@@ -80,8 +81,7 @@ struct Star
     {
       const Vector& a = this->Rim[i];
       const Vector& b = this->Rim[this->After(i)];
-      this->Low[i] = Minimum(this->Place, Minimum(a, b));
-      this->High[i] = Maximum(this->Place, Maximum(a, b));
+      this->Bounds[i] = Box::Of(this->Place, a, b);
       this->Normal[i] = Normalized(Cross(a - this->Place, b - this->Place));
     }
   }
@@ -95,15 +95,14 @@ struct Star
   const Ring& Neighbours;
   Vector Place;
   Vector Rim[Ring::Capacity];
-  Vector Low[Ring::Capacity];
-  Vector High[Ring::Capacity];
+  Box Bounds[Ring::Capacity];    ///< Of the faces.
   Vector Normal[Ring::Capacity]; ///< Unit, of the faces.
 };
 
 /**
  * Whether face j of `other`, less a corner that it shares with face i of `star`, lies on one side
  * of the plane of face i, by more than `room`; or, if they share an edge, whether the two are far
- * from folded onto each other. Then they do not meet.
+ * from folded onto each other. Then they do not intersect.
  */
 bool IsBesidePlane(const Star& star, int i, const Star& other, int j, float room)
 {
@@ -129,7 +128,7 @@ bool IsBesidePlane(const Star& star, int i, const Star& other, int j, float room
       below = below && height < -room;
     }
   }
-  return shared < 2 ? above || below : Dot(star.Normal[i], other.Normal[j]) > -0.99f;
+  return shared < 2 ? above || below : Dot(star.Normal[i], other.Normal[j]) > Unfolded;
 }
 
 bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
@@ -139,7 +138,7 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
 }
 
 /**
- * Two faces are met from up to nine pairs of their corners. Only the first pair, in order of
+ * Two faces are found from up to nine pairs of their corners. Only the first pair, in order of
  * index, that an examination would look at tests them.
  */
 class FirstPair
@@ -155,7 +154,6 @@ public:
 
   bool IsFirstOf(const std::array<int, 3>& f, const std::array<int, 3>& g) const
   {
-    const float reach = constraint::Reach * this->State.Delta;
     for (int a : f)
     {
       for (int b : g)
@@ -163,9 +161,7 @@ public:
         const int x = std::min(a, b);
         const int y = std::max(a, b);
         if ((x < this->V || (x == this->V && y < this->W)) &&
-          (this->Listed[x] || this->Listed[y]) &&
-          SquaredDistance(this->State.Mesh.Position[x], this->State.Mesh.Position[y]) <=
-            0.999f * reach * reach &&
+          (this->Listed[x] || this->Listed[y]) && this->IsWithinReach(x, y) &&
           this->State.AreOpposed(x, y))
         {
           return false;
@@ -176,57 +172,56 @@ public:
   }
 
 private:
+  bool IsWithinReach(int x, int y) const
+  {
+    const float reach = this->State.Sizing.Reach(x);
+    return SquaredDistance(this->State.Mesh.Position[x], this->State.Mesh.Position[y]) <=
+      RoundedReach * reach * reach;
+  }
+
   const SurfaceState& State;
   const std::vector<std::uint8_t>& Listed;
   int V;
   int W;
 };
 
-/** Adds the faces that meet. @return the room that the rest has for certain. */
+/** Adds the faces that intersect. @return the room that the rest has for certain. */
 float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed,
-  const Star& first, int w, std::vector<Proximity::Meeting>& meetings, std::vector<int>& tight)
+  const Star& first, int w, std::vector<Proximity::FacePair>& intersections,
+  std::vector<int>& tight)
 {
   const int v = first.Centre;
   const Star second(state.Mesh, w);
   const FirstPair pair(state, listed, v, w);
-  float room = SomeRoom * state.Delta;
-  const float beside = 1.2f * room; // With some to spare for the rounding of floats.
+  const float someRoom = SomeRoom * state.Sizing.At(v);
+  const float beside = FloatRounding * someRoom;
+  float room = someRoom;
   for (int i = 0; i < first.Neighbours.Count; ++i)
   {
-    const Vector margin(room, room, room);
-    const Vector low = first.Low[i] - margin;
-    const Vector high = first.High[i] + margin;
+    const Box bounds = first.Bounds[i].Grown(room);
     for (int j = v == w ? i + 1 : 0; j < second.Neighbours.Count; ++j)
     {
-      if (Apart(low, high, second.Low[j], second.High[j]))
-      {
-        continue;
-      }
-      if (IsBesidePlane(first, i, second, j, beside) ||
+      if (bounds.IsApartFrom(second.Bounds[j]) || IsBesidePlane(first, i, second, j, beside) ||
         IsBesidePlane(second, j, first, i, beside))
       {
         continue;
       }
       const std::array<int, 3> f = first.Face(i);
       const std::array<int, 3> g = second.Face(j);
-      if (SameFace(f, g))
+      if (SameFace(f, g) || !pair.IsFirstOf(f, g))
       {
-        continue;
-      }
-      if (!pair.IsFirstOf(f, g))
-      {
-        continue; // Tested from there; see Tight for what it finds.
+        continue; // Tested from the first pair; see Tight for what that finds.
       }
       const NamedTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
       const NamedTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
-      if (TrianglesMeet(one, other, SomeRoom * state.Delta))
+      if (TrianglesIntersect(one, other, someRoom))
       {
         room = 0;
         tight.insert(tight.end(), f.begin(), f.end());
         tight.insert(tight.end(), g.begin(), g.end());
-        if (TrianglesMeet(one, other, constraint::Contact * state.Delta))
+        if (TrianglesIntersect(one, other, state.Sizing.Contact(v)))
         {
-          meetings.push_back({ f, g });
+          intersections.push_back({ f, g });
         }
       }
     }
@@ -235,20 +230,15 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
 }
 }
 
-NamedTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
-{
-  return { { a, b, c },
-    { VectorD(mesh.Position[a]), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
-}
-
 void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
 {
   const SurfaceMesh& mesh = state.Mesh;
   const Vector p = mesh.Position[v];
-  const float reach = constraint::Reach * state.Delta;
-  const float further = reach + (state.Slow[v] ? FurtherReach * state.Delta : 0.f);
-  const float near = PairReach * state.Delta;
-  const float least = ReachSlack * state.Delta;
+  const float delta = state.Sizing.At(v);
+  const float reach = state.Sizing.Reach(v);
+  const float further = reach + (state.IsSlow[v] ? FurtherReach * delta : 0.f);
+  const float near = PairReach * delta;
+  const float least = ReachSlack * delta;
   std::optional<Star> own; // Few vertices need it, those that do need it often.
   const auto star = [&]() -> const Star&
   {
@@ -263,7 +253,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   if (state.AreOpposed(v, v))
   {
     anything = true;
-    slack = std::min(slack, TestStars(state, this->Listed, star(), v, block.Meetings, block.Tight));
+    slack = std::min(slack, TestStars(state, this->Listed, star(), v, block.Intersections, block.Tight));
   }
   state.Grid.Visit(p, further,
     [&](int w)
@@ -279,28 +269,28 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
         return;
       }
       slack = std::min(
-        slack, std::max(least, std::sqrt(squared) - constraint::NearestOthers * state.Delta));
+        slack, std::max(least, std::sqrt(squared) - state.Sizing.Clearance(v, w)));
       anything = true;
       if (squared < near * near && !mesh.AreNeighbours(v, w))
       {
         block.Pairs.push_back({ v, w, squared });
       }
       const float room = RoomBetween(state, v, w);
-      if (room >= LeastRoom * state.Delta)
+      if (room >= LeastRoom * delta)
       {
         slack = std::min(slack, room);
       }
       else if (v < w || !this->Listed[w])
       {
         slack = std::min(
-          slack, TestStars(state, this->Listed, star(), w, block.Meetings, block.Tight));
+          slack, TestStars(state, this->Listed, star(), w, block.Intersections, block.Tight));
       }
       else
       {
-        slack = std::min(slack, SomeRoom * state.Delta);
+        slack = std::min(slack, SomeRoom * delta);
       }
     });
-  state.Near[v] = anything;
+  state.NearOthers[v] = anything;
   state.Slack[v] = slack;
 }
 
@@ -322,7 +312,7 @@ void Proximity::Examine(
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       this->Blocks[b].Pairs.clear();
-      this->Blocks[b].Meetings.clear();
+      this->Blocks[b].Intersections.clear();
       this->Blocks[b].Tight.clear();
       for (std::size_t i = begin; i < end; ++i)
       {
@@ -342,13 +332,13 @@ void Proximity::Examine(
     }
   }
   this->AllPairs.resize(kept);
-  this->AllMeetings.clear();
+  this->AllIntersections.clear();
   for (std::size_t b = 0; b < blocks; ++b)
   {
     const Block& block = this->Blocks[b];
     this->AllPairs.insert(this->AllPairs.end(), block.Pairs.begin(), block.Pairs.end());
-    this->AllMeetings.insert(
-      this->AllMeetings.end(), block.Meetings.begin(), block.Meetings.end());
+    this->AllIntersections.insert(
+      this->AllIntersections.end(), block.Intersections.begin(), block.Intersections.end());
     // A pair of faces is tested once, but all its corners must know that it has no room.
     for (int v : block.Tight)
     {
@@ -359,100 +349,5 @@ void Proximity::Examine(
   {
     this->Listed[v] = 0;
   }
-}
-
-bool NewFacesMeet(
-  const SurfaceState& state, const std::vector<NamedTriangle>& faces, const GoneFaces& gone)
-{
-  const double tolerance = constraint::Contact * state.Delta;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-  {
-    for (std::size_t j = i + 1; j < faces.size(); ++j)
-    {
-      if (TrianglesMeet(faces[i], faces[j], tolerance))
-      {
-        return true;
-      }
-    }
-  }
-  // In floats first: a box and a plane set most pairs apart.
-  struct Bounds
-  {
-    Vector Low;
-    Vector High;
-    Vector Normal; ///< Unit.
-    Vector Place;
-  };
-  Vector low(faces[0].Corner[0]);
-  Vector high = low;
-  std::vector<Bounds> bounds;
-  bounds.reserve(faces.size());
-  for (const NamedTriangle& face : faces)
-  {
-    const Vector a(face.Corner[0]);
-    const Vector b(face.Corner[1]);
-    const Vector c(face.Corner[2]);
-    bounds.push_back({ Minimum(a, Minimum(b, c)), Maximum(a, Maximum(b, c)),
-      Normalized(Cross(b - a, c - a)), a });
-    low = Minimum(low, bounds.back().Low);
-    high = Maximum(high, bounds.back().High);
-  }
-  const float room = SomeRoom * state.Delta;
-  // A face that meets one of the new ones has a corner this near to the box of those: lambda delta,
-  // and some more for edges that are a little too long until the end of the iteration.
-  const float reach = 1.1f * constraint::NearestOthers * state.Delta;
-  const Vector margin(reach, reach, reach);
-  const Vector lowVisited = low - margin;
-  const Vector highVisited = high + margin;
-  const SurfaceMesh& mesh = state.Mesh;
-  const auto isVisited = [&](int w)
-  {
-    const Vector& p = mesh.Position[w];
-    return p.X >= lowVisited.X && p.X <= highVisited.X && p.Y >= lowVisited.Y &&
-      p.Y <= highVisited.Y && p.Z >= lowVisited.Z && p.Z <= highVisited.Z;
-  };
-  bool meets = false;
-  state.Grid.VisitBox(lowVisited, highVisited,
-    [&](int w)
-    {
-      if (meets || !isVisited(w))
-      {
-        return;
-      }
-      const Ring& ring = mesh.Rings[w];
-      const Vector& p = mesh.Position[w];
-      for (int i = 0; i < ring.Count && !meets; ++i)
-      {
-        const int u = ring.Item[i];
-        const int v = ring.Next(i);
-        // A face is tested from the smallest of its corners that are visited.
-        if ((u < w && isVisited(u)) || (v < w && isVisited(v)))
-        {
-          continue;
-        }
-        const Vector& q = mesh.Position[u];
-        const Vector& r = mesh.Position[v];
-        const Vector lowest = Minimum(p, Minimum(q, r));
-        const Vector highest = Maximum(p, Maximum(q, r));
-        if (Apart(lowest, highest, low, high) || gone.Contains({ w, u, v }))
-        {
-          continue;
-        }
-        for (std::size_t k = 0; k < faces.size() && !meets; ++k)
-        {
-          const Bounds& b = bounds[k];
-          if (Apart(lowest, highest, b.Low, b.High))
-          {
-            continue;
-          }
-          const float heights[3] = { Dot(b.Normal, p - b.Place), Dot(b.Normal, q - b.Place),
-            Dot(b.Normal, r - b.Place) };
-          meets = !(std::min({ heights[0], heights[1], heights[2] }) > room ||
-                    std::max({ heights[0], heights[1], heights[2] }) < -room) &&
-            TrianglesMeet(faces[k], TriangleOf(mesh, w, u, v), tolerance);
-        }
-      }
-    });
-  return meets;
 }
 }

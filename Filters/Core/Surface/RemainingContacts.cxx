@@ -16,18 +16,18 @@ constexpr double Rounding = 1e-6;
 constexpr float HoldingReach = 1.15f;
 /** Distance to the isopotential, in delta, that counts as held. */
 constexpr float FarFromIso = 0.1f;
-/** Floor of the gradient, in TypicalSlope. */
-constexpr float GradientFloor = 0.15f;
+
+/** Lambda delta, in doubles and a rounding less. */
+double BoundOf(const SizingField& sizing, int v)
+{
+  return static_cast<double>(SizingField::LambdaInDelta) * sizing.At(v) * (1. - Rounding);
+}
 }
 
 RemainingContacts FindRemainingContacts(
   const SurfaceState& state, const Field& field, Executor& executor)
 {
   const SurfaceMesh& mesh = state.Mesh;
-  const double bound =
-    static_cast<double>(constraint::NearestOthers) * state.Delta * (1. - Rounding);
-  const float reach = HoldingReach * constraint::NearestOthers * state.Delta;
-  const float floor = GradientFloor * field.TypicalSlope();
   constexpr std::size_t size = 2048;
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<std::array<int, 2>>> blocks((n + size - 1) / size);
@@ -44,6 +44,8 @@ RemainingContacts FindRemainingContacts(
           continue;
         }
         const VectorD p(mesh.Position[v]);
+        const double bound = BoundOf(state.Sizing, v);
+        const float reach = state.Sizing.LargestClearance(v, HoldingReach);
         bool hasOther = false;
         state.Grid.Visit(mesh.Position[v], reach,
           [&](int w)
@@ -53,9 +55,9 @@ RemainingContacts FindRemainingContacts(
             const bool isForbidden = squared < bound * bound;
             // What holds a vertex faces it.
             const bool mayHold = !hasOther && squared < static_cast<double>(reach) * reach &&
-              Dot(state.Normal[v], state.Normal[w]) < 0;
+              Dot(state.Normal[v].Axis(), state.Normal[w].Axis()) < 0;
             if (w != v && ((isForbidden && w > v) || mayHold) &&
-              mesh.AreStrangers(v, w))
+              mesh.AreFarApart(v, w))
             {
               hasOther = hasOther || mayHold;
               if (isForbidden && w > v)
@@ -67,8 +69,8 @@ RemainingContacts FindRemainingContacts(
         if (hasOther)
         {
           const Field::Sample sample = field.At(mesh.Position[v]);
-          const float slope = std::max(Length(sample.Gradient), floor);
-          contacts.Held[i] = std::abs(sample.Value) > FarFromIso * state.Delta * slope;
+          contacts.Held[i] = std::abs(sample.Value) >
+            FarFromIso * state.Sizing.At(v) * field.SlopeOf(sample);
         }
       }
     });

@@ -13,6 +13,14 @@ namespace
 {
 /** Splits that may have to come before one, see SplitEdge. */
 constexpr int DeepestSplit = 4;
+/** Cosine between the normals of two stars from which on they do not face each other: 107 degrees. */
+constexpr float FacingCosine = -0.3f;
+/** Least cosine between a star's normal and the line to the other one: it lies ahead or behind. */
+constexpr float AheadCosine = 0.3f;
+/** Roll backs after which a vertex counts as stuck. */
+constexpr int StuckRollbacks = 6;
+/** Longest edge of a stuck vertex that is collapsed, of the shortest legal edge. */
+constexpr float StuckCollapse = 1.3f;
 }
 
 bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
@@ -22,8 +30,8 @@ bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
   {
     return true; // Split on the way to another one.
   }
-  int m = this->Editor.Split(u, v);
-  if (m < 0 && depth > 0)
+  Edit split = this->Editor.Split(u, v);
+  if (!split && depth > 0)
   {
     // A vertex opposite to the edge has no room for another neighbour. Once an edge from it to one
     // of the ends is split, that one's middle is what lies opposite.
@@ -40,25 +48,24 @@ bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
     {
       return true;
     }
-    m = this->Editor.Split(u, v);
+    split = this->Editor.Split(u, v);
   }
-  if (m >= 0)
+  if (split)
   {
-    s.Wants[m] = SurfaceState::Shorter; // Checked when the walk reaches it.
-    added.push_back(m);
+    s.RemeshFlags[split.Vertex] = HasLongEdge; // Checked when the walk reaches it.
+    added.push_back(split.Vertex);
   }
-  return m >= 0;
+  return split.IsDone;
 }
 
 void Remesher::Split(std::vector<int>& vertices)
 {
   SurfaceState& s = this->State;
-  const float longest = constraint::LongestEdge * s.Delta;
   // The list grows while it is walked: new vertices may have long edges of their own.
   for (std::size_t n = 0; n < vertices.size(); ++n)
   {
     const int v = vertices[n];
-    if (!s.Mesh.IsAlive(v) || !(s.Wants[v] & SurfaceState::Shorter))
+    if (!s.Mesh.IsAlive(v) || !(s.RemeshFlags[v] & HasLongEdge))
     {
       continue;
     }
@@ -66,6 +73,7 @@ void Remesher::Split(std::vector<int>& vertices)
     for (int i = 0; i < s.Mesh.Rings[v].Count; ++i)
     {
       const int w = s.Mesh.Rings[v].Item[i];
+      const float longest = s.Sizing.LongestEdge(v, w);
       if (SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) > longest * longest)
       {
         blocked = !this->SplitEdge(v, w, vertices, DeepestSplit) || blocked;
@@ -73,25 +81,27 @@ void Remesher::Split(std::vector<int>& vertices)
     }
     if (!blocked)
     {
-      s.Wants[v] &= static_cast<std::uint8_t>(~SurfaceState::Shorter);
+      s.RemeshFlags[v] &= static_cast<std::uint8_t>(~HasLongEdge);
     }
   }
 }
 
-bool Remesher::WantsMerge(int u, int v) const
+bool Remesher::IsMergeWanted(int u, int v) const
 {
   const SurfaceState& s = this->State;
   const Vector across = s.Mesh.Position[v] - s.Mesh.Position[u];
   const float distance = Length(across);
-  if (distance <= 0 || Dot(s.Normal[u], s.Normal[v]) > -0.3f)
+  const Vector n = s.Normal[u].Axis();
+  const Vector m = s.Normal[v].Axis();
+  if (distance <= 0 || Dot(n, m) > FacingCosine)
   {
     return false;
   }
   // In front of each other: the gap is outside and would become part of the object.
-  const float ahead = Dot(s.Normal[u], across) / distance;
-  const float back = -Dot(s.Normal[v], across) / distance;
-  const bool front = ahead > 0.3f && back > 0.3f;
-  const bool behind = ahead < -0.3f && back < -0.3f;
+  const float ahead = Dot(n, across) / distance;
+  const float back = -Dot(m, across) / distance;
+  const bool front = ahead > AheadCosine && back > AheadCosine;
+  const bool behind = ahead < -AheadCosine && back < -AheadCosine;
   if (!front && !behind)
   {
     return false;
@@ -125,14 +135,14 @@ bool Remesher::FlipBetween(int u, int v)
       // Joining u and v fills the fold where they are in front of each other, else cuts it off.
       const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
       const Vector edge = (s.Mesh.Position[a] + s.Mesh.Position[b]) * 0.5f;
-      const bool fills = Dot(middle - edge, s.Normal[a] + s.Normal[b]) > 0;
+      const bool fills = Dot(middle - edge, s.Normal[a].Axis() + s.Normal[b].Axis()) > 0;
       const float value = this->TheField->ValueAt((middle + edge) * 0.5f);
       if ((fills && value < 0) || (!fills && value > 0))
       {
         return false;
       }
     }
-    return this->Editor.FlipForConstraint(a, b);
+    return this->Editor.Flip(a, b, EditTolerance::Loose).IsDone;
   }
   return false;
 }
@@ -141,7 +151,6 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
 {
   SurfaceState& s = this->State;
   this->Sorted.clear();
-  const float near = constraint::NearestOthers * s.Delta;
   for (const Proximity::ClosePair& pair : pairs)
   {
     if (!s.Mesh.IsAlive(pair.V) || !s.Mesh.IsAlive(pair.W))
@@ -149,6 +158,7 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
       continue;
     }
     const float squared = SquaredDistance(s.Mesh.Position[pair.V], s.Mesh.Position[pair.W]);
+    const float near = s.Sizing.Clearance(pair.V, pair.W);
     if (squared < near * near)
     {
       this->Sorted.push_back(
@@ -176,17 +186,17 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
     {
       continue;
     }
-    const std::size_t touched = s.Touched.size();
-    if (this->WantsMerge(pair.V, pair.W) && this->Editor.Merge(pair.V, pair.W))
+    const Edit merge =
+      this->IsMergeWanted(pair.V, pair.W) ? this->Editor.Merge(pair.V, pair.W) : Edit();
+    if (merge)
     {
-      // Rungs of the band may be longer than eq. (1) allows, on which verification relies.
-      this->Band.assign(
-        s.Touched.begin() + static_cast<std::ptrdiff_t>(touched), s.Touched.end());
-      for (int v : this->Band)
+      // Bridge edges may be longer than eq. (1) allows, on which verification relies.
+      this->Strip.assign(merge.Changed.begin(), merge.Changed.end());
+      for (int v : this->Strip)
       {
-        s.Wants[v] |= SurfaceState::Shorter;
+        s.RemeshFlags[v] |= HasLongEdge;
       }
-      this->Split(this->Band);
+      this->Split(this->Strip);
     }
   }
 }
@@ -197,14 +207,15 @@ void Remesher::CollapseAt(int v)
   for (int i = 0; i < s.Mesh.Rings[v].Count; ++i)
   {
     const int w = s.Mesh.Rings[v].Item[i];
-    if (SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) >= s.Delta * s.Delta)
+    const float shortest = s.Sizing.ShortestEdge(v, w);
+    if (SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) >= shortest * shortest)
     {
       continue;
     }
     const int a = s.Mesh.Rings[v].Next(i);
     const int b = s.Mesh.Rings[v].Previous(i);
-    const bool removedA = s.Mesh.Rings[a].Count == 3 && this->Editor.Remove(a);
-    const bool removedB = s.Mesh.Rings[b].Count == 3 && this->Editor.Remove(b);
+    const bool removedA = s.Mesh.Rings[a].Count == 3 && this->Editor.Remove(a).IsDone;
+    const bool removedB = s.Mesh.Rings[b].Count == 3 && this->Editor.Remove(b).IsDone;
     if (removedA || removedB)
     {
       i = -1; // The ring has changed: look at it afresh.
@@ -213,7 +224,7 @@ void Remesher::CollapseAt(int v)
     const EdgeCollapse collapse{ v, w };
     if (collapse.IsLegal(s.Mesh))
     {
-      if (this->Editor.Collapse(v, w, SurfaceEditor::Care::Smooth))
+      if (this->Editor.Collapse(v, w, EditTolerance::Smooth))
       {
         i = -1;
       }
@@ -231,7 +242,7 @@ void Remesher::Collapse(const std::vector<int>& vertices)
 {
   for (int v : vertices)
   {
-    if (this->State.Mesh.IsAlive(v) && (this->State.Wants[v] & SurfaceState::Longer))
+    if (this->State.Mesh.IsAlive(v) && (this->State.RemeshFlags[v] & HasShortEdge))
     {
       if (this->State.Mesh.Rings[v].Count == 3 && this->Editor.Remove(v))
       {
@@ -247,7 +258,7 @@ void Remesher::Flip(const std::vector<int>& vertices)
   SurfaceState& s = this->State;
   for (int v : vertices)
   {
-    if (!s.Mesh.IsAlive(v) || !(s.Wants[v] & SurfaceState::Flip))
+    if (!s.Mesh.IsAlive(v) || !(s.RemeshFlags[v] & IsNotDelaunay))
     {
       continue;
     }
@@ -261,8 +272,9 @@ void Remesher::Flip(const std::vector<int>& vertices)
       const Vector& b = s.Mesh.Position[ring.Previous(i)];
       const float sineA = Length(Cross(p - a, q - a));
       const float sineB = Length(Cross(p - b, q - b));
-      if (Dot(p - a, q - a) * sineB + Dot(p - b, q - b) * sineA < -0.05f * sineA * sineB &&
-        ring.Count > 3 && this->Editor.FlipForShape(v, w))
+      if (Dot(p - a, q - a) * sineB + Dot(p - b, q - b) * sineA <
+          LeastCotangentSum * sineA * sineB &&
+        ring.Count > 3 && this->Editor.Flip(v, w, EditTolerance::Smooth))
       {
         --i;
       }
@@ -273,14 +285,13 @@ void Remesher::Flip(const std::vector<int>& vertices)
 void Remesher::Unstick(const std::vector<int>& vertices)
 {
   SurfaceState& s = this->State;
-  constexpr int limit = 6;
   for (int v : vertices)
   {
-    if (!s.Mesh.IsAlive(v) || s.Stuck[v] < limit)
+    if (!s.Mesh.IsAlive(v) || s.RollbackCount[v] < StuckRollbacks)
     {
       continue;
     }
-    s.Stuck[v] = 0;
+    s.RollbackCount[v] = 0;
     if (s.Mesh.Rings[v].Count == 3 && this->Editor.Remove(v))
     {
       continue;
@@ -300,15 +311,15 @@ void Remesher::Unstick(const std::vector<int>& vertices)
     }
     const Vector centre = sum * (1.f / static_cast<float>(ring.Count));
     const Vector p = s.Mesh.Position[v];
-    const float close = 1.3f * s.Delta;
+    const float close = StuckCollapse * s.Sizing.ShortestEdge(v, nearest);
     if (SquaredDistance(p, s.Mesh.Position[nearest]) < close * close &&
-      this->Editor.Collapse(v, nearest, SurfaceEditor::Care::Rough))
+      this->Editor.Collapse(v, nearest, EditTolerance::Loose))
     {
       continue;
     }
     for (float share : { 0.5f, 0.25f, 0.1f })
     {
-      if (this->Editor.Move(v, p + (centre - p) * share, SurfaceEditor::Care::Rough))
+      if (this->Editor.Move(v, p + (centre - p) * share, EditTolerance::Loose))
       {
         s.Velocity[v] = Vector();
         break;

@@ -4,6 +4,7 @@
 #define volumicRemesher_h
 
 #include "Core/Image/Field.h"
+#include "Core/Surface/Proximity.h"
 #include "Core/Surface/SurfaceEditor.h"
 
 #include <vector>
@@ -29,8 +30,8 @@ public:
   }
 
   /**
-   * Splits all edges over 2.5 delta at these vertices, where a ring is full after others that make
-   * room. New vertices are appended to the list.
+   * Splits all edges at these vertices that are longer than eq. (1) allows, where a ring is full
+   * after others that make room. New vertices are appended to the list.
    * Changes no geometry, so it comes before verification, which relies on it.
    */
   void Split(std::vector<int>& vertices);
@@ -38,7 +39,7 @@ public:
   /** Merges stars that have come too near and that the image wants joined; nearest first. */
   void Merge(const std::vector<Proximity::ClosePair>& pairs);
 
-  /** Collapses edges under delta, cutting along 3-cycles where they are blocked. */
+  /** Collapses edges shorter than eq. (1) allows, cutting along 3-cycles where they are blocked. */
   void Collapse(const std::vector<int>& vertices);
 
   /** Flips edges that are not locally Delaunay where the surface is nearly flat. */
@@ -47,9 +48,13 @@ public:
   /** Vertices rolled back again and again: collapses and smooths, verified. */
   void Unstick(const std::vector<int>& vertices);
 
+  /** Changed vertices of all edits since the last call, in order; some may be named often. */
+  std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
+  const std::vector<int>& Changed() const { return this->Editor.Changed(); }
+
 private:
   bool SplitEdge(int u, int v, std::vector<int>& added, int depth);
-  bool WantsMerge(int u, int v) const;
+  bool IsMergeWanted(int u, int v) const;
   bool FlipBetween(int u, int v);
   void CollapseAt(int v);
 
@@ -58,7 +63,7 @@ private:
   const Field* TheField;
   bool TopologyChanges;
   std::vector<Proximity::ClosePair> Sorted;
-  std::vector<int> Band; ///< Corners of the last merge's.
+  std::vector<int> Strip; ///< Corners of that of the last merge.
 };
 }
 

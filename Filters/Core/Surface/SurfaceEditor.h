@@ -3,18 +3,42 @@
 #ifndef volumicSurfaceEditor_h
 #define volumicSurfaceEditor_h
 
-#include "Core/Surface/Proximity.h"
+#include "Core/Surface/NewFaces.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <vector>
 
 namespace volumic
 {
+/** How much the faces about an edit may turn. */
+enum class EditTolerance
+{
+  Smooth, ///< As little as in regular remeshing: 45 degrees.
+  Loose   ///< Any new face that is verified and does not flip its orientation.
+};
+
+/** What an edit has changed. One that was refused has changed nothing, and is false. */
+struct Edit
+{
+  bool IsDone = false;
+  int Vertex = -1; ///< The new one of a split.
+  /** Vertices whose ring or position is another one; some may be named twice. */
+  struct Vertices
+  {
+    const int* First = nullptr; ///< Valid until the next edit.
+    const int* Last = nullptr;
+    const int* begin() const { return this->First; }
+    const int* end() const { return this->Last; }
+  } Changed;
+
+  explicit operator bool() const { return this->IsDone; }
+};
+
 /**
  * Verified edits of the live surface: each checks the mesh (manifold), the constraints (lengths,
- * normals that turn little) and, near anything that is not smooth surface, that no triangle will
- * intersect; only then it edits and keeps grid, arrays, chi and counts in step.
- * All return whether they have done it. Sequential, in the order called.
+ * normals that turn little) and, near anything that is not smooth surface, that no faces will
+ * intersect; only then it edits and keeps grid, properties, chi and counts in step.
+ * Sequential, in the order called.
  */
 class SurfaceEditor
 {
@@ -24,39 +48,44 @@ public:
   {
   }
 
-  /** How much the faces about an edit may turn: least cosine between old and new normals. */
-  enum class Care
-  {
-    Smooth,  ///< Regular remeshing.
-    Rough    ///< Un-sticking: any new face that is verified and not inverted.
-  };
-
-  /** At the midpoint; always possible unless a valence is at its limit. @return vertex or -1. */
-  int Split(int u, int v);
+  /** At the midpoint; always possible unless a valence is at its limit. */
+  Edit Split(int u, int v);
   /** Into the midpoint, else either end. */
-  bool Collapse(int u, int v, Care care);
+  Edit Collapse(int u, int v, EditTolerance tolerance);
   /** Into a given position. */
-  bool CollapseTo(int u, int v, const Vector& position, Care care);
-  /** Flip for a better shape: nearly flat, new edge legal. */
-  bool FlipForShape(int u, int v);
-  /** Flip that joins two vertices nearer than the constraint allows to strangers. */
-  bool FlipForConstraint(int u, int v);
+  Edit CollapseTo(int u, int v, const Vector& position, EditTolerance tolerance);
+  /**
+   * Smooth: where the surface is nearly flat and the new edge legal. Loose: to join two vertices
+   * that are nearer than the constraint allows to those that are far apart on the surface.
+   */
+  Edit Flip(int u, int v, EditTolerance tolerance);
   /** A vertex of valence 3. */
-  bool Remove(int v);
+  Edit Remove(int v);
   /** Moves a vertex; Smooth: the faces about it turn little. */
-  bool Move(int v, const Vector& position, Care care);
+  Edit Move(int v, const Vector& position, EditTolerance tolerance);
   /** Merge of two stars. */
-  bool Merge(int u, int v);
+  Edit Merge(int u, int v);
   /** Cut along u, v, w; both sides are drawn apart. */
-  bool Cut(int u, int v, int w);
+  Edit Cut(int u, int v, int w);
+
+  /** Changed vertices of all edits since TakeChanged(), in order; some may be named often. */
+  const std::vector<int>& Changed() const { return this->Log; }
+  std::vector<int> TakeChanged();
 
 private:
-  bool FacesAreSound(const Vector& old, float leastCosine) const;
-  bool CollapseInto(int kept, int removed, const Vector& position, Care care);
-  bool NearAnything(int u) const;
+  Edit CollapseInto(int kept, int removed, const Vector& position, EditTolerance tolerance);
+  bool AddFacesAfterCollapse(
+    int end, int kept, int removed, const Vector& position, EditTolerance tolerance);
+  bool StaysSmooth(int u, int v, const NamedTriangle& first, const NamedTriangle& second) const;
+  bool IsNearOthers(int u) const;
+  /** Notes that v has changed; forces act on it again. */
+  void Touch(int v);
+  void TouchStar(int v);
+  Edit Done(std::size_t firstChange, int vertex = -1) const;
 
   SurfaceState& State;
-  std::vector<NamedTriangle> Faces;
+  std::vector<NamedTriangle> Faces; ///< New ones of the edit that is being tried.
+  std::vector<int> Log;
 };
 }
 

@@ -3,6 +3,7 @@
 #include "Core/Surface/SurfacePolish.h"
 
 #include "Core/Mesh/EdgeCollapse.h"
+#include "Core/Surface/StarScore.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,83 +12,26 @@ namespace volumic
 {
 namespace
 {
-/** Stars whose worst triangle has this radius ratio are left as they are. */
+/** Stars whose worst face has this radius ratio are left as they are. */
 constexpr float Good = 0.82f;
-/** Triangles worse than this are worth an edge that is short, though legal. */
+/** Faces worse than this are worth an edge that is short, though legal. */
 constexpr float Bad = 0.55f;
+/** So long may that be, in delta. */
+constexpr float ShortEdge = 1.5f;
 /** What an edit must gain, so that none is undone by the next. */
 constexpr float Gain = 0.01f;
-/** Lengths keep this share from their bounds, for the rounding of the map to the world. */
-constexpr float Margin = 1e-4f;
 constexpr int Rounds = 8;
 constexpr int SeparatingRounds = 4;
 /** Stars between two looks whether to go on: about ten milliseconds where all need an edit. */
 constexpr std::size_t StarsAtATime = 512;
 /** Way off the isopotential, in delta, that a slide may add. */
 constexpr float Stray = 0.02f;
-}
-
-float SurfacePolish::FaceScore(const Vector& a, const Vector& b, const Vector& c) const
-{
-  // Twice the radius of the inscribed circle over that of the circumscribed.
-  const float x = std::sqrt(SquaredDistance(a, b));
-  const float y = std::sqrt(SquaredDistance(b, c));
-  const float z = std::sqrt(SquaredDistance(c, a));
-  const float product = x * y * z;
-  return product > 0 ? (y + z - x) * (z + x - y) * (x + y - z) / product : -1.f;
-}
-
-float SurfacePolish::EdgeScore(float squared) const
-{
-  // Worse than any triangle where the length is not legal.
-  const float length = std::sqrt(squared) / this->State.Delta;
-  if (length < 1 + Margin)
-  {
-    return length - 1 - Margin;
-  }
-  const float over = length / (constraint::LongestEdge * (1 - Margin)) - 1;
-  return over > 0 ? -over : 1.f;
-}
-
-float SurfacePolish::StarScore(int v, const Vector& position) const
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const Ring& ring = mesh.Rings[v];
-  float worst = 1;
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    const Vector& a = mesh.Position[ring.Item[i]];
-    worst = std::min(worst, this->EdgeScore(SquaredDistance(position, a)));
-    worst = std::min(worst, this->FaceScore(position, a, mesh.Position[ring.Next(i)]));
-  }
-  return worst;
-}
-
-float SurfacePolish::CollapseScore(int u, int v, const Vector& position) const
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  float worst = 1;
-  for (int end : { u, v })
-  {
-    const int other = end == u ? v : u;
-    const Ring& ring = mesh.Rings[end];
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      const int b = ring.Item[i];
-      const int c = ring.Next(i);
-      if (b == other)
-      {
-        continue;
-      }
-      worst = std::min(worst, this->EdgeScore(SquaredDistance(position, mesh.Position[b])));
-      if (c != other)
-      {
-        worst =
-          std::min(worst, this->FaceScore(position, mesh.Position[b], mesh.Position[c]));
-      }
-    }
-  }
-  return worst;
+/** Longest step onto the isopotential, in delta. */
+constexpr float LongestSnap = 0.15f;
+/** Longest step that separates two vertices, in delta. */
+constexpr float LongestPush = 0.25f;
+/** Least push that is worth a step, of ScoreMargin delta. */
+constexpr float LeastPush = 1e-3f;
 }
 
 Vector SurfacePolish::Snapped(int v, const Vector& position) const
@@ -96,17 +40,9 @@ Vector SurfacePolish::Snapped(int v, const Vector& position) const
   {
     return position;
   }
-  const Vector& n = this->State.Normal[v];
-  const Field::Sample sample = this->SnapTo->At(position);
-  const float slope = -Dot(sample.Gradient, n);
-  if (slope <= 0.15f * this->SnapTo->TypicalSlope() || slope < 0.5f * Length(sample.Gradient))
-  {
-    return position;
-  }
-  const float longest = 0.15f * this->State.Delta;
-  const float step = std::min(std::max(sample.Value / slope, -longest), longest);
-  return Vector(
-    position.X + step * n.X, position.Y + step * n.Y, position.Z + step * n.Z);
+  const Vector n = this->State.Normal[v].Axis();
+  const float longest = LongestSnap * this->State.Sizing.At(v);
+  return position + n * this->SnapTo->StepToIso(this->SnapTo->At(position), n, longest);
 }
 
 bool SurfacePolish::Strays(int v, const Vector& position) const
@@ -117,8 +53,8 @@ bool SurfacePolish::Strays(int v, const Vector& position) const
   }
   const float old = std::abs(this->SnapTo->ValueAt(this->State.Mesh.Position[v]));
   const Field::Sample sample = this->SnapTo->At(position);
-  const float slope = std::max(Length(sample.Gradient), 0.15f * this->SnapTo->TypicalSlope());
-  return std::abs(sample.Value) > old + Stray * this->State.Delta * slope;
+  return std::abs(sample.Value) >
+    old + Stray * this->State.Sizing.At(v) * this->SnapTo->SlopeOf(sample);
 }
 
 bool SurfacePolish::CollapseEdge(int u, int v, float before)
@@ -129,7 +65,7 @@ bool SurfacePolish::CollapseEdge(int u, int v, float before)
   if (!collapse.IsLegal(mesh))
   {
     const int c = this->MayCut && before < 0 ? collapse.ThirdCommonNeighbour(mesh) : -1;
-    return c >= 0 && this->Editor.Cut(u, v, c);
+    return c >= 0 && this->Editor.Cut(u, v, c).IsDone;
   }
   // Along the edge, and between it and the middle of the new star.
   const Vector p = mesh.Position[u];
@@ -156,7 +92,7 @@ bool SurfacePolish::CollapseEdge(int u, int v, float before)
     {
       const Vector x = p + (q - p) * along;
       const Vector place = this->Snapped(u, x + (middle - x) * inward);
-      const float score = this->CollapseScore(u, v, place);
+      const float score = CollapseScore(this->State, u, v, place);
       if (score > before + Gain)
       {
         this->Candidates.push_back({ score, place });
@@ -167,7 +103,7 @@ bool SurfacePolish::CollapseEdge(int u, int v, float before)
     [](const Candidate& a, const Candidate& b) { return a.Score > b.Score; });
   for (const Candidate& candidate : this->Candidates)
   {
-    if (this->Editor.CollapseTo(u, v, candidate.Position, SurfaceEditor::Care::Rough))
+    if (this->Editor.CollapseTo(u, v, candidate.Position, EditTolerance::Loose))
     {
       return true;
     }
@@ -178,13 +114,13 @@ bool SurfacePolish::CollapseEdge(int u, int v, float before)
 bool SurfacePolish::CollapseEdges(int v)
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  const float delta = this->State.Delta;
   const Ring ring = mesh.Rings[v];
-  const float star = this->StarScore(v, mesh.Position[v]);
-  const float longest = star < Bad ? 1.5f * delta : (1 + Margin) * delta;
+  const float star = StarScore(this->State, v, mesh.Position[v]);
+  const float share = star < Bad ? ShortEdge : 1 + ScoreMargin;
   for (int i = 0; i < ring.Count; ++i)
   {
     const int w = ring.Item[i];
+    const float longest = share * this->State.Sizing.ShortestEdge(v, w);
     if (SquaredDistance(mesh.Position[v], mesh.Position[w]) >= longest * longest)
     {
       continue;
@@ -197,7 +133,7 @@ bool SurfacePolish::CollapseEdges(int v)
       }
     }
     if (this->CollapseEdge(
-          v, w, std::min(star, this->StarScore(w, mesh.Position[w]))))
+          v, w, std::min(star, StarScore(this->State, w, mesh.Position[w]))))
     {
       return true;
     }
@@ -207,6 +143,7 @@ bool SurfacePolish::CollapseEdges(int v)
 
 bool SurfacePolish::FlipEdges(int v)
 {
+  const SizingField& sizing = this->State.Sizing;
   const SurfaceMesh& mesh = this->State.Mesh;
   const Ring ring = mesh.Rings[v];
   const Vector& p = mesh.Position[v];
@@ -216,11 +153,13 @@ bool SurfacePolish::FlipEdges(int v)
     const Vector& q = mesh.Position[w];
     const Vector& a = mesh.Position[ring.Next(i)];
     const Vector& b = mesh.Position[ring.Previous(i)];
-    const float before = std::min({ this->EdgeScore(SquaredDistance(p, q)),
-      this->FaceScore(p, q, a), this->FaceScore(q, p, b) });
-    const float after = std::min({ this->EdgeScore(SquaredDistance(a, b)),
-      this->FaceScore(a, p, b), this->FaceScore(b, q, a) });
-    if (before < Good && after > before + Gain && this->Editor.FlipForShape(v, w))
+    const float before = std::min({ EdgeScore(sizing, v, w, SquaredDistance(p, q)),
+      FaceScore(p, q, a), FaceScore(q, p, b) });
+    const float after = std::min(
+      { EdgeScore(sizing, ring.Next(i), ring.Previous(i), SquaredDistance(a, b)),
+      FaceScore(a, p, b), FaceScore(b, q, a) });
+    if (before < Good && after > before + Gain && 
+      this->Editor.Flip(v, w, EditTolerance::Smooth))
     {
       return true;
     }
@@ -233,10 +172,9 @@ bool SurfacePolish::Slide(int v)
   SurfaceState& s = this->State;
   s.UpdateShape(v);
   const Vector p = s.Mesh.Position[v];
-  const float before = this->StarScore(v, p);
+  const float before = StarScore(this->State, v, p);
   const bool bad = before < Bad;
-  Vector n = s.Normal[v];
-  n.Unused = 0;
+  const Vector n = s.Normal[v].Axis();
   const Vector across = std::abs(n.X) < 0.6f ? Vector(1, 0, 0) : Vector(0, 1, 0);
   const Vector first = Normalized(Cross(n, across));
   const Vector second = Cross(n, first);
@@ -252,8 +190,8 @@ bool SurfacePolish::Slide(int v)
       // A bad star in a crease has no plane to slide in.
       for (int lift = bad ? -1 : 0; lift <= (bad ? 1 : 0); ++lift)
       {
-        const Vector x = p + (slide + n * static_cast<float>(lift)) * (step * s.Delta);
-        const float score = this->StarScore(v, x);
+        const Vector x = p + (slide + n * static_cast<float>(lift)) * (step * s.Sizing.At(v));
+        const float score = StarScore(this->State, v, x);
         if (score > best.Score)
         {
           best = { score, x };
@@ -270,9 +208,9 @@ bool SurfacePolish::Slide(int v)
   for (const Candidate& candidate : this->Candidates)
   {
     const Vector place = bad ? candidate.Position : this->Snapped(v, candidate.Position);
-    if (this->StarScore(v, place) > before + Gain &&
+    if (StarScore(this->State, v, place) > before + Gain &&
       (bad || !(this->Strays(v, place) || this->Approaches(v, place))) &&
-      this->Editor.Move(v, place, SurfaceEditor::Care::Smooth))
+      this->Editor.Move(v, place, EditTolerance::Smooth))
     {
       return true;
     }
@@ -293,11 +231,11 @@ bool SurfacePolish::Improve(int v)
 bool SurfacePolish::Approaches(int v, const Vector& position) const
 {
   const SurfaceState& s = this->State;
-  if (!s.Near[v])
+  if (!s.NearOthers[v])
   {
     return false;
   }
-  const float near = constraint::NearestOthers * s.Delta;
+  const float near = s.Sizing.LargestClearance(v);
   bool approaches = false;
   s.Grid.Visit(position, near,
     [&](int w)
@@ -306,7 +244,7 @@ bool SurfacePolish::Approaches(int v, const Vector& position) const
       approaches = approaches ||
         (w != v && squared < near * near &&
           squared < SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) &&
-          s.Mesh.AreStrangers(v, w));
+          s.Mesh.AreFarApart(v, w));
     });
   return approaches;
 }
@@ -314,20 +252,19 @@ bool SurfacePolish::Approaches(int v, const Vector& position) const
 Vector SurfacePolish::PushAt(int v) const
 {
   const SurfaceState& s = this->State;
-  const float near = (1 + Margin) * constraint::NearestOthers * s.Delta;
+  const float near = s.Sizing.LargestClearance(v, 1 + ScoreMargin);
   const Vector p = s.Mesh.Position[v];
   Vector push;
   s.Grid.Visit(p, near,
     [&](int w)
     {
       const float squared = SquaredDistance(p, s.Mesh.Position[w]);
-      if (w != v && squared < near * near && squared > 0 && s.Mesh.AreStrangers(v, w))
+      if (w != v && squared < near * near && squared > 0 && s.Mesh.AreFarApart(v, w))
       {
         const float distance = std::sqrt(squared);
         push += (p - s.Mesh.Position[w]) * (0.5f * (near - distance) / distance);
       }
     });
-  push.Unused = 0;
   return push;
 }
 
@@ -337,17 +274,17 @@ bool SurfacePolish::Separate(int v)
   const Vector p = s.Mesh.Position[v];
   Vector push = this->PushAt(v);
   const float length = Length(push);
-  if (length <= 1e-3f * Margin * s.Delta)
+  if (length <= LeastPush * ScoreMargin * s.Sizing.At(v))
   {
     return false;
   }
-  push *= std::min(1.f, 0.25f * s.Delta / length);
-  const float least = std::min(this->StarScore(v, p), Bad);
+  push *= std::min(1.f, LongestPush * s.Sizing.At(v) / length);
+  const float least = std::min(StarScore(this->State, v, p), Bad);
   for (float share : { 1.f, 0.4f })
   {
     const Vector place = p + push * share;
-    if (this->StarScore(v, place) >= least &&
-      this->Editor.Move(v, place, SurfaceEditor::Care::Smooth))
+    if (StarScore(this->State, v, place) >= least &&
+      this->Editor.Move(v, place, EditTolerance::Smooth))
     {
       return true;
     }
@@ -365,7 +302,7 @@ void SurfacePolish::SeparateAll()
   std::vector<int> crowded;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
-    if (s.Mesh.IsAlive(v) && s.Near[v])
+    if (s.Mesh.IsAlive(v) && s.NearOthers[v])
     {
       crowded.push_back(v);
     }
@@ -413,10 +350,10 @@ void SurfacePolish::ImproveAll(float good)
   std::vector<int> left;
   for (int round = 0; round < Rounds && !list.empty(); ++round)
   {
-    const std::size_t edited = s.Touched.size();
+    const std::size_t edited = this->Editor.Changed().size();
     left.clear();
     const auto score = [&s, this](int v)
-    { return s.Mesh.IsAlive(v) ? this->StarScore(v, s.Mesh.Position[v]) : 1.f; };
+    { return s.Mesh.IsAlive(v) ? StarScore(this->State, v, s.Mesh.Position[v]) : 1.f; };
     this->Scores.resize(list.size());
     this->Threads.For(list.size(), 1024,
       [&](std::size_t begin, std::size_t end)
@@ -440,8 +377,9 @@ void SurfacePolish::ImproveAll(float good)
         left.push_back(v); // What is edited next to it may help.
       }
     }
+    const std::vector<int>& changed = this->Editor.Changed();
     left.insert(
-      left.end(), s.Touched.begin() + static_cast<std::ptrdiff_t>(edited), s.Touched.end());
+      left.end(), changed.begin() + static_cast<std::ptrdiff_t>(edited), changed.end());
     std::sort(left.begin(), left.end());
     left.erase(std::unique(left.begin(), left.end()), left.end());
     list.swap(left);
@@ -456,7 +394,8 @@ bool SurfacePolish::IsToStop()
 
 void SurfacePolish::Run()
 {
-  // A collapse may bring strangers together, and what is pushed apart may become uneven.
+  // A collapse may bring together what is far apart on the surface, and what is pushed apart may
+  // get ill-shaped faces.
   this->SeparateAll();
   this->Done = 0.1;
   this->ImproveAll(Good);

@@ -14,11 +14,11 @@ namespace volumic
 {
 /**
  * The last touch at the end of a level: looks at the few vertices whose stars hold an edge outside
- * [delta, 2.5 delta] or an uneven triangle, which smoothing as a whole leaves behind, and tries
+ * the bounds of eq. (1) or an ill-shaped face, which smoothing as a whole leaves behind, and tries
  * what would make the worst of each star better: removing a vertex of valence 3, a collapse, a
  * flip, or a slide along the surface. Before and after, vertices that are nearer than lambda delta
- * though far along the surface are pushed apart. The topology stays as it is, but for cuts
- * along 3-cycles where nothing else mends an edge under delta.
+ * though far apart on the surface are pushed apart. The topology stays as it is, but for cuts
+ * along 3-cycles where nothing else mends an edge that is too short.
  *
  * Every edit is one of SurfaceEditor's, verified, so the mesh stays manifold and free of
  * intersections; one is made only where the worst of the faces concerned gets better, so it ends.
@@ -40,14 +40,13 @@ public:
   {
   }
 
-  /** Stops after an edit, if asked to. Normals must be up to date; SurfaceState::Touched holds what has been edited after it. */
+  /** Stops after an edit, if asked to. Normals must be up to date. */
   void Run();
 
+  /** Changed vertices of all its edits, in order; some may be named often. */
+  std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
+
 private:
-  float FaceScore(const Vector& a, const Vector& b, const Vector& c) const;
-  float EdgeScore(float squared) const;
-  float StarScore(int v, const Vector& position) const;
-  float CollapseScore(int u, int v, const Vector& position) const;
   Vector Snapped(int v, const Vector& position) const;
   bool CollapseEdges(int v);
   bool CollapseEdge(int u, int v, float before);

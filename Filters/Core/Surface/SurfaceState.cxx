@@ -2,31 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfaceState.h"
 
+#include <algorithm>
+
 namespace volumic
 {
 void SurfaceState::Reset(const Vector& low, const Vector& high)
 {
-  const std::size_t n = this->Mesh.Rings.size();
-  this->Velocity.assign(n, Vector());
-  this->Normal.assign(n, Vector());
-  this->Pull.assign(n, Vector());
-  this->Spring.assign(n, Vector());
-  this->Before = this->Mesh.Position;
-  this->Anchor = this->Mesh.Position;
-  this->Value.assign(n, 0.f);
-  this->EdgeSum.assign(n, 0.f);
-  this->Moved.assign(n, 0.f);
-  this->Drift.assign(n, 0.f);
-  this->Slack.assign(n, 0.f);
-  this->Slow.assign(n, 1);
-  this->Component.assign(n, 0);
-  this->Awake.assign(n, 1);
-  this->Quiet.assign(n, 0);
-  this->Stuck.assign(n, 0);
-  this->Near.assign(n, 1);
-  this->Wants.assign(n, 0);
-  this->Touched.clear();
-  this->Grid.Reset(low, high, constraint::Reach * this->Delta);
+  this->Properties.Reset(this->Mesh.Rings.size());
+  this->PreviousPosition.Assign(this->Mesh.Position);
+  this->Anchor.Assign(this->Mesh.Position);
+  this->Grid.Reset(low, high, this->Sizing.LargestReach());
   for (int v = 0; v < this->Mesh.Size(); ++v)
   {
     if (this->Mesh.IsAlive(v))
@@ -35,132 +20,119 @@ void SurfaceState::Reset(const Vector& low, const Vector& high)
     }
     else
     {
-      this->Awake[v] = 0;
+      this->Active[v] = 0;
     }
   }
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic();
 }
 
-void SurfaceState::Adopt(int v, int parent)
+void SurfaceState::AddVertex(int v, int parent)
 {
-  if (v >= static_cast<int>(this->Velocity.size()))
-  {
-    const std::size_t n = v + 1;
-    this->Velocity.resize(n);
-    this->Normal.resize(n);
-    this->Pull.resize(n);
-    this->Spring.resize(n);
-    this->Before.resize(n);
-    this->Anchor.resize(n);
-    this->Value.resize(n);
-    this->EdgeSum.resize(n);
-    this->Moved.resize(n);
-    this->Drift.resize(n);
-    this->Slack.resize(n);
-    this->Slow.resize(n);
-    this->Component.resize(n);
-    this->Awake.resize(n);
-    this->Quiet.resize(n);
-    this->Stuck.resize(n);
-    this->Near.resize(n);
-    this->Wants.resize(n);
-  }
-  this->Velocity[v] = this->Velocity[parent];
-  this->Normal[v] = this->Normal[parent];
-  this->Pull[v] = Vector();
-  this->Spring[v] = this->Spring[parent];
-  this->Before[v] = this->Before[parent];
+  this->Properties.Add(v, parent);
   this->Anchor[v] = this->Mesh.Position[v];
-  this->Value[v] = this->Value[parent];
-  this->EdgeSum[v] = 0;
-  this->Moved[v] = 0;
-  this->Drift[v] = 1e6f; // Not examined yet.
-  this->Slack[v] = 0;
-  this->Slow[v] = 0;
-  this->Component[v] = this->Component[parent];
-  this->Awake[v] = 1;
-  this->Quiet[v] = 0;
-  this->Stuck[v] = 0;
-  this->Near[v] = this->Near[parent];
-  this->Wants[v] = 0;
   this->Grid.Insert(v, this->Mesh.Position[v]);
 }
 
-void SurfaceState::Forget(int v)
+void SurfaceState::RemoveVertex(int v)
 {
   this->Grid.Remove(v);
-  this->Awake[v] = 0;
-  this->EdgeSum[v] = 0;
+  this->Active[v] = 0;
+  this->EdgeLengthSum[v] = 0;
+}
+
+namespace
+{
+/** A star as UpdateShape sees it: its edges, counter-clockwise, and the faces between them. */
+struct StarShape
+{
+  int Count = 0;
+  Vector Edge[Ring::Capacity];
+  float Length[Ring::Capacity];
+  Vector Normal[Ring::Capacity]; ///< Of face i, between the edges i and i + 1.
+  float Size[Ring::Capacity];    ///< Twice its area.
+
+  StarShape(const SurfaceMesh& mesh, int v)
+    : Count(mesh.Rings[v].Count)
+  {
+    const Ring& ring = mesh.Rings[v];
+    const Vector p = mesh.Position[v];
+    for (int i = 0; i < this->Count; ++i)
+    {
+      this->Edge[i] = mesh.Position[ring.Item[i]] - p;
+      this->Length[i] = volumic::Length(this->Edge[i]);
+    }
+    for (int i = 0; i < this->Count; ++i)
+    {
+      this->Normal[i] = Cross(this->Edge[i], this->Edge[this->After(i)]);
+      this->Size[i] = volumic::Length(this->Normal[i]);
+    }
+  }
+  int After(int i) const { return i + 1 < this->Count ? i + 1 : 0; }
+
+  NormalCone Cone() const
+  {
+    Vector sum;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      sum += this->Normal[i];
+    }
+    const Vector axis = Normalized(sum);
+    float cosine = 1;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      cosine = std::min(
+        cosine, this->Size[i] > 0 ? Dot(this->Normal[i], axis) / this->Size[i] : -1.f);
+    }
+    return NormalCone(axis, cosine);
+  }
+
+  /** Whether the angles opposite to each edge exceed 180 degrees by no more than a little. */
+  bool IsDelaunay() const
+  {
+    constexpr float least = LeastCotangentSum;
+    for (int i = 0; i < this->Count; ++i)
+    {
+      const int before = i > 0 ? i - 1 : this->Count - 1;
+      const int after = this->After(i);
+      const float a =
+        this->Length[before] * this->Length[before] - Dot(this->Edge[before], this->Edge[i]);
+      const float b =
+        this->Length[after] * this->Length[after] - Dot(this->Edge[after], this->Edge[i]);
+      // a / size[before] + b / size[i] < least, free of divisions
+      if (a * this->Size[i] + b * this->Size[before] < least * this->Size[i] * this->Size[before])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+};
 }
 
 void SurfaceState::UpdateShape(int v)
 {
+  const StarShape star(this->Mesh, v);
   const Ring& ring = this->Mesh.Rings[v];
-  const int count = ring.Count;
-  const Vector p = this->Mesh.Position[v];
-  Vector edge[Ring::Capacity];
-  float length[Ring::Capacity];
-  Vector face[Ring::Capacity];
-  float size[Ring::Capacity];
-  Vector pull;
+  Vector laplacian;
   Vector spring;
-  std::uint8_t wants = 0;
-  const float rest = constraint::RestLength * this->Delta;
-  for (int i = 0; i < count; ++i)
-  {
-    edge[i] = this->Mesh.Position[ring.Item[i]] - p;
-    length[i] = Length(edge[i]);
-    pull += edge[i];
-    spring += edge[i] * (1 - rest / std::max(length[i], 1e-6f * rest));
-    wants |= length[i] > constraint::LongestEdge * this->Delta ? Wish::Shorter : 0;
-    wants |= length[i] < this->Delta ? Wish::Longer : 0;
-  }
   float edges = 0;
-  for (int i = 0; i < count; ++i)
+  std::uint8_t flags = 0;
+  for (int i = 0; i < star.Count; ++i)
   {
-    edges += length[i];
+    const int w = ring.Item[i];
+    const float rest = this->Sizing.RestLength(v, w);
+    laplacian += star.Edge[i];
+    spring += star.Edge[i] * (1 - rest / std::max(star.Length[i], 1e-6f * rest));
+    edges += star.Length[i];
+    flags |= star.Length[i] > this->Sizing.LongestEdge(v, w) ? HasLongEdge : 0;
+    flags |= star.Length[i] < this->Sizing.ShortestEdge(v, w) ? HasShortEdge : 0;
   }
-  this->EdgeSum[v] = edges;
-  Vector sum;
-  for (int i = 0; i < count; ++i)
-  {
-    face[i] = Cross(edge[i], edge[i + 1 < count ? i + 1 : 0]);
-    size[i] = Length(face[i]);
-    sum += face[i];
-  }
-  Vector normal = Normalized(sum);
-  float cone = 1;
-  for (int i = 0; i < count; ++i)
-  {
-    cone = std::min(cone, size[i] > 0 ? Dot(face[i], normal) / size[i] : -1.f);
-  }
-  // Delaunay: an edge should be flipped where the two angles opposite to it exceed 180 degrees,
-  // that is where their cotangents add up to less than 0.
-  for (int i = 0; i < count && !(wants & Wish::Flip); ++i)
-  {
-    const int before = i > 0 ? i - 1 : count - 1;
-    const int after = i + 1 < count ? i + 1 : 0;
-    const float a = length[before] * length[before] - Dot(edge[before], edge[i]);
-    const float b = length[after] * length[after] - Dot(edge[after], edge[i]);
-    // a / size[before] + b / size[i] < -0.05, free of divisions
-    if (a * size[i] + b * size[before] < -0.05f * size[i] * size[before])
-    {
-      wants |= Wish::Flip;
-    }
-  }
-  normal.Unused = cone;
-  this->Normal[v] = normal;
-  pull *= 1.f / static_cast<float>(count);
-  float area = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    area += size[i];
-  }
-  pull.Unused = area * (1.f / 6.f);
-  this->Pull[v] = pull;
-  spring.Unused = 0;
-  this->Spring[v] = spring;
-  this->Wants[v] = wants;
+  laplacian *= 1.f / static_cast<float>(star.Count);
+  this->Normal[v] = star.Cone();
+  this->Laplacian[v] = laplacian;
+  this->SpringPull[v] = spring;
+  this->EdgeLengthSum[v] = edges;
+  this->RemeshFlags[v] = star.IsDelaunay() ? flags : flags | IsNotDelaunay;
 }
 
 void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& executor)
@@ -202,7 +174,7 @@ int SurfaceState::RemoveComponent(int v)
   }
   for (int w : this->Stack)
   {
-    this->Forget(w);
+    this->RemoveVertex(w);
     this->Mesh.RemoveVertex(w);
   }
   // V - E + F with 2 E = 3 F, which is the sum of the valences.

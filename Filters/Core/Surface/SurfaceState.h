@@ -7,29 +7,15 @@
 #include "Core/Image/ImageMargin.h"
 #include "Core/Mesh/SurfaceMesh.h"
 #include "Core/Mesh/VertexGrid.h"
+#include "Core/Surface/NormalCone.h"
+#include "Core/Surface/SizingField.h"
+#include "Core/Surface/VertexProperties.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace volumic
 {
-/** Lengths of the constraints of eq. (1), in delta. */
-namespace constraint
-{
-constexpr float LongestEdge = 2.5f;
-/** lambda: circumradius of the largest legal triangle. */
-constexpr float NearestOthers = 1.4433757f;
-/** Two triangles of legal edges that meet have two corners nearer than this. */
-constexpr float Reach = 1.8f;
-/** Rest length of the springs. */
-constexpr float RestLength = 1.6f;
-/** Triangles nearer than this count as meeting. */
-constexpr double Contact = 1e-4;
-}
-
 /** What has been done to the connectivity since it was last reset. */
 struct EditCounts
 {
@@ -43,70 +29,95 @@ struct EditCounts
 };
 
 /**
- * The live surface: mesh, proximity grid and what each vertex knows, as a structure of arrays
- * indexed like the mesh. Whoever adds or removes a vertex does it here, so that all stay in step.
+ * Sum of the cotangents of the two angles opposite to an edge from which on it is flipped. Those of
+ * a Delaunay edge add up to 0 or more; a little less, so that no flip is undone by the next.
+ */
+constexpr float LeastCotangentSum = -0.05f;
+
+/** What a vertex may need of the remesher. */
+enum RemeshFlag : std::uint8_t
+{
+  HasLongEdge = 1,      ///< One is longer than eq. (1) allows.
+  HasShortEdge = 2,     ///< One is shorter.
+  IsNotDelaunay = 4     ///< An edge is not locally Delaunay.
+};
+
+/**
+ * The live surface: mesh, grid of its vertices, and what each of these knows. Its vertex properties
+ * are registered once, below, and resized together. Who may change what: the mesh and its grid,
+ * SurfaceEditor (Dynamics and the roll back move vertices); a property, the one that is named there.
  */
 class SurfaceState
 {
+  VertexProperties Properties; // Before them.
+
 public:
   SurfaceMesh Mesh;
   VertexGrid Grid;
-  float Delta = 1;
+  SizingField Sizing;
   ImageMargin Around; ///< Of the level: no vertex is moved further out.
-  int EulerCharacteristic = 0; ///< Kept by the operations; tests hold it against a count.
+  int EulerCharacteristic = 0; ///< Kept by the edits; tests hold it against a count.
   EditCounts Counts;
 
-  std::vector<Vector> Velocity;
-  std::vector<Vector> Normal;  ///< Unit; the fourth lane holds the cosine of the cone, see Shape.
-  std::vector<Vector> Pull;    ///< Barycentre of the neighbours minus position; fourth lane: area.
-  std::vector<Vector> Spring;  ///< Sum of the springs' pulls.
-  std::vector<Vector> Before;  ///< Position before the last displacement: free of intersections.
-  std::vector<Vector> Anchor;  ///< Where it was when last it had moved visibly.
-  std::vector<float> Value;    ///< Field at the vertex, when last evaluated.
-  std::vector<float> EdgeSum;  ///< Of the lengths of its edges, found by UpdateShape.
-  std::vector<float> Moved;    ///< Way gone in this iteration.
-  std::vector<float> Drift;    ///< Way its star has gone since it was last examined.
-  std::vector<float> Slack;    ///< Room it had then between its star and others, see Proximity.
-  std::vector<std::uint8_t> Slow; ///< Little of it would be used up in an iteration like the last.
-  std::vector<int> Component;  ///< Label, kept by ComponentWatch.
-  std::vector<std::uint8_t> Awake;
-  std::vector<std::uint8_t> Quiet; ///< Iterations since it has moved visibly.
-  std::vector<std::uint8_t> Stuck; ///< Grows with each roll back, shrinks otherwise.
-  std::vector<std::uint8_t> Near;  ///< Something that is not smooth surface lies within reach.
-  std::vector<std::uint8_t> Wants; ///< Bits of Wish, found by UpdateShape.
+  // Motion: Dynamics. An edit gives a vertex the mean of those that it comes of.
+  VertexProperty<Vector> Velocity{ this->Properties, Vector() };
+  /** Before the last displacement: the surface was free of intersections then. */
+  VertexProperty<Vector> PreviousPosition{ this->Properties, Vector() };
+  VertexProperty<Vector> Anchor{ this->Properties, Vector() }; ///< Where it last was seen to move.
+  VertexProperty<float> FieldValue{ this->Properties, 0.f };   ///< When last evaluated.
+  VertexProperty<float> Displacement{ this->Properties, 0.f, 0.f }; ///< Length, in this iteration.
 
-  enum Wish : std::uint8_t
-  {
-    Shorter = 1, ///< An edge is too long.
-    Longer = 2,  ///< An edge is too short.
-    Flip = 4     ///< An edge is not locally Delaunay.
-  };
+  // Rest: Dynamics, the roll back, and edits, by Activate().
+  VertexProperty<std::uint8_t> Active{ this->Properties, 1, 1 }; ///< Forces act on it; 0: motionless.
+  /** Iterations since it has moved visibly. */
+  VertexProperty<std::uint8_t> RestCount{ this->Properties, 0, 0 };
+  /** Grows with each roll back, shrinks otherwise. */
+  VertexProperty<std::uint8_t> RollbackCount{ this->Properties, 0, 0 };
+  /** Edited or rolled back since the regularisation has cleared it. */
+  VertexProperty<std::uint8_t> Disturbed{ this->Properties, 0, 1 };
 
-  /** Vertices whose ring or position has been edited since the list was last emptied. */
-  std::vector<int> Touched;
+  // Shape: UpdateShape().
+  VertexProperty<NormalCone> Normal{ this->Properties, NormalCone() };
+  /** Barycentre of the neighbours minus position. */
+  VertexProperty<Vector> Laplacian{ this->Properties, Vector(), Vector() };
+  VertexProperty<Vector> SpringPull{ this->Properties, Vector() }; ///< Sum over its edges.
+  VertexProperty<float> EdgeLengthSum{ this->Properties, 0.f, 0.f };
+  VertexProperty<std::uint8_t> RemeshFlags{ this->Properties, 0, 0 }; ///< Bits of RemeshFlag.
 
-  /** Sizes all arrays to the mesh, wakes everything, lays the grid over the box. */
+  // Proximity.
+  /** Way its star has gone since it was last examined; NotExamined makes it be. */
+  VertexProperty<float> Drift{ this->Properties, 0.f, NotExamined };
+  VertexProperty<float> Slack{ this->Properties, 0.f, 0.f }; ///< Room it had then, see Proximity.
+  /** Little of that would be used up in an iteration like the last. */
+  VertexProperty<std::uint8_t> IsSlow{ this->Properties, 1, 0 };
+  /** Something that is not the smooth surface about it lies within reach. */
+  VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
+
+  VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.
+
+  static constexpr float NotExamined = 1e6f; ///< More than any slack.
+
+  /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
   void Reset(const Vector& low, const Vector& high);
 
-  void Adopt(int v, int parent); ///< Sizes the arrays for v, which behaves like its parent.
-  void Forget(int v);            ///< Before v is removed from the mesh.
+  /** After v has been added to the mesh, next to, or as a copy of, its parent. */
+  void AddVertex(int v, int parent);
+  /** Before v is removed from the mesh. */
+  void RemoveVertex(int v);
   void MoveTo(int v, const Vector& position)
   {
     this->Mesh.Position[v] = position;
     this->Grid.Move(v, position);
   }
-  void Touch(int v)
+  /** Something about v has changed: forces act on it again. */
+  void Activate(int v)
   {
-    this->Touched.push_back(v);
-    this->Wake(v);
-  }
-  void Wake(int v)
-  {
-    this->Awake[v] = 1;
-    this->Quiet[v] = 0;
+    this->Active[v] = 1;
+    this->RestCount[v] = 0;
+    this->Disturbed[v] = 1;
   }
 
-  /** Normal, cone, internal pulls and wishes of the vertices, from the positions as they are. */
+  /** Normal, cone, internal forces and remesh flags, from the positions as they are. */
   void UpdateShape(const std::vector<int>& vertices, Executor& executor);
   void UpdateShape(int v);
 
@@ -119,20 +130,7 @@ public:
    */
   bool AreOpposed(int v, int w) const
   {
-    const Vector& n = this->Normal[v];
-    const Vector& m = this->Normal[w];
-    const float cv = n.Unused;
-    const float cw = m.Unused;
-    const float sv = std::sqrt(std::max(0.f, 1 - cv * cv));
-    const float sw = std::sqrt(std::max(0.f, 1 - cw * cw));
-    const float cosine = cv * cw - sv * sw; // of the sum of the two cones' angles
-    const float sine = sv * cw + cv * sw;
-    // Opposed if the angle between the normals and both cones add up to over 150 degrees.
-    if (cosine < -0.8660254f || cv < 0 || cw < 0)
-    {
-      return true;
-    }
-    return Dot(n, m) < -0.8660254f * cosine + 0.5f * sine;
+    return volumic::AreOpposed(this->Normal[v], this->Normal[w]);
   }
 
 private:

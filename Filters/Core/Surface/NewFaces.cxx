@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Surface/NewFaces.h"
+
+#include "Core/Common/Box.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace volumic
+{
+namespace
+{
+/** Room, in delta, on one side of a plane that tells two faces apart without an exact test. */
+constexpr float RoomBesidePlane = 0.01f;
+/** Of the clearance: edges may be a little too long until the end of an iteration. */
+constexpr float ReachShare = 1.1f;
+
+/** A new face, as floats tell most others apart from it: by a box and a plane. */
+struct NewFace
+{
+  explicit NewFace(const NamedTriangle& face)
+    : Exact(face)
+    , Place(face.Corner[0])
+    , Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
+    , Normal(Normalized(
+        Cross(Vector(face.Corner[1]) - this->Place, Vector(face.Corner[2]) - this->Place)))
+  {
+  }
+
+  /** Whether all three points lie on one side of its plane, with some room. */
+  bool IsBeside(const Vector& p, const Vector& q, const Vector& r, float room) const
+  {
+    const float heights[3] = { Dot(this->Normal, p - this->Place),
+      Dot(this->Normal, q - this->Place), Dot(this->Normal, r - this->Place) };
+    return std::min({ heights[0], heights[1], heights[2] }) > room ||
+      std::max({ heights[0], heights[1], heights[2] }) < -room;
+  }
+
+  const NamedTriangle& Exact;
+  Vector Place;
+  Box Bounds;
+  Vector Normal; ///< Unit.
+};
+
+bool Intersect(
+  const SurfaceState& state, const NamedTriangle& one, const NamedTriangle& other)
+{
+  return TrianglesIntersect(one, other, state.Sizing.Contact(one.Name[0]));
+}
+
+bool IntersectEachOther(const SurfaceState& state, const std::vector<NamedTriangle>& faces)
+{
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < faces.size(); ++j)
+    {
+      if (Intersect(state, faces[i], faces[j]))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/** Whether any of the new faces intersects the face (w, u, v) of the mesh. */
+bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, int w, int u, int v,
+  const Box& bounds)
+{
+  const Vector& p = state.Mesh.Position[w];
+  const Vector& q = state.Mesh.Position[u];
+  const Vector& r = state.Mesh.Position[v];
+  const float room = RoomBesidePlane * state.Sizing.At(w);
+  for (const NewFace& face : news)
+  {
+    if (!bounds.IsApartFrom(face.Bounds) && !face.IsBeside(p, q, r, room) &&
+      Intersect(state, face.Exact, TriangleOf(state.Mesh, w, u, v)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
+NamedTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
+{
+  return { { a, b, c },
+    { VectorD(mesh.Position[a]), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
+}
+
+bool NewFacesIntersect(
+  const SurfaceState& state, const std::vector<NamedTriangle>& faces, const RemovedFaces& removed)
+{
+  if (IntersectEachOther(state, faces))
+  {
+    return true;
+  }
+  std::vector<NewFace> news;
+  news.reserve(faces.size());
+  Box all = { Vector(faces[0].Corner[0]), Vector(faces[0].Corner[0]) };
+  for (const NamedTriangle& face : faces)
+  {
+    news.emplace_back(face);
+    all = all.With(news.back().Bounds);
+  }
+  // A face that intersects one of the new ones has a corner this near to the box of those.
+  const Box visited =
+    all.Grown(state.Sizing.LargestClearance(faces[0].Name[0], ReachShare));
+  const SurfaceMesh& mesh = state.Mesh;
+  const auto isVisited = [&](int w) { return visited.Contains(mesh.Position[w]); };
+  bool intersects = false;
+  state.Grid.VisitBox(visited.Low, visited.High,
+    [&](int w)
+    {
+      if (intersects || !isVisited(w))
+      {
+        return;
+      }
+      const Ring& ring = mesh.Rings[w];
+      for (int i = 0; i < ring.Count && !intersects; ++i)
+      {
+        const int u = ring.Item[i];
+        const int v = ring.Next(i);
+        // A face is tested from the smallest of its corners that are visited.
+        if ((u < w && isVisited(u)) || (v < w && isVisited(v)))
+        {
+          continue;
+        }
+        const Box bounds = Box::Of(mesh.Position[w], mesh.Position[u], mesh.Position[v]);
+        intersects = !bounds.IsApartFrom(all) && !removed.Contains({ w, u, v }) &&
+          IntersectFace(state, news, w, u, v, bounds);
+      }
+    });
+  return intersects;
+}
+}

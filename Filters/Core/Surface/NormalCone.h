@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicNormalCone_h
+#define volumicNormalCone_h
+
+#include "Core/Common/Vector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+/** The smallest cone about a vertex's normal that holds the normals of the faces there. */
+struct alignas(16) NormalCone
+{
+  float X = 0; ///< Of the axis: the vertex's normal, of length 1, or 0 where there is none.
+  float Y = 0;
+  float Z = 0;
+  float Cosine = 0; ///< Of the angle between the axis and the face's normal farthest from it.
+
+  NormalCone() = default;
+  NormalCone(const Vector& axis, float cosine)
+    : X(axis.X)
+    , Y(axis.Y)
+    , Z(axis.Z)
+    , Cosine(cosine)
+  {
+  }
+
+  Vector Axis() const { return Vector(this->X, this->Y, this->Z); }
+};
+
+/** Whether two of the normals in the cones may differ by more than 150 degrees. */
+inline bool AreOpposed(const NormalCone& n, const NormalCone& m)
+{
+  constexpr float cosine150 = -0.8660254f;
+  constexpr float sine150 = 0.5f;
+  const float cv = n.Cosine;
+  const float cw = m.Cosine;
+  const float sv = std::sqrt(std::max(0.f, 1 - cv * cv));
+  const float sw = std::sqrt(std::max(0.f, 1 - cw * cw));
+  const float cosine = cv * cw - sv * sw; // of the sum of the two cones' angles
+  const float sine = sv * cw + cv * sw;
+  // Opposed if the angle between the axes and both cones add up to over 150 degrees.
+  if (cosine < cosine150 || cv < 0 || cw < 0)
+  {
+    return true;
+  }
+  return n.X * m.X + n.Y * m.Y + n.Z * m.Z < cosine150 * cosine + sine150 * sine;
+}
+}
+
+#endif

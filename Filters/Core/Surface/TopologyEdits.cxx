@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The edits of SurfaceEditor that change the topology: the merge and the cut.
+
+#include "Core/Mesh/CycleCut.h"
+#include "Core/Mesh/StarMerge.h"
+#include "Core/Surface/FaceShape.h"
+#include "Core/Surface/SurfaceEditor.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+/**
+ * Longest bridge edge of a merge, of the longest legal edge: between sharp rims they are long. The
+ * remesher splits them at once.
+ */
+constexpr float LongestBridgeEdge = 1.6f;
+
+/** How far each copy of a cut's corners goes towards the rest of its star, of the way there. */
+constexpr float DrawnApart = 0.25f;
+
+/** A cut that can be undone, as long as nothing else has been edited. */
+class TriedCut
+{
+public:
+  TriedCut(SurfaceState& state, const CycleCut& cut)
+    : State(state)
+    , Corner{ cut.A, cut.B, cut.C }
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Ring& ring = state.Mesh.Rings[this->Corner[k]];
+      this->Place[k] = state.Mesh.Position[this->Corner[k]];
+      this->Saved.emplace_back(this->Corner[k], ring);
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        this->Saved.emplace_back(ring.Item[i], state.Mesh.Rings[ring.Item[i]]);
+      }
+    }
+    const std::array<int, 3> copy = cut.Apply(state.Mesh);
+    for (int k = 0; k < 3; ++k)
+    {
+      state.AddVertex(copy[k], this->Corner[k]);
+      state.NearOthers[copy[k]] = state.NearOthers[this->Corner[k]] = 1;
+    }
+    this->All = { cut.A, cut.B, cut.C, copy[0], copy[1], copy[2] };
+  }
+
+  /** The corners of one side, then those of the other. */
+  const std::array<int, 6>& Corners() const { return this->All; }
+
+  /** Each corner goes a little towards the rest of its own star. */
+  void DrawApart()
+  {
+    const SurfaceMesh& mesh = this->State.Mesh;
+    for (int n = 0; n < 6; ++n)
+    {
+      const int* side = &this->All[n / 3 * 3];
+      const Ring& ring = mesh.Rings[this->All[n]];
+      Vector sum;
+      int count = 0;
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        const int y = ring.Item[i];
+        if (y != side[0] && y != side[1] && y != side[2])
+        {
+          sum += mesh.Position[y];
+          ++count;
+        }
+      }
+      const Vector mean = sum * (1.f / static_cast<float>(std::max(count, 1)));
+      const Vector& place = this->Place[n % 3];
+      this->State.MoveTo(this->All[n], place + (mean - place) * DrawnApart);
+    }
+  }
+
+  /** Adds the faces about all corners. */
+  void AddFaces(std::vector<NamedTriangle>& faces) const
+  {
+    const SurfaceMesh& mesh = this->State.Mesh;
+    for (int n = 0; n < 6; ++n)
+    {
+      const int* side = &this->All[n / 3 * 3];
+      const int* own = &this->All[n];
+      // A face with several corners of the side is taken from the first of them only.
+      const auto isEarlier = [&](int y) { return std::find(side, own, y) != own; };
+      const Ring& ring = mesh.Rings[*own];
+      for (int i = 0; i < ring.Count; ++i)
+      {
+        const int b = ring.Item[i];
+        const int c = ring.Next(i);
+        if (!isEarlier(b) && !isEarlier(c))
+        {
+          faces.push_back(TriangleOf(mesh, *own, b, c));
+        }
+      }
+    }
+  }
+
+  void Undo()
+  {
+    SurfaceMesh& mesh = this->State.Mesh;
+    for (int k = 3; k < 6; ++k)
+    {
+      this->State.RemoveVertex(this->All[k]);
+      mesh.RemoveVertex(this->All[k]);
+    }
+    for (const auto& entry : this->Saved)
+    {
+      mesh.Rings[entry.first] = entry.second;
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      this->State.MoveTo(this->Corner[k], this->Place[k]);
+    }
+  }
+
+private:
+  SurfaceState& State;
+  std::array<int, 3> Corner;
+  Vector Place[3];
+  std::array<int, 6> All;
+  std::vector<std::pair<int, Ring>> Saved; ///< All that the cut writes to.
+};
+}
+
+Edit SurfaceEditor::Merge(int u, int v)
+{
+  SurfaceState& s = this->State;
+  StarMerge merge;
+  merge.U = u;
+  merge.V = v;
+  const float longest = s.Sizing.LongestEdge(u, v, LongestBridgeEdge);
+  if (!merge.Plan(s.Mesh) || merge.SquaredLongestBridgeEdge() > longest * longest)
+  {
+    return {};
+  }
+  this->Faces.clear();
+  for (const auto& t : merge.Strip())
+  {
+    this->Faces.push_back(TriangleOf(s.Mesh, t[0], t[1], t[2]));
+    if (!IsWellShaped(this->Faces.back()))
+    {
+      return {};
+    }
+  }
+  if (NewFacesIntersect(s, this->Faces, { { u, v }, 2, false }))
+  {
+    return {};
+  }
+  const std::size_t first = this->Log.size();
+  s.RemoveVertex(u);
+  s.RemoveVertex(v);
+  merge.Apply(s.Mesh);
+  s.EulerCharacteristic -= 2;
+  ++s.Counts.Merges;
+  for (const auto& t : merge.Strip())
+  {
+    for (int w : t)
+    {
+      this->Touch(w);
+      s.NearOthers[w] = 1;
+    }
+  }
+  return this->Done(first);
+}
+
+Edit SurfaceEditor::Cut(int u, int v, int w)
+{
+  SurfaceState& s = this->State;
+  const CycleCut cut{ u, v, w };
+  if (!cut.IsLegal(s.Mesh))
+  {
+    return {};
+  }
+  TriedCut tried(s, cut);
+  tried.DrawApart();
+  this->Faces.clear();
+  tried.AddFaces(this->Faces);
+  const RemovedFaces removed = { tried.Corners(), 6, false };
+  if (!std::all_of(this->Faces.begin(), this->Faces.end(), IsWellShaped) ||
+    NewFacesIntersect(s, this->Faces, removed))
+  {
+    tried.Undo();
+    return {};
+  }
+  const std::size_t first = this->Log.size();
+  s.EulerCharacteristic += 2;
+  ++s.Counts.Cuts;
+  for (int x : tried.Corners())
+  {
+    this->TouchStar(x);
+  }
+  return this->Done(first);
+}
+}

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicVertexProperties_h
+#define volumicVertexProperties_h
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+/** What VertexProperties knows of each of its properties. */
+class VertexPropertyBase
+{
+public:
+  virtual ~VertexPropertyBase() = default;
+  /** Forgets all values: n vertices, each with the initial one. */
+  virtual void Reset(std::size_t n) = 0;
+  /** A value for a new vertex, `v`, which comes of another one. */
+  virtual void Add(std::size_t v, std::size_t parent) = 0;
+};
+
+/**
+ * The properties of the vertices of a mesh. Each registers itself when it is made; whoever adds a
+ * vertex tells it here, and all of them stay in step (as in pmp-library and geometry-central).
+ */
+class VertexProperties
+{
+public:
+  VertexProperties() = default;
+  VertexProperties(const VertexProperties&) = delete;
+  VertexProperties& operator=(const VertexProperties&) = delete;
+
+  void Register(VertexPropertyBase& property) { this->All.push_back(&property); }
+  void Reset(std::size_t n)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Reset(n);
+    }
+  }
+  void Add(int v, int parent)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Add(static_cast<std::size_t>(v), static_cast<std::size_t>(parent));
+    }
+  }
+
+private:
+  std::vector<VertexPropertyBase*> All;
+};
+
+/** A value per vertex, indexed like the mesh. */
+template <typename T>
+class VertexProperty final : public VertexPropertyBase
+{
+public:
+  /** New vertices inherit their parent's value. */
+  VertexProperty(VertexProperties& properties, T initial)
+    : Initial(initial)
+    , Inherits(true)
+  {
+    properties.Register(*this);
+  }
+  /** New vertices have a value of their own. */
+  VertexProperty(VertexProperties& properties, T initial, T ofNewVertices)
+    : Initial(initial)
+    , OfNewVertices(ofNewVertices)
+    , Inherits(false)
+  {
+    properties.Register(*this);
+  }
+  VertexProperty(const VertexProperty&) = delete;
+  VertexProperty& operator=(const VertexProperty&) = delete;
+
+  T& operator[](std::size_t v) { return this->Values[v]; }
+  const T& operator[](std::size_t v) const { return this->Values[v]; }
+  std::size_t Size() const { return this->Values.size(); }
+  void Fill(const T& value) { std::fill(this->Values.begin(), this->Values.end(), value); }
+  void Assign(const std::vector<T>& values) { this->Values = values; } ///< As many as there are.
+  std::vector<T>& AsVector() { return this->Values; } ///< Not to be resized.
+  const std::vector<T>& AsVector() const { return this->Values; }
+
+  void Reset(std::size_t n) override { this->Values.assign(n, this->Initial); }
+  void Add(std::size_t v, std::size_t parent) override
+  {
+    if (v >= this->Values.size())
+    {
+      this->Values.resize(v + 1, this->Initial);
+    }
+    this->Values[v] = this->Inherits ? this->Values[parent] : this->OfNewVertices;
+  }
+
+private:
+  T Initial;
+  T OfNewVertices{};
+  bool Inherits;
+  std::vector<T> Values;
+};
+}
+
+#endif
