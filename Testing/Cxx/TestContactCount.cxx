@@ -17,7 +17,11 @@ namespace
 /** Two balls of radius 4 about (16, 16, 16), whose nearest vertices are a gap apart, along x. */
 struct TwoBalls : Bench
 {
-  explicit TwoBalls(double gap) : Bench(Surface(gap)), Second(this->State.Mesh.Size() / 2) {}
+  explicit TwoBalls(double gap) : TwoBalls(Surface(gap)) {}
+  explicit TwoBalls(const IndexedSurface& surface)
+    : Bench(surface), Second(this->State.Mesh.Size() / 2)
+  {
+  }
 
   static IndexedSurface Surface(double gap)
   {
@@ -93,8 +97,7 @@ TEST(ContactCount, AVertexIsHeldWhereItHasNotArrivedAndFacesAnother)
   // One behind the other, both outward: nothing holds them.
   IndexedSurface nested = DividedIcosahedron({ 16, 16, 16 }, 6, 1.6);
   AddSurface(nested, DividedIcosahedron({ 16, 16, 16 }, 7.3, 1.6));
-  TwoBalls bench(1.);
-  static_cast<Bench&>(bench) = Bench(nested);
+  TwoBalls bench(nested);
   const RemainingContacts found = bench.Find(-0.5);
   EXPECT_FALSE(found.Pairs.empty());
   EXPECT_EQ(std::count(found.Held.begin(), found.Held.end(), 1), 0);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Vertices at rest are skipped until something near them changes.
+#include "Core/Surface/SurfaceEditor.h"
 #include "DynamicsTestTools.h"
 
 #include <gtest/gtest.h>
@@ -24,28 +25,28 @@ protected:
   {
   }
 
-  bool IsAwake(int v) const { return this->Actors.State.Active[v] != 0; }
-  int CountAwake() const
+  bool IsActive(int v) const { return this->Actors.State.Active[v] != 0; }
+  int CountActive() const
   {
-    const auto& awake = this->Actors.State.Active;
-    return static_cast<int>(std::count_if(awake.begin(), awake.end(), [](int x) { return x; }));
+    const auto& active = this->Actors.State.Active.AsVector();
+    return static_cast<int>(std::count_if(active.begin(), active.end(), [](int x) { return x; }));
   }
 
   /** An iteration in which one vertex is moved by some way along a direction. */
   void Iterate(const Vector& way = Vector())
   {
     SurfaceState& s = this->Actors.State;
-    std::vector<int> awake;
+    std::vector<int> active;
     for (int v : this->Actors.All)
     {
       if (s.Active[v])
       {
-        awake.push_back(v);
+        active.push_back(v);
         s.PreviousPosition[v] = s.Mesh.Position[v];
       }
     }
     s.MoveTo(Mover, s.Mesh.Position[Mover] + way);
-    this->Motion.Freeze(s, awake, this->Actors.All);
+    this->Motion.Freeze(s, active, this->Actors.All);
   }
 
   static constexpr int Mover = 30;
@@ -62,10 +63,10 @@ TEST_F(Freezing, TakesFiveIterationsOfRest)
   for (int i = 0; i < 4; ++i)
   {
     this->Iterate();
-    EXPECT_EQ(this->CountAwake(), static_cast<int>(this->Actors.All.size())) << i;
+    EXPECT_EQ(this->CountActive(), static_cast<int>(this->Actors.All.size())) << i;
   }
   this->Iterate();
-  EXPECT_EQ(this->CountAwake(), 0);
+  EXPECT_EQ(this->CountActive(), 0);
   EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "what sleeps does not move";
 }
 
@@ -76,7 +77,7 @@ TEST_F(Freezing, IsLeftOutOnRequest)
   {
     this->Iterate();
   }
-  EXPECT_EQ(this->CountAwake(), static_cast<int>(this->Actors.All.size()));
+  EXPECT_EQ(this->CountActive(), static_cast<int>(this->Actors.All.size()));
 }
 
 TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursAwake)
@@ -85,10 +86,10 @@ TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursAwake)
   {
     this->Iterate(this->Actors.OutwardAt(Mover) * 0.05f);
   }
-  EXPECT_TRUE(this->IsAwake(Mover));
+  EXPECT_TRUE(this->IsActive(Mover));
   for (int w : this->Actors.All)
   {
-    EXPECT_EQ(this->IsAwake(w), w == Mover || this->Actors.State.Mesh.AreNeighbours(Mover, w));
+    EXPECT_EQ(this->IsActive(w), w == Mover || this->Actors.State.Mesh.AreNeighbours(Mover, w));
   }
 }
 
@@ -98,15 +99,15 @@ TEST_F(Freezing, SleepingNeighboursAreWokenByMotion)
   {
     this->Iterate();
   }
-  ASSERT_FALSE(this->IsAwake(this->Neighbour));
+  ASSERT_FALSE(this->IsActive(this->Neighbour));
   this->Actors.State.Active[Mover] = 1;
   this->Iterate(this->Actors.OutwardAt(Mover) * 0.05f);
-  EXPECT_TRUE(this->IsAwake(this->Neighbour));
-  EXPECT_EQ(this->CountAwake(), 1 + this->Actors.State.Mesh.Rings[Mover].Count);
+  EXPECT_TRUE(this->IsActive(this->Neighbour));
+  EXPECT_EQ(this->CountActive(), 1 + this->Actors.State.Mesh.Rings[Mover].Count);
   for (int i = 0; i < 4; ++i)
   {
     this->Iterate();
-    EXPECT_TRUE(this->IsAwake(this->Neighbour)) << "its patience starts afresh";
+    EXPECT_TRUE(this->IsActive(this->Neighbour)) << "its patience starts afresh";
   }
 }
 
@@ -117,7 +118,7 @@ TEST_F(Freezing, SlowMotionIsMotion)
   {
     this->Iterate(this->Actors.OutwardAt(Mover) * 0.01f);
   }
-  EXPECT_TRUE(this->IsAwake(Mover));
+  EXPECT_TRUE(this->IsActive(Mover));
 }
 
 TEST_F(Freezing, OneMotionDoesNotKeepAVertexAwakeForEver)
@@ -125,10 +126,10 @@ TEST_F(Freezing, OneMotionDoesNotKeepAVertexAwakeForEver)
   this->Iterate(this->Actors.OutwardAt(Mover) * 0.2f);
   for (int i = 0; i < 5; ++i)
   {
-    EXPECT_TRUE(this->IsAwake(Mover));
+    EXPECT_TRUE(this->IsActive(Mover));
     this->Iterate();
   }
-  EXPECT_FALSE(this->IsAwake(Mover));
+  EXPECT_FALSE(this->IsActive(Mover));
 }
 
 TEST_F(Freezing, SlidingAlongTheSurfaceCountsOnlyWhenItLeadsFar)
@@ -140,21 +141,23 @@ TEST_F(Freezing, SlidingAlongTheSurfaceCountsOnlyWhenItLeadsFar)
   {
     this->Iterate(along * (i % 2 == 0 ? 0.1f : -0.1f));
   }
-  EXPECT_FALSE(this->IsAwake(Mover)) << "to and fro";
+  EXPECT_FALSE(this->IsActive(Mover)) << "to and fro";
   ASSERT_LT(Length(stage.State.Mesh.Position[Mover] - start), 1e-5);
   stage.State.Active[Mover] = 1;
   this->Iterate(along * 0.4f);
-  EXPECT_TRUE(this->IsAwake(this->Neighbour));
+  EXPECT_TRUE(this->IsActive(this->Neighbour));
 }
 
-TEST_F(Freezing, EditsWake)
+TEST_F(Freezing, EditsActivate)
 {
   for (int i = 0; i < 5; ++i)
   {
     this->Iterate();
   }
-  ASSERT_FALSE(this->IsAwake(Mover));
-  this->Actors.State.Touch(Mover);
-  EXPECT_TRUE(this->IsAwake(Mover));
-  EXPECT_EQ(this->Actors.State.Touched, std::vector<int>{ Mover });
+  ASSERT_FALSE(this->IsActive(Mover));
+  const Vector place = this->Actors.State.Mesh.Position[Mover];
+  SurfaceEditor editor(this->Actors.State);
+  ASSERT_TRUE(editor.Move(Mover, place * 1.001f, EditTolerance::Smooth));
+  EXPECT_TRUE(this->IsActive(Mover));
+  EXPECT_TRUE(this->IsActive(this->Neighbour));
 }

@@ -135,8 +135,8 @@ TEST(Merging, NeedsNormalsThatFaceEachOther)
     Scene scene(TwoBalls(), Everywhere(value));
     const auto pair = scene.NearestPair();
     const bool first = scene.State.Mesh.Position[pair[0].V].X < 16;
-    scene.State.Normal[first ? pair[0].V : pair[0].W] = normal;
-    scene.State.Normal[first ? pair[0].W : pair[0].V] = other;
+    scene.State.Normal[first ? pair[0].V : pair[0].W] = NormalCone(normal, 0);
+    scene.State.Normal[first ? pair[0].W : pair[0].V] = NormalCone(other, 0);
     return scene.Merges(pair);
   };
   const Vector right(1, 0, 0);

@@ -15,22 +15,24 @@ using namespace volumic;
 namespace
 {
 /** All vertices fly outward at a speed, with no force. */
-Stage Flying(float speed)
+struct Flying : Stage
 {
-  Stage stage(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1);
-  for (int v : stage.All)
+  explicit Flying(float speed)
+    : Stage(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1)
   {
-    stage.State.Velocity[v] = stage.OutwardAt(v) * speed;
+    for (int v : this->All)
+    {
+      this->State.Velocity[v] = this->OutwardAt(v) * speed;
+    }
   }
-  return stage;
-}
+};
 }
 
 TEST(Motion, FrictionSlowsDown)
 {
   for (const double friction : { 0.5, 3., 8. })
   {
-    Stage stage = Flying(0.1f);
+    Flying stage(0.1f);
     stage.Options.Friction = friction;
     const double step = stage.Push();
     ASSERT_GT(step, 0);
@@ -86,7 +88,7 @@ TEST(Motion, TheStepIsShortenedSoThatNoVertexGoesTooFar)
     EXPECT_GT(step, 0);
     EXPECT_LE(step * stage.FastestSpeed(), largest + 1e-4);
     // By how much: as the speed at the end of the longest step asks for.
-    Stage flying = Flying(100.f);
+    Flying flying(100.f);
     flying.Options.MaximumStep = largest;
     const double longest = largest * flying.Options.Friction / 0.5;
     const double speed = 100. / (1 + flying.Options.Friction * longest);
@@ -107,7 +109,7 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
     stage.State.Velocity[3] *= 100.f;
     stage.State.Velocity[4] *= 0.1f;
     const std::vector<Vector> before = stage.State.Mesh.Position;
-    std::fill(stage.State.PreviousPosition.begin(), stage.State.PreviousPosition.end(), Vector()); // Of long ago.
+    stage.State.PreviousPosition.Fill(Vector()); // Of long ago.
     dynamics.Displace(stage.State, stage.All);
     for (int v : stage.All)
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Executor.h"
 #include "Core/Mesh/TriangleTests.h"
+#include "Core/Surface/NewFaces.h"
 #include "Core/Surface/Proximity.h"
 #include "CoreTestTools.h"
 
@@ -24,14 +25,15 @@ NamedTriangle Named(int name, const VectorD& a, const VectorD& b, const VectorD&
   return { { name, name + 1, name + 2 }, { a, b, c } };
 }
 
-SurfaceState MakeState(const IndexedSurface& surface, float delta)
+struct LiveSurface : SurfaceState
 {
-  SurfaceState state;
-  state.Mesh.Append(surface);
-  state.Sizing = SizingField(delta);
-  state.Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
-  return state;
-}
+  LiveSurface(const IndexedSurface& surface, float delta)
+  {
+    this->Mesh.Append(surface);
+    this->Sizing = SizingField(delta);
+    this->Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
+  }
+};
 
 std::vector<int> All(const SurfaceState& state)
 {
@@ -192,14 +194,14 @@ TEST(VertexGrid, CostsNoMemoryWithoutLimit)
 
 TEST(Proximity, FindsNothingOnASmoothSphere)
 {
-  SurfaceState state = MakeState(DividedIcosahedron({ 5, 5, 5 }, 8, 1.6), 1);
+  LiveSurface state(DividedIcosahedron({ 5, 5, 5 }, 8, 1.6), 1);
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
   proximity.Examine(state, all, Threads);
   EXPECT_TRUE(proximity.Pairs().empty());
   EXPECT_TRUE(proximity.Intersections().empty());
-  EXPECT_EQ(std::count(state.NearOthers.begin(), state.NearOthers.end(), 1), 0);
+  EXPECT_EQ(std::count(state.NearOthers.AsVector().begin(), state.NearOthers.AsVector().end(), 1), 0);
 }
 
 TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
@@ -207,7 +209,7 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
   const int second = static_cast<int>(surface.Points.size());
   Add(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
-  SurfaceState state = MakeState(surface, 1);
+  LiveSurface state(surface, 1);
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
@@ -243,7 +245,7 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
   {
     IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
     Add(surface, DividedIcosahedron({ distance, 0.3, 0.2 }, 5.5, 1.7));
-    SurfaceState state = MakeState(surface, 1);
+    LiveSurface state(surface, 1);
     const std::vector<int> all = All(state);
     state.UpdateShape(all, Threads);
     Proximity proximity;
@@ -263,7 +265,7 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
 
 TEST(NewFacesIntersect, SeesWhatIsThereButNotWhatGoes)
 {
-  SurfaceState state = MakeState(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
+  LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
   state.UpdateShape(All(state), Threads);
   const Vector p = state.Mesh.Position[9];
   // A triangle through the surface at vertex 9.
@@ -277,7 +279,7 @@ TEST(NewFacesIntersect, SeesWhatIsThereButNotWhatGoes)
 
 TEST(NewFacesIntersect, SeesNewFacesThatMeetEachOther)
 {
-  SurfaceState state = MakeState(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
+  LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
   state.UpdateShape(All(state), Threads);
   const NamedTriangle flat = Named(1000, { 10, 0, 0 }, { 12, 0, 0 }, { 10, 2, 0 });
   const NamedTriangle across = Named(2000, { 10.5, 0.5, -1 }, { 10.5, 0.5, 1 }, { 11, 0.5, 1 });
@@ -298,7 +300,7 @@ TEST(NewFacesIntersect, SeesTheMiddleOfTheLargestLegalTriangle)
   }
   surface.Points.push_back({ 0, 0, -2 });
   surface.Triangles = { { 0, 1, 2 }, { 0, 3, 1 }, { 1, 3, 2 }, { 2, 3, 0 } };
-  const SurfaceState state = MakeState(surface, 1);
+  const LiveSurface state(surface, 1);
   const std::vector<NamedTriangle> needle = { Named(
     1000, { 0, 0, 0.3 }, { 0, 0, -0.3 }, { 0.02, 0.02, 0.3 }) };
   EXPECT_TRUE(NewFacesIntersect(state, needle, RemovedFaces()));
@@ -326,7 +328,7 @@ TEST(Proximity, ToldRoomIsThere)
     IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
     const int second = static_cast<int>(surface.Points.size());
     Add(surface, DividedIcosahedron({ distance, 0.3, 0.2 }, 6, 1.7));
-    SurfaceState state = MakeState(surface, 1);
+    LiveSurface state(surface, 1);
     const std::vector<int> all = All(state);
     state.UpdateShape(all, Threads);
     Proximity proximity;
@@ -391,7 +393,7 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
   const int second = static_cast<int>(surface.Points.size());
   Add(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
-  SurfaceState state = MakeState(surface, 1);
+  LiveSurface state(surface, 1);
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
@@ -419,7 +421,7 @@ TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
     { 0, 0, -r } };
   octahedron.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
     { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  SurfaceState state = MakeState(octahedron, 1);
+  LiveSurface state(octahedron, 1);
   state.UpdateShape(All(state), Threads);
   ASSERT_TRUE(state.AreOpposed(0, 2));
   Proximity proximity;
@@ -431,7 +433,7 @@ TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
 TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
 {
   // A vertex pushed through the faces on the far side of its own star.
-  SurfaceState state = MakeState(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
+  LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
   const std::vector<int> all = All(state);
   const int v = 40;
   const Ring& ring = state.Mesh.Rings[v];

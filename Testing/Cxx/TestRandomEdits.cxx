@@ -150,7 +150,7 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
     std::vector<int> all(state.Mesh.Size());
     std::iota(all.begin(), all.end(), 0);
     state.UpdateShape(all, threads);
-    std::fill(state.NearOthers.begin(), state.NearOthers.end(), 1);
+    state.NearOthers.Fill(1);
     SurfaceEditor editor(state);
     Dice dice(state.Mesh, seed);
     for (int step = 0; step < 800 && state.Mesh.NumberOfVertices() > 20; ++step)
@@ -163,33 +163,33 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
       switch (dice.Number(8))
       {
         case 0:
-          did = editor.FlipForShape(v, w);
+          did = editor.Flip(v, w, EditTolerance::Smooth).IsDone;
           break;
         case 1:
-          did = editor.FlipForConstraint(v, w);
+          did = editor.Flip(v, w, EditTolerance::Loose).IsDone;
           break;
         case 2:
-          did = step % 3 != 0 && editor.Split(v, w) >= 0;
+          did = step % 3 != 0 && editor.Split(v, w).IsDone;
           break;
         case 3:
-          did = editor.Collapse(v, w, EditTolerance::Loose);
+          did = editor.Collapse(v, w, EditTolerance::Loose).IsDone;
           break;
         case 4:
-          did = editor.Remove(v);
+          did = editor.Remove(v).IsDone;
           break;
         case 5:
-          did = editor.Move(v, state.Mesh.Position[v] + shake, EditTolerance::Loose);
+          did = editor.Move(v, state.Mesh.Position[v] + shake, EditTolerance::Loose).IsDone;
           break;
         case 6:
-          did = editor.Merge(v, dice.Vertex());
+          did = editor.Merge(v, dice.Vertex()).IsDone;
           break;
         default:
-          did = editor.Cut(v, w, EdgeCollapse{ v, w }.ThirdCommonNeighbour(state.Mesh));
+          did = editor.Cut(v, w, EdgeCollapse{ v, w }.ThirdCommonNeighbour(state.Mesh)).IsDone;
       }
       if (did)
       {
         ++edits;
-        std::fill(state.NearOthers.begin(), state.NearOthers.end(), 1);
+        state.NearOthers.Fill(1);
         ASSERT_EQ(DescribeBrokenInvariant(state.Mesh), "") << "step " << step;
         ASSERT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
         ASSERT_EQ(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0) << "step " << step;

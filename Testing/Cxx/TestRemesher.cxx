@@ -93,7 +93,7 @@ TEST(Remesher, LeavesEdgesOfDeltaAndMore)
   Bench bench(FineSphere());
   ASSERT_GT(bench.Shortest(), 1.f);
   ASSERT_LT(bench.Shortest(), 1.2f);
-  std::fill(bench.State.RemeshFlags.begin(), bench.State.RemeshFlags.end(), HasShortEdge);
+  bench.State.RemeshFlags.Fill(HasShortEdge);
   Remesher(bench.State, nullptr, true).Collapse(bench.All());
   EXPECT_EQ(bench.State.Counts.Collapses, 0);
 }
@@ -138,7 +138,7 @@ TEST(Remesher, CutsThroughATubeOfThreeUnlessTheTopologyMustStay)
 TEST(Remesher, FlipsWhatIsNotDelaunayAndNothingElse)
 {
   Bench bench(FineSphere());
-  std::fill(bench.State.RemeshFlags.begin(), bench.State.RemeshFlags.end(), IsNotDelaunay);
+  bench.State.RemeshFlags.Fill(IsNotDelaunay);
   Remesher(bench.State, nullptr, true).Flip(bench.All());
   EXPECT_EQ(bench.State.Counts.Flips, 0) << "all edges are the shorter ones";
   const int u = 40;
@@ -174,17 +174,17 @@ TEST(Remesher, SmoothsWhatIsStuckButNotAtOnce)
       EXPECT_EQ(bench.State.RollbackCount[40], 0);
       EXPECT_EQ(Length(bench.State.Velocity[40]), 0);
     }
-    EXPECT_EQ(bench.State.Mesh.NumberOfVertices(), static_cast<int>(bench.State.Active.size()));
+    EXPECT_EQ(bench.State.Mesh.NumberOfVertices(), static_cast<int>(bench.State.Active.Size()));
   }
 }
 
-TEST(Remesher, EditsWakeWhatTheyTouch)
+TEST(Remesher, EditsActivateWhatTheyChange)
 {
   Bench bench(FineSphere());
   const int w = bench.State.Mesh.Rings[40].Item[0];
   const Vector p = bench.State.Mesh.Position[40];
   bench.MoveTo(w, p + (bench.State.Mesh.Position[w] - p) * 0.4f);
-  std::fill(bench.State.Active.begin(), bench.State.Active.end(), std::uint8_t(0));
+  bench.State.Active.Fill(0);
   Remesher(bench.State, nullptr, true).Collapse(bench.All());
   const SurfaceState& s = bench.State;
   const int kept = s.Mesh.IsAlive(40) ? 40 : w;

@@ -10,13 +10,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace volumic;
 
 namespace
 {
-using Care = SurfaceEditor::Care;
 
 /** Six corners, so far from the centre along each axis. */
 IndexedSurface Octahedron(const Point& centre, double x, double y, double z)
@@ -39,7 +44,7 @@ struct Workbench : Bench
   explicit Workbench(double edge)
     : Bench(DividedIcosahedron({ 0, 0, 0 }, 10.2, edge)), Editor(this->State)
   {
-    std::fill(this->State.NearOthers.begin(), this->State.NearOthers.end(), std::uint8_t(0));
+    this->State.NearOthers.Fill(0);
   }
 
   /** Sets a small octahedron and marks what is near it, as examinations do. */
@@ -81,7 +86,7 @@ TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
   s.PreviousPosition[bench.V] = Vector(1, 2, 3);
   s.PreviousPosition[bench.W] = Vector(3, 2, 1);
   const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
-  const int m = bench.Editor.Split(bench.V, bench.W);
+  const int m = bench.Editor.Split(bench.V, bench.W).Vertex;
   ASSERT_GE(m, 0);
   EXPECT_LT(Length(bench.At(m) - middle), 1e-6);
   EXPECT_LT(Length(s.Velocity[m] - Vector(0.5f, 1.5f, 0)), 1e-6);
@@ -91,11 +96,11 @@ TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
 TEST(SurfaceEditor, CollapseMakesNoLongEdges)
 {
   Workbench fine(Fine);
-  EXPECT_TRUE(fine.Editor.Collapse(fine.V, fine.W, Care::Smooth));
+  EXPECT_TRUE(fine.Editor.Collapse(fine.V, fine.W, EditTolerance::Smooth));
   EXPECT_TRUE(fine.IsSound());
   Workbench coarse(Coarse);
   EXPECT_FALSE(coarse.Editor.CollapseTo(
-    coarse.V, coarse.W, (coarse.At(coarse.V) + coarse.At(coarse.W)) * 0.5f, Care::Rough));
+    coarse.V, coarse.W, (coarse.At(coarse.V) + coarse.At(coarse.W)) * 0.5f, EditTolerance::Loose));
   EXPECT_EQ(coarse.State.Counts.Collapses, 0);
 }
 
@@ -106,7 +111,7 @@ TEST(SurfaceEditor, CollapseTurnsFacesLittle)
     Workbench bench(0.7); // Far from the longest legal edges.
     const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
     const Vector spike = middle + bench.Outward(bench.V) * height;
-    EXPECT_EQ(bench.Editor.CollapseTo(bench.V, bench.W, spike, Care::Smooth), height < 0.5f);
+    EXPECT_EQ(bench.Editor.CollapseTo(bench.V, bench.W, spike, EditTolerance::Smooth).IsDone, height < 0.5f);
     EXPECT_TRUE(bench.IsSound());
   }
 }
@@ -118,8 +123,8 @@ TEST(SurfaceEditor, CollapseMakesNoSlivers)
   const Ring& ring = bench.State.Mesh.Rings[bench.V];
   const Vector rim = (bench.At(ring.Item[2]) + bench.At(ring.Item[3])) * 0.5f;
   const Vector inward = bench.At(bench.V) - rim;
-  ASSERT_FALSE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.03f, Care::Smooth));
-  EXPECT_TRUE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.3f, Care::Smooth));
+  ASSERT_FALSE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.03f, EditTolerance::Smooth));
+  EXPECT_TRUE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.3f, EditTolerance::Smooth));
 }
 
 TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
@@ -128,7 +133,7 @@ TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
   {
     for (const bool collapse : { false, true })
     {
-      for (const Care care : { Care::Smooth, Care::Rough })
+      for (const EditTolerance tolerance : { EditTolerance::Smooth, EditTolerance::Loose })
       {
         Workbench bench(Fine);
         const Vector start =
@@ -138,8 +143,8 @@ TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
         {
           bench.Obstruct(start + bench.Outward(bench.V) * 0.5f, 0.3);
         }
-        EXPECT_EQ(collapse ? bench.Editor.CollapseTo(bench.V, bench.W, place, care)
-                           : bench.Editor.Move(bench.V, place, care),
+        EXPECT_EQ(collapse ? bench.Editor.CollapseTo(bench.V, bench.W, place, tolerance).IsDone
+                           : bench.Editor.Move(bench.V, place, tolerance).IsDone,
           !obstructed);
         EXPECT_TRUE(bench.IsSound());
       }
@@ -147,20 +152,20 @@ TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
   }
 }
 
-TEST(SurfaceEditor, FlipForShapeKeepsToLegalLengths)
+TEST(SurfaceEditor, SmoothFlipKeepsToLegalLengths)
 {
   Workbench fine(Fine);
-  EXPECT_TRUE(fine.Editor.FlipForShape(fine.V, fine.W));
+  EXPECT_TRUE(fine.Editor.Flip(fine.V, fine.W, EditTolerance::Smooth));
   Workbench coarse(Coarse);
-  EXPECT_FALSE(coarse.Editor.FlipForShape(coarse.V, coarse.W)) << "its edge would be 3.5 delta";
+  EXPECT_FALSE(coarse.Editor.Flip(coarse.V, coarse.W, EditTolerance::Smooth)) << "its edge would be 3.5 delta";
 }
 
-TEST(SurfaceEditor, FlipForShapeLeavesCreases)
+TEST(SurfaceEditor, SmoothFlipLeavesCreases)
 {
   Bench bench(Octahedron({ 0, 0, 0 }, 1.2, 1.2, 1.2));
-  std::fill(bench.State.NearOthers.begin(), bench.State.NearOthers.end(), std::uint8_t(0));
-  EXPECT_FALSE(SurfaceEditor(bench.State).FlipForShape(0, 2));
-  EXPECT_TRUE(SurfaceEditor(bench.State).FlipForConstraint(0, 2)) << "though it is possible";
+  bench.State.NearOthers.Fill(0);
+  EXPECT_FALSE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Smooth));
+  EXPECT_TRUE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Loose)) << "though it is possible";
 }
 
 TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
@@ -168,7 +173,7 @@ TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
   // The new edge lies deeper in the ball than the old one, and something tiny is there.
   for (const bool obstructed : { false, true })
   {
-    for (const bool forShape : { true, false })
+    for (const EditTolerance tolerance : { EditTolerance::Smooth, EditTolerance::Loose })
     {
       Workbench bench(Fine);
       const EdgeFlip flip = EdgeFlip::Of(bench.State.Mesh, bench.V, bench.W);
@@ -179,9 +184,7 @@ TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
       {
         bench.Obstruct(after, 0.01);
       }
-      EXPECT_EQ(forShape ? bench.Editor.FlipForShape(bench.V, bench.W)
-                         : bench.Editor.FlipForConstraint(bench.V, bench.W),
-        !obstructed);
+      EXPECT_EQ(bench.Editor.Flip(bench.V, bench.W, tolerance).IsDone, !obstructed);
       EXPECT_TRUE(bench.IsSound());
     }
   }
@@ -207,7 +210,7 @@ TEST(SurfaceEditor, RemovalKeepsClearOfWhatIsNear)
     {
       bench.Obstruct(floor, 0.2);
     }
-    EXPECT_EQ(bench.Editor.Remove(m), !obstructed);
+    EXPECT_EQ(bench.Editor.Remove(m).IsDone, !obstructed);
     EXPECT_TRUE(bench.IsSound());
   }
 }
@@ -217,13 +220,13 @@ TEST(SurfaceEditor, MoveKeepsToLegalLengthsAndTurnsFacesLittle)
   Workbench coarse(Coarse);
   const Vector p = coarse.At(coarse.V);
   const Vector along = Normalized(p - coarse.At(coarse.W));
-  EXPECT_TRUE(coarse.Editor.Move(coarse.V, p + along * 0.03f, Care::Smooth));
-  EXPECT_FALSE(coarse.Editor.Move(coarse.V, p + along * 0.8f, Care::Smooth)) << "an edge of 2.7";
-  for (const Care care : { Care::Smooth, Care::Rough })
+  EXPECT_TRUE(coarse.Editor.Move(coarse.V, p + along * 0.03f, EditTolerance::Smooth));
+  EXPECT_FALSE(coarse.Editor.Move(coarse.V, p + along * 0.8f, EditTolerance::Smooth)) << "an edge of 2.7";
+  for (const EditTolerance tolerance : { EditTolerance::Smooth, EditTolerance::Loose })
   {
     Workbench bench(Fine);
     const Vector spike = bench.At(bench.V) + bench.Outward(bench.V) * 1.4f;
-    EXPECT_EQ(bench.Editor.Move(bench.V, spike, care), care == Care::Rough);
+    EXPECT_EQ(bench.Editor.Move(bench.V, spike, tolerance).IsDone, tolerance == EditTolerance::Loose);
     EXPECT_TRUE(bench.IsSound());
   }
 }
@@ -241,15 +244,15 @@ TEST(SurfaceEditor, MergeNeitherSpansFarNorPassesThroughAnything)
       AddSurface(surface, Octahedron({ 0, 0, 0 }, 0.1, 3, 3));
     }
     Bench bench(surface);
-    const bool done = SurfaceEditor(bench.State).Merge(0, 6 + 1);
+    const bool done = SurfaceEditor(bench.State).Merge(0, 6 + 1).IsDone;
     EXPECT_TRUE(bench.IsSound());
     EXPECT_EQ(bench.State.EulerCharacteristic, (obstructed ? 6 : 4) - (done ? 2 : 0));
     return done;
   };
   EXPECT_TRUE(merged(0.5, false));
   EXPECT_FALSE(merged(0.5, true));
-  EXPECT_TRUE(merged(1.5, false)) << "rungs of 3.5";
-  EXPECT_FALSE(merged(3, false)) << "rungs of 5";
+  EXPECT_TRUE(merged(1.5, false)) << "bridge edges of 3.5";
+  EXPECT_FALSE(merged(3, false)) << "bridge edges of 5";
 }
 
 TEST(SurfaceEditor, CutDrawsBothSidesApart)
@@ -282,4 +285,75 @@ TEST(SurfaceEditor, CutThatIsRefusedLeavesAllAsItWas)
       EXPECT_EQ(bench.State.Mesh.Rings[v].Item[i], before.Rings[v].Item[i]);
     }
   }
+}
+
+namespace
+{
+/** Of two meshes, the vertices whose ring or position differ, those removed left out. */
+std::set<int> Differing(const SurfaceMesh& before, const SurfaceMesh& after)
+{
+  std::set<int> found;
+  for (int v = 0; v < after.Size(); ++v)
+  {
+    const bool isNew = v >= before.Size() || !before.IsAlive(v);
+    const Ring& now = after.Rings[v];
+    if (after.IsAlive(v) &&
+      (isNew || Length(after.Position[v] - before.Position[v]) > 0 ||
+        now.Count != before.Rings[v].Count ||
+        !std::is_permutation(now.Item, now.Item + now.Count, before.Rings[v].Item)))
+    {
+      found.insert(v);
+    }
+  }
+  return found;
+}
+}
+
+TEST(SurfaceEditor, RecordsNameAllThatHasChanged)
+{
+  using Operation = std::function<Edit(Workbench&)>;
+  const std::pair<const char*, Operation> operations[] = {
+    { "split", [](Workbench& b) { return b.Editor.Split(b.V, b.W); } },
+    { "collapse", [](Workbench& b) { return b.Editor.Collapse(b.V, b.W, EditTolerance::Smooth); } },
+    { "smooth flip", [](Workbench& b) { return b.Editor.Flip(b.V, b.W, EditTolerance::Smooth); } },
+    { "loose flip", [](Workbench& b) { return b.Editor.Flip(b.V, b.W, EditTolerance::Loose); } },
+    { "move",
+      [](Workbench& b)
+      {
+        return b.Editor.Move(
+          b.V, b.At(b.V) + b.Outward(b.V) * 0.1f, EditTolerance::Smooth);
+      } }
+  };
+  for (const auto& operation : operations)
+  {
+    SCOPED_TRACE(operation.first);
+    Workbench bench(Fine);
+    bench.State.Disturbed.Fill(0);
+    const SurfaceMesh before = bench.State.Mesh;
+    const Edit edit = operation.second(bench);
+    ASSERT_TRUE(edit);
+    const std::set<int> named(edit.Changed.begin(), edit.Changed.end());
+    for (int v : Differing(before, bench.State.Mesh))
+    {
+      EXPECT_EQ(named.count(v), 1u) << v;
+    }
+    const std::vector<int> changed = bench.Editor.TakeChanged();
+    EXPECT_EQ(std::set<int>(changed.begin(), changed.end()), named);
+    EXPECT_TRUE(bench.Editor.Changed().empty()) << "taken";
+    for (int v : named)
+    {
+      EXPECT_EQ(bench.State.Disturbed[v], operation.first != std::string("smooth flip")) << v;
+    }
+  }
+}
+
+TEST(SurfaceEditor, RecordsOfRefusedEditsAreEmpty)
+{
+  Workbench bench(Fine);
+  const Vector spike = bench.At(bench.V) + bench.Outward(bench.V) * 5.f;
+  const Edit edit = bench.Editor.Move(bench.V, spike, EditTolerance::Smooth);
+  EXPECT_FALSE(edit);
+  EXPECT_EQ(edit.Changed.begin(), edit.Changed.end());
+  EXPECT_EQ(edit.Vertex, -1);
+  EXPECT_TRUE(bench.Editor.TakeChanged().empty());
 }

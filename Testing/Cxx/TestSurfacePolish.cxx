@@ -16,19 +16,20 @@ using namespace volumic;
 
 namespace
 {
-SurfaceState MakeState(const SurfaceMesh& mesh)
+struct LiveSurface : SurfaceState
 {
-  SurfaceState state;
-  state.Mesh = mesh;
-  state.Sizing = SizingField(1);
-  state.Reset(Vector(-20, -20, -20), Vector(20, 20, 20));
-  std::vector<int> all(state.Mesh.Size());
-  std::iota(all.begin(), all.end(), 0);
-  SequentialExecutor threads;
-  state.UpdateShape(all, threads);
-  std::fill(state.NearOthers.begin(), state.NearOthers.end(), 1);
-  return state;
-}
+  explicit LiveSurface(const SurfaceMesh& mesh)
+  {
+    this->Mesh = mesh;
+    this->Sizing = SizingField(1);
+    this->Reset(Vector(-20, -20, -20), Vector(20, 20, 20));
+    std::vector<int> all(this->Mesh.Size());
+    std::iota(all.begin(), all.end(), 0);
+    SequentialExecutor threads;
+    this->UpdateShape(all, threads);
+    this->NearOthers.Fill(1);
+  }
+};
 
 /** A sphere whose vertices have been moved about on it. */
 SurfaceMesh ShakenSphere(unsigned seed)
@@ -76,13 +77,14 @@ TEST(SurfacePolish, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
   for (unsigned seed = 1; seed <= 4; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    SurfaceState state = MakeState(ShakenSphere(seed));
+    LiveSurface state(ShakenSphere(seed));
     ASSERT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
     const Shape before = ShapeOf(state);
     ASSERT_GT(before.EdgesOutside, 10);
     ASSERT_LT(before.WorstRatio, 0.5);
     SequentialExecutor executor;
-    SurfacePolish(state, nullptr, false, executor).Run();
+    SurfacePolish polish(state, nullptr, false, executor);
+    polish.Run();
     const Shape after = ShapeOf(state);
     EXPECT_EQ(after.EdgesOutside, 0);
     EXPECT_GT(after.WorstRatio, 0.5);
@@ -90,7 +92,7 @@ TEST(SurfacePolish, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
     EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), 2);
     EXPECT_EQ(state.EulerCharacteristic, 2);
     EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
-    EXPECT_FALSE(state.Touched.empty());
+    EXPECT_FALSE(polish.TakeChanged().empty());
   }
 }
 
@@ -98,21 +100,24 @@ TEST(SurfacePolish, StopsWhenAskedTo)
 {
   SequentialExecutor executor;
   int questions = 0;
-  SurfaceState whole = MakeState(ShakenSphere(1));
+  LiveSurface whole(ShakenSphere(1));
   SurfacePolish(whole, nullptr, false, executor, [&](double) { return ++questions > 0; }).Run();
   ASSERT_GT(questions, 6);
   int edited = 0;
   for (int last = 1; last <= questions; last += 3)
   {
     SCOPED_TRACE("question " + std::to_string(last));
-    SurfaceState state = MakeState(ShakenSphere(1));
+    LiveSurface state(ShakenSphere(1));
     int asked = 0;
-    SurfacePolish(state, nullptr, false, executor, [&](double) { return ++asked < last; }).Run();
+    SurfacePolish polish(
+      state, nullptr, false, executor, [&](double) { return ++asked < last; });
+    polish.Run();
     EXPECT_EQ(asked, last) << "not asked again";
     EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
     EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
-    EXPECT_TRUE(last > 1 || state.Touched.empty()) << "nothing done yet";
-    edited += !state.Touched.empty();
+    const bool isEdited = !polish.TakeChanged().empty();
+    EXPECT_TRUE(last > 1 || !isEdited) << "nothing done yet";
+    edited += isEdited;
   }
   EXPECT_GT(edited, 0) << "what was done before stays done";
 }
@@ -121,7 +126,7 @@ TEST(SurfacePolish, PushesStrangersApart)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.5);
   mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 6.9, 1.5));
-  SurfaceState state = MakeState(mesh);
+  LiveSurface state(mesh);
   const auto nearest = [&state]()
   {
     // The two components are strangers to each other throughout.
@@ -200,7 +205,7 @@ TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
   const int v = flip.V;
   flip.Apply(mesh);
   ASSERT_FALSE(mesh.AreNeighbours(u, v));
-  SurfaceState state = MakeState(mesh);
+  LiveSurface state(mesh);
   SequentialExecutor executor;
   SurfacePolish(state, nullptr, true, executor).Run();
   EXPECT_TRUE(state.Mesh.AreNeighbours(u, v));
@@ -213,11 +218,12 @@ TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
 
 TEST(SurfacePolish, LeavesAnEvenMeshAsItIs)
 {
-  SurfaceState state = MakeState(MakeSphere({ 0, 0, 0 }, 8, 1.7));
+  LiveSurface state(MakeSphere({ 0, 0, 0 }, 8, 1.7));
   ASSERT_EQ(ShapeOf(state).EdgesOutside, 0);
   ASSERT_GT(ShapeOf(state).WorstRatio, 0.82);
   const std::vector<Vector> before = state.Mesh.Position;
   SequentialExecutor executor;
-  SurfacePolish(state, nullptr, true, executor).Run();
-  EXPECT_TRUE(state.Touched.empty());
+  SurfacePolish polish(state, nullptr, true, executor);
+  polish.Run();
+  EXPECT_TRUE(polish.TakeChanged().empty());
 }

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Surface/VertexProperties.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+struct TwoProperties
+{
+  VertexProperties All;
+  VertexProperty<int> Inherited{ this->All, 1 };
+  VertexProperty<float> Own{ this->All, 2.f, 3.f };
+};
+}
+
+TEST(VertexProperties, AreResetTogether)
+{
+  TwoProperties p;
+  p.All.Reset(3);
+  p.Inherited[1] = 7;
+  p.Own[2] = 7.f;
+  p.All.Reset(4);
+  ASSERT_EQ(p.Inherited.Size(), 4u);
+  ASSERT_EQ(p.Own.Size(), 4u);
+  for (int v = 0; v < 4; ++v)
+  {
+    EXPECT_EQ(p.Inherited[v], 1);
+    EXPECT_EQ(p.Own[v], 2.f);
+  }
+}
+
+TEST(VertexProperties, GrowTogether)
+{
+  TwoProperties p;
+  p.All.Reset(3);
+  p.Inherited[1] = 7;
+  p.Own[1] = 7.f;
+  p.All.Add(3, 1);
+  ASSERT_EQ(p.Inherited.Size(), 4u);
+  ASSERT_EQ(p.Own.Size(), 4u);
+  EXPECT_EQ(p.Inherited[3], 7) << "its parent's";
+  EXPECT_EQ(p.Own[3], 3.f) << "that of new vertices";
+}
+
+TEST(VertexProperties, TakeNewVerticesInPlacesOfRemovedOnes)
+{
+  TwoProperties p;
+  p.All.Reset(3);
+  p.Inherited[0] = 5;
+  p.Inherited[2] = 7;
+  p.Own[2] = 7.f;
+  p.All.Add(2, 0);
+  EXPECT_EQ(p.Inherited.Size(), 3u);
+  EXPECT_EQ(p.Inherited[2], 5);
+  EXPECT_EQ(p.Own[2], 3.f);
+}
+
+TEST(VertexProperties, AreFilled)
+{
+  TwoProperties p;
+  p.All.Reset(2);
+  p.Own.Fill(4.f);
+  EXPECT_EQ(p.Own.AsVector(), (std::vector<float>{ 4.f, 4.f }));
+  p.Own.Assign({ 5.f, 6.f });
+  EXPECT_EQ(p.Own[1], 6.f);
+}
