@@ -97,7 +97,6 @@ struct SurfaceEvolution::Implementation
   void MarkRing(int v);
   void RollBack();
   void UpdateTouched();
-  double EnclosedVolume();
   void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
   void FillRow(HistoryRow& row);
   double MeanEdgeLength();

@@ -287,7 +287,7 @@ void SurfaceEvolution::Implementation::Iterate(
     this->Watch.Label(s, this->Threads);
     this->Shrunk = 0;
   }
-  const bool deleted = this->Watch.DeleteDoomed(s);
+  const bool deleted = this->Watch.DeleteDegenerate(s);
   // Only a cut can give birth to one, and what was inside a deleted component is bare.
   this->Unchecked += s.Counts.Cuts + (deleted ? 1 : 0);
   constexpr int period = 10;

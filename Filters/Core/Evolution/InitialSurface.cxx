@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -101,23 +100,12 @@ IndexedSurface EnclosingSurface(const LevelImage& image, double meanEdge)
 
 void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
 {
-  double low[3];
-  double high[3];
+  const Bounds bounds = Bounds::Of(surface);
   double widest = 0.;
   double widestImage = 0.;
   for (int k = 0; k < 3; ++k)
   {
-    low[k] = std::numeric_limits<double>::max();
-    high[k] = -low[k];
-    for (const Triangle& t : surface.Triangles)
-    {
-      for (int corner : t)
-      {
-        low[k] = std::min(low[k], surface.Points[corner][k]);
-        high[k] = std::max(high[k], surface.Points[corner][k]);
-      }
-    }
-    widest = std::max(widest, high[k] - low[k]);
+    widest = std::max(widest, bounds.High[k] - bounds.Low[k]);
     widestImage = std::max(widestImage, image.Size[k] * image.Step[k]);
   }
   // What encloses a flat image as a ball does is not yet wrong.
@@ -131,10 +119,10 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   }
   for (int k = 0; k < 3; ++k)
   {
-    if (high[k] < 0. || low[k] > image.Size[k] * image.Step[k])
+    if (bounds.High[k] < 0. || bounds.Low[k] > image.Size[k] * image.Step[k])
     {
       Refuse("The initial surface lies wholly outside the image: along axis ", k, " it runs from ",
-        low[k], " to ", high[k], " voxel distances, the image from 0 to ",
+        bounds.Low[k], " to ", bounds.High[k], " voxel distances, the image from 0 to ",
         image.Size[k] * image.Step[k], ". Check that both use the same space.");
     }
   }

@@ -76,7 +76,7 @@ int SurfaceMesh::CountEulerCharacteristic() const
   return this->NumberOfVertices() - this->NumberOfFaces() / 2;
 }
 
-IndexedSurface SurfaceMesh::ToIndexed(std::vector<int>* placeOf) const
+IndexedSurface SurfaceMesh::ToIndexed() const
 {
   IndexedSurface surface;
   std::vector<int> place(this->Rings.size(), -1);
@@ -93,10 +93,6 @@ IndexedSurface SurfaceMesh::ToIndexed(std::vector<int>* placeOf) const
   surface.Triangles.reserve(this->NumberOfFaces());
   this->VisitFaces([&](int a, int b, int c)
     { surface.Triangles.push_back({ place[a], place[b], place[c] }); });
-  if (placeOf)
-  {
-    *placeOf = std::move(place);
-  }
   return surface;
 }
 
