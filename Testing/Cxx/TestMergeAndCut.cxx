@@ -39,7 +39,7 @@ TEST(StarMerge, JoinsTwoSpheres)
   merge.V = Nearest(mesh, Vector(4, 0, 0), second, mesh.Size());
   ASSERT_TRUE(merge.Plan(mesh));
   const std::size_t rims = mesh.Rings[merge.U].Count + mesh.Rings[merge.V].Count;
-  EXPECT_EQ(merge.Band().size(), rims);
+  EXPECT_EQ(merge.Strip().size(), rims);
   merge.Apply(mesh);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
@@ -132,8 +132,8 @@ TEST(StarMerge, TakesTheShortestRungs)
     }
   }
   EXPECT_GT(shortest, 0.9);
-  EXPECT_GE(merge.SquaredLongestRung(), longest * longest - 1e-4);
-  EXPECT_NEAR(merge.SquaredLongestRung(), diagonal, 1e-4);
+  EXPECT_GE(merge.SquaredLongestBridgeEdge(), longest * longest - 1e-4);
+  EXPECT_NEAR(merge.SquaredLongestBridgeEdge(), diagonal, 1e-4);
 }
 
 TEST(StarMerge, RefusesABandThatWouldOverfillARing)

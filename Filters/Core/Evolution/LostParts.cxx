@@ -223,6 +223,26 @@ bool Search::MarkLost(Executor& executor, const Checkpoint& goOn)
  */
 constexpr double CellEdge = 1.7;
 
+void MakeUnique(std::vector<CellLattice::Cell>& cells)
+{
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+/** The cells that hold voxels of a part, each once. */
+std::vector<CellLattice::Cell> CellsOf(
+  const std::vector<std::int64_t>& part, const Search& search, const CellLattice& lattice)
+{
+  std::vector<CellLattice::Cell> cells;
+  for (std::int64_t voxel : part)
+  {
+    search.VisitPieces(
+      voxel, [&](const Point& place) { cells.push_back(lattice.CellAt(place)); });
+  }
+  MakeUnique(cells);
+  return cells;
+}
+
 /** Whether no triangle of the surface can reach the cell. */
 bool KeepsClear(
   const SurfaceState& state, const CellLattice& lattice, const CellLattice::Cell& cell)
@@ -269,7 +289,6 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   LostPartCover result;
   const CellLattice lattice(CellEdge * state.Delta);
   std::vector<CellLattice::Cell> cells;
-  std::vector<CellLattice::Cell> own;
   std::size_t seen = 0;
   VoxelParts parts = search.LostOnes();
   for (const auto* part = &parts.Next(); !part->empty(); part = &parts.Next())
@@ -280,16 +299,8 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     }
     ++result.Found;
     result.Boundary.Add(*part, field, kind);
-    own.clear();
-    for (std::int64_t voxel : *part)
-    {
-      search.VisitPieces(
-        voxel, [&](const Point& place) { own.push_back(lattice.CellAt(place)); });
-    }
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
     const std::size_t before = cells.size();
-    for (const CellLattice::Cell& cell : own)
+    for (const CellLattice::Cell& cell : CellsOf(*part, search, lattice))
     {
       if (KeepsClear(state, lattice, cell))
       {
@@ -302,8 +313,7 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     }
     result.Covered += cells.size() > before;
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  MakeUnique(cells);
   result.Surface = lattice.Boundary(cells);
   if (kind == PartKind::Cavity)
   {

@@ -317,12 +317,12 @@ bool SurfaceEditor::Merge(int u, int v)
   merge.V = v;
   // Between sharp rims rungs are long; the remesher splits them at once.
   const float longest = LongestRung * s.Delta;
-  if (!merge.Plan(s.Mesh) || merge.SquaredLongestRung() > longest * longest)
+  if (!merge.Plan(s.Mesh) || merge.SquaredLongestBridgeEdge() > longest * longest)
   {
     return false;
   }
   this->Faces.clear();
-  for (const auto& t : merge.Band())
+  for (const auto& t : merge.Strip())
   {
     this->Faces.push_back(TriangleOf(s.Mesh, t[0], t[1], t[2]));
     if (!IsSound(this->Faces.back()))
@@ -339,7 +339,7 @@ bool SurfaceEditor::Merge(int u, int v)
   merge.Apply(s.Mesh);
   s.EulerCharacteristic -= 2;
   ++s.Counts.Merges;
-  for (const auto& t : merge.Band())
+  for (const auto& t : merge.Strip())
   {
     for (int w : t)
     {
