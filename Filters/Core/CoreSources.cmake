@@ -28,6 +28,7 @@ set(volumic_core_sources
   Mesh/StarMerge.cxx
   Mesh/SurfaceCheck.cxx
   Mesh/SurfaceFeatures.cxx
+  Mesh/SurfaceMeasures.cxx
   Mesh/SurfaceMesh.cxx
   Mesh/TriangleTests.cxx
   Mesh/TriangleTree.cxx
@@ -55,9 +56,11 @@ set(volumic_core_sources
   Evolution/SurfaceEvolution.cxx)
 set(volumic_core_headers
   Common/Box.h
+  Common/DisjointSets.h
   Common/Executor.h
   Common/IndexedSurface.h
   Common/Join.h
+  Common/LatticeKey.h
   Common/Monitor.h
   Common/Refuse.h
   Common/StandardThreads.h
@@ -75,6 +78,7 @@ set(volumic_core_headers
   Image/ThickPart.h
   Image/ValidReduction.h
   Image/VoxelNumbers.h
+  Image/VoxelParts.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h
   Mesh/Division.h
@@ -89,6 +93,7 @@ set(volumic_core_headers
   Mesh/StarMerge.h
   Mesh/SurfaceCheck.h
   Mesh/SurfaceFeatures.h
+  Mesh/SurfaceMeasures.h
   Mesh/SurfaceMesh.h
   Mesh/TriangleTests.h
   Mesh/TriangleTree.h

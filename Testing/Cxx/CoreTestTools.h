@@ -7,6 +7,7 @@
 #include "Core/Image/LevelImage.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceMesh.h"
+#include "MeshInvariants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,10 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceState.h"
-#include "CoreTestTools.h"
+#include "RemeshTestTools.h"
 
 #include <gtest/gtest.h>
 
-#include <utility>
 #include <vector>
 
 using namespace volumic;
@@ -16,18 +15,11 @@ namespace
 {
 IndexedSurface Ball(const Point& centre, double radius, bool isCavity = false)
 {
-  IndexedSurface ball = DividedIcosahedron(centre, radius, 1.5);
-  if (isCavity)
-  {
-    for (Triangle& triangle : ball.Triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-  return ball;
+  const IndexedSurface ball = DividedIcosahedron(centre, radius, 1.5);
+  return isCavity ? InsideOut(ball) : ball;
 }
 
-/// A state with these components; delta is 1.
+/** A state with these components; delta is 1. */
 void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
 {
   for (const IndexedSurface& component : components)
@@ -133,14 +125,10 @@ TEST(ComponentWatch, LooksThroughEdgesAndCorners)
     { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
   for (const double shift : { 0., 1. })
   {
-    IndexedSurface cavity = octahedron;
+    IndexedSurface cavity = InsideOut(octahedron);
     for (Point& p : cavity.Points)
     {
       p = { p[0] / 9., p[1] / 9. + shift, p[2] / 9. };
-    }
-    for (Triangle& t : cavity.Triangles)
-    {
-      std::swap(t[0], t[1]);
     }
     SurfaceState state;
     Fill(state, { octahedron, cavity });
@@ -159,13 +147,13 @@ TEST(ComponentWatch, DeletesSmallOnesAndKeepsCount)
   ComponentWatch watch;
   watch.Label(state, executor);
   ASSERT_EQ(watch.NumberOfComponents(), 2);
-  EXPECT_FALSE(watch.DeleteDoomed(state)) << "no reason yet";
+  EXPECT_FALSE(watch.DeleteDegenerate(state)) << "no reason yet";
   // Wholly in the background, and tiny.
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
   }
-  const bool deleted = watch.DeleteDoomed(state);
+  const bool deleted = watch.DeleteDegenerate(state);
   EXPECT_TRUE(deleted);
   EXPECT_EQ(watch.NumberOfComponents(), 1);
   watch.Label(state, executor);
@@ -180,15 +168,7 @@ bool IsDeleted(double edge, double value, bool isCavity)
 {
   SurfaceState state;
   const IndexedSurface ball = DividedIcosahedron({ 30, 0, 0 }, 2, edge);
-  Fill(state, { Ball({ 0, 0, 0 }, 10), isCavity ? [&ball] {
-                 IndexedSurface turned = ball;
-                 for (Triangle& t : turned.Triangles)
-                 {
-                   std::swap(t[1], t[2]);
-                 }
-                 return turned;
-               }()
-                                                : ball });
+  Fill(state, { Ball({ 0, 0, 0 }, 10), isCavity ? InsideOut(ball) : ball });
   SequentialExecutor executor;
   ComponentWatch watch;
   watch.Label(state, executor);
@@ -196,7 +176,7 @@ bool IsDeleted(double edge, double value, bool isCavity)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
   }
-  const bool deleted = watch.DeleteDoomed(state);
+  const bool deleted = watch.DeleteDegenerate(state);
   EXPECT_EQ(watch.NumberOfComponents(), deleted ? 1 : 2);
   EXPECT_EQ(state.EulerCharacteristic, deleted ? 2 : 4);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
@@ -226,7 +206,7 @@ TEST(ComponentWatch, DeletesWhatHasHardlyAnyVertices)
   SequentialExecutor executor;
   ComponentWatch watch;
   watch.Label(state, executor);
-  EXPECT_TRUE(watch.DeleteDoomed(state));
+  EXPECT_TRUE(watch.DeleteDegenerate(state));
   EXPECT_EQ(watch.NumberOfComponents(), 1);
 }
 
@@ -245,7 +225,7 @@ TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
       const Vector way = Normalized(state.Mesh.Position[v] - Vector(30, 0, 0));
       state.MoveTo(v, Vector(30, 0, 0) + way * (size > 0 ? size : -0.4f));
     }
-    EXPECT_EQ(watch.DeleteDoomed(state), size < 0) << "its volume has changed sign";
+    EXPECT_EQ(watch.DeleteDegenerate(state), size < 0) << "its volume has changed sign";
   }
   EXPECT_EQ(watch.NumberOfComponents(), 1);
 }

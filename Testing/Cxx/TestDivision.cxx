@@ -169,6 +169,34 @@ TEST(Division, FindsRoomForKeptEdgesInFullRings)
   EXPECT_EQ(mesh.Rings[0].Count, sides);
 }
 
+namespace
+{
+/** What an evolution makes of a surface that a plain division makes intersect itself, at `unit`. */
+SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
+{
+  SurfaceMesh plain;
+  plain.Append(given);
+  Divide(plain);
+  EXPECT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
+
+  const TestVolume volume = MakeVolume(16, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  options.SamplingRatio = 1.;
+  options.RecoverLostParts = false;
+  SequentialExecutor threads;
+  Monitor monitor;
+  SurfaceEvolution evolution(options, threads, monitor);
+  evolution.StartSurface(volume.Image, 1, given);
+  EXPECT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
+  LevelImage fine = volume.Image;
+  fine.Unit = unit;
+  evolution.Divide(fine, 0);
+  return evolution.Result();
+}
+}
+
 TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
 {
   // The division cuts the edges of an icosahedron off. A small one inside, a cavity, has a corner
@@ -208,29 +236,10 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
   };
   const IndexedSurface given = make();
   ASSERT_EQ(CountSelfIntersections(given), 0);
-  SurfaceMesh plain;
-  plain.Append(given);
-  Divide(plain);
-  ASSERT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
-
-  TestVolume volume = MakeVolume(16, [](double x, double y, double z)
-    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  options.SamplingRatio = 1.;
-  options.RecoverLostParts = false;
-  SequentialExecutor threads;
-  Monitor monitor;
   // One division, and two in a row, the first of which leaves edges longer than the last level's.
   for (double unit : { 1. / std::sqrt(3.), 1. / 3. })
   {
-    SurfaceEvolution evolution(options, threads, monitor);
-    evolution.StartSurface(volume.Image, 1, given);
-    ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
-    LevelImage fine = volume.Image;
-    fine.Unit = unit;
-    evolution.Divide(fine, 0);
-    const SurfaceResult divided = evolution.Result();
+    const SurfaceResult divided = DivideWithin(given, unit);
     EXPECT_EQ(CountSelfIntersections(divided), 0);
     SurfaceMesh mesh;
     mesh.Append(divided);
@@ -266,26 +275,7 @@ TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
   ASSERT_GT(features.Components[0].Volume, 0);
   ASSERT_GT(features.Components[1].Volume, 0);
   ASSERT_EQ(CountSelfIntersections(given), 0);
-  SurfaceMesh plain;
-  plain.Append(given);
-  Divide(plain);
-  ASSERT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
-
-  TestVolume volume = MakeVolume(16, [](double x, double y, double z)
-    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  options.SamplingRatio = 1.;
-  options.RecoverLostParts = false;
-  SequentialExecutor threads;
-  Monitor monitor;
-  SurfaceEvolution evolution(options, threads, monitor);
-  evolution.StartSurface(volume.Image, 1, given);
-  ASSERT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
-  LevelImage fine = volume.Image;
-  fine.Unit = std::pow(3., -2.5);
-  evolution.Divide(fine, 0);
-  const SurfaceResult divided = evolution.Result();
+  const SurfaceResult divided = DivideWithin(given, std::pow(3., -2.5));
   EXPECT_EQ(CountSelfIntersections(divided), 0);
   for (const Point& old : given.Points)
   {

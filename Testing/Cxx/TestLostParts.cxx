@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 using namespace volumic;
 
@@ -46,6 +47,25 @@ void Fill(SurfaceState& state)
   state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
 }
 
+/** The known ball's surface in an image. */
+struct KnownBall
+{
+  TestVolume Volume;
+  Field Image;
+  SurfaceState State;
+
+  explicit KnownBall(TestVolume volume = Scene())
+    : Volume(std::move(volume)), Image(this->Volume.Image, Half(), Threads)
+  {
+    Fill(this->State);
+  }
+
+  LostPartCover Find(PartKind kind, int minimumSize) const
+  {
+    return FindLostParts(this->State, this->Image, kind, minimumSize, Threads);
+  }
+};
+
 /** Far enough from the surface, all of them count. */
 int VoxelsOfTheLostBall(const Field& field)
 {
@@ -79,11 +99,8 @@ double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
 
 TEST(LostParts, EnclosesObjectOutsideTheSurface)
 {
-  const TestVolume volume = Scene();
-  const Field field(volume.Image, Half(), Threads);
-  SurfaceState state;
-  Fill(state);
-  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
+  const KnownBall known;
+  const LostPartCover cover = known.Find(PartKind::Object, 20);
   EXPECT_EQ(cover.Found, 1);
   EXPECT_EQ(cover.Covered, 1);
   EXPECT_NO_THROW(CheckInitialSurface(cover.Surface));
@@ -94,16 +111,13 @@ TEST(LostParts, EnclosesObjectOutsideTheSurface)
   EXPECT_LT(Distance(features.Components[0].Centroid[0], features.Components[0].Centroid[1],
               features.Components[0].Centroid[2], 40, 24, 24),
     1.);
-  EXPECT_GE(NearestVertex(state, cover.Surface), SizingField::LambdaInDelta * Delta);
+  EXPECT_GE(NearestVertex(known.State, cover.Surface), SizingField::LambdaInDelta * Delta);
 }
 
 TEST(LostParts, EnclosesBackgroundInsideTheSurface)
 {
-  const TestVolume volume = Scene();
-  const Field field(volume.Image, Half(), Threads);
-  SurfaceState state;
-  Fill(state);
-  const LostPartCover cover = FindLostParts(state, field, PartKind::Cavity, 20, Threads);
+  const KnownBall known;
+  const LostPartCover cover = known.Find(PartKind::Cavity, 20);
   EXPECT_EQ(cover.Found, 1);
   EXPECT_EQ(cover.Covered, 1);
   const SurfaceFeatures features = ComputeFeatures(cover.Surface);
@@ -112,38 +126,32 @@ TEST(LostParts, EnclosesBackgroundInsideTheSurface)
   EXPECT_LT(Distance(features.Components[0].Centroid[0], features.Components[0].Centroid[1],
               features.Components[0].Centroid[2], 17, 24, 24),
     1.);
-  EXPECT_GE(NearestVertex(state, cover.Surface), SizingField::LambdaInDelta * Delta);
+  EXPECT_GE(NearestVertex(known.State, cover.Surface), SizingField::LambdaInDelta * Delta);
 }
 
 TEST(LostParts, KeepsClearOfTheSurface)
 {
   // The lost ball begins two and a half voxels from the known one.
-  const TestVolume volume = MakeVolume(48,
+  const KnownBall known(MakeVolume(48,
     [](double x, double y, double z)
     {
-      const double known = Distance(x, y, z, 18, 24, 24) - 13.;
-      return Soft(std::min(known, Distance(x, y, z, 39, 24, 24) - 5.5));
-    });
-  const Field field(volume.Image, Half(), Threads);
-  SurfaceState state;
-  Fill(state);
-  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
+      const double ball = Distance(x, y, z, 18, 24, 24) - 13.;
+      return Soft(std::min(ball, Distance(x, y, z, 39, 24, 24) - 5.5));
+    }));
+  const LostPartCover cover = known.Find(PartKind::Object, 20);
   ASSERT_EQ(cover.Covered, 1);
-  EXPECT_GE(NearestVertex(state, cover.Surface), SizingField::LambdaInDelta * Delta);
+  EXPECT_GE(NearestVertex(known.State, cover.Surface), SizingField::LambdaInDelta * Delta);
 }
 
 TEST(LostParts, LeavesPartsUnderTheMinimumSize)
 {
-  const TestVolume volume = Scene();
-  const Field field(volume.Image, Half(), Threads);
-  SurfaceState state;
-  Fill(state);
+  const KnownBall known;
   // A ball of radius 4 has 257 voxels.
-  EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 250, Threads).Found, 1);
-  EXPECT_EQ(FindLostParts(state, field, PartKind::Object, VoxelsOfTheLostBall(field), Threads).Found, 1);
+  EXPECT_EQ(known.Find(PartKind::Object, 250).Found, 1);
+  EXPECT_EQ(known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image)).Found, 1);
   EXPECT_EQ(
-    FindLostParts(state, field, PartKind::Object, VoxelsOfTheLostBall(field) + 1, Threads).Found, 0);
-  const LostPartCover none = FindLostParts(state, field, PartKind::Object, 265, Threads);
+    known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image) + 1).Found, 0);
+  const LostPartCover none = known.Find(PartKind::Object, 265);
   EXPECT_EQ(none.Found, 0);
   EXPECT_EQ(none.Covered, 0);
   EXPECT_TRUE(none.Surface.Triangles.empty());
@@ -154,25 +162,19 @@ TEST(LostParts, WhatLiesAtTheSurfaceIsNotLost)
   // The surface has not quite arrived: a skin of the object is outside of it, or background inside.
   for (const double radius : { 11.8, 14.2 })
   {
-    const TestVolume volume = MakeVolume(48, [radius](double x, double y, double z)
-      { return Soft(Distance(x, y, z, 18, 24, 24) - radius); });
-    const Field field(volume.Image, Half(), Threads);
-    SurfaceState state;
-    Fill(state);
-    EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 1, Threads).Found, 0);
-    EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 1, Threads).Found, 0);
+    const KnownBall known(MakeVolume(48, [radius](double x, double y, double z)
+      { return Soft(Distance(x, y, z, 18, 24, 24) - radius); }));
+    EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
+    EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
   }
 }
 
 TEST(LostParts, FindsNothingWhereTheSurfaceHasAll)
 {
-  const TestVolume volume = MakeVolume(48, [](double x, double y, double z)
-    { return Soft(Distance(x, y, z, 18, 24, 24) - 13.); });
-  const Field field(volume.Image, Half(), Threads);
-  SurfaceState state;
-  Fill(state);
-  EXPECT_EQ(FindLostParts(state, field, PartKind::Object, 1, Threads).Found, 0);
-  EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 1, Threads).Found, 0);
+  const KnownBall known(MakeVolume(48, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, 18, 24, 24) - 13.); }));
+  EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
+  EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
 }
 
 TEST(LostParts, FindsAllWithoutAnySurface)
@@ -190,19 +192,16 @@ TEST(LostParts, FindsAllWithoutAnySurface)
 
 TEST(LostParts, BoundaryIsMissedWhereNoVertexIsNear)
 {
-  const TestVolume volume = Scene();
-  const Field field(volume.Image, Half(), Threads);
-  SurfaceState state;
-  Fill(state);
-  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
-  const LostBoundary::Missing before = cover.Boundary.MissedBy(state, field, Threads);
+  KnownBall known;
+  const LostPartCover cover = known.Find(PartKind::Object, 20);
+  const LostBoundary::Missing before = cover.Boundary.MissedBy(known.State, known.Image, Threads);
   EXPECT_EQ(before.Parts, 1);
   // Spheres of radius 4 and 13.
   EXPECT_NEAR(before.Share, 16. / (16. + 169.), 0.01);
 
-  state.Mesh.Append(DividedIcosahedron({ 40, 24, 24 }, 4., 1.4 * Delta));
-  state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
-  const LostBoundary::Missing after = cover.Boundary.MissedBy(state, field, Threads);
+  known.State.Mesh.Append(DividedIcosahedron({ 40, 24, 24 }, 4., 1.4 * Delta));
+  known.State.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
+  const LostBoundary::Missing after = cover.Boundary.MissedBy(known.State, known.Image, Threads);
   EXPECT_EQ(after.Parts, 0);
   EXPECT_EQ(after.Share, 0.);
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <numeric>
+#include <vector>
 
 namespace volumic
 {
@@ -55,6 +57,19 @@ void ForBlocks(Executor& executor, std::size_t n, std::size_t size, Body&& body)
         body(b, b * size, std::min(n, (b + 1) * size));
       }
     });
+}
+
+/**
+ * The sum of sumOf(begin, end) over fixed blocks of [0, n), in their order: the same bits for any
+ * executor.
+ */
+template <typename SumOf>
+double SumOfBlocks(Executor& executor, std::size_t n, std::size_t size, SumOf&& sumOf)
+{
+  std::vector<double> sums((n + size - 1) / size);
+  ForBlocks(executor, n, size,
+    [&](std::size_t b, std::size_t begin, std::size_t end) { sums[b] = sumOf(begin, end); });
+  return std::accumulate(sums.begin(), sums.end(), 0.);
 }
 }
 

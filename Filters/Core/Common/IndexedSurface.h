@@ -3,7 +3,9 @@
 #ifndef volumicIndexedSurface_h
 #define volumicIndexedSurface_h
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace volumic
@@ -16,6 +18,37 @@ struct IndexedSurface
 {
   std::vector<Point> Points;
   std::vector<Triangle> Triangles; ///< Counter-clockwise seen from outside.
+};
+
+/** A box along the axes; empty until a point is added. */
+struct Bounds
+{
+  static constexpr double Most = std::numeric_limits<double>::max();
+  Point Low = { Most, Most, Most };
+  Point High = { -Most, -Most, -Most };
+
+  void Add(const Point& p)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Low[k] = std::min(this->Low[k], p[k]);
+      this->High[k] = std::max(this->High[k], p[k]);
+    }
+  }
+
+  /** Of all corners of triangles; points that no triangle uses don't count. */
+  static Bounds Of(const IndexedSurface& surface)
+  {
+    Bounds bounds;
+    for (const Triangle& t : surface.Triangles)
+    {
+      for (int corner : t)
+      {
+        bounds.Add(surface.Points[corner]);
+      }
+    }
+    return bounds;
+  }
 };
 }
 

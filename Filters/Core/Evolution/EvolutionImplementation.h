@@ -101,7 +101,6 @@ struct SurfaceEvolution::Implementation
   void SplitBeforeVerification(Remesher& remesher);
   void RestoreConstraints(Remesher& remesher);
   void WatchComponents();
-  double EnclosedVolume();
   void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
   void FillRow(HistoryRow& row);
   double MeanEdgeLength();

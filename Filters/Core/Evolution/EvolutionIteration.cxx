@@ -251,7 +251,7 @@ void SurfaceEvolution::Implementation::WatchComponents()
     this->Watch.Label(s, this->Threads);
     this->CollapsesSinceLabels = 0;
   }
-  const bool deleted = this->Watch.DeleteDoomed(s);
+  const bool deleted = this->Watch.DeleteDegenerate(s);
   // Only a cut can give birth to one, and what was inside a deleted component is bare.
   this->Unchecked += s.Counts.Cuts + (deleted ? 1 : 0);
   if (this->LastIterations % InsideOutPeriod == 0 && this->Unchecked > 0)

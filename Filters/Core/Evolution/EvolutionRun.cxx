@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfacePolish.h"
 
 #include <algorithm>
@@ -87,39 +88,6 @@ bool SurfaceEvolution::Implementation::HasIteration() const
   return this->LastIterations > 0 && !this->Rows.empty();
 }
 
-double SurfaceEvolution::Implementation::EnclosedVolume()
-{
-  // Fixed blocks summed in order; each face is seen from its three corners.
-  const SurfaceMesh& mesh = this->State.Mesh;
-  constexpr std::size_t size = 2048;
-  this->Partial.assign((mesh.Rings.size() + size - 1) / size, 0.);
-  const VectorD origin(mesh.Position.front());
-  ForBlocks(this->Threads, mesh.Rings.size(), size,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      double sum = 0;
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        const Ring& ring = mesh.Rings[v];
-        const VectorD p = VectorD(mesh.Position[v]) - origin;
-        VectorD fan;
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          fan += Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
-            VectorD(mesh.Position[ring.Next(i)]) - origin);
-        }
-        sum += ring.Count > 0 ? Dot(p, fan) : 0.;
-      }
-      this->Partial[b] = sum;
-    });
-  double sum = 0;
-  for (double x : this->Partial)
-  {
-    sum += x;
-  }
-  return sum / 18.;
-}
-
 StopReason SurfaceEvolution::Implementation::Evolve()
 {
   SurfaceState& s = this->State;
@@ -165,7 +133,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     }
     if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
     {
-      const double volume = this->EnclosedVolume();
+      const double volume = EnclosedVolume(s.Mesh, this->Threads);
       const double limit =
         std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume));
       this->Rest.Add(volume);
@@ -291,7 +259,7 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
   if (s.Counts.Cuts > 0)
   {
     this->Watch.Label(s, this->Threads);
-    this->Watch.DeleteDoomed(s);
+    this->Watch.DeleteDegenerate(s);
   }
   this->SinceEvolved.Cuts += s.Counts.Cuts;
   this->SinceEvolved.Removed += s.Counts.Removed;

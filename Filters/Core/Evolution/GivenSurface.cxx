@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/LatticeKey.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/LatticeSurface.h"
@@ -90,11 +91,8 @@ bool IsCrowded(const IndexedSurface& surface, double delta)
   std::unordered_map<std::uint64_t, int> count;
   for (const Point& p : surface.Points)
   {
-    std::uint64_t key = 0;
-    for (double x : p)
-    {
-      key = key << 21 | (static_cast<std::uint64_t>(std::llround(x / cell)) & 0x1fffff);
-    }
+    const std::uint64_t key = LatticeKey(
+      std::llround(p[0] / cell), std::llround(p[1] / cell), std::llround(p[2] / cell));
     if (++count[key] > most)
     {
       return true;

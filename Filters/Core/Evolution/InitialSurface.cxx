@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/InitialSurface.h"
 
-#include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Mesh/Division.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace volumic
 {
@@ -101,23 +97,12 @@ IndexedSurface EnclosingSurface(const LevelImage& image, double meanEdge)
 
 void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
 {
-  double low[3];
-  double high[3];
+  const Bounds bounds = Bounds::Of(surface);
   double widest = 0.;
   double widestImage = 0.;
   for (int k = 0; k < 3; ++k)
   {
-    low[k] = std::numeric_limits<double>::max();
-    high[k] = -low[k];
-    for (const Triangle& t : surface.Triangles)
-    {
-      for (int corner : t)
-      {
-        low[k] = std::min(low[k], surface.Points[corner][k]);
-        high[k] = std::max(high[k], surface.Points[corner][k]);
-      }
-    }
-    widest = std::max(widest, high[k] - low[k]);
+    widest = std::max(widest, bounds.High[k] - bounds.Low[k]);
     widestImage = std::max(widestImage, image.Size[k] * image.Step[k]);
   }
   // What encloses a flat image as a ball does is not yet wrong.
@@ -131,10 +116,10 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   }
   for (int k = 0; k < 3; ++k)
   {
-    if (high[k] < 0. || low[k] > image.Size[k] * image.Step[k])
+    if (bounds.High[k] < 0. || bounds.Low[k] > image.Size[k] * image.Step[k])
     {
       Refuse("The initial surface lies wholly outside the image: along axis ", k, " it runs from ",
-        low[k], " to ", high[k], " voxel distances, the image from 0 to ",
+        bounds.Low[k], " to ", bounds.High[k], " voxel distances, the image from 0 to ",
         image.Size[k] * image.Step[k], ". Check that both use the same space.");
     }
   }
@@ -147,9 +132,9 @@ bool IsInside(const Field& field, const Point& p)
   return field.ValueAt(Vector(static_cast<float>(p[0]), static_cast<float>(p[1]),
            static_cast<float>(p[2]))) > 0;
 }
-}
 
-std::vector<Point> ChooseSeeds(
+/** Those of the centres that are inside the object and far enough from the ones before. */
+std::vector<Point> UsableSeeds(
   const Field& field, const std::vector<Point>& centres, double spacing)
 {
   const LevelImage& image = field.Image();
@@ -161,56 +146,70 @@ std::vector<Point> ChooseSeeds(
     {
       if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
       {
-        throw std::invalid_argument(Join("Seed ", i, " lies outside the image: ", p[k],
-          " voxel distances along axis ", k, ", the image has ", image.Size[k] * image.Step[k], "."));
+        Refuse("Seed ", i, " lies outside the image: ", p[k], " voxel distances along axis ", k,
+          ", the image has ", image.Size[k] * image.Step[k], ".");
       }
     }
-    bool free = IsInside(field, p);
-    for (const Point& q : chosen)
-    {
-      const double x = p[0] - q[0];
-      const double y = p[1] - q[1];
-      const double z = p[2] - q[2];
-      free = free && x * x + y * y + z * z >= spacing * spacing;
-    }
-    if (free)
+    const VectorD place(p[0], p[1], p[2]);
+    if (IsInside(field, p) &&
+      std::none_of(chosen.begin(), chosen.end(), [&](const Point& q)
+        { return SquaredDistance(VectorD(q[0], q[1], q[2]), place) < spacing * spacing; }))
     {
       chosen.push_back(p);
     }
   }
-  if (centres.empty())
+  return chosen;
+}
+
+/** The points of a grid about the middle of the image that are inside the object. */
+std::vector<Point> GridOfSeeds(const Field& field, double spacing)
+{
+  const LevelImage& image = field.Image();
+  int count[3];
+  double first[3];
+  for (int k = 0; k < 3; ++k)
   {
-    int count[3];
-    double first[3];
-    for (int k = 0; k < 3; ++k)
+    const double extent = (image.Size[k] - 1) * image.Step[k];
+    count[k] = static_cast<int>(extent / spacing) + 1;
+    first[k] = 0.5 * (extent - (count[k] - 1) * spacing);
+  }
+  std::vector<Point> chosen;
+  for (int z = 0; z < count[2]; ++z)
+  {
+    for (int y = 0; y < count[1]; ++y)
     {
-      const double extent = (image.Size[k] - 1) * image.Step[k];
-      count[k] = static_cast<int>(extent / spacing) + 1;
-      first[k] = 0.5 * (extent - (count[k] - 1) * spacing);
-    }
-    for (int z = 0; z < count[2]; ++z)
-    {
-      for (int y = 0; y < count[1]; ++y)
+      for (int x = 0; x < count[0]; ++x)
       {
-        for (int x = 0; x < count[0]; ++x)
+        const Point p = { first[0] + x * spacing, first[1] + y * spacing, first[2] + z * spacing };
+        if (IsInside(field, p))
         {
-          const Point p = { first[0] + x * spacing, first[1] + y * spacing,
-            first[2] + z * spacing };
-          if (IsInside(field, p))
-          {
-            chosen.push_back(p);
-          }
+          chosen.push_back(p);
         }
       }
     }
   }
+  return chosen;
+}
+}
+
+std::vector<Point> ChooseSeeds(
+  const Field& field, const std::vector<Point>& centres, double spacing)
+{
+  if (centres.empty())
+  {
+    std::vector<Point> chosen = GridOfSeeds(field, spacing);
+    if (chosen.empty())
+    {
+      Refuse("No point of the grid of seeds lies inside the object. Give a smaller Seed Radius or "
+             "another Iso Value.");
+    }
+    return chosen;
+  }
+  std::vector<Point> chosen = UsableSeeds(field, centres, spacing);
   if (chosen.empty())
   {
-    throw std::invalid_argument(centres.empty()
-        ? "No point of the grid of seeds lies inside the object. Give a smaller Seed Radius or "
-          "another Iso Value."
-        : "None of the " + std::to_string(centres.size()) +
-          " seeds lies inside the object. Move them, or check Iso Value and Object Is Bright.");
+    Refuse("None of the ", centres.size(),
+      " seeds lies inside the object. Move them, or check Iso Value and Object Is Bright.");
   }
   return chosen;
 }

@@ -3,6 +3,7 @@
 #include "Core/Evolution/LostBoundary.h"
 
 #include "Core/Image/VoxelNumbers.h"
+#include "Core/Mesh/SurfaceMeasures.h"
 
 #include <cstddef>
 #include <numeric>
@@ -13,37 +14,6 @@ namespace
 {
 /** Of a smooth surface of no preferred direction: the faces of its voxels over its own area. */
 constexpr double FacesOverArea = 1.5;
-
-double AreaOf(const SurfaceMesh& mesh, Executor& executor)
-{
-  // Fixed blocks summed in order; each face is seen from its three corners.
-  constexpr std::size_t size = 2048;
-  std::vector<double> partial((mesh.Rings.size() + size - 1) / size, 0.);
-  ForBlocks(executor, mesh.Rings.size(), size,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        const Ring& ring = mesh.Rings[v];
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          const Vector& p = mesh.Position[v];
-          partial[b] += Length(
-            Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
-        }
-      }
-    });
-  return std::accumulate(partial.begin(), partial.end(), 0.) / 6.;
-}
-
-bool HasVertexWithin(const SurfaceState& state, const Vector& place, float radius)
-{
-  bool found = false;
-  state.Grid.Visit(place, radius,
-    [&](int v)
-    { found = found || SquaredDistance(place, state.Mesh.Position[v]) <= radius * radius; });
-  return found;
-}
 }
 
 void LostBoundary::Add(
@@ -103,7 +73,7 @@ LostBoundary::Missing LostBoundary::MissedBy(
         const Vector place(static_cast<float>(index[0] * image.Step[0]),
           static_cast<float>(index[1] * image.Step[1]),
           static_cast<float>(index[2] * image.Step[2]));
-        isMissed[i] = !HasVertexWithin(state, place, reach);
+        isMissed[i] = !state.Grid.HasWithin(place, reach, state.Mesh.Position);
       }
     });
   std::vector<double> missed(static_cast<std::size_t>(this->Parts), 0.);
@@ -119,7 +89,7 @@ LostBoundary::Missing LostBoundary::MissedBy(
   {
     result.Parts += missed[part] > 0.5 * whole[part];
   }
-  result.Share = area > 0. ? area / (area + AreaOf(state.Mesh, executor)) : 0.;
+  result.Share = area > 0. ? area / (area + SurfaceArea(state.Mesh, executor)) : 0.;
   return result;
 }
 }

@@ -3,7 +3,9 @@
 #include "Core/Evolution/LostParts.h"
 
 #include "Core/Image/VoxelNumbers.h"
+#include "Core/Image/VoxelParts.h"
 #include "Core/Mesh/CellSurface.h"
+#include "Core/Mesh/RowCrossing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,11 +48,8 @@ public:
   void CoverNear();
   /** @return false if asked to stop. */
   bool MarkLost(Executor& executor, const Checkpoint& goOn);
-  /**
-   * The next connected set of lost voxels, in the order of their first ones; empty after the last.
-   * It is valid until the next call.
-   */
-  const std::vector<std::int64_t>& NextPart();
+  /** The connected sets of lost voxels, which count as covered once they are found. */
+  VoxelParts LostOnes() { return VoxelParts(this->Mark, this->Size, Lost, Covered); }
 
   /** Calls visit(point) for the middle of a voxel, or, where it is longer than 1.5 units along an
       axis, for the middles of equal pieces of it that are not. */
@@ -86,61 +85,35 @@ private:
   std::vector<std::uint8_t> Mark;
   /** Number of the first voxel of a row, and place along it. */
   std::vector<std::pair<std::int64_t, float>> Crossings;
-  std::vector<std::int64_t> Part;
-  std::size_t Searched = 0; ///< No voxel before this one is lost, but for those of earlier parts.
 };
 
 void Search::Cross(int a, int b, int c)
 {
   // Rows pass a little beside the voxels, so that none meets an edge or a corner exactly.
   constexpr double aside = 1.2345e-4;
-  double x[3];
-  double y[3];
-  double z[3];
-  const int corner[3] = { a, b, c };
+  Point corner[3];
+  Bounds bounds;
+  const int vertices[3] = { a, b, c };
   for (int k = 0; k < 3; ++k)
   {
-    const Vector& p = this->State.Mesh.Position[corner[k]];
-    x[k] = p.X * this->Inverse[0];
-    y[k] = p.Y * this->Inverse[1] - aside;
-    z[k] = p.Z * this->Inverse[2] - 1.7 * aside;
+    const Vector& p = this->State.Mesh.Position[vertices[k]];
+    corner[k] = { p.X * this->Inverse[0], p.Y * this->Inverse[1] - aside,
+      p.Z * this->Inverse[2] - 1.7 * aside };
+    bounds.Add(corner[k]);
   }
-  const double area = (y[1] - y[0]) * (z[2] - z[0]) - (z[1] - z[0]) * (y[2] - y[0]);
-  if (area == 0.)
+  const auto first = [&](int axis)
+  { return std::max(0, static_cast<int>(std::ceil(bounds.Low[axis]))); };
+  const auto last = [&](int axis)
+  { return std::min(this->Size[axis] - 1, static_cast<int>(std::floor(bounds.High[axis]))); };
+  for (int k = first(2); k <= last(2); ++k)
   {
-    return;
-  }
-  const int firstJ = std::max(0, static_cast<int>(std::ceil(std::min({ y[0], y[1], y[2] }))));
-  const int lastJ =
-    std::min(this->Size[1] - 1, static_cast<int>(std::floor(std::max({ y[0], y[1], y[2] }))));
-  const int firstK = std::max(0, static_cast<int>(std::ceil(std::min({ z[0], z[1], z[2] }))));
-  const int lastK =
-    std::min(this->Size[2] - 1, static_cast<int>(std::floor(std::max({ z[0], z[1], z[2] }))));
-  for (int k = firstK; k <= lastK; ++k)
-  {
-    for (int j = firstJ; j <= lastJ; ++j)
+    for (int j = first(1); j <= last(1); ++j)
     {
-      double weight[3];
-      bool inside = true;
-      for (int e = 0; e < 3; ++e)
+      const RowCrossing crossing = RowCrossing::Of(corner[0], corner[1], corner[2], j, k);
+      if (crossing.Winding != 0)
       {
-        // An edge gives both its triangles the same number, so that exactly one has the row.
-        int from = (e + 1) % 3;
-        int to = (e + 2) % 3;
-        const bool swapped = corner[from] > corner[to];
-        if (swapped)
-        {
-          std::swap(from, to);
-        }
-        const double side =
-          (y[to] - y[from]) * (k - z[from]) - (z[to] - z[from]) * (j - y[from]);
-        weight[e] = (swapped ? -side : side) / area;
-        inside = inside && weight[e] >= 0.;
-      }
-      if (inside)
-      {
-        const double at = weight[0] * x[0] + weight[1] * x[1] + weight[2] * x[2];
-        this->Crossings.emplace_back(this->Numbers.Of(0, j, k), static_cast<float>(at));
+        this->Crossings.emplace_back(
+          this->Numbers.Of(0, j, k), static_cast<float>(crossing.X));
       }
     }
   }
@@ -244,44 +217,31 @@ bool Search::MarkLost(Executor& executor, const Checkpoint& goOn)
   return true;
 }
 
-const std::vector<std::int64_t>& Search::NextPart()
-{
-  this->Part.clear();
-  const auto from = this->Mark.begin() + static_cast<std::ptrdiff_t>(this->Searched);
-  const auto seed = std::find(from, this->Mark.end(), Lost);
-  this->Searched = static_cast<std::size_t>(seed - this->Mark.begin());
-  if (seed == this->Mark.end())
-  {
-    return this->Part;
-  }
-  *seed = Covered;
-  this->Part.push_back(static_cast<std::int64_t>(this->Searched));
-  for (std::size_t n = 0; n < this->Part.size(); ++n)
-  {
-    const std::int64_t voxel = this->Part[n];
-    const std::array<int, 3> place = this->Numbers.PlaceOf(voxel);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      for (int side : { -1, 1 })
-      {
-        const int next = place[axis] + side;
-        const std::int64_t other = voxel + side * this->Numbers.Stride(axis);
-        if (next >= 0 && next < this->Size[axis] && this->Mark[other] == Lost)
-        {
-          this->Mark[other] = Covered;
-          this->Part.push_back(other);
-        }
-      }
-    }
-  }
-  return this->Part;
-}
-
 /**
  * Edge length of the cells, in delta. Edges are then 1.7 and 2.4 delta long, within eq. (1), and
  * corners that no edge joins keep 1.7 delta, over lambda.
  */
 constexpr double CellEdge = 1.7;
+
+void MakeUnique(std::vector<CellLattice::Cell>& cells)
+{
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+/** The cells that hold voxels of a part, each once. */
+std::vector<CellLattice::Cell> CellsOf(
+  const std::vector<std::int64_t>& part, const Search& search, const CellLattice& lattice)
+{
+  std::vector<CellLattice::Cell> cells;
+  for (std::int64_t voxel : part)
+  {
+    search.VisitPieces(
+      voxel, [&](const Point& place) { cells.push_back(lattice.CellAt(place)); });
+  }
+  MakeUnique(cells);
+  return cells;
+}
 
 /** Whether no triangle of the surface can reach the cell. */
 bool KeepsClear(
@@ -291,13 +251,7 @@ bool KeepsClear(
   {
     const Vector place(
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-    bool found = false;
-    state.Grid.Visit(place, radius,
-      [&](int v)
-      {
-        found = found || SquaredDistance(place, state.Mesh.Position[v]) < radius * radius;
-      });
-    return found;
+    return state.Grid.HasWithin(place, radius, state.Mesh.Position);
   };
   const float reach = state.Sizing.LargestReach();
   const float radius = static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Sizing.OfLevel();
@@ -335,9 +289,9 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   LostPartCover result;
   const CellLattice lattice(CellEdge * state.Sizing.OfLevel());
   std::vector<CellLattice::Cell> cells;
-  std::vector<CellLattice::Cell> own;
   std::size_t seen = 0;
-  for (const auto* part = &search.NextPart(); !part->empty(); part = &search.NextPart())
+  VoxelParts parts = search.LostOnes();
+  for (const auto* part = &parts.Next(); !part->empty(); part = &parts.Next())
   {
     if (static_cast<std::int64_t>(part->size()) < minimumSize)
     {
@@ -345,16 +299,8 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     }
     ++result.Found;
     result.Boundary.Add(*part, field, kind);
-    own.clear();
-    for (std::int64_t voxel : *part)
-    {
-      search.VisitPieces(
-        voxel, [&](const Point& place) { own.push_back(lattice.CellAt(place)); });
-    }
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
     const std::size_t before = cells.size();
-    for (const CellLattice::Cell& cell : own)
+    for (const CellLattice::Cell& cell : CellsOf(*part, search, lattice))
     {
       if (KeepsClear(state, lattice, cell))
       {
@@ -367,8 +313,7 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     }
     result.Covered += cells.size() > before;
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  MakeUnique(cells);
   result.Surface = lattice.Boundary(cells);
   if (kind == PartKind::Cavity)
   {

@@ -33,6 +33,25 @@
 #endif
 #endif
 
+// Calls function<taps>(...): loops over a number of weights that the compiler knows are unrolled. A
+// macro, as a lambda would be no part of the clone that it is in.
+#define VOLUMIC_SWITCH_TAPS(taps, function, ...)                                                    \
+  switch (taps)                                                                                     \
+  {                                                                                                 \
+    case 1:                                                                                         \
+      return function<1>(__VA_ARGS__);                                                              \
+    case 2:                                                                                         \
+      return function<2>(__VA_ARGS__);                                                              \
+    case 3:                                                                                         \
+      return function<3>(__VA_ARGS__);                                                              \
+    case 4:                                                                                         \
+      return function<4>(__VA_ARGS__);                                                              \
+    case 5:                                                                                         \
+      return function<5>(__VA_ARGS__);                                                              \
+    default:                                                                                        \
+      return function<6>(__VA_ARGS__);                                                              \
+  }
+
 namespace volumic
 {
 namespace
@@ -63,21 +82,7 @@ template <typename T, typename Real>
 VOLUMIC_INLINE void CombineRowsOf(
   const T* const* rows, const Real* weights, int taps, Real* out, std::int64_t n)
 {
-  switch (taps)
-  {
-    case 1:
-      return CombineRowsOfTaps<1>(rows, weights, out, n);
-    case 2:
-      return CombineRowsOfTaps<2>(rows, weights, out, n);
-    case 3:
-      return CombineRowsOfTaps<3>(rows, weights, out, n);
-    case 4:
-      return CombineRowsOfTaps<4>(rows, weights, out, n);
-    case 5:
-      return CombineRowsOfTaps<5>(rows, weights, out, n);
-    default:
-      return CombineRowsOfTaps<6>(rows, weights, out, n);
-  }
+  VOLUMIC_SWITCH_TAPS(taps, CombineRowsOfTaps, rows, weights, out, n)
 }
 
 template <typename T>
@@ -239,21 +244,8 @@ VOLUMIC_INLINE void ReduceRowsOf(const Real* rows, std::int64_t stride, const st
   const Real* weights, int taps, std::int64_t outputSize, Real* columns, Real* const* out,
   int numberOfRows)
 {
-  switch (taps)
-  {
-#define VOLUMIC_CASE(n)         \
-  case n:                       \
-    return ReduceRowsOfTaps<n>( \
-      rows, stride, first, weights, outputSize, columns, out, numberOfRows);
-    VOLUMIC_CASE(1)
-    VOLUMIC_CASE(2)
-    VOLUMIC_CASE(3)
-    VOLUMIC_CASE(4)
-    VOLUMIC_CASE(5)
-    default:
-      VOLUMIC_CASE(6)
-#undef VOLUMIC_CASE
-  }
+  VOLUMIC_SWITCH_TAPS(taps, ReduceRowsOfTaps, rows, stride, first, weights, outputSize, columns,
+    out, numberOfRows)
 }
 }
 

@@ -3,6 +3,7 @@
 #include "Core/Image/ThickPart.h"
 
 #include "Core/Image/VoxelNumbers.h"
+#include "Core/Image/VoxelParts.h"
 
 #include <algorithm>
 
@@ -46,39 +47,15 @@ std::vector<std::uint8_t> InCubes(
 bool HasThickPart(
   const std::vector<std::uint8_t>& marks, const std::array<int, 3>& size, int minimum)
 {
-  const VoxelNumbers numbers(size);
-  std::vector<std::uint8_t> left = InCubes(marks, size);
-  std::vector<std::int64_t> part;
-  for (auto seed = left.begin();; ++seed)
+  std::vector<std::uint8_t> thick = InCubes(marks, size);
+  VoxelParts parts(thick, size, 1, 0);
+  for (const auto* part = &parts.Next(); !part->empty(); part = &parts.Next())
   {
-    seed = std::find(seed, left.end(), std::uint8_t(1));
-    if (seed == left.end())
-    {
-      return false;
-    }
-    *seed = 0;
-    part.assign(1, seed - left.begin());
-    for (std::size_t n = 0; n < part.size(); ++n)
-    {
-      const std::array<int, 3> place = numbers.PlaceOf(part[n]);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        for (int side : { -1, 1 })
-        {
-          const int next = place[axis] + side;
-          const std::int64_t other = part[n] + side * numbers.Stride(axis);
-          if (next >= 0 && next < size[axis] && left[other] != 0)
-          {
-            left[other] = 0;
-            part.push_back(other);
-          }
-        }
-      }
-    }
-    if (part.size() >= static_cast<std::size_t>(minimum))
+    if (part->size() >= static_cast<std::size_t>(minimum))
     {
       return true;
     }
   }
+  return false;
 }
 }

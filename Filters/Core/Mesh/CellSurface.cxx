@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/CellSurface.h"
 
+#include "Core/Common/LatticeKey.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -127,13 +129,8 @@ IndexedSurface CellLattice::Boundary(const std::vector<Cell>& cells) const
   {
     const Offset at = { 2 * cell[0] + offset[0], 2 * cell[1] + offset[1],
       2 * cell[2] + offset[2] };
-    // 21 bits each hold any lattice that memory holds.
-    std::uint64_t key = 0;
-    for (int x : at)
-    {
-      key = key << 21 | (static_cast<std::uint64_t>(static_cast<std::int64_t>(x)) & 0x1fffff);
-    }
-    const auto found = places.emplace(key, static_cast<int>(surface.Points.size()));
+    const auto found =
+      places.emplace(LatticeKey(at[0], at[1], at[2]), static_cast<int>(surface.Points.size()));
     if (found.second)
     {
       surface.Points.push_back(

@@ -6,11 +6,26 @@
 #include "Core/Mesh/SurfaceMesh.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace volumic
 {
+/** Numbers for the ends of the edges of a mesh, which must stay as it is: vertex by vertex. */
+class EdgeSlots
+{
+public:
+  explicit EdgeSlots(const SurfaceMesh& mesh);
+
+  /** Of the edge from v to its neighbour i, and of the face between that neighbour and the next. */
+  int At(int v, int i) const { return this->First[v] + i; }
+  std::size_t Count() const { return static_cast<std::size_t>(this->First.back()); }
+
+private:
+  std::vector<int> First;
+};
+
 /** Edges of a mesh that a division is to leave where they are. The mesh must stay as it is. */
 class KeptEdges
 {
@@ -24,7 +39,7 @@ public:
   void MakeRoom();
 
   /** Of the edge from v to its neighbour i. */
-  bool Has(int v, int i) const { return this->Flags[this->FirstSlot[v] + i] != 0; }
+  bool Has(int v, int i) const { return this->Flags[this->Slots.At(v, i)] != 0; }
   bool HasAfter(int v, int i) const
   {
     return this->Has(v, i + 1 < this->Mesh.Rings[v].Count ? i + 1 : 0);
@@ -32,7 +47,7 @@ public:
 
 private:
   const SurfaceMesh& Mesh;
-  std::vector<int> FirstSlot;
+  EdgeSlots Slots;
   std::vector<std::uint8_t> Flags; ///< Both ends of an edge have one.
 };
 
@@ -54,8 +69,8 @@ private:
  */
 std::vector<std::array<int, 3>> Divide(SurfaceMesh& mesh, const KeptEdges* kept = nullptr);
 
-/** What Divide(mesh) had made the mesh from; `olds` is how many vertices that had. */
-SurfaceMesh Undivided(const SurfaceMesh& mesh, int olds);
+/** What Divide(mesh) has made the mesh from; that had so many vertices. */
+SurfaceMesh Undivided(const SurfaceMesh& mesh, int numberOfVertices);
 }
 
 #endif

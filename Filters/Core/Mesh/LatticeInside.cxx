@@ -13,21 +13,12 @@ LatticeInside::LatticeInside(const IndexedSurface& surface, double pitch)
 {
   // Points set off by odd fractions, so that rows hit no corner of a surface on round numbers.
   const double aside[3] = { 0.4142135623, 0.3819660113, 0.2360679775 };
-  constexpr double most = std::numeric_limits<double>::max();
+  const Bounds bounds = Bounds::Of(surface);
   for (int k = 0; k < 3; ++k)
   {
-    double low = most;
-    double high = -most;
-    for (const Triangle& t : surface.Triangles)
-    {
-      for (int corner : t)
-      {
-        low = std::min(low, surface.Points[corner][k]);
-        high = std::max(high, surface.Points[corner][k]);
-      }
-    }
-    this->Origin[k] = low - (1. + aside[k]) * pitch;
-    this->Count[k] = static_cast<std::int64_t>(std::ceil((high - this->Origin[k]) / pitch)) + 2;
+    this->Origin[k] = bounds.Low[k] - (1. + aside[k]) * pitch;
+    this->Count[k] =
+      static_cast<std::int64_t>(std::ceil((bounds.High[k] - this->Origin[k]) / pitch)) + 2;
   }
   this->Words = (this->Count[0] + 63) / 64;
   this->Bits.assign(static_cast<std::size_t>(2 * Kept * this->Count[1] * this->Words), 0);
@@ -80,8 +71,8 @@ void LatticeInside::FindCrossings(int kind)
         {
           break;
         }
-        const RowCrossing where = RowCrossing::Of(this->Surface, t, y, z);
-        if (where.Turn != 0)
+        const RowCrossing where = RowCrossing::Of(*p[0], *p[1], *p[2], y, z);
+        if (where.Winding != 0)
         {
           crossings.push_back({ k * this->Count[1] + j, where });
         }
@@ -105,7 +96,7 @@ void LatticeInside::Fill(std::int64_t k)
     for (std::size_t& n = this->Next[kind];
          n < crossings.size() && crossings[n].Row < (k + 1) * this->Count[1]; ++n)
     {
-      around += crossings[n].Where.Turn;
+      around += crossings[n].Where.Winding;
       if (n + 1 == crossings.size() || crossings[n + 1].Row != crossings[n].Row)
       {
         around = 0;

@@ -6,58 +6,66 @@
 #include "Core/Common/IndexedSurface.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace volumic
 {
-/** Where a line along x passes a triangle. */
+/**
+ * Where a line along x crosses a triangle: what encloses a place is found by counting the crossings
+ * on one side of it.
+ */
 struct RowCrossing
 {
-  int Turn = 0; ///< 1 into what the surface encloses, -1 out of it, 0: it passes by.
+  /** By how much the winding number grows there: 1 into what is enclosed, -1 out of it, 0: none. */
+  int Winding = 0;
   double X = 0.;
 
   /**
-   * Of the line through (y, z). An edge gives the two triangles at it the same number, so that a
-   * line passes a closed surface as often inward as outward, also where it hits an edge; only at a
-   * corner may rounding spoil that.
+   * Of the line through (y, z). Of the two ends of an edge only one counts, and both its triangles
+   * get the same answer from it, so that a line crosses a closed surface as often inward as
+   * outward, even where it runs through edges and corners.
    */
-  static RowCrossing Of(const IndexedSurface& surface, const Triangle& triangle, double y, double z)
+  static RowCrossing Of(const Point& a, const Point& b, const Point& c, double y, double z)
   {
-    double side[3];
-    int left = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-      int from = triangle[(k + 1) % 3];
-      int to = triangle[(k + 2) % 3];
-      const bool swapped = from > to;
-      if (swapped)
-      {
-        std::swap(from, to);
-      }
-      const Point& p = surface.Points[from];
-      const Point& q = surface.Points[to];
-      side[k] = (q[1] - p[1]) * (z - p[2]) - (q[2] - p[2]) * (y - p[1]);
-      left += (side[k] >= 0.) != swapped;
-      side[k] = swapped ? -side[k] : side[k];
-    }
     RowCrossing crossing;
-    if (left == 1 || left == 2)
+    crossing.Winding = Under(a, b, y, z) + Under(b, c, y, z) + Under(c, a, y, z);
+    if (crossing.Winding == 0)
     {
       return crossing;
     }
-    crossing.Turn = left == 3 ? -1 : 1;
-    const double sum = side[0] + side[1] + side[2];
-    double low = surface.Points[triangle[0]][0];
-    double high = low;
+    const double weight[3] = { Area(b, c, y, z), Area(c, a, y, z), Area(a, b, y, z) };
+    const double sum = weight[0] + weight[1] + weight[2];
+    const double x[3] = { a[0], b[0], c[0] };
     for (int k = 0; k < 3; ++k)
     {
-      const double x = surface.Points[triangle[k]][0];
-      low = std::min(low, x);
-      high = std::max(high, x);
-      crossing.X += sum != 0. ? side[k] / sum * x : x / 3.;
+      crossing.X += sum != 0. ? weight[k] / sum * x[k] : x[k] / 3.;
     }
-    crossing.X = std::clamp(crossing.X, low, high);
+    crossing.X =
+      std::clamp(crossing.X, std::min({ a[0], b[0], c[0] }), std::max({ a[0], b[0], c[0] }));
     return crossing;
+  }
+
+private:
+  /** Seen along x, with y to the right: 1 or -1, by the direction of the edge, where it is above. */
+  static int Under(const Point& from, const Point& to, double y, double z)
+  {
+    const bool right = to[1] > y;
+    if ((from[1] > y) == right)
+    {
+      return 0;
+    }
+    const Point& low = right ? from : to;
+    const Point& high = right ? to : from;
+    if (!((high[1] - low[1]) * (z - low[2]) < (high[2] - low[2]) * (y - low[1])))
+    {
+      return 0;
+    }
+    return right ? 1 : -1;
+  }
+
+  /** Twice the signed area of the triangle of an edge and the line, seen along x. */
+  static double Area(const Point& from, const Point& to, double y, double z)
+  {
+    return (to[1] - from[1]) * (z - from[2]) - (to[2] - from[2]) * (y - from[1]);
   }
 };
 }

@@ -50,13 +50,13 @@ public:
     double half = this->Room * Length(this->Normal);
     for (int k = 0; k < 3; ++k)
     {
-      if (node.Low[k] > this->High[k] || node.High[k] < this->Low[k])
+      if (node.Box.Low[k] > this->High[k] || node.Box.High[k] < this->Low[k])
       {
         return false;
       }
       const double n = this->Normal.*Axes[k];
-      middle += n * (0.5 * (node.Low[k] + node.High[k]) - this->Origin.*Axes[k]);
-      half += std::abs(n) * (0.5 * (node.High[k] - node.Low[k]) + this->Room);
+      middle += n * (0.5 * (node.Box.Low[k] + node.Box.High[k]) - this->Origin.*Axes[k]);
+      half += std::abs(n) * (0.5 * (node.Box.High[k] - node.Box.Low[k]) + this->Room);
     }
     return std::abs(middle) <= half;
   }

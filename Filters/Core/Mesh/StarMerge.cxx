@@ -9,7 +9,7 @@ namespace volumic
 {
 bool StarMerge::PlanFrom(int offset, float best, float& cost)
 {
-  // State (i, k): the rung from place i of the first rim to place offset + k of the second.
+  // State (i, k): the bridge edge from place i of the first rim to place offset + k of the second.
   const int n = this->FirstRim.Count;
   const int m = this->SecondRim.Count;
   float sum[Ring::Capacity + 1][Ring::Capacity + 1];
@@ -20,9 +20,9 @@ bool StarMerge::PlanFrom(int offset, float best, float& cost)
     {
       const float fromFirst = i > 0 ? sum[i - 1][k] : std::numeric_limits<float>::max();
       const float fromSecond = k > 0 ? sum[i][k - 1] : std::numeric_limits<float>::max();
-      const float rung = this->Squared[i % n][(offset + k) % m];
+      const float length = this->Squared[i % n][(offset + k) % m];
       alongFirst[i][k] = fromFirst < fromSecond;
-      sum[i][k] = (i == 0 && k == 0) ? 0.f : rung + std::min(fromFirst, fromSecond);
+      sum[i][k] = (i == 0 && k == 0) ? 0.f : length + std::min(fromFirst, fromSecond);
     }
   }
   cost = sum[n][m];
@@ -37,12 +37,12 @@ bool StarMerge::PlanFrom(int offset, float best, float& cost)
     this->Candidate.push_back({ i % n, (offset + k) % m });
   }
   std::reverse(this->Candidate.begin(), this->Candidate.end());
-  // A whole turn about one rim vertex: it has more rungs than the other rim has vertices.
+  // A whole turn about one rim vertex: it has more edges than the other rim has vertices.
   int perFirst[Ring::Capacity] = {};
   int perSecond[Ring::Capacity] = {};
-  for (const Rung& rung : this->Candidate)
+  for (const BridgeEdge& edge : this->Candidate)
   {
-    if (++perFirst[rung.First] > m || ++perSecond[rung.Second] > n)
+    if (++perFirst[edge.First] > m || ++perSecond[edge.Second] > n)
     {
       return false;
     }
@@ -54,10 +54,10 @@ bool StarMerge::Fits(const SurfaceMesh& mesh) const
 {
   int perFirst[Ring::Capacity] = {};
   int perSecond[Ring::Capacity] = {};
-  for (const Rung& rung : this->Rungs)
+  for (const BridgeEdge& edge : this->BridgeEdges)
   {
-    ++perFirst[rung.First];
-    ++perSecond[rung.Second];
+    ++perFirst[edge.First];
+    ++perSecond[edge.Second];
   }
   for (int i = 0; i < this->FirstRim.Count; ++i)
   {
@@ -76,21 +76,19 @@ bool StarMerge::Fits(const SurfaceMesh& mesh) const
   return true;
 }
 
-bool StarMerge::Plan(const SurfaceMesh& mesh)
+bool StarMerge::MeasureRims(const SurfaceMesh& mesh)
 {
   this->FirstRim = mesh.Rings[this->U];
   this->SecondRim = mesh.Rings[this->V];
   std::reverse(this->SecondRim.Item, this->SecondRim.Item + this->SecondRim.Count);
-  const int n = this->FirstRim.Count;
-  const int m = this->SecondRim.Count;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < this->FirstRim.Count; ++i)
   {
     const int r = this->FirstRim.Item[i];
     if (r == this->V)
     {
       return false;
     }
-    for (int k = 0; k < m; ++k)
+    for (int k = 0; k < this->SecondRim.Count; ++k)
     {
       const int s = this->SecondRim.Item[k];
       if (r == s || mesh.AreNeighbours(r, s))
@@ -100,53 +98,67 @@ bool StarMerge::Plan(const SurfaceMesh& mesh)
       this->Squared[i][k] = SquaredDistance(mesh.Position[r], mesh.Position[s]);
     }
   }
+  return true;
+}
+
+float StarMerge::PlanInStep(int offset)
+{
+  const int n = this->FirstRim.Count;
+  const int m = this->SecondRim.Count;
+  this->Candidate.clear();
+  float cost = 0;
+  int i = 0;
+  int k = 0;
+  while (i < n || k < m)
+  {
+    (k == m || (i < n && i * m <= k * n) ? i : k) += 1;
+    this->Candidate.push_back({ i % n, (offset + k) % m });
+    cost += this->Squared[i % n][(offset + k) % m];
+  }
+  return cost;
+}
+
+void StarMerge::ChooseBridgeEdges()
+{
   float best = std::numeric_limits<float>::max();
-  this->Rungs.clear();
-  for (int offset = 0; offset < m; ++offset)
+  this->BridgeEdges.clear();
+  for (int offset = 0; offset < this->SecondRim.Count; ++offset)
   {
     float cost = 0;
     if (this->PlanFrom(offset, best, cost))
     {
       best = cost;
-      this->Rungs.swap(this->Candidate);
+      this->BridgeEdges.swap(this->Candidate);
     }
   }
-  if (this->Rungs.empty())
+  if (!this->BridgeEdges.empty())
   {
-    // Far or skew stars: nothing is better than turning about both rims evenly.
-    float least = std::numeric_limits<float>::max();
-    for (int offset = 0; offset < m; ++offset)
+    return;
+  }
+  // Far or skew stars: nothing is better than turning about both rims in step.
+  float least = std::numeric_limits<float>::max();
+  for (int offset = 0; offset < this->SecondRim.Count; ++offset)
+  {
+    const float cost = this->PlanInStep(offset);
+    if (cost < least)
     {
-      this->Candidate.clear();
-      float cost = 0;
-      int i = 0;
-      int k = 0;
-      while (i < n || k < m)
-      {
-        (k == m || (i < n && i * m <= k * n) ? i : k) += 1;
-        this->Candidate.push_back({ i % n, (offset + k) % m });
-        cost += this->Squared[i % n][(offset + k) % m];
-      }
-      if (cost < least)
-      {
-        least = cost;
-        this->Rungs.swap(this->Candidate);
-      }
+      least = cost;
+      this->BridgeEdges.swap(this->Candidate);
     }
   }
-  if (!this->Fits(mesh))
-  {
-    return false;
-  }
+}
+
+void StarMerge::MakeTriangles()
+{
   this->Triangles.clear();
-  this->Longest = 0;
-  for (std::size_t i = 0; i < this->Rungs.size(); ++i)
+  this->SquaredLongest = 0;
+  for (std::size_t i = 0; i < this->BridgeEdges.size(); ++i)
   {
-    const Rung& here = this->Rungs[i];
-    const Rung& next = this->Rungs[(i + 1) % this->Rungs.size()];
+    const BridgeEdge& here = this->BridgeEdges[i];
+    const BridgeEdge& next = this->BridgeEdges[(i + 1) % this->BridgeEdges.size()];
     const int r = this->FirstRim.Item[here.First];
     const int s = this->SecondRim.Item[here.Second];
-    this->Longest = std::max(this->Longest, this->Squared[here.First][here.Second]);
+    this->SquaredLongest = std::max(this->SquaredLongest, this->Squared[here.First][here.Second]);
     if (here.Second == next.Second)
     {
       this->Triangles.push_back({ r, this->FirstRim.Item[next.First], s });
@@ -156,29 +168,43 @@ bool StarMerge::Plan(const SurfaceMesh& mesh)
       this->Triangles.push_back({ this->SecondRim.Item[next.Second], s, r });
     }
   }
+}
+
+bool StarMerge::Plan(const SurfaceMesh& mesh)
+{
+  if (!this->MeasureRims(mesh))
+  {
+    return false;
+  }
+  this->ChooseBridgeEdges();
+  if (!this->Fits(mesh))
+  {
+    return false;
+  }
+  this->MakeTriangles();
   return true;
 }
 
-void StarMerge::InsertRungs(SurfaceMesh& mesh, bool first) const
+void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
 {
-  const auto own = [first](const Rung& rung) { return first ? rung.First : rung.Second; };
-  const std::size_t count = this->Rungs.size();
+  const auto own = [first](const BridgeEdge& edge) { return first ? edge.First : edge.Second; };
+  const std::size_t count = this->BridgeEdges.size();
   const int centre = first ? this->U : this->V;
   const Ring& rim = first ? this->FirstRim : this->SecondRim;
   const Ring& facing = first ? this->SecondRim : this->FirstRim;
   for (std::size_t begin = 0; begin < count; ++begin)
   {
-    const int place = own(this->Rungs[begin]);
-    if (place == own(this->Rungs[(begin + count - 1) % count]))
+    const int place = own(this->BridgeEdges[begin]);
+    if (place == own(this->BridgeEdges[(begin + count - 1) % count]))
     {
-      continue; // Not the first rung of this rim vertex.
+      continue; // Not the first bridge edge of this rim vertex.
     }
     int run[Ring::Capacity];
     int length = 0;
-    for (std::size_t i = begin; own(this->Rungs[i % count]) == place; ++i)
+    for (std::size_t i = begin; own(this->BridgeEdges[i % count]) == place; ++i)
     {
-      const Rung& rung = this->Rungs[i % count];
-      run[length++] = facing.Item[first ? rung.Second : rung.First];
+      const BridgeEdge& edge = this->BridgeEdges[i % count];
+      run[length++] = facing.Item[first ? edge.Second : edge.First];
     }
     if (first)
     {
@@ -206,8 +232,8 @@ void StarMerge::InsertRungs(SurfaceMesh& mesh, bool first) const
 
 void StarMerge::Apply(SurfaceMesh& mesh) const
 {
-  this->InsertRungs(mesh, true);
-  this->InsertRungs(mesh, false);
+  this->InsertBridgeEdges(mesh, true);
+  this->InsertBridgeEdges(mesh, false);
   mesh.RemoveVertex(this->U);
   mesh.RemoveVertex(this->V);
 }

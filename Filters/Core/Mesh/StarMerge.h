@@ -12,7 +12,7 @@ namespace volumic
 {
 /**
  * The merge (axial transformation): the stars of two vertices are removed and their rims joined
- * by a band of triangles. chi - 2: two components become one, or one gains a handle.
+ * by a strip of triangles. chi - 2: two components become one, or one gains a handle.
  */
 class StarMerge
 {
@@ -21,35 +21,43 @@ public:
   int V = -1;
 
   /**
-   * Plans the band by dynamic programming over the start offsets: least sum of squared rungs.
+   * Plans the strip by dynamic programming over the start offsets: least sum of the squared lengths
+   * of the bridge edges, which join the rims.
    * Paths that stay on one rim vertex for a whole turn are left out, they would double an edge.
-   * @return false where the rims touch or are joined by an edge, or no band fits the rings.
+   * @return false where the rims touch or are joined by an edge, or no strip fits the rings.
    */
   bool Plan(const SurfaceMesh& mesh);
 
-  /** After Plan: the triangles of the band, and its longest rung, squared. */
+  /** After Plan: the triangles of the strip, and the length of its longest bridge edge, squared. */
   const std::vector<std::array<int, 3>>& Strip() const { return this->Triangles; }
-  float SquaredLongestBridgeEdge() const { return this->Longest; }
+  float SquaredLongestBridgeEdge() const { return this->SquaredLongest; }
 
   void Apply(SurfaceMesh& mesh) const;
 
 private:
-  struct Rung
+  struct BridgeEdge
   {
     int First;  ///< Place on the rim of U, along its ring.
     int Second; ///< Place on the rim of V, against its ring.
   };
+  /** False where the rims touch or an edge joins them. */
+  bool MeasureRims(const SurfaceMesh& mesh);
+  void ChooseBridgeEdges();
+  /** The cheapest strip whose first bridge edge goes to this place of the second rim, if under best. */
   bool PlanFrom(int offset, float best, float& cost);
+  /** A strip that goes about both rims at the same pace. @return its cost. */
+  float PlanInStep(int offset);
   bool Fits(const SurfaceMesh& mesh) const;
-  void InsertRungs(SurfaceMesh& mesh, bool first) const;
+  void MakeTriangles();
+  void InsertBridgeEdges(SurfaceMesh& mesh, bool first) const;
 
   Ring FirstRim;
   Ring SecondRim; ///< Reversed.
-  float Squared[Ring::Capacity][Ring::Capacity];
-  std::vector<Rung> Rungs;
-  std::vector<Rung> Candidate;
+  float Squared[Ring::Capacity][Ring::Capacity]; ///< Distances from rim to rim.
+  std::vector<BridgeEdge> BridgeEdges;
+  std::vector<BridgeEdge> Candidate;
   std::vector<std::array<int, 3>> Triangles;
-  float Longest = 0;
+  float SquaredLongest = 0;
 };
 }
 

@@ -2,34 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceCheck.h"
 
-#include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Mesh/SurfaceMesh.h"
 #include "Core/Mesh/TriangleTree.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace volumic
 {
 namespace
 {
-[[noreturn]] void Refuse(const std::string& what)
+template <typename... Parts>
+[[noreturn]] void RefuseSurface(const Parts&... parts)
 {
-  throw std::invalid_argument("The initial surface " + what);
+  Refuse("The initial surface ", parts...);
 }
 
 void CheckIndices(const IndexedSurface& surface)
 {
   if (surface.Triangles.empty())
   {
-    Refuse("is empty: it has no triangles. Give a closed triangle mesh.");
+    RefuseSurface("is empty: it has no triangles. Give a closed triangle mesh.");
   }
   const int n = static_cast<int>(surface.Points.size());
   for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
@@ -39,20 +38,20 @@ void CheckIndices(const IndexedSurface& surface)
     {
       if (corner < 0 || corner >= n)
       {
-        Refuse("has triangle " + std::to_string(i) + " with point " + std::to_string(corner) +
-          ", but there are " + std::to_string(n) + " points.");
+        RefuseSurface("has triangle ", i, " with point ", corner,
+          ", but there are ", n, " points.");
       }
       for (double x : surface.Points[corner])
       {
         if (!std::isfinite(x))
         {
-          Refuse("has a coordinate that is not finite at point " + std::to_string(corner) + ".");
+          RefuseSurface("has a coordinate that is not finite at point ", corner, ".");
         }
       }
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
     {
-      Refuse("has a degenerate triangle (number " + std::to_string(i) +
+      RefuseSurface("has a degenerate triangle (number ", i,
         " uses a point twice). Clean it first, for example with vtkCleanPolyData.");
     }
   }
@@ -85,19 +84,19 @@ void CheckEdges(const IndexedSurface& surface)
   }
   if (open > 0)
   {
-    Refuse("is open: " + std::to_string(open) +
+    RefuseSurface("is open: ", open,
       " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter, or, "
       "where triangles have points of their own at the same places, merge these with "
       "vtkCleanPolyData.");
   }
   if (crowded > 0)
   {
-    Refuse("is not manifold: " + std::to_string(crowded) +
+    RefuseSurface("is not manifold: ", crowded,
       " edges have more than two triangles. Clean it first.");
   }
   if (twisted > 0)
   {
-    Refuse("is not oriented: " + std::to_string(twisted) +
+    RefuseSurface("is not oriented: ", twisted,
       " edges have two triangles that disagree on their orientation. Orient it, for example with "
       "vtkPolyDataNormals and ConsistencyOn.");
   }
@@ -133,7 +132,7 @@ void CheckVertices(const IndexedSurface& surface)
   }
   if (pinched > 0)
   {
-    Refuse("is not manifold: at " + std::to_string(pinched) +
+    RefuseSurface("is not manifold: at ", pinched,
       " points several fans of triangles touch. Give each fan a point of its own.");
   }
 }
@@ -149,13 +148,52 @@ void CheckOrientation(const IndexedSurface& surface)
   }
   if (largest < 0.)
   {
-    Refuse(Join("is inside out: it encloses a volume of ", largest) +
+    RefuseSurface("is inside out: it encloses a volume of ", largest,
       ". Reverse it, for example with vtkReverseSense.");
   }
   if (largest == 0.)
   {
-    Refuse("encloses no volume.");
+    RefuseSurface("encloses no volume.");
   }
+}
+
+/** A place in a triangle that has nothing in common with the lines of round numbers. */
+Point PlaceIn(const IndexedSurface& surface, const Triangle& t)
+{
+  constexpr double weights[3] = { 0.41421, 0.35425, 0.23154 }; // Their sum is 1.
+  Point place;
+  for (int k = 0; k < 3; ++k)
+  {
+    place[k] = weights[0] * surface.Points[t[0]][k] + weights[1] * surface.Points[t[1]][k] +
+      weights[2] * surface.Points[t[2]][k];
+  }
+  return place;
+}
+
+/** How often the components other than one wind round a place of it. */
+int WindingNumber(const TriangleTree& tree, const IndexedSurface& surface,
+  const std::vector<int>& componentOf, int component, const Point& place)
+{
+  int winding = 0;
+  tree.Traverse(
+    [&place](const TriangleTree::Node& node)
+    {
+      const Bounds& box = node.Box;
+      return box.Low[0] <= place[0] && box.Low[1] <= place[1] && box.High[1] >= place[1] &&
+        box.Low[2] <= place[2] && box.High[2] >= place[2];
+    },
+    [&](int i)
+    {
+      if (componentOf[i] != component)
+      {
+        const Triangle& t = surface.Triangles[i];
+        const RowCrossing crossing = RowCrossing::Of(
+          surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]], place[1], place[2]);
+        winding += crossing.X < place[0] ? crossing.Winding : 0;
+      }
+      return true;
+    });
+  return winding;
 }
 
 /**
@@ -165,58 +203,34 @@ void CheckOrientation(const IndexedSurface& surface)
 void CheckNesting(const IndexedSurface& surface)
 {
   const SurfaceFeatures features = ComputeFeatures(surface);
-  std::vector<int> first(features.Components.size(), -1);
-  const int count = static_cast<int>(surface.Triangles.size());
-  for (int i = count - 1; i >= 0; --i)
-  {
-    first[features.ComponentOfTriangle[i]] = i;
-  }
-  if (first.size() == 1)
+  const std::size_t count = features.Components.size();
+  if (count == 1)
   {
     return;
   }
-  IndexedSurface turned = surface;
+  std::vector<const Triangle*> first(count, nullptr);
+  for (std::size_t i = surface.Triangles.size(); i-- > 0;)
+  {
+    first[features.ComponentOfTriangle[i]] = &surface.Triangles[i];
+  }
+  IndexedSurface rotated = surface;
   const ObliqueRotation rotation(0);
-  for (Point& p : turned.Points)
+  for (Point& p : rotated.Points)
   {
     p = rotation.Apply(p);
   }
-  const TriangleTree tree(turned);
+  const TriangleTree tree(rotated);
   int wrong = 0;
-  for (std::size_t c = 0; c < first.size(); ++c)
+  for (std::size_t c = 0; c < count; ++c)
   {
-    // How often do the others go round a place in a triangle of this one?
-    const Triangle& own = turned.Triangles[first[c]];
-    Point place;
-    for (int k = 0; k < 3; ++k)
-    {
-      place[k] = 0.41421 * turned.Points[own[0]][k] + 0.35425 * turned.Points[own[1]][k] +
-        0.23154 * turned.Points[own[2]][k];
-    }
-    int around = 0;
-    tree.Traverse(
-      [&place](const TriangleTree::Node& node)
-      {
-        return node.Low[0] <= place[0] && node.Low[1] <= place[1] && node.High[1] >= place[1] &&
-          node.Low[2] <= place[2] && node.High[2] >= place[2];
-      },
-      [&](int i)
-      {
-        if (features.ComponentOfTriangle[i] != static_cast<int>(c))
-        {
-          const RowCrossing crossing =
-            RowCrossing::Of(turned, turned.Triangles[i], place[1], place[2]);
-          around += crossing.X < place[0] ? crossing.Turn : 0;
-        }
-        return true;
-      });
+    const int winding = WindingNumber(tree, rotated, features.ComponentOfTriangle,
+      static_cast<int>(c), PlaceIn(rotated, *first[c]));
     const bool isCavity = features.Components[c].Volume < 0.;
-    wrong += around != (isCavity ? 1 : 0);
+    wrong += winding != (isCavity ? 1 : 0);
   }
   if (wrong > 0)
   {
-    Refuse("is not the boundary of a volume: " + std::to_string(wrong) + " of its " +
-      std::to_string(first.size()) +
+    RefuseSurface("is not the boundary of a volume: ", wrong, " of its ", count,
       " components face the wrong way. Those inside another one are cavities and must face inward, "
       "those inside a cavity or outside of all must face outward.");
   }
@@ -233,61 +247,9 @@ void CheckInitialSurface(const IndexedSurface& surface)
   const int pairs = CountSelfIntersections(surface, limit);
   if (pairs > 0)
   {
-    Refuse("intersects itself: " + std::string(pairs >= limit ? "at least " : "") +
-      std::to_string(pairs) + " pairs of triangles meet. Repair it before it is given.");
+    RefuseSurface("intersects itself: ", pairs >= limit ? "at least " : "",
+      pairs, " pairs of triangles meet. Repair it before it is given.");
   }
   CheckNesting(surface);
-}
-
-std::string DescribeBrokenInvariant(const SurfaceMesh& mesh)
-{
-  int alive = 0;
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    const Ring& ring = mesh.Rings[v];
-    const std::string name = "vertex " + std::to_string(v);
-    if (ring.Count == 0)
-    {
-      continue;
-    }
-    ++alive;
-    if (ring.Count < 3 || ring.Count > Ring::Capacity)
-    {
-      return name + " has " + std::to_string(ring.Count) + " neighbours";
-    }
-    const Vector& p = mesh.Position[v];
-    if (!std::isfinite(p.X) || !std::isfinite(p.Y) || !std::isfinite(p.Z))
-    {
-      return name + " has a position that is not finite";
-    }
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      const int w = ring.Item[i];
-      if (w < 0 || w >= mesh.Size() || w == v || !mesh.IsAlive(w))
-      {
-        return name + " has the neighbour " + std::to_string(w) + ", which is none";
-      }
-      for (int j = i + 1; j < ring.Count; ++j)
-      {
-        if (ring.Item[j] == w)
-        {
-          return name + " has the neighbour " + std::to_string(w) + " twice";
-        }
-      }
-      // The face (v, w, next) must be seen from w as (w, next, v).
-      const Ring& other = mesh.Rings[w];
-      const int at = other.Find(ring.Next(i));
-      if (at < 0 || other.Next(at) != v)
-      {
-        return name + " and " + std::to_string(w) + " disagree about their common face";
-      }
-    }
-  }
-  if (alive != mesh.NumberOfVertices())
-  {
-    return "the free list does not fit: " + std::to_string(alive) + " alive, " +
-      std::to_string(mesh.NumberOfVertices()) + " expected";
-  }
-  return {};
 }
 }

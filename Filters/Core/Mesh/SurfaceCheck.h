@@ -6,12 +6,8 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Mesh/SelfIntersections.h"
 
-#include <string>
-
 namespace volumic
 {
-class SurfaceMesh;
-
 /**
  * Refuses a surface that can't be evolved: empty, indices or coordinates out of range, open, not
  * manifold, not oriented, inside out, not the boundary of a volume (components nested the wrong
@@ -19,13 +15,6 @@ class SurfaceMesh;
  * @throws std::invalid_argument whose message names what is wrong, how often, and the way out.
  */
 void CheckInitialSurface(const IndexedSurface& surface);
-
-/**
- * Every invariant of a live mesh that holds at any time: consistent rings, no duplicate
- * neighbours, both orientations of each edge, finite positions, free list. For tests.
- * @return an empty string, or what is broken.
- */
-std::string DescribeBrokenInvariant(const SurfaceMesh& mesh);
 }
 
 #endif

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceFeatures.h"
 
+#include "Core/Common/DisjointSets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,34 +13,8 @@ namespace volumic
 {
 namespace
 {
-/** Union-find over vertices, smallest index as root. */
-class Joined
-{
-public:
-  explicit Joined(std::size_t n)
-    : Parent(n)
-  {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0);
-  }
-  int Root(int v)
-  {
-    while (this->Parent[v] != v)
-    {
-      this->Parent[v] = this->Parent[this->Parent[v]];
-      v = this->Parent[v];
-    }
-    return v;
-  }
-  void Join(int u, int v)
-  {
-    u = this->Root(u);
-    v = this->Root(v);
-    this->Parent[std::max(u, v)] = std::min(u, v);
-  }
-
-private:
-  std::vector<int> Parent;
-};
+/** The axes of the entries of a symmetric tensor, in the order in which they are kept. */
+constexpr int TensorAxes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
 
 /** Sums over the tetrahedra that the triangles span with a reference point of the component. */
 struct Sums
@@ -48,7 +24,7 @@ struct Sums
   double Volume = 0.;
   std::array<double, 3> AreaMoment{};
   std::array<double, 3> First{};
-  std::array<double, 6> Second{}; // xx yy zz xy yz xz
+  std::array<double, 6> Second{}; ///< By TensorAxes.
   int Vertices = 0;
   int Triangles = 0;
 };
@@ -73,7 +49,6 @@ void AddTriangle(Sums& sums, const Point& pa, const Point& pb, const Point& pc)
   const double det = a[0] * n[0] + a[1] * n[1] + a[2] * n[2];
   sums.Area += area;
   sums.Volume += det / 6.;
-  constexpr int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
   for (int k = 0; k < 3; ++k)
   {
     sums.AreaMoment[k] += area * (a[k] + b[k] + c[k]) / 3.;
@@ -81,8 +56,8 @@ void AddTriangle(Sums& sums, const Point& pa, const Point& pb, const Point& pc)
   }
   for (int k = 0; k < 6; ++k)
   {
-    const int i = pair[k][0];
-    const int j = pair[k][1];
+    const int i = TensorAxes[k][0];
+    const int j = TensorAxes[k][1];
     const double si = a[i] + b[i] + c[i];
     const double sj = a[j] + b[j] + c[j];
     sums.Second[k] += det * (si * sj + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]) / 120.;
@@ -107,11 +82,10 @@ ComponentFeatures Finish(const Sums& sums)
     result.Centroid[k] = sums.Reference[k] + centre[k];
   }
   std::array<double, 6> second = sums.Second;
-  constexpr int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
   for (int k = 0; k < 6; ++k)
   {
-    const int i = pair[k][0];
-    const int j = pair[k][1];
+    const int i = TensorAxes[k][0];
+    const int j = TensorAxes[k][1];
     second[k] -= centre[i] * sums.First[j] + centre[j] * sums.First[i] -
       sums.Volume * centre[i] * centre[j];
   }
@@ -123,7 +97,7 @@ ComponentFeatures Finish(const Sums& sums)
 
 SurfaceFeatures ComputeFeatures(const IndexedSurface& surface)
 {
-  Joined joined(surface.Points.size());
+  DisjointSets joined(surface.Points.size());
   for (const Triangle& t : surface.Triangles)
   {
     joined.Join(t[0], t[1]);
@@ -135,7 +109,7 @@ SurfaceFeatures ComputeFeatures(const IndexedSurface& surface)
   for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
   {
     const Triangle& t = surface.Triangles[i];
-    int& c = number[joined.Root(t[0])];
+    int& c = number[joined.Find(t[0])];
     if (c < 0)
     {
       c = static_cast<int>(sums.size());
@@ -147,7 +121,7 @@ SurfaceFeatures ComputeFeatures(const IndexedSurface& surface)
   }
   for (std::size_t v = 0; v < surface.Points.size(); ++v)
   {
-    const int c = number[joined.Root(static_cast<int>(v))];
+    const int c = number[joined.Find(static_cast<int>(v))];
     if (c >= 0)
     {
       ++sums[c].Vertices;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceMesh.h"
 
+#include "Core/Common/Refuse.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
-#include <string>
+#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -76,7 +77,7 @@ int SurfaceMesh::CountEulerCharacteristic() const
   return this->NumberOfVertices() - this->NumberOfFaces() / 2;
 }
 
-IndexedSurface SurfaceMesh::ToIndexed(std::vector<int>* placeOf) const
+IndexedSurface SurfaceMesh::ToIndexed() const
 {
   IndexedSurface surface;
   std::vector<int> place(this->Rings.size(), -1);
@@ -93,74 +94,87 @@ IndexedSurface SurfaceMesh::ToIndexed(std::vector<int>* placeOf) const
   surface.Triangles.reserve(this->NumberOfFaces());
   this->VisitFaces([&](int a, int b, int c)
     { surface.Triangles.push_back({ place[a], place[b], place[c] }); });
-  if (placeOf)
-  {
-    *placeOf = std::move(place);
-  }
   return surface;
+}
+
+namespace
+{
+using DirectedEdge = std::pair<int, int>;
+
+/** For each vertex the directed edges (b, c) that its triangles have opposite to it. */
+struct OppositeEdges
+{
+  std::vector<int> Start; ///< Of those of each vertex, and the end of the last.
+  std::vector<DirectedEdge> Edges;
+
+  explicit OppositeEdges(const IndexedSurface& surface) : Start(surface.Points.size() + 1, 0)
+  {
+    for (const Triangle& t : surface.Triangles)
+    {
+      for (int corner : t)
+      {
+        ++this->Start[corner + 1];
+      }
+    }
+    std::partial_sum(this->Start.begin(), this->Start.end(), this->Start.begin());
+    this->Edges.resize(this->Start.back());
+    std::vector<int> fill(this->Start.begin(), this->Start.end() - 1);
+    for (const Triangle& t : surface.Triangles)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        this->Edges[fill[t[k]]++] = { t[(k + 1) % 3], t[(k + 2) % 3] };
+      }
+    }
+  }
+};
+
+/** The ring that the edges opposite to a vertex make; changes their order. */
+Ring RingOf(int vertex, DirectedEdge* edges, int count)
+{
+  if (count < 3)
+  {
+    Refuse("the surface is not closed: vertex ", vertex, " has ", count, " triangles");
+  }
+  if (count > Ring::Capacity)
+  {
+    Refuse("vertex ", vertex, " of the surface has ", count, " neighbours, more than ",
+      Ring::Capacity);
+  }
+  Ring ring;
+  ring.Count = count;
+  for (int i = 0; i < count; ++i)
+  {
+    ring.Item[i] = edges[i].first;
+    // Bring the edge that begins where this one ends to the next place.
+    for (int j = i + 1; j < count; ++j)
+    {
+      if (edges[j].first == edges[i].second)
+      {
+        std::swap(edges[i + 1], edges[j]);
+        break;
+      }
+    }
+    const bool follows = edges[(i + 1) % count].first == edges[i].second;
+    const bool closesEarly = i + 1 < count && edges[i].second == edges[0].first;
+    if (!follows || closesEarly)
+    {
+      Refuse("the surface is not a closed oriented manifold at vertex ", vertex);
+    }
+  }
+  return ring;
+}
 }
 
 int SurfaceMesh::Append(const IndexedSurface& surface)
 {
   const int n = static_cast<int>(surface.Points.size());
-  // For each vertex the directed edges (b, c) that its triangles have opposite to it.
-  std::vector<int> start(n + 1, 0);
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int corner : t)
-    {
-      ++start[corner + 1];
-    }
-  }
+  OppositeEdges opposite(surface);
+  std::vector<Ring> rings(n); // Nothing is added before all is found to be sound.
   for (int v = 0; v < n; ++v)
   {
-    start[v + 1] += start[v];
-  }
-  std::vector<std::pair<int, int>> opposite(start[n]);
-  std::vector<int> fill(start.begin(), start.end() - 1);
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      opposite[fill[t[k]]++] = { t[(k + 1) % 3], t[(k + 2) % 3] };
-    }
-  }
-  std::vector<Ring> rings(n);
-  for (int v = 0; v < n; ++v)
-  {
-    const int count = start[v + 1] - start[v];
-    if (count < 3)
-    {
-      throw std::invalid_argument("the surface is not closed: vertex " + std::to_string(v) +
-        " has " + std::to_string(count) + " triangles");
-    }
-    if (count > Ring::Capacity)
-    {
-      throw std::invalid_argument("vertex " + std::to_string(v) + " of the surface has " +
-        std::to_string(count) + " neighbours, more than " + std::to_string(Ring::Capacity));
-    }
-    auto* edges = &opposite[start[v]];
-    for (int i = 0; i < count; ++i)
-    {
-      rings[v].Item[i] = edges[i].first;
-      // Bring the edge that begins where this one ends to the next place.
-      for (int j = i + 1; j < count; ++j)
-      {
-        if (edges[j].first == edges[i].second)
-        {
-          std::swap(edges[i + 1], edges[j]);
-          break;
-        }
-      }
-      const bool follows = edges[(i + 1) % count].first == edges[i].second;
-      const bool closesEarly = i + 1 < count && edges[i].second == edges[0].first;
-      if (!follows || closesEarly)
-      {
-        throw std::invalid_argument("the surface is not a closed oriented manifold at vertex " +
-          std::to_string(v));
-      }
-    }
-    rings[v].Count = count;
+    const int start = opposite.Start[v];
+    rings[v] = RingOf(v, opposite.Edges.data() + start, opposite.Start[v + 1] - start);
   }
   const int first = this->Size();
   for (int v = 0; v < n; ++v)

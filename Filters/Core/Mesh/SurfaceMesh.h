@@ -118,8 +118,8 @@ public:
   /** V - E + F, counted. */
   int CountEulerCharacteristic() const;
 
-  /** All alive vertices in order of index; `placeOf` (optional) gets the new index or -1. */
-  IndexedSurface ToIndexed(std::vector<int>* placeOf = nullptr) const;
+  /** All alive vertices, in order of index. */
+  IndexedSurface ToIndexed() const;
 
   /**
    * Adds the components of a closed oriented manifold triangle mesh.

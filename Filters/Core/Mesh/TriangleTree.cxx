@@ -16,12 +16,12 @@ namespace
 {
 constexpr int LeafSize = 4;
 
-double SquaredDistanceToBox(const Point& place, const TriangleTree::Node& node)
+double SquaredDistanceToBox(const Point& place, const Bounds& box)
 {
   double sum = 0.;
   for (int k = 0; k < 3; ++k)
   {
-    const double beyond = std::max({ node.Low[k] - place[k], place[k] - node.High[k], 0. });
+    const double beyond = std::max({ box.Low[k] - place[k], place[k] - box.High[k], 0. });
     sum += beyond * beyond;
   }
   return sum;
@@ -80,23 +80,16 @@ TriangleTree::TriangleTree(const IndexedSurface& surface)
 int TriangleTree::Build(int begin, int end, const std::vector<Point>& centres)
 {
   const int at = static_cast<int>(this->Nodes.size());
-  constexpr double most = std::numeric_limits<double>::max();
-  Node node{ { most, most, most }, { -most, -most, -most }, begin, end, -1, 0 };
-  Point low = node.Low;
-  Point high = node.High;
+  Node node{ Bounds(), begin, end, -1, 0 };
+  Bounds middles;
   for (int i = begin; i < end; ++i)
   {
     const int triangle = this->Places[i];
     node.Largest = std::max(node.Largest, triangle);
-    for (int k = 0; k < 3; ++k)
+    middles.Add(centres[triangle]);
+    for (int corner : this->Surface.Triangles[triangle])
     {
-      low[k] = std::min(low[k], centres[triangle][k]);
-      high[k] = std::max(high[k], centres[triangle][k]);
-      for (int corner : this->Surface.Triangles[triangle])
-      {
-        node.Low[k] = std::min(node.Low[k], this->Surface.Points[corner][k]);
-        node.High[k] = std::max(node.High[k], this->Surface.Points[corner][k]);
-      }
+      node.Box.Add(this->Surface.Points[corner]);
     }
   }
   this->Nodes.push_back(node);
@@ -105,9 +98,10 @@ int TriangleTree::Build(int begin, int end, const std::vector<Point>& centres)
     return at;
   }
   int axis = 0;
+  const auto extent = [&middles](int k) { return middles.High[k] - middles.Low[k]; };
   for (int k = 1; k < 3; ++k)
   {
-    axis = high[k] - low[k] > high[axis] - low[axis] ? k : axis;
+    axis = extent(k) > extent(axis) ? k : axis;
   }
   const int middle = begin + (end - begin) / 2;
   const auto first = this->Places.begin();
@@ -142,8 +136,8 @@ double TriangleTree::SquaredDistance(const Point& place) const
     const Node& node = this->Nodes[branch.Node];
     if (node.Second >= 0)
     {
-      Branch closer{ branch.Node + 1, SquaredDistanceToBox(place, this->Nodes[branch.Node + 1]) };
-      Branch further{ node.Second, SquaredDistanceToBox(place, this->Nodes[node.Second]) };
+      Branch closer{ branch.Node + 1, SquaredDistanceToBox(place, this->Nodes[branch.Node + 1].Box) };
+      Branch further{ node.Second, SquaredDistanceToBox(place, this->Nodes[node.Second].Box) };
       if (closer.Squared > further.Squared)
       {
         std::swap(closer, further);

@@ -19,8 +19,7 @@ class TriangleTree
 public:
   struct Node
   {
-    Point Low;
-    Point High;
+    Bounds Box;
     int Begin; ///< Of its triangles in the order of the tree.
     int End;
     int Second;  ///< Node of the second half, the first one follows its parent; -1: a leaf.

@@ -45,6 +45,17 @@ public:
     this->VisitBox(position - margin, position + margin, visit);
   }
 
+  /** Whether a vertex lies within `radius` of a point; `positions`: of all vertices. */
+  bool HasWithin(
+    const Vector& position, float radius, const std::vector<Vector>& positions) const
+  {
+    bool found = false;
+    this->Visit(position, radius,
+      [&](int w)
+      { found = found || SquaredDistance(position, positions[w]) <= radius * radius; });
+    return found;
+  }
+
   /** Calls visit(w) for a superset of the vertices in a box. */
   template <typename Visitor>
   void VisitBox(const Vector& low, const Vector& high, Visitor&& visit) const

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ComponentWatch.h"
 
+#include "Core/Mesh/RowCrossing.h"
+#include "Core/Mesh/SurfaceMeasures.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -14,14 +17,23 @@ namespace
 constexpr int SmallSize = 400;
 /** Up to this many they are deleted when wholly on the wrong side. */
 constexpr int TinySize = 24;
-/** Up to this many they are nothing any more. */
-constexpr int NothingSize = 5;
+/** Up to this many they have vanished. */
+constexpr int VanishedSize = 5;
+
+/** Vertices that one thread joins, or looks for crossings at, at a time. */
+constexpr std::size_t JoinedBlock = 16384;
+constexpr std::size_t CrossedBlock = 8192;
+/** Vertices under which a chunk is not worth a thread. */
+constexpr std::size_t Grain = 4096;
+
+/** What DeleteDegenerate has seen of a component, in the place of its label. */
+constexpr int Seen = -2;
 
 /** From a vertex of a component along x. */
 struct Ray
 {
   int Vertex;
-  VectorD Origin;
+  Point Origin;
   bool IsCavity; ///< The component's volume is negative.
 };
 
@@ -32,37 +44,54 @@ struct Crossing
   int Component;
 };
 
-/**
- * Whether a ray along x passes to the right of an edge, seen along x. Of the two ends of an edge
- * only one counts, and both its faces get the same answer, so that the line of a ray meets a closed
- * surface an even number of times, even where it runs through edges and corners.
- */
-bool PassesRight(const VectorD& origin, const VectorD& p, const VectorD& q)
+Point PositionOf(const SurfaceMesh& mesh, int v)
 {
-  if ((p.Y > origin.Y) == (q.Y > origin.Y))
-  {
-    return false;
-  }
-  const VectorD& low = p.Y > origin.Y ? q : p;
-  const VectorD& high = p.Y > origin.Y ? p : q;
-  return (high.Y - low.Y) * (origin.Z - low.Z) < (high.Z - low.Z) * (origin.Y - low.Y);
+  const Vector& p = mesh.Position[v];
+  return { p.X, p.Y, p.Z };
 }
 
-/** Whether the face crosses the ray. */
-bool Crosses(const Ray& ray, const VectorD& a, const VectorD& b, const VectorD& c)
+bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
-  const VectorD& o = ray.Origin;
-  if ((PassesRight(o, a, b) + PassesRight(o, b, c) + PassesRight(o, c, a)) % 2 == 0)
+  SignedVolume volume(mesh.Position[vertices.front()]);
+  for (int v : vertices)
   {
-    return false;
+    volume.Add(mesh, v);
   }
-  const VectorD normal = Cross(b - a, c - a);
-  // The height of the origin over the face, along x; a face along the ray has no inside.
-  const double height = Dot(normal, a - o);
-  return normal.X > 0 ? height > 0 : height < 0;
+  return volume.Value() > 0;
 }
 
-/** Finds the crossings with the faces that have v as their smallest vertex. `rays`: by Y. */
+/** A ray from the first vertex of each component, by Y. `labels`: of the vertices. */
+std::vector<Ray> CastRays(const SurfaceMesh& mesh, const std::vector<int>& labels, int components)
+{
+  std::vector<SignedVolume> volumes(components);
+  std::vector<int> first(components, -1);
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (!mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const int label = labels[v];
+    if (first[label] < 0)
+    {
+      first[label] = v;
+      volumes[label] = SignedVolume(mesh.Position[v]);
+    }
+    volumes[label].Add(mesh, v);
+  }
+  std::vector<Ray> rays;
+  for (int label = 0; label < components; ++label)
+  {
+    rays.push_back(
+      { first[label], PositionOf(mesh, first[label]), volumes[label].Value() < 0. });
+  }
+  std::sort(rays.begin(), rays.end(),
+    [](const Ray& a, const Ray& b)
+    { return a.Origin[1] != b.Origin[1] ? a.Origin[1] < b.Origin[1] : a.Vertex < b.Vertex; });
+  return rays;
+}
+
+/** Finds the crossings with the faces that have v as their smallest vertex. */
 void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int v,
   const std::vector<Ray>& rays, std::vector<Crossing>& crossings)
 {
@@ -75,67 +104,120 @@ void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int 
     {
       continue;
     }
-    const VectorD a(mesh.Position[v]);
-    const VectorD b(mesh.Position[second]);
-    const VectorD c(mesh.Position[third]);
-    const double low = std::min({ a.Y, b.Y, c.Y });
-    const double high = std::max({ a.Y, b.Y, c.Y });
+    const Point a = PositionOf(mesh, v);
+    const Point b = PositionOf(mesh, second);
+    const Point c = PositionOf(mesh, third);
+    const double low = std::min({ a[1], b[1], c[1] });
+    const double high = std::max({ a[1], b[1], c[1] });
     auto ray = std::lower_bound(rays.begin(), rays.end(), low,
-      [](const Ray& r, double y) { return r.Origin.Y < y; });
-    for (; ray != rays.end() && ray->Origin.Y <= high; ++ray)
+      [](const Ray& r, double y) { return r.Origin[1] < y; });
+    for (; ray != rays.end() && ray->Origin[1] <= high; ++ray)
     {
-      if (labels[ray->Vertex] != labels[v] && Crosses(*ray, a, b, c))
+      if (labels[ray->Vertex] == labels[v])
+      {
+        continue;
+      }
+      const RowCrossing crossing = RowCrossing::Of(a, b, c, ray->Origin[1], ray->Origin[2]);
+      if (crossing.Winding != 0 && crossing.X > ray->Origin[0])
       {
         crossings.push_back({ static_cast<int>(ray - rays.begin()), labels[v] });
       }
     }
   }
 }
-}
 
-double SignedVolume(const SurfaceMesh& mesh, const std::vector<int>& vertices)
+/** For each ray the labels of the components around its origin: those it crosses an odd number of
+    times. */
+std::vector<std::vector<int>> ComponentsAround(const SurfaceMesh& mesh,
+  const std::vector<int>& labels, const std::vector<Ray>& rays, Executor& executor)
 {
-  double sum = 0;
-  const VectorD origin(mesh.Position[vertices.front()]);
-  for (int v : vertices)
-  {
-    const Ring& ring = mesh.Rings[v];
-    const VectorD p = VectorD(mesh.Position[v]) - origin;
-    for (int i = 0; i < ring.Count; ++i)
+  const std::size_t n = mesh.Rings.size();
+  std::vector<std::vector<Crossing>> crossings((n + CrossedBlock - 1) / CrossedBlock);
+  ForBlocks(executor, n, CrossedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      sum += Dot(p, Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
-                      VectorD(mesh.Position[ring.Next(i)]) - origin));
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        FindCrossings(mesh, labels, v, rays, crossings[b]);
+      }
+    });
+  std::vector<std::vector<int>> around(rays.size());
+  for (const std::vector<Crossing>& block : crossings)
+  {
+    for (const Crossing& crossing : block)
+    {
+      around[crossing.Ray].push_back(crossing.Component);
     }
   }
-  return sum / 18.;
+  for (std::vector<int>& crossed : around)
+  {
+    std::sort(crossed.begin(), crossed.end());
+    std::vector<int> odd;
+    for (int label : crossed)
+    {
+      if (!odd.empty() && odd.back() == label)
+      {
+        odd.pop_back();
+      }
+      else
+      {
+        odd.push_back(label);
+      }
+    }
+    crossed.swap(odd);
+  }
+  return around;
+}
 }
 
 void ComponentWatch::Label(SurfaceState& state, Executor& executor)
 {
-  // Trees of vertices, each linked to a smaller one, in the place of the labels: first within
-  // blocks, side by side, then across their borders.
-  const std::size_t n = state.Mesh.Rings.size();
-  std::vector<int>& parent = state.Component.AsVector();
-  const auto root = [&parent](int v)
-  {
-    while (parent[v] != v)
+  this->JoinVertices(state.Mesh, executor);
+  executor.For(state.Mesh.Rings.size(), Grain,
+    [&](std::size_t begin, std::size_t end)
     {
-      parent[v] = parent[parent[v]];
-      v = parent[v];
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        state.Component[v] = this->Joined.FindRoot(v);
+      }
+    });
+  std::vector<int> sizes;
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    if (!state.Mesh.IsAlive(v))
+    {
+      state.Component[v] = -1;
+      continue;
     }
-    return v;
-  };
-  constexpr std::size_t size = 16384;
-  this->Borders.resize((n + size - 1) / size);
-  ForBlocks(executor, n, size,
+    // Roots are the smallest of their component, so they bear their label already.
+    const int root = state.Component[v];
+    const int label = root == v ? static_cast<int>(sizes.size()) : state.Component[root];
+    if (root == v)
+    {
+      sizes.push_back(0);
+    }
+    state.Component[v] = label;
+    ++sizes[label];
+  }
+  this->Components = static_cast<int>(sizes.size());
+  this->WatchSmallOnes(state, sizes);
+}
+
+void ComponentWatch::JoinVertices(const SurfaceMesh& mesh, Executor& executor)
+{
+  // First within blocks, side by side, then across their borders.
+  const std::size_t n = mesh.Rings.size();
+  this->Joined.Resize(n);
+  this->Borders.resize((n + JoinedBlock - 1) / JoinedBlock);
+  ForBlocks(executor, n, JoinedBlock,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       this->Borders[b].clear();
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        parent[v] = v;
-        int own = v;
-        const Ring& ring = state.Mesh.Rings[v];
+        this->Joined.MakeSet(v);
+        int root = v;
+        const Ring& ring = mesh.Rings[v];
         for (int i = 0; i < ring.Count; ++i)
         {
           const int w = ring.Item[i];
@@ -145,9 +227,7 @@ void ComponentWatch::Label(SurfaceState& state, Executor& executor)
           }
           else if (w < v)
           {
-            const int other = root(w);
-            parent[std::max(own, other)] = std::min(own, other);
-            own = std::min(own, other);
+            root = this->Joined.Join(root, w);
           }
         }
       }
@@ -156,110 +236,81 @@ void ComponentWatch::Label(SurfaceState& state, Executor& executor)
   {
     for (const auto& edge : border)
     {
-      const int a = root(edge.first);
-      const int b = root(edge.second);
-      parent[std::max(a, b)] = std::min(a, b);
+      this->Joined.Join(edge.first, edge.second);
     }
-  }
-  this->Roots.resize(n);
-  executor.For(n, 4096,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        int at = parent[v];
-        while (parent[at] != at)
-        {
-          at = parent[at];
-        }
-        this->Roots[v] = at;
-      }
-    });
-  this->Sizes.clear();
-  for (int v = 0; v < static_cast<int>(n); ++v)
-  {
-    // Roots are the smallest of their component, so they bear their label already.
-    if (!state.Mesh.IsAlive(v))
-    {
-      parent[v] = -1;
-      continue;
-    }
-    if (this->Roots[v] == v)
-    {
-      parent[v] = static_cast<int>(this->Sizes.size());
-      this->Sizes.push_back(0);
-    }
-    parent[v] = parent[this->Roots[v]];
-    ++this->Sizes[parent[v]];
-  }
-  this->Components = static_cast<int>(this->Sizes.size());
-  this->Smalls.clear();
-  for (int& place : this->Sizes)
-  {
-    // From here on: the place among the small ones, or -1.
-    const bool small = place <= SmallSize;
-    place = small ? static_cast<int>(this->Smalls.size()) : -1;
-    if (small)
-    {
-      this->Smalls.emplace_back();
-      this->Smalls.back().Label = static_cast<int>(&place - this->Sizes.data());
-    }
-  }
-  if (this->Smalls.empty())
-  {
-    return;
-  }
-  for (int v = 0; v < static_cast<int>(n); ++v)
-  {
-    const int place = parent[v] >= 0 ? this->Sizes[parent[v]] : -1;
-    if (place >= 0)
-    {
-      this->Smalls[place].Vertices.push_back(v);
-    }
-  }
-  for (Small& small : this->Smalls)
-  {
-    small.Positive = SignedVolume(state.Mesh, small.Vertices) > 0;
   }
 }
 
-bool ComponentWatch::DeleteDoomed(SurfaceState& state)
+void ComponentWatch::WatchSmallOnes(const SurfaceState& state, const std::vector<int>& sizes)
+{
+  this->Watched.clear();
+  std::vector<int> place(sizes.size(), -1); // Among those that are watched, by label.
+  for (std::size_t label = 0; label < sizes.size(); ++label)
+  {
+    if (sizes[label] <= SmallSize)
+    {
+      place[label] = static_cast<int>(this->Watched.size());
+      this->Watched.emplace_back();
+      this->Watched.back().Label = static_cast<int>(label);
+    }
+  }
+  if (this->Watched.empty())
+  {
+    return;
+  }
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    const int label = state.Component[v];
+    if (label >= 0 && place[label] >= 0)
+    {
+      this->Watched[place[label]].Vertices.push_back(v);
+    }
+  }
+  for (SmallComponent& small : this->Watched)
+  {
+    small.IsPositive = IsVolumePositive(state.Mesh, small.Vertices);
+  }
+}
+
+bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& small)
+{
+  // Collapses and splits change the vertices of a component without a new label. A place that was
+  // given up may belong to a vertex of another component now.
+  const auto seed = std::find_if(small.Vertices.begin(), small.Vertices.end(),
+    [&](int v) { return state.Mesh.IsAlive(v) && state.Component[v] == small.Label; });
+  if (seed == small.Vertices.end())
+  {
+    return false;
+  }
+  this->Stack.assign(1, *seed);
+  state.Component[*seed] = Seen;
+  for (std::size_t i = 0; i < this->Stack.size(); ++i)
+  {
+    const Ring& ring = state.Mesh.Rings[this->Stack[i]];
+    for (int k = 0; k < ring.Count; ++k)
+    {
+      if (state.Component[ring.Item[k]] != Seen)
+      {
+        state.Component[ring.Item[k]] = Seen;
+        this->Stack.push_back(ring.Item[k]);
+      }
+    }
+  }
+  for (int v : this->Stack)
+  {
+    state.Component[v] = small.Label;
+  }
+  return true;
+}
+
+bool ComponentWatch::DeleteDegenerate(SurfaceState& state)
 {
   bool deleted = false;
-  for (Small& small : this->Smalls)
+  for (SmallComponent& small : this->Watched)
   {
-    // Collapses and splits change the vertices of a component without a new label.
-    int seed = -1;
-    for (int v : small.Vertices)
-    {
-      // A place that was given up may belong to a vertex of another component now.
-      if (state.Mesh.IsAlive(v) && state.Component[v] == small.Label)
-      {
-        seed = v;
-        break;
-      }
-    }
-    if (seed < 0)
+    if (!this->FindVertices(state, small))
     {
       continue;
-    }
-    this->Stack.assign(1, seed);
-    state.Component[seed] = -2;
-    for (std::size_t i = 0; i < this->Stack.size(); ++i)
-    {
-      const Ring& ring = state.Mesh.Rings[this->Stack[i]];
-      for (int k = 0; k < ring.Count; ++k)
-      {
-        if (state.Component[ring.Item[k]] != -2)
-        {
-          state.Component[ring.Item[k]] = -2;
-          this->Stack.push_back(ring.Item[k]);
-        }
-      }
-    }
-    for (int v : this->Stack)
-    {
-      state.Component[v] = small.Label;
     }
     if (this->Stack.size() > 2 * SmallSize)
     {
@@ -267,21 +318,16 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
       continue;
     }
     small.Vertices = this->Stack;
-    const bool positive = SignedVolume(state.Mesh, small.Vertices) > 0;
-    bool doomed = positive != small.Positive ||
-      static_cast<int>(small.Vertices.size()) <= NothingSize;
-    if (!doomed && static_cast<int>(small.Vertices.size()) <= TinySize)
-    {
-      doomed = true;
-      for (int v : small.Vertices)
-      {
-        doomed = doomed && (positive ? state.FieldValue[v] < 0 : state.FieldValue[v] > 0);
-      }
-    }
-    if (doomed)
+    const int size = static_cast<int>(small.Vertices.size());
+    const bool positive = IsVolumePositive(state.Mesh, small.Vertices);
+    const auto isOnWrongSide = [&](int v)
+    { return positive ? state.FieldValue[v] < 0 : state.FieldValue[v] > 0; };
+    if (positive != small.IsPositive || size <= VanishedSize ||
+      (size <= TinySize &&
+        std::all_of(small.Vertices.begin(), small.Vertices.end(), isOnWrongSide)))
     {
       // The labels of the others stay as they are.
-      state.RemoveComponent(seed);
+      state.RemoveComponent(small.Vertices.front());
       small.Vertices.clear();
       --this->Components;
       deleted = true;
@@ -293,92 +339,23 @@ bool ComponentWatch::DeleteDoomed(SurfaceState& state)
 bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
   this->Label(state, executor);
-  const SurfaceMesh& mesh = state.Mesh;
-  std::vector<double> volumes(this->Components, 0.);
-  std::vector<int> first(this->Components, -1);
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (!mesh.IsAlive(v))
-    {
-      continue;
-    }
-    const int label = state.Component[v];
-    if (first[label] < 0)
-    {
-      first[label] = v;
-    }
-    const VectorD origin(mesh.Position[first[label]]);
-    const Ring& ring = mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      if (v < ring.Item[i] && v < ring.Next(i))
-      {
-        volumes[label] += Dot(VectorD(mesh.Position[v]) - origin,
-          Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
-            VectorD(mesh.Position[ring.Next(i)]) - origin));
-      }
-    }
-  }
-  std::vector<Ray> rays;
-  for (int label = 0; label < this->Components; ++label)
-  {
-    rays.push_back(
-      { first[label], VectorD(mesh.Position[first[label]]), volumes[label] < 0. });
-  }
-  std::sort(rays.begin(), rays.end(),
-    [](const Ray& a, const Ray& b)
-    { return a.Origin.Y != b.Origin.Y ? a.Origin.Y < b.Origin.Y : a.Vertex < b.Vertex; });
-  constexpr std::size_t size = 8192;
-  std::vector<std::vector<Crossing>> crossings((mesh.Rings.size() + size - 1) / size);
-  ForBlocks(executor, mesh.Rings.size(), size,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        if (mesh.IsAlive(static_cast<int>(v)))
-        {
-          FindCrossings(mesh, state.Component.AsVector(), static_cast<int>(v), rays, crossings[b]);
-        }
-      }
-    });
-  // Around a component are those that its ray crosses an odd number of times.
-  std::vector<std::vector<int>> around(rays.size());
-  for (const std::vector<Crossing>& block : crossings)
-  {
-    for (const Crossing& crossing : block)
-    {
-      around[crossing.Ray].push_back(crossing.Component);
-    }
-  }
-  for (std::vector<int>& labels : around)
-  {
-    std::sort(labels.begin(), labels.end());
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < labels.size();)
-    {
-      if (i + 1 < labels.size() && labels[i] == labels[i + 1])
-      {
-        i += 2;
-        continue;
-      }
-      labels[kept++] = labels[i++];
-    }
-    labels.resize(kept);
-  }
+  const std::vector<Ray> rays = CastRays(state.Mesh, state.Component.AsVector(), this->Components);
+  const std::vector<std::vector<int>> around =
+    ComponentsAround(state.Mesh, state.Component.AsVector(), rays, executor);
   // From outside in: what is deleted encloses nothing any more.
   std::vector<int> order(rays.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
     [&around](int a, int b) { return around[a].size() < around[b].size(); });
-  std::vector<char> isGone(rays.size(), 0); // By label.
+  std::vector<char> isDeleted(rays.size(), 0); // By label.
   bool deleted = false;
   for (int i : order)
   {
     const auto depth = std::count_if(around[i].begin(), around[i].end(),
-      [&isGone](int label) { return !isGone[label]; });
+      [&isDeleted](int label) { return !isDeleted[label]; });
     if ((depth % 2 == 1) != rays[i].IsCavity)
     {
-      isGone[state.Component[rays[i].Vertex]] = 1;
+      isDeleted[state.Component[rays[i].Vertex]] = 1;
       state.RemoveComponent(rays[i].Vertex);
       deleted = true;
     }

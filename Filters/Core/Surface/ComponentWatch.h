@@ -3,6 +3,7 @@
 #ifndef volumicComponentWatch_h
 #define volumicComponentWatch_h
 
+#include "Core/Common/DisjointSets.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <utility>
@@ -21,8 +22,11 @@ public:
   /** Labels components afresh, by their smallest vertex. Call after merges and cuts. */
   void Label(SurfaceState& state, Executor& executor);
 
-  /** Deletes what must go; labels must be fresh. @return whether anything was deleted. */
-  bool DeleteDoomed(SurfaceState& state);
+  /**
+   * Deletes those of the small components that must go; every vertex must have its label.
+   * @return whether anything was deleted.
+   */
+  bool DeleteDegenerate(SurfaceState& state);
 
   /**
    * Deletes components that are inside out: a cavity must lie inside the others, any other one
@@ -37,22 +41,24 @@ public:
   int NumberOfComponents() const { return this->Components; }
 
 private:
-  struct Small
+  struct SmallComponent
   {
     int Label = 0;
-    std::vector<int> Vertices;
-    bool Positive = true; ///< Sign of the volume.
+    std::vector<int> Vertices; ///< When last seen; empty once it has grown or is deleted.
+    bool IsPositive = true;    ///< Of the volume, when it was labelled.
   };
-  std::vector<Small> Smalls;
+
+  void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
+  void WatchSmallOnes(const SurfaceState& state, const std::vector<int>& sizes);
+  /** Finds the vertices that the component has now, in Stack. @return false if it has none. */
+  bool FindVertices(SurfaceState& state, const SmallComponent& small);
+
+  std::vector<SmallComponent> Watched;
   std::vector<int> Stack;
-  std::vector<int> Sizes;
-  std::vector<int> Roots;
-  std::vector<std::vector<std::pair<int, int>>> Borders;
+  DisjointSets Joined; ///< Vertices that edges join.
+  std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.
   int Components = 0;
 };
-
-/** Six times the signed volume of the faces about the vertices, each face counted three times. */
-double SignedVolume(const SurfaceMesh& mesh, const std::vector<int>& vertices);
 }
 
 #endif

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicDisjointSets_h
+#define volumicDisjointSets_h
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Union-find over the integers from 0 on. The root of a set is its smallest member.
+ *
+ * Several threads may work on one object side by side, each on a range of its own that it alone
+ * makes, finds and joins; what joins two ranges comes afterwards. FindRoot changes nothing.
+ */
+class DisjointSets
+{
+public:
+  /** n sets of one integer each. */
+  explicit DisjointSets(std::size_t n = 0) : Parent(n)
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), 0);
+  }
+
+  /** Room for n integers; each is in no set before MakeSet. */
+  void Resize(std::size_t n) { this->Parent.resize(n); }
+
+  /** A set of its own for i, whatever it was in before. */
+  void MakeSet(int i) { this->Parent[i] = i; }
+
+  /** The root of the set that i is in. Makes the ways of later calls shorter. */
+  int Find(int i)
+  {
+    while (this->Parent[i] != i)
+    {
+      this->Parent[i] = this->Parent[this->Parent[i]];
+      i = this->Parent[i];
+    }
+    return i;
+  }
+
+  /** The same without any change, for threads that all look at once. */
+  int FindRoot(int i) const
+  {
+    while (this->Parent[i] != i)
+    {
+      i = this->Parent[i];
+    }
+    return i;
+  }
+
+  /** @return the root of the set that both are in from now on. */
+  int Join(int i, int j)
+  {
+    i = this->Find(i);
+    j = this->Find(j);
+    const int root = std::min(i, j);
+    this->Parent[std::max(i, j)] = root;
+    return root;
+  }
+
+private:
+  std::vector<int> Parent; ///< A smaller member of the set, or, of the root, itself.
+};
+}
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLatticeKey_h
+#define volumicLatticeKey_h
+
+#include <cstdint>
+
+namespace volumic
+{
+/**
+ * Three integers as one number, for maps of places on a lattice: the last 21 bits of each, which
+ * hold every lattice that memory holds. No two places of a range of 2^21 along each axis have the
+ * same key.
+ */
+inline std::uint64_t LatticeKey(std::int64_t i, std::int64_t j, std::int64_t k)
+{
+  constexpr int bits = 21;
+  constexpr std::int64_t mask = (std::int64_t(1) << bits) - 1;
+  return static_cast<std::uint64_t>(i & mask) << 2 * bits |
+    static_cast<std::uint64_t>(j & mask) << bits | static_cast<std::uint64_t>(k & mask);
+}
+}
+
+#endif

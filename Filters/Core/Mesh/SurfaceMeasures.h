@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfaceMeasures_h
+#define volumicSurfaceMeasures_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Mesh/SurfaceMesh.h"
+
+namespace volumic
+{
+/**
+ * The signed volume that a closed surface, or some components of one, encloses; negative for what
+ * is inside out. It is added up vertex by vertex: of the tetrahedron that a face spans with the
+ * origin, a third belongs to each of its corners.
+ */
+class SignedVolume
+{
+public:
+  /** The origin may be any point; one of the surface costs no digits. */
+  explicit SignedVolume(const Vector& origin = Vector()) : Origin(origin) {}
+
+  /** Adds the share of an alive vertex. */
+  void Add(const SurfaceMesh& mesh, int v)
+  {
+    const Ring& ring = mesh.Rings[v];
+    VectorD fan;
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      fan += Cross(VectorD(mesh.Position[ring.Item[i]]) - this->Origin,
+        VectorD(mesh.Position[ring.Next(i)]) - this->Origin);
+    }
+    // Six times the tetrahedra of its faces, each of which is seen from three corners.
+    this->Eighteenfold += Dot(VectorD(mesh.Position[v]) - this->Origin, fan);
+  }
+
+  double Value() const { return this->Eighteenfold / 18.; }
+
+private:
+  friend double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);
+  VectorD Origin;
+  double Eighteenfold = 0.;
+};
+
+/** The signed volume of all components, workspace. The same bits for any executor. */
+double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);
+
+/** The area of all faces, workspace. The same bits for any executor. */
+double SurfaceArea(const SurfaceMesh& mesh, Executor& executor);
+}
+
+#endif
