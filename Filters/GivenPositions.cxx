@@ -4,20 +4,18 @@
 
 #include "Core/Common/Refuse.h"
 
-#include <vtkPoints.h>
-
 #include <algorithm>
+#include <cstddef>
 
 namespace volumic
 {
-std::vector<Point> PositionsOf(vtkPoints* positions, const char* label, const Workspace& space,
-  const std::array<int, 3>& size)
+std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
+  const Workspace& space, const std::array<int, 3>& size)
 {
   std::vector<Point> places;
-  for (vtkIdType id = 0; positions && id < positions->GetNumberOfPoints(); ++id)
+  for (std::size_t id = 0; id < positions.size(); ++id)
   {
-    Point world;
-    positions->GetPoint(id, world.data());
+    const Point& world = positions[id];
     Point place = space.ToWorkspace(world);
     for (int axis = 0; axis < 3; ++axis)
     {

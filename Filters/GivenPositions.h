@@ -9,19 +9,17 @@
 #include <array>
 #include <vector>
 
-class vtkPoints;
-
 namespace volumic
 {
 /**
- * A list of positions of vtkDeformableSurface (world coordinates; null: empty), in the workspace.
+ * A list of positions of vtkDeformableSurface (world coordinates), in the workspace.
  * One that is out of the box of the image by less than a voxel, as one that was picked on its
  * border may be, is moved onto the box.
  * @param label of the property, for messages
  * @param size  voxels of level 0 along each axis
  * @throws std::invalid_argument for a position farther outside, or one that is not finite.
  */
-std::vector<Point> PositionsOf(vtkPoints* positions, const char* label, const Workspace& space,
+std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label, const Workspace& space,
   const std::array<int, 3>& size);
 }
 

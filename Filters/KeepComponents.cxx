@@ -6,7 +6,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "PolyDataPoints.h"
 #include "SurfaceOutput.h"
-#include "vtkDeformableSurface.h"
 
 #include <vtkPolyData.h>
 
@@ -261,7 +260,7 @@ std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Worksp
 SurfaceResult KeepChosen(
   const SurfaceResult& surface, const ComponentChoice& choice, const Workspace& space)
 {
-  if (choice.Mode == vtkDeformableSurface::AllComponents)
+  if (choice.Mode == KeepComponentsType::AllComponents)
   {
     return surface;
   }
@@ -285,14 +284,14 @@ SurfaceResult KeepChosen(
     {
       largest = static_cast<int>(c);
     }
-    isKept[c] = choice.Mode == vtkDeformableSurface::LargeComponents && isSolid &&
+    isKept[c] = choice.Mode == KeepComponentsType::LargeComponents && isSolid &&
       component.Volume >= choice.MinimumVolume;
   }
-  if (choice.Mode == vtkDeformableSurface::LargestComponent && largest >= 0)
+  if (choice.Mode == KeepComponentsType::LargestComponent && largest >= 0)
   {
     isKept[largest] = true;
   }
-  if (choice.Mode == vtkDeformableSurface::ComponentsAtPoints)
+  if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
   {
     MarkTouching(surface, features, choice.Places, hosts, isKept);
   }

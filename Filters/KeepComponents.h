@@ -4,6 +4,7 @@
 #define volumicKeepComponents_h
 
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "SegmentationSettings.h"
 #include "Workspace.h"
 
 #include <vector>
@@ -15,7 +16,7 @@ namespace volumic
 /// Which components of a surface go into an output.
 struct ComponentChoice
 {
-  int Mode = 0;               ///< vtkDeformableSurface::KeepComponentsType
+  KeepComponentsType Mode = KeepComponentsType::AllComponents;
   double MinimumVolume = 0.0; ///< world units, cubed
   std::vector<Point> Places;  ///< workspace
 };

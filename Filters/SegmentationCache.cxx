@@ -94,8 +94,8 @@ void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgori
   this->Time = filter->GetMTime();
   this->Given = InputsOf(filter);
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
-  this->PlannedEnd = run->GetSettings().FinestLevel;
-  this->Recovery = run->GetSettings().Options.RecoverLostParts;
+  this->PlannedEnd = run->GetSettings().End.FinestLevel;
+  this->Recovery = run->HasRecovery();
   if (run->CanGoOn())
   {
     this->Run = std::move(run);
@@ -127,17 +127,17 @@ bool SegmentationCache::Serves(vtkAlgorithm* filter) const
   return this->Time != 0 && this->Time == filter->GetMTime() && this->Given == InputsOf(filter);
 }
 
-int SegmentationCache::EndOf(const SegmentationRequest& request) const
+int SegmentationCache::EndOf(const SegmentationEnd& end) const
 {
   const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
-  const int finest = this->EndIsPlanned ? this->PlannedEnd : request.FinestLevel;
-  return request.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
+  const int finest = this->EndIsPlanned ? this->PlannedEnd : end.FinestLevel;
+  return end.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
 }
 
-const SegmentationResults* SegmentationCache::ResultsFor(const SegmentationRequest& request) const
+const SegmentationResults* SegmentationCache::ResultsFor(const SegmentationEnd& end) const
 {
   const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
-  return results.HasAtRest(this->EndOf(request)) ? &results : nullptr;
+  return results.HasAtRest(this->EndOf(end)) ? &results : nullptr;
 }
 
 int SegmentationCache::EndOfRun() const

@@ -4,6 +4,7 @@
 #define volumicSegmentationCache_h
 
 #include "SegmentationResults.h"
+#include "SegmentationSettings.h"
 #include "SurfaceSegmentation.h"
 
 #include <vtkType.h>
@@ -39,9 +40,9 @@ public:
   bool Serves(vtkAlgorithm* filter) const;
 
   /// The results of a run that would end where asked, null where there are none.
-  const SegmentationResults* ResultsFor(const SegmentationRequest& request) const;
+  const SegmentationResults* ResultsFor(const SegmentationEnd& end) const;
   /// The level at which it ends.
-  int EndOf(const SegmentationRequest& request) const;
+  int EndOf(const SegmentationEnd& end) const;
   /// Whether there is a run that can.
   bool CanGoOn() const { return this->Run != nullptr; }
   /// The level at which it has ended.

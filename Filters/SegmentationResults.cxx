@@ -139,4 +139,14 @@ std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
   }
   return "";
 }
+
+void SegmentationResults::WarnOf(
+  int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const
+{
+  const std::string warning = this->WarningOf(last, wantsAll);
+  if (!warning.empty())
+  {
+    warn(warning);
+  }
+}
 }

@@ -10,6 +10,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -56,6 +57,9 @@ public:
   /// What is worth a warning where a run has ended at a level; empty: nothing.
   /// @param wantsAll whether it matters if parts of the object are missing
   std::string WarningOf(int last, bool wantsAll) const;
+  /** Tells it, where there is any. */
+  void WarnOf(
+    int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const;
   vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
 
 private:

@@ -4,11 +4,10 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "GivenPositions.h"
 #include "InitialSurfaces.h"
+#include "PrefixErrors.h"
 #include "SurfaceOutput.h"
-#include "vtkDeformableSurface.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -29,74 +28,72 @@ namespace volumic
 {
 namespace
 {
-void CheckEnumeration(const char* name, int value, int last)
+template <typename Enumeration>
+void CheckEnumeration(const char* name, Enumeration value, Enumeration last)
 {
-  if (value < 0 || value > last)
+  const int number = static_cast<int>(value);
+  if (number < 0 || value > last)
   {
-    Refuse(name, " is ", value, "; it must be 0 to ", last, ".");
+    Refuse(name, " is ", number, "; it must be 0 to ", static_cast<int>(last), ".");
   }
 }
 
 /// Image Pyramid has counted them, and tells it itself where it is a filter of the user's.
-bool MayHaveNaNsToTell(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings)
+bool MayHaveNaNsToTell(const SegmentationVolume& volume)
 {
-  vtkDataArray* counted = blocks->GetFieldData()->GetArray("NaNVoxels");
-  return !counted || (settings.LevelsAreOwn && counted->GetTuple1(0) > 0.0);
+  vtkDataArray* counted = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
+  return !counted || (volume.LevelsAreOwn && counted->GetTuple1(0) > 0.0);
 }
 
-/// The levels, with errors that name the port.
-PyramidLevels ReadLevels(
-  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
+/** The levels, with errors that name the port. */
+PyramidLevels ReadLevels(const SegmentationVolume& volume)
 {
-  CheckEnumeration("Metric", settings.Metric, vtkDeformableSurface::World);
-  try
-  {
-    return PyramidLevels(
-      blocks, selection, static_cast<Metric>(settings.Metric), settings.NaNIsBackground);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    Refuse("Input port 0: ", error.what());
-  }
+  const SegmentationSettings& settings = volume.Settings;
+  CheckEnumeration("Metric", settings.Metric, Metric::World);
+  return PrefixErrors("Input port 0: ",
+    [&] {
+      return PyramidLevels(
+        volume.Levels, volume.Selection, settings.Metric, settings.NaNIsBackground);
+    });
 }
-
 }
 
 SurfaceSegmentation::SurfaceSegmentation(
-  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), MayHaveUntoldNaNs(MayHaveNaNsToTell(blocks, settings)),
-    Pyramid(ReadLevels(blocks, selection, settings)),
-    Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
+  const SegmentationVolume& volume, const SegmentationRequest& request)
+  : Settings(volume.Settings), MayHaveUntoldNaNs(MayHaveNaNsToTell(volume)),
+    Pyramid(ReadLevels(volume)),
+    Film(volume.Settings.SnapshotInterval, this->Pyramid.GetWorkspace())
 {
-  for (unsigned int block = 0; block < blocks->GetNumberOfBlocks(); ++block)
+  for (unsigned int block = 0; block < volume.Levels->GetNumberOfBlocks(); ++block)
   {
-    this->Images.emplace_back(blocks->GetBlock(block));
+    this->Images.emplace_back(volume.Levels->GetBlock(block));
   }
-  CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
-  CheckEnumeration("Border Value", settings.BorderValue, vtkDeformableSurface::Replicate);
+  SurfaceOptions& options = this->Settings.Options;
   CheckEnumeration(
-    "Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjectsAndCavities);
-  if (settings.Options.MaximumNumberOfIterations < 1)
+    "Initialization", this->Settings.Initialization, InitializationType::InputSurface);
+  CheckEnumeration("Border Value", options.BorderValue, Border::Replicate);
+  CheckEnumeration(
+    "Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
+  if (options.MaximumNumberOfIterations < 1)
   {
-    Refuse("Maximum Number Of Iterations is ", settings.Options.MaximumNumberOfIterations,
+    Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
       "; it must be at least 1.");
   }
-  if (settings.SnapshotInterval < 0)
+  if (this->Settings.SnapshotInterval < 0)
   {
-    Refuse("Snapshot Interval is ", settings.SnapshotInterval, "; it must be 0 (off) or more.");
+    Refuse(
+      "Snapshot Interval is ", this->Settings.SnapshotInterval, "; it must be 0 (off) or more.");
   }
-  if (settings.Options.SeedRadius < 0.0 || !std::isfinite(settings.Options.SeedRadius))
+  if (options.SeedRadius < 0.0 || !std::isfinite(options.SeedRadius))
   {
-    Refuse("Seed Radius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
+    Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
-  this->Settings.Options.BorderValue = static_cast<Border>(settings.BorderValue);
-  this->Settings.Options.RecoverLostParts =
-    settings.Recovery != vtkDeformableSurface::NoRecovery;
-  this->Settings.Options.RecoverCavities =
-    settings.Recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
-  this->Settings.Options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
-  this->ChooseEdgeLength();
-  this->ReadAttraction(blocks);
+  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
+  options.RecoverCavities = this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities;
+  options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
+  this->Renew(request);
+  this->ChooseEdgeLength(volume);
+  this->ReadAttraction(volume.Levels);
   this->ReadComponentChoice();
 }
 
@@ -117,7 +114,7 @@ std::vector<Point> SurfaceSegmentation::AttractingPositions() const
 void SurfaceSegmentation::ReadComponentChoice()
 {
   CheckEnumeration(
-    "Keep Components", this->Settings.KeepComponents, vtkDeformableSurface::LargeComponents);
+    "Keep Components", this->Settings.KeepComponents, KeepComponentsType::LargeComponents);
   if (!(this->Settings.MinimumComponentVolume >= 0.0))
   {
     Refuse("Minimum Component Volume is ", this->Settings.MinimumComponentVolume,
@@ -125,9 +122,9 @@ void SurfaceSegmentation::ReadComponentChoice()
   }
   this->Choice.Mode = this->Settings.KeepComponents;
   this->Choice.MinimumVolume = this->Settings.MinimumComponentVolume;
-  if (this->Choice.Mode == vtkDeformableSurface::ComponentsAtPoints)
+  if (this->Choice.Mode == KeepComponentsType::ComponentsAtPoints)
   {
-    this->Choice.Places = PlacesOf(this->Settings.InitialSurface, this->Settings.AttractingPoints,
+    this->Choice.Places = PlacesOf(this->Request.InitialSurface, this->Request.AttractingPoints,
       this->Pyramid.GetWorkspace());
     for (const std::vector<Point>& more : { this->SeedPositions(), this->AttractingPositions() })
     {
@@ -147,7 +144,7 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   std::vector<AttractingPoint> points;
   try
   {
-    points = AttractingPointsOf(this->Settings.AttractingPoints, this->Pyramid.GetWorkspace(),
+    points = AttractingPointsOf(this->Request.AttractingPoints, this->Pyramid.GetWorkspace(),
       this->Pyramid.SizeOfLevel0());
   }
   catch (const std::invalid_argument& error)
@@ -166,12 +163,12 @@ void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
   }
   if (this->Settings.Options.EdgeAttractionWeight > 0.0)
   {
-    this->Edges = std::make_unique<EdgeLevels>(blocks, this->Settings.EdgeSelection,
-      this->Settings.NumberOfThreads,
+    this->Edges = std::make_unique<EdgeLevels>(blocks, this->Request.EdgeSelection,
+      this->Settings.End.NumberOfThreads,
       [this](double)
       {
-        return this->Settings.Progress(0.0, "Pyramid of the map of edges") &&
-          !this->Settings.Limit.IsOver();
+        return this->Request.Progress(0.0, "Pyramid of the map of edges") &&
+          !this->Request.Limit.IsOver();
       });
   }
 }
@@ -216,9 +213,10 @@ LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
   return image;
 }
 
-void SurfaceSegmentation::ChooseEdgeLength()
+void SurfaceSegmentation::ChooseEdgeLength(const SegmentationVolume& volume)
 {
-  if (this->Settings.EdgeLength != 0.0 && !this->Settings.EdgeLengthIsPlanned)
+  double factor = volume.FactorBelowLevel0;
+  if (this->Settings.EdgeLength != 0.0 && !volume.EdgeLengthIsPlanned)
   {
     std::vector<double> units;
     for (int level = 0; level < this->Pyramid.NumberOfLevels(); ++level)
@@ -228,11 +226,11 @@ void SurfaceSegmentation::ChooseEdgeLength()
     EdgeLengthPreferences preferences;
     preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
     const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
-    this->Settings.FinestLevel = plan.FinestLevel;
+    this->Settings.End.FinestLevel = plan.FinestLevel;
     this->Settings.Options.SamplingRatio = plan.SamplingRatio;
-    this->Settings.FactorBelowLevel0 = plan.ReductionFactor;
+    factor = plan.ReductionFactor;
   }
-  this->Pyramid.SetFactorBelowLevel0(this->Settings.FactorBelowLevel0);
+  this->Pyramid.SetFactorBelowLevel0(factor);
 }
 
 void SurfaceSegmentation::ChooseLevels()
@@ -247,7 +245,7 @@ void SurfaceSegmentation::ChooseLevels()
       --this->Coarsest;
     }
   }
-  const int finest = this->Settings.FinestLevel;
+  const int finest = this->Settings.End.FinestLevel;
   if (this->Coarsest < 0 || this->Coarsest > last)
   {
     Refuse("Coarsest Level is ", this->Settings.CoarsestLevel,
@@ -275,9 +273,9 @@ void SurfaceSegmentation::ChooseLevels()
 void SurfaceSegmentation::ChooseEnd(int coarsestWithObject)
 {
   this->PreviewLevel = std::min(this->PreviewLevel, coarsestWithObject);
-  this->LastLevel = this->Settings.Preview
-    ? std::max(this->Settings.FinestLevel, this->PreviewLevel)
-    : this->Settings.FinestLevel;
+  this->LastLevel = this->Settings.End.Preview
+    ? std::max(this->Settings.End.FinestLevel, this->PreviewLevel)
+    : this->Settings.End.FinestLevel;
 }
 
 void SurfaceSegmentation::WarnOfNaNs()
@@ -287,7 +285,7 @@ void SurfaceSegmentation::WarnOfNaNs()
     const std::string text = this->Pyramid.DescribeNaNsOfLevel0();
     if (!text.empty())
     {
-      this->Settings.Warn("Input port 0: " + text);
+      this->Request.Warn("Input port 0: " + text);
     }
   }
 }
@@ -381,7 +379,7 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
 {
   const Workspace& space = this->Pyramid.GetWorkspace();
   std::vector<Point> seeds;
-  if (this->Settings.Initialization == vtkDeformableSurface::Seeds)
+  if (this->Settings.Initialization == InitializationType::Seeds)
   {
     seeds = this->SeedPositions();
   }
@@ -390,20 +388,20 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   {
     switch (this->Settings.Initialization)
     {
-      case vtkDeformableSurface::Seeds:
+      case InitializationType::Seeds:
       {
-        const std::vector<Point> connected = SeedsOf(this->Settings.InitialSurface, space);
+        const std::vector<Point> connected = SeedsOf(this->Request.InitialSurface, space);
         seeds.insert(seeds.begin(), connected.begin(), connected.end());
         evolution.StartSeeds(image, this->Coarsest, seeds);
         break;
       }
-      case vtkDeformableSurface::IsoSurface:
+      case InitializationType::IsoSurface:
         evolution.StartSurface(
           image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
         break;
-      case vtkDeformableSurface::InputSurface:
+      case InitializationType::InputSurface:
         evolution.StartSurface(
-          image, this->Coarsest, SurfaceOf(this->Settings.InitialSurface, space));
+          image, this->Coarsest, SurfaceOf(this->Request.InitialSurface, space));
         break;
       default:
         evolution.StartEnclosing(image, this->Coarsest);
@@ -412,9 +410,9 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
   }
   catch (const std::invalid_argument& error)
   {
-    const bool isGiven = this->Settings.Initialization == vtkDeformableSurface::InputSurface ||
-      this->Settings.Initialization == vtkDeformableSurface::Seeds;
-    const bool ofPositions = hasPositions && !this->Settings.InitialSurface;
+    const bool isGiven = this->Settings.Initialization == InitializationType::InputSurface ||
+      this->Settings.Initialization == InitializationType::Seeds;
+    const bool ofPositions = hasPositions && !this->Request.InitialSurface;
     Refuse(ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "",
       error.what());
   }
@@ -422,11 +420,12 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
 
 void SurfaceSegmentation::Renew(const SegmentationRequest& request)
 {
-  const int planned = this->Settings.FinestLevel;
-  static_cast<SegmentationRequest&>(this->Settings) = request;
+  const int planned = this->Settings.End.FinestLevel;
+  this->Request = request;
+  this->Settings.End = request.End;
   if (this->Settings.EdgeLength != 0.0)
   {
-    this->Settings.FinestLevel = planned;
+    this->Settings.End.FinestLevel = planned;
   }
 }
 
@@ -449,9 +448,9 @@ void SurfaceSegmentation::Run()
   if (!this->Found.HasAtRest(this->LastLevel))
   {
     // What the evolution refers to stays in its place.
-    this->Threads.emplace(this->Settings.NumberOfThreads);
+    this->Threads.emplace(this->Settings.End.NumberOfThreads);
     this->Watcher.emplace(
-      this->Settings.Progress, this->Coarsest, this->LastLevel, this->Settings.Limit);
+      this->Request.Progress, this->Coarsest, this->LastLevel, this->Request.Limit);
     this->Watcher->AfterIteration = [this](const Monitor::Status& status)
     {
       this->Film.Offer(*this->Evolution, status.Level, this->Pyramid.UnitInWorld(status.Level),
@@ -459,17 +458,11 @@ void SurfaceSegmentation::Run()
     };
     this->Threads->Run([this] { this->RunLevels(); });
   }
-  const std::string warning =
-    this->Found.WarningOf(this->LastLevel, this->WantsAllParts());
-  if (!warning.empty() && !this->Settings.IsStep)
+  if (!this->Request.IsStep)
   {
-    this->Settings.Warn(warning);
+    this->Found.WarnOf(
+      this->LastLevel, this->HasRecovery() && !this->Settings.End.Preview, this->Request.Warn);
   }
-}
-
-bool SurfaceSegmentation::WantsAllParts() const
-{
-  return this->Settings.Options.RecoverLostParts && !this->Settings.Preview;
 }
 
 bool SurfaceSegmentation::CanGoOn() const
@@ -495,7 +488,7 @@ void SurfaceSegmentation::RunLevels()
     this->Reached = this->Coarsest + 1;
     this->GoesOn = true;
   }
-  this->Evolution->StartClock(this->Settings.Started);
+  this->Evolution->StartClock(this->Request.Started);
   while (this->GoesOn && this->Reached > this->LastLevel)
   {
     const int level = this->Reached - 1;
@@ -505,7 +498,7 @@ void SurfaceSegmentation::RunLevels()
       break;
     }
     const LevelImage image = this->Load(level, *this->Threads);
-    if (level == this->Settings.FinestLevel)
+    if (level == this->Settings.End.FinestLevel)
     {
       this->Evolution->SetMeanEdgeLength(
         this->Settings.EdgeLength / this->Pyramid.GetWorkspace().WorldUnit());

@@ -5,7 +5,6 @@
 
 #include "AttractionInputs.h"
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/PointAttraction.h"
 #include "Deadline.h"
 #include "HostThreads.h"
@@ -13,6 +12,8 @@
 #include "ProgressMonitor.h"
 #include "PyramidLevels.h"
 #include "SegmentationResults.h"
+#include "SegmentationSettings.h"
+#include "SegmentationVolume.h"
 #include "SurfaceSnapshots.h"
 
 #include <vtkSmartPointer.h>
@@ -27,50 +28,26 @@
 class vtkDataObject;
 class vtkInformation;
 class vtkMultiBlockDataSet;
-class vtkPoints;
 class vtkPolyData;
 
 namespace volumic
 {
-/// What may differ between a run and one that goes on from where it has ended.
+/**
+ * What a run is asked for, beside the settings: where it ends, inputs that may come in other objects
+ * for one that goes on, and what hears of the work.
+ */
 struct SegmentationRequest
 {
-  int FinestLevel = 0;  ///< with EdgeLength: as planned
-  bool Preview = false; ///< to end at a level of few voxels
+  SegmentationEnd End;  ///< As set, or for a step on the way. With EdgeLength the level is planned.
   bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
-  int NumberOfThreads = 0;
-  vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
+  vtkPolyData* InitialSurface = nullptr;   ///< input port 1, may be missing
+  vtkPolyData* AttractingPoints = nullptr; ///< input port 2, may be missing
+  vtkInformation* EdgeSelection = nullptr; ///< of the map of edges; without effect at weight 0
   Deadline Limit;
-  /// When the run began: what came before counts to the seconds of its first level.
+  /** When the run began: what came before counts to the seconds of its first level. */
   Deadline::Clock::time_point Started = Deadline::Clock::now();
   ProgressMonitor::Tell Progress;
   std::function<void(const std::string& text)> Warn;
-};
-
-/// What a user of vtkDeformableSurface has chosen, and what hears of the work.
-struct SegmentationSettings : SegmentationRequest
-{
-  /// SeedRadius in world units; BorderValue and RecoverLostParts follow from the enumerations
-  /// below.
-  SurfaceOptions Options;
-  int Initialization = 0; ///< vtkDeformableSurface::InitializationType, if it is one
-  int BorderValue = 0;    ///< vtkDeformableSurface::BorderValueType, if it is one
-  int Recovery = 0;       ///< vtkDeformableSurface::RecoveryType, if it is one
-  int KeepComponents = 0; ///< vtkDeformableSurface::KeepComponentsType, if it is one
-  double MinimumComponentVolume = 0.0; ///< world units cubed
-  int Metric = 0;         ///< vtkDeformableSurface::MetricType, if it is one
-  bool NaNIsBackground = true;
-  bool LevelsAreOwn = false; ///< they were made for this run: nobody was told of their NaN voxels
-  double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
-  bool EdgeLengthIsPlanned = false; ///< the levels were made for it, and what follows is set
-  int CoarsestLevel = -1;
-  double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
-  bool Profile = false;                  ///< columns of the seconds of each phase in the history
-  int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
-  vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
-  vtkPoints* SeedPositions = nullptr;       ///< world, beside those of port 1; may be missing
-  vtkPoints* AttractingPositions = nullptr; ///< world, beside those of port 2; may be missing
-  vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
 };
 
 /**
@@ -84,10 +61,8 @@ public:
   /// Preview ends at the finest level of at most so many voxels.
   static constexpr int VoxelsOfPreview = 1000000;
 
-  /// @param selection says which array holds the voxels (GetInputArrayInformation)
-  /// @throws std::invalid_argument if the blocks are not a pyramid or a setting is out of range.
-  SurfaceSegmentation(
-    vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings);
+  /// @throws std::invalid_argument if the levels are not a pyramid or a setting is out of range.
+  SurfaceSegmentation(const SegmentationVolume& volume, const SegmentationRequest& request);
   ~SurfaceSegmentation();
 
   /// For the next Run(). With EdgeLength the finest level stays what was planned.
@@ -102,12 +77,13 @@ public:
   bool CanGoOn() const;
 
   const SegmentationSettings& GetSettings() const { return this->Settings; }
+  bool HasRecovery() const { return this->Settings.Options.RecoverLostParts; }
   const SegmentationResults& Results() const { return this->Found; }
   /// The level at which the last Run() was to end.
   int EndsAt() const { return this->LastLevel; }
 
 private:
-  void ChooseEdgeLength();
+  void ChooseEdgeLength(const SegmentationVolume& volume);
   void ChooseLevels();
   void ChooseEnd(int coarsestWithObject);
   /// Seed Positions and Attracting Positions in the workspace.
@@ -126,14 +102,14 @@ private:
   int CoarsestLevelThatHolds(int from);
   void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
-  bool WantsAllParts() const;
   void Begin();
   void RunLevels();
   bool RunLevel(int level);
   void HandOverStopped(int level);
   std::string WhyStopped() const;
 
-  SegmentationSettings Settings;
+  SegmentationSettings Settings; ///< End as asked for; SeedRadius in the workspace
+  SegmentationRequest Request;
   bool MayHaveUntoldNaNs;
   /// Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on.
   std::vector<vtkSmartPointer<vtkDataObject>> Images;

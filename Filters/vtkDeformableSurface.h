@@ -145,7 +145,6 @@
 
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
-#include "vtkSmartPointer.h" // For the levels and lists of positions
 
 #include <memory> // For what is hidden
 
@@ -154,11 +153,12 @@ class vtkImageData;
 class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
-class vtkPoints;
 class vtkTable;
 namespace volumic
 {
 struct SegmentationRequest;
+struct SegmentationVolume;
+class SurfaceSegmentation;
 }
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
@@ -209,8 +209,8 @@ public:
    * Which component of an array of several is taken, of an image: 0 for the first one; -1, the
    * default: the magnitude. An array of one component is taken as it is with either.
    */
-  vtkSetMacro(SelectedComponent, int);
-  vtkGetMacro(SelectedComponent, int);
+  virtual void SetSelectedComponent(int value);
+  virtual int GetSelectedComponent();
   ///@}
 
   ///@{
@@ -218,8 +218,8 @@ public:
    * Voxels that are NaN are background, whatever is around them, and a warning tells how many there
    * are (for a pyramid, vtkImagePyramid's). Off: they are refused. Default: on.
    */
-  vtkSetMacro(NaNIsBackground, bool);
-  vtkGetMacro(NaNIsBackground, bool);
+  virtual void SetNaNIsBackground(bool value);
+  virtual bool GetNaNIsBackground();
   vtkBooleanMacro(NaNIsBackground, bool);
   ///@}
 
@@ -230,8 +230,8 @@ public:
    * slices' distance; Voxels: those of an affine space in which voxels are cubes, so that triangles
    * are stretched as the voxels are, and fewer. No difference where voxels are cubes.
    */
-  vtkSetMacro(Metric, int);
-  vtkGetMacro(Metric, int);
+  virtual void SetMetric(int value);
+  virtual int GetMetric();
   void SetMetricToVoxels() { this->SetMetric(Voxels); }
   void SetMetricToWorld() { this->SetMetric(World); }
   ///@}
@@ -241,16 +241,16 @@ public:
    * The isopotential that is searched, in the units of the voxels. Must be set (NaN, the default,
    * is an error that tells the range).
    */
-  vtkSetMacro(IsoValue, double);
-  vtkGetMacro(IsoValue, double);
+  virtual void SetIsoValue(double value);
+  virtual double GetIsoValue();
   ///@}
 
   ///@{
   /**
    * The object is where the field is above IsoValue (off: below). Default: on.
    */
-  vtkSetMacro(ObjectIsBright, bool);
-  vtkGetMacro(ObjectIsBright, bool);
+  virtual void SetObjectIsBright(bool value);
+  virtual bool GetObjectIsBright();
   vtkBooleanMacro(ObjectIsBright, bool);
   ///@}
 
@@ -263,8 +263,8 @@ public:
    * MinimumComponentVolume (world units cubed, default 0). Cavities go with the component about
    * them: they are kept if it is.
    */
-  vtkSetMacro(KeepComponents, int);
-  vtkGetMacro(KeepComponents, int);
+  virtual void SetKeepComponents(int value);
+  virtual int GetKeepComponents();
   void SetKeepComponentsToAllComponents() { this->SetKeepComponents(AllComponents); }
   void SetKeepComponentsToLargestComponent() { this->SetKeepComponents(LargestComponent); }
   void SetKeepComponentsToComponentsAtPoints() { this->SetKeepComponents(ComponentsAtPoints); }
@@ -275,8 +275,8 @@ public:
   /**
    * Enclosed volume, world units cubed, that KeepComponents LargeComponents asks for. Default: 0.
    */
-  vtkSetMacro(MinimumComponentVolume, double);
-  vtkGetMacro(MinimumComponentVolume, double);
+  virtual void SetMinimumComponentVolume(double value);
+  virtual double GetMinimumComponentVolume();
   ///@}
 
   ///@{
@@ -286,8 +286,8 @@ public:
    * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the closed iso-surface of the
    * coarsest level. InputSurface: the polygons of port 1.
    */
-  vtkSetMacro(Initialization, int);
-  vtkGetMacro(Initialization, int);
+  virtual void SetInitialization(int value);
+  virtual int GetInitialization();
   void SetInitializationToEnclosingIcosahedron() { this->SetInitialization(EnclosingIcosahedron); }
   void SetInitializationToSeeds() { this->SetInitialization(Seeds); }
   void SetInitializationToIsoSurface() { this->SetInitialization(IsoSurface); }
@@ -313,8 +313,8 @@ public:
    * 0.96 delta is taken as that, below which the edges of an icosahedron are too short. With
    * Metric Voxels lengths are those of the workspace, right along the smallest voxel distance.
    */
-  vtkSetMacro(SeedRadius, double);
-  vtkGetMacro(SeedRadius, double);
+  virtual void SetSeedRadius(double value);
+  virtual double GetSeedRadius();
   ///@}
 
   ///@{
@@ -323,8 +323,8 @@ public:
    * is left; without Recovery, on which a part of it is left that a surface holds: 36 voxels, and
    * nowhere thinner than two.
    */
-  vtkSetMacro(CoarsestLevel, int);
-  vtkGetMacro(CoarsestLevel, int);
+  virtual void SetCoarsestLevel(int value);
+  virtual int GetCoarsestLevel();
   ///@}
 
   ///@{
@@ -338,7 +338,7 @@ public:
    * `Level -1`, the last block of the output Levels, after those of the pyramid.
    */
   void SetFinestLevel(int level);
-  vtkGetMacro(FinestLevel, int);
+  virtual int GetFinestLevel();
   ///@}
 
   ///@{
@@ -353,8 +353,8 @@ public:
    * eq. 7 allows, until the mean is right within some percent. With Metric Voxels it is that of the
    * workspace, as Delta is.
    */
-  vtkSetMacro(EdgeLength, double);
-  vtkGetMacro(EdgeLength, double);
+  virtual void SetEdgeLength(double value);
+  virtual double GetEdgeLength();
   ///@}
 
   ///@{
@@ -362,8 +362,8 @@ public:
    * delta_h / U_h (eq. 7): the smallest edge of the surface in units of the level, between
    * sqrt(3)/2.5 = 0.693 and 1. Level -1 has its share of it, see FinestLevel. Default: 0.85.
    */
-  vtkSetMacro(SamplingRatio, double);
-  vtkGetMacro(SamplingRatio, double);
+  virtual void SetSamplingRatio(double value);
+  virtual double GetSamplingRatio();
   ///@}
 
   ///@{
@@ -371,8 +371,8 @@ public:
    * Weight of the force that pulls a vertex to the barycentre of its neighbours, at least 0,
    * without unit as all four. Default: 0.2.
    */
-  vtkSetMacro(TensionWeight, double);
-  vtkGetMacro(TensionWeight, double);
+  virtual void SetTensionWeight(double value);
+  virtual double GetTensionWeight();
   ///@}
 
   ///@{
@@ -380,8 +380,8 @@ public:
    * Weight of the springs along the edges, at least 0. Default: 0.1. Springs and tension so strong,
    * against the other forces, that the time steps cannot follow act as strongly as these can.
    */
-  vtkSetMacro(ElasticityWeight, double);
-  vtkGetMacro(ElasticityWeight, double);
+  virtual void SetElasticityWeight(double value);
+  virtual double GetElasticityWeight();
   ///@}
 
   ///@{
@@ -389,8 +389,8 @@ public:
    * Weight of the force that moves a vertex along its normal to the iso-value, at least 0.
    * Default: 1.
    */
-  vtkSetMacro(IsopotentialWeight, double);
-  vtkGetMacro(IsopotentialWeight, double);
+  virtual void SetIsopotentialWeight(double value);
+  virtual double GetIsopotentialWeight();
   ///@}
 
   ///@{
@@ -398,8 +398,8 @@ public:
    * Weight of the descent along the gradient of the image, at least 0. Default: 0. To use it, give
    * an image whose valleys are the boundaries, such as the negative gradient magnitude.
    */
-  vtkSetMacro(GradientWeight, double);
-  vtkGetMacro(GradientWeight, double);
+  virtual void SetGradientWeight(double value);
+  virtual double GetGradientWeight();
   ///@}
 
   ///@{
@@ -414,8 +414,8 @@ public:
    * is at least two units of the level, so without an array `Radius` the balls shrink with the
    * levels. Merges, Recovery, SnapToIsoValue and `Residual` all see the raised field.
    */
-  vtkSetMacro(PointAttractionWeight, double);
-  vtkGetMacro(PointAttractionWeight, double);
+  virtual void SetPointAttractionWeight(double value);
+  virtual double GetPointAttractionWeight();
   ///@}
 
   ///@{
@@ -442,8 +442,8 @@ public:
    * choose a value that drives the surface over the flat parts, and 2 here. At the end of a level
    * SnapToIsoValue then leads vertices onto the edges near them, instead of the isopotential.
    */
-  vtkSetMacro(EdgeAttractionWeight, double);
-  vtkGetMacro(EdgeAttractionWeight, double);
+  virtual void SetEdgeAttractionWeight(double value);
+  virtual double GetEdgeAttractionWeight();
   ///@}
 
   ///@{
@@ -453,8 +453,8 @@ public:
    * root of their sum, so that strong forces oscillate no more than weak ones.
    * Default: 3.
    */
-  vtkSetMacro(Friction, double);
-  vtkGetMacro(Friction, double);
+  virtual void SetFriction(double value);
+  virtual double GetFriction();
   ///@}
 
   ///@{
@@ -466,8 +466,8 @@ public:
    * setting, also of forces that know of no background, no vertex goes further out than three units
    * (a voxel and one unit); what an initial surface has further out only comes nearer.
    */
-  vtkSetMacro(BorderValue, int);
-  vtkGetMacro(BorderValue, int);
+  virtual void SetBorderValue(int value);
+  virtual int GetBorderValue();
   void SetBorderValueToBackground() { this->SetBorderValue(Background); }
   void SetBorderValueToReplicate() { this->SetBorderValue(Replicate); }
   ///@}
@@ -483,24 +483,24 @@ public:
    * what is connected to the surface is found again. Field data and History tell how many parts
    * were found, `MissingParts` and `MissingBoundary` what of them the surface has not got in the end.
    */
-  vtkSetMacro(Recovery, int);
-  vtkGetMacro(Recovery, int);
+  virtual void SetRecovery(int value);
+  virtual int GetRecovery();
   ///@}
 
   ///@{
   /**
    * Voxels of a level that a lost part must have there to be recovered. Default: 20.
    */
-  vtkSetMacro(MinimumPartSize, int);
-  vtkGetMacro(MinimumPartSize, int);
+  virtual void SetMinimumPartSize(int value);
+  virtual int GetMinimumPartSize();
   ///@}
 
   ///@{
   /**
    * Merges and cuts (default: on). Off: contacts only stop the surface, its topology stays.
    */
-  vtkSetMacro(TopologyChanges, bool);
-  vtkGetMacro(TopologyChanges, bool);
+  virtual void SetTopologyChanges(bool value);
+  virtual bool GetTopologyChanges();
   vtkBooleanMacro(TopologyChanges, bool);
   ///@}
 
@@ -508,8 +508,8 @@ public:
   /**
    * Iterations per level at most. Default: 1000.
    */
-  vtkSetMacro(MaximumNumberOfIterations, int);
-  vtkGetMacro(MaximumNumberOfIterations, int);
+  virtual void SetMaximumNumberOfIterations(int value);
+  virtual int GetMaximumNumberOfIterations();
   ///@}
 
   ///@{
@@ -519,8 +519,8 @@ public:
    * kinetic energy: but that is small while tips still grow, and some vertices always stir.
    * Default: 0.0005.
    */
-  vtkSetMacro(ConvergenceTolerance, double);
-  vtkGetMacro(ConvergenceTolerance, double);
+  virtual void SetConvergenceTolerance(double value);
+  virtual double GetConvergenceTolerance();
   ///@}
 
   ///@{
@@ -528,8 +528,8 @@ public:
    * Vertices at rest are skipped until something near them changes (the paper's heuristic).
    * Default: on.
    */
-  vtkSetMacro(FreezeMotionlessVertices, bool);
-  vtkGetMacro(FreezeMotionlessVertices, bool);
+  virtual void SetFreezeMotionlessVertices(bool value);
+  virtual bool GetFreezeMotionlessVertices();
   vtkBooleanMacro(FreezeMotionlessVertices, bool);
   ///@}
 
@@ -538,8 +538,8 @@ public:
    * At the end of a level, move vertices onto the isopotential as far as the constraints allow.
    * Default: on.
    */
-  vtkSetMacro(SnapToIsoValue, bool);
-  vtkGetMacro(SnapToIsoValue, bool);
+  virtual void SetSnapToIsoValue(bool value);
+  virtual bool GetSnapToIsoValue();
   vtkBooleanMacro(SnapToIsoValue, bool);
   ///@}
 
@@ -548,7 +548,7 @@ public:
    * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
    */
   void SetNumberOfThreads(int number);
-  vtkGetMacro(NumberOfThreads, int);
+  virtual int GetNumberOfThreads();
   ///@}
 
   ///@{
@@ -559,7 +559,7 @@ public:
    * Levels at rest before stay in Levels; a run that has no surface yet gives an empty one.
    */
   void SetTimeLimit(double seconds);
-  vtkGetMacro(TimeLimit, double);
+  virtual double GetTimeLimit();
   ///@}
 
   ///@{
@@ -569,7 +569,7 @@ public:
    * from there (see Going on). Default: off.
    */
   void SetPreview(bool preview);
-  vtkGetMacro(Preview, bool);
+  virtual bool GetPreview();
   vtkBooleanMacro(Preview, bool);
   ///@}
 
@@ -581,7 +581,7 @@ public:
    * once. Default: off.
    */
   void SetShowLevels(bool show);
-  vtkGetMacro(ShowLevels, bool);
+  virtual bool GetShowLevels();
   vtkBooleanMacro(ShowLevels, bool);
   ///@}
 
@@ -600,8 +600,8 @@ public:
    * Whether the history also tells where the time goes, by the columns ForcesSeconds and so on.
    * Default: off.
    */
-  vtkSetMacro(Profile, bool);
-  vtkGetMacro(Profile, bool);
+  virtual void SetProfile(bool value);
+  virtual bool GetProfile();
   vtkBooleanMacro(Profile, bool);
   ///@}
 
@@ -610,8 +610,8 @@ public:
    * Keep the surface at the start of each level and after every so many iterations, in output 3, to
    * see it evolve; 0, the default: off. Each costs the memory of a whole surface.
    */
-  vtkSetMacro(SnapshotInterval, int);
-  vtkGetMacro(SnapshotInterval, int);
+  virtual void SetSnapshotInterval(int value);
+  virtual int GetSnapshotInterval();
   ///@}
 
   /** The initial surface or the centres of the seeds: port 1. */
@@ -646,75 +646,30 @@ protected:
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
-  /// What the surface is searched in, and which value.
-  struct Volume
-  {
-    vtkSmartPointer<vtkMultiBlockDataSet> Levels;
-    vtkSmartPointer<vtkInformation> Selection; ///< of the array, as GetInputArrayInformation()
-    double IsoValue;
-    int FinestLevel;
-    double SamplingRatio;
-    double FactorBelowLevel0;  ///< unit of level 0 over that of level -1
-    bool EdgeLengthIsPlanned;  ///< the levels were made for EdgeLength
-    bool LevelsAreOwn;         ///< the levels are no input
-  };
   /// Without levels, the rest as the properties have it.
-  Volume VolumeAsSet();
-  /// The image that an input which is no pyramid means. Errors are thrown as std::invalid_argument.
-  static vtkImageData* TakeImage(vtkDataObject* input);
+  volumic::SegmentationVolume VolumeAsSet();
   /// Makes the pyramid of an image, for EdgeLength if there is one.
-  void MakeLevels(vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume);
-  /// Makes the volume of the data of input port 0; its levels are null where ShowPyramidProgress()
-  /// said stop. Errors are thrown as std::invalid_argument.
-  virtual Volume PrepareVolume(vtkDataObject* input);
+  void MakeLevels(
+    vtkImagePyramid* pyramid, vtkImageData* image, volumic::SegmentationVolume& volume);
+  /// What the surface is searched in, of the data of input port 0; its levels are null where
+  /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
+  virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
   bool ShowPyramidProgress(double share);
 
-  int SelectedComponent;
-  bool NaNIsBackground;
-  int Metric;
-  double EdgeLength;
-  double IsoValue;
-  bool ObjectIsBright;
-  int Initialization;
-  vtkSmartPointer<vtkPoints> SeedPositions;
-  double SeedRadius;
-  int CoarsestLevel;
-  int FinestLevel;
-  double SamplingRatio;
-  double TensionWeight;
-  double ElasticityWeight;
-  double IsopotentialWeight;
-  double GradientWeight;
-  double PointAttractionWeight;
-  vtkSmartPointer<vtkPoints> AttractingPositions;
-  double EdgeAttractionWeight;
-  double Friction;
-  int BorderValue;
-  int Recovery;
-  int MinimumPartSize;
-  int KeepComponents;
-  double MinimumComponentVolume;
-  bool TopologyChanges;
-  int MaximumNumberOfIterations;
-  double ConvergenceTolerance;
-  bool FreezeMotionlessVertices;
-  bool SnapToIsoValue;
-  int NumberOfThreads;
-  double TimeLimit;
-  bool Preview;
-  bool ShowLevels;
-  bool Profile;
-  int SnapshotInterval;
-
 private:
   class vtkInternals;
-  template <typename T>
-  void SetForTheEnd(T& property, T value);
+  /// What is asked of a run to the end as set; `started` when RequestData() was.
+  volumic::SegmentationRequest RequestAsSet(vtkInformationVector** input);
   /// Makes it a request for the next level to be shown, if it is not the last one. @return whether.
   bool ChooseStep(volumic::SegmentationRequest& request, bool isKept);
+  /// Fills the outputs with what is kept. @return whether it is all that is asked for.
+  bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
+  /// A run from the start; null where the making of its levels was stopped.
+  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
+    const volumic::SegmentationRequest& request, vtkDataObject* input);
   void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
-  std::unique_ptr<vtkInternals> Internals;
+  std::unique_ptr<vtkInternals> Internals; ///< the properties, and what is kept of the last run
 
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;
   void operator=(const vtkDeformableSurface&) = delete;
