@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellVoxels.h"
 
+#include "ImageVoxels.h"
+
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -13,6 +15,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <string>
 
 namespace volumic
 {
@@ -21,14 +24,12 @@ namespace
 /// The array of cells that is meant, if cells are.
 vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
 {
-  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
-    ? selection->Get(vtkDataObject::FIELD_NAME())
-    : nullptr;
-  if (name && *name)
+  const std::string name = ChosenName(selection);
+  if (!name.empty())
   {
     const bool areCells = selection->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
       selection->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-    return areCells ? image->GetCellData()->GetArray(name) : nullptr;
+    return areCells ? image->GetCellData()->GetArray(name.c_str()) : nullptr;
   }
   return image->GetPointData()->GetScalars() ? nullptr : image->GetCellData()->GetScalars();
 }

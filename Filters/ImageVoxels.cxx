@@ -64,16 +64,13 @@ vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
         "array: " + ArraysOf(image) + ".");
     }
   }
-  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
-    ? selection->Get(vtkDataObject::FIELD_NAME())
-    : nullptr;
-  // A ParaView script that never saw the data chooses the array without a name.
-  if (name && *name)
+  const std::string name = ChosenName(selection);
+  if (!name.empty())
   {
-    vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name);
+    vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name.c_str());
     if (!array)
     {
-      Refuse("the image has no point array " + Quote(name) + "; " + ArraysOf(image) + ".");
+      Refuse("the image has no point array " + Quote(name.c_str()) + "; " + ArraysOf(image) + ".");
     }
     return array;
   }
@@ -112,6 +109,15 @@ void ComputeMagnitude(const T* values, int components, vtkIdType count, Real* ma
     magnitudes[i] = static_cast<Real>(std::sqrt(sum));
   }
 }
+}
+
+std::string ChosenName(vtkInformation* selection)
+{
+  // A ParaView script that never saw the data chooses the array without a name.
+  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
+    ? selection->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  return name ? name : "";
 }
 
 bool FloatHolds(double smallest, double largest)

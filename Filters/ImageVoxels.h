@@ -15,6 +15,9 @@ class vtkInformation;
 /// a message that names the array and the way out.
 namespace volumic
 {
+/** The name of the array that a selection means; empty: none, as for the active scalars. */
+std::string ChosenName(vtkInformation* selection);
+
 /**
  * The array of voxels that was chosen: `selection` is GetInputArrayInformation(0) of the filter.
  * @throws if the image has no voxels, or there is no such array, or it is not numeric point data

@@ -8,8 +8,6 @@
 #include "Core/Image/LevelImage.h"
 #include "Workspace.h"
 
-#include <vector>
-
 class vtkPolyData;
 
 namespace volumic
@@ -17,10 +15,6 @@ namespace volumic
 /// The polygons of a poly data, triangulated, as a surface of the workspace.
 /// @throws std::invalid_argument if there is none.
 IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space);
-
-/// The points that it means (PointsMeantBy), in the workspace; none if it is null.
-/// @throws std::invalid_argument if it has polygons or lines only.
-std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space);
 
 /// The iso-surface of a level (workspace), closed at the border of the image by background, outward
 /// oriented, by vtkFlyingEdges3D.

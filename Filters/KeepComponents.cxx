@@ -2,18 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KeepComponents.h"
 
-#include "Core/Common/Refuse.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "PolyDataPoints.h"
-#include "SurfaceOutput.h"
-
-#include <vtkPolyData.h>
+#include "SurfaceTransform.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <stdexcept>
 
 namespace volumic
 {
@@ -225,36 +220,6 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
   }
   return part;
 }
-}
-
-std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space)
-{
-  std::vector<Point> places;
-  const auto add = [&](vtkPolyData* points, const char* port)
-  {
-    try
-    {
-      for (const vtkIdType id : PointsMeantBy(points))
-      {
-        Point world;
-        points->GetPoint(id, world.data());
-        places.push_back(space.ToWorkspace(world));
-      }
-    }
-    catch (const std::invalid_argument& error)
-    {
-      Refuse("Input port ", port, ": ", error.what());
-    }
-  };
-  if (port1 && !IsSurfaceOnly(port1))
-  {
-    add(port1, "1 (Initial Surface)");
-  }
-  if (port2)
-  {
-    add(port2, "2 (Attracting Points)");
-  }
-  return places;
 }
 
 SurfaceResult KeepChosen(

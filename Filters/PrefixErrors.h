@@ -6,6 +6,7 @@
 #include "Core/Common/Refuse.h"
 
 #include <stdexcept>
+#include <string>
 
 namespace volumic
 {
@@ -15,7 +16,7 @@ namespace volumic
  * @throws std::invalid_argument as the work does; other exceptions pass as they are.
  */
 template <typename Work>
-auto PrefixErrors(const char* place, const Work& work) -> decltype(work())
+auto PrefixErrors(const std::string& place, const Work& work) -> decltype(work())
 {
   try
   {

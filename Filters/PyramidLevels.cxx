@@ -5,6 +5,7 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Image/ThickPart.h"
 #include "ImageVoxels.h"
+#include "PrefixErrors.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -156,14 +157,8 @@ PyramidLevels::PyramidLevels(
       Refuse(
         "block ", h, " is ", block ? block->GetClassName() : "empty", ", not an image.", WayOut);
     }
-    try
-    {
-      this->Voxels.emplace_back(ChooseVoxels(selection, image));
-    }
-    catch (const std::invalid_argument& error)
-    {
-      Refuse("level ", h, ": ", error.what());
-    }
+    this->Voxels.emplace_back(PrefixErrors(
+      Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); }));
     if (h == 0)
     {
       CheckSize(image, "the image", "Resample it more finely.");
@@ -182,15 +177,12 @@ PyramidLevels::PyramidLevels(
 
 ValidVoxels PyramidLevels::ValidAt(int level, Executor& executor) const
 {
-  try
-  {
-    return FindValidVoxels(this->Voxels[level], ContiguousVoxels(this->Voxels[level]),
-      this->Images[level], this->NaNIsBackground, executor);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    Refuse("level ", level, ": ", error.what());
-  }
+  return PrefixErrors(Join("level ", level, ": "),
+    [&]
+    {
+      return FindValidVoxels(this->Voxels[level], ContiguousVoxels(this->Voxels[level]),
+        this->Images[level], this->NaNIsBackground, executor);
+    });
 }
 
 bool PyramidLevels::HasRoom(int level) const

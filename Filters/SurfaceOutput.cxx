@@ -3,6 +3,7 @@
 #include "SurfaceOutput.h"
 
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "SurfaceTransform.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -202,25 +203,6 @@ void AddColumn(
   }
   table->AddColumn(column);
 }
-}
-
-IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space)
-{
-  IndexedSurface world;
-  world.Points.reserve(surface.Points.size());
-  for (const Point& point : surface.Points)
-  {
-    world.Points.push_back(space.ToWorld(point));
-  }
-  world.Triangles = surface.Triangles;
-  if (space.IsMirrored())
-  {
-    for (Triangle& triangle : world.Triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-  return world;
 }
 
 vtkSmartPointer<vtkPolyData> MakePolyData(

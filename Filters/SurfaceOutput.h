@@ -32,9 +32,6 @@ struct SurfaceDescription
   int RecoveredCavities = 0;
 };
 
-/// Points and triangles in world coordinates, outward oriented there too.
-IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space);
-
 /// The surface in world coordinates with all arrays that vtkDeformableSurface documents.
 vtkSmartPointer<vtkPolyData> MakePolyData(
   const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space);

@@ -4,8 +4,8 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
-#include "GivenPositions.h"
 #include "InitialSurfaces.h"
+#include "InputPoints.h"
 #include "PrefixErrors.h"
 #include "SurfaceOutput.h"
 

@@ -3,10 +3,10 @@
 #ifndef volumicSurfaceSegmentation_h
 #define volumicSurfaceSegmentation_h
 
-#include "AttractionInputs.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/PointAttraction.h"
 #include "Deadline.h"
+#include "EdgeLevels.h"
 #include "HostThreads.h"
 #include "KeepComponents.h"
 #include "ProgressMonitor.h"

@@ -271,14 +271,12 @@ int vtkImagePyramid::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 int vtkImagePyramid::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   // In a parallel run the first process holds the pyramid; the others would only repeat it.
-  if (output &&
-    outputVector->GetInformationObject(0)->Get(
-      vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
