@@ -3,53 +3,27 @@
 #ifndef volumicSurfaceSegmentation_h
 #define volumicSurfaceSegmentation_h
 
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Image/PointAttraction.h"
-#include "Deadline.h"
-#include "EdgeLevels.h"
+#include "Core/Image/LevelImage.h"
 #include "HostThreads.h"
 #include "KeepComponents.h"
+#include "LevelChoice.h"
 #include "ProgressMonitor.h"
-#include "PyramidLevels.h"
+#include "SegmentationLevels.h"
+#include "SegmentationRequest.h"
 #include "SegmentationResults.h"
 #include "SegmentationSettings.h"
 #include "SegmentationVolume.h"
 #include "SurfaceSnapshots.h"
 
-#include <vtkSmartPointer.h>
-
-#include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-class vtkDataObject;
-class vtkInformation;
-class vtkMultiBlockDataSet;
-class vtkPolyData;
-
 namespace volumic
 {
-/**
- * What a run is asked for, beside the settings: where it ends, inputs that may come in other objects
- * for one that goes on, and what hears of the work.
- */
-struct SegmentationRequest
-{
-  SegmentationEnd End;  ///< As set, or for a step on the way. With EdgeLength the level is planned.
-  bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
-  vtkPolyData* InitialSurface = nullptr;   ///< input port 1, may be missing
-  vtkPolyData* AttractingPoints = nullptr; ///< input port 2, may be missing
-  vtkInformation* EdgeSelection = nullptr; ///< of the map of edges; without effect at weight 0
-  Deadline Limit;
-  /** When the run began: what came before counts to the seconds of its first level. */
-  Deadline::Clock::time_point Started = Deadline::Clock::now();
-  ProgressMonitor::Tell Progress;
-  std::function<void(const std::string& text)> Warn;
-};
-
 /**
  * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
  * outputs of vtkDeformableSurface hold. One that has ended at a level can go on from there, as if
@@ -58,9 +32,6 @@ struct SegmentationRequest
 class SurfaceSegmentation
 {
 public:
-  /// Preview ends at the finest level of at most so many voxels.
-  static constexpr int VoxelsOfPreview = 1000000;
-
   /// @throws std::invalid_argument if the levels are not a pyramid or a setting is out of range.
   SurfaceSegmentation(const SegmentationVolume& volume, const SegmentationRequest& request);
   ~SurfaceSegmentation();
@@ -80,27 +51,11 @@ public:
   bool HasRecovery() const { return this->Settings.Options.RecoverLostParts; }
   const SegmentationResults& Results() const { return this->Found; }
   /// The level at which the last Run() was to end.
-  int EndsAt() const { return this->LastLevel; }
+  int EndsAt() const { return this->Choice.Last; }
 
 private:
   void ChooseEdgeLength(const SegmentationVolume& volume);
-  void ChooseLevels();
-  void ChooseEnd(int coarsestWithObject);
-  /// Seed Positions and Attracting Positions in the workspace.
-  std::vector<Point> SeedPositions() const;
-  std::vector<Point> AttractingPositions() const;
   void ReadComponentChoice();
-  void ReadAttraction(vtkMultiBlockDataSet* blocks);
-  std::array<double, 2> RangeOfLevel(int level) const;
-  LevelImage Load(int level, Executor& threads);
-  void WarnOfNaNs();
-  void CheckIsoValue();
-  /// At most `from`; 0 where no other level has any of the object.
-  int CoarsestLevelWithObject(int from);
-  /// At most `from`, at least the level to end at: the coarsest on which the object is thick enough
-  /// for a surface that starts there not to vanish, if that would be the end.
-  int CoarsestLevelThatHolds(int from);
-  void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   void Begin();
   void RunLevels();
@@ -110,18 +65,10 @@ private:
 
   SegmentationSettings Settings; ///< End as asked for; SeedRadius in the workspace
   SegmentationRequest Request;
-  bool MayHaveUntoldNaNs;
-  /// Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on.
-  std::vector<vtkSmartPointer<vtkDataObject>> Images;
-  PyramidLevels Pyramid;
-  std::unique_ptr<PointAttraction> Points; ///< null: none
-  std::unique_ptr<EdgeLevels> Edges;       ///< null: none
-  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
-  ComponentChoice Choice;
-  int Coarsest = 0;
-  int LastLevel = 0;    ///< the finest to visit
-  int PreviewLevel = 0; ///< the finest to visit for a preview
-  SurfaceSnapshots Film;
+  SegmentationLevels Levels;
+  ComponentChoice Components;
+  LevelChoice Choice;
+  SurfaceSnapshots Snapshots;
   SegmentationResults Found;
   std::optional<HostThreads> Threads;
   std::optional<ProgressMonitor> Watcher;
