@@ -21,7 +21,7 @@ namespace volumic
 {
 namespace
 {
-/// The array of cells that is meant, if cells are.
+/** The array of cells that is meant, if cells are. */
 vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
 {
   const std::string name = ChosenName(selection);
@@ -34,7 +34,7 @@ vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
   return image->GetPointData()->GetScalars() ? nullptr : image->GetCellData()->GetScalars();
 }
 
-/// Hides the points that stand for hidden cells.
+/** Hides the points that stand for hidden cells. */
 void BlankAsCells(vtkImageData* cells, vtkImageData* points)
 {
   auto* ghosts = vtkUnsignedCharArray::SafeDownCast(

@@ -32,8 +32,10 @@ public:
   EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int numberOfThreads,
     const Checkpoint& goOn);
 
-  /// The voxels of the map, for LevelImage::Edges; valid until the next call.
-  /// @throws std::invalid_argument if the level has not the size of the voxels'.
+  /**
+   * The voxels of the map, for LevelImage::Edges; valid until the next call.
+   * @throws std::invalid_argument if the level has not the size of the voxels'.
+   */
   const float* Load(int level, const std::array<int, 3>& size, Executor& executor);
 
 private:

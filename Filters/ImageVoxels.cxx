@@ -28,7 +28,7 @@ std::string Quote(const char* name)
   return name ? "'" + std::string(name) + "'" : std::string("without a name");
 }
 
-/// `it has 'a' and 'b'`, so that a user sees what could have been chosen.
+/** `it has 'a' and 'b'`, so that a user sees what could have been chosen. */
 std::string ArraysOf(vtkImageData* image)
 {
   std::string text;
@@ -49,7 +49,9 @@ std::string ArraysOf(vtkImageData* image)
   return text;
 }
 
-/// The array that the selection names, whatever its type; the reason in a message if there is none.
+/**
+ * The array that the selection names, whatever its type; the reason in a message if there is none.
+ */
 vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
 {
   if (selection && selection->Has(vtkDataObject::FIELD_ASSOCIATION()))

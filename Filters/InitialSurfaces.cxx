@@ -28,7 +28,7 @@ namespace volumic
 {
 namespace
 {
-/// Points that no triangle uses are left out.
+/** Points that no triangle uses are left out. */
 IndexedSurface Triangles(vtkPolyData* polyData)
 {
   IndexedSurface surface;
@@ -57,7 +57,7 @@ IndexedSurface Triangles(vtkPolyData* polyData)
   return surface;
 }
 
-/// The level with a voxel of background on all sides.
+/** The level with a voxel of background on all sides. */
 vtkSmartPointer<vtkImageData> PadByBackground(
   const LevelImage& image, const SurfaceOptions& options)
 {
@@ -70,8 +70,8 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   SequentialExecutor thread;
   const Field field(image, options, thread);
   std::fill(values, values + padded->GetNumberOfPoints(), field.Background());
-  // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are moved
-  // a little to the side of the background. The surface finds its place anyway.
+  // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are
+  // moved a little to the side of the background. The surface finds its place anyway.
   const float iso = static_cast<float>(options.IsoValue - image.Base);
   const float room = 0.01f * std::max(field.Highest(), -field.Lowest());
   const float beside = options.ObjectIsBright ? iso - room : iso + room;

@@ -46,8 +46,8 @@ std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space);
  * Port 2 as points known to belong to the object: those that it means; point arrays `Weight` and
  * `Radius` (world units), both optional.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument for cells without vertices, a point outside the image, an array that
- *         is not numbers of one component, a negative or infinite weight or radius.
+ * @throws std::invalid_argument for cells without vertices, a point outside the image, an array
+ *         that is not numbers of one component, a negative or infinite weight or radius.
  */
 std::vector<AttractingPoint> AttractingPointsOf(
   vtkPolyData* port2, const Workspace& space, const std::array<int, 3>& size);
@@ -60,8 +60,8 @@ std::vector<AttractingPoint> AttractingPointsOf(
 std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space);
 
 /**
- * A list of positions (world coordinates), in the workspace. One that is out of the box of the image
- * by less than a voxel, as one that was picked on its border may be, is moved onto the box.
+ * A list of positions (world coordinates), in the workspace. One that is out of the box of the
+ * image by less than a voxel, as one that was picked on its border may be, is moved onto the box.
  * @param label of the property, for messages
  * @param size  voxels of level 0 along each axis
  * @throws std::invalid_argument for a position farther outside, or one that is not finite.

@@ -14,8 +14,10 @@ namespace volumic
 {
 namespace
 {
-/// Places sorted along y, so that what is near a triangle or a vertex is found without a search of
-/// all.
+/**
+ * Places sorted along y, so that what is near a triangle or a vertex is found without a search of
+ * all.
+ */
 class SortedPlaces
 {
 public:
@@ -27,7 +29,7 @@ public:
       [&](std::size_t a, std::size_t b) { return places[a][1] < places[b][1]; });
   }
 
-  /// Calls visit(index) for the places with low <= y <= high.
+  /** Calls visit(index) for the places with low <= y <= high. */
   template <typename Visitor>
   void Visit(double low, double high, const Visitor& visit) const
   {
@@ -44,8 +46,10 @@ private:
   std::vector<std::size_t> Order;
 };
 
-/// Whether the ray from p along +y of the plane (y, z) crosses the edge. Both faces of an edge get
-/// the same answer, and of a vertex on the ray one of the two edges counts.
+/**
+ * Whether the ray from p along +y of the plane (y, z) crosses the edge. Both faces of an edge get
+ * the same answer, and of a vertex on the ray one of the two edges counts.
+ */
 bool Crosses(const Point& p, const Point& a, const Point& b)
 {
   if ((a[2] > p[2]) == (b[2] > p[2]))
@@ -57,7 +61,7 @@ bool Crosses(const Point& p, const Point& a, const Point& b)
   return p[1] < low[1] + (p[2] - low[2]) / (high[2] - low[2]) * (high[1] - low[1]);
 }
 
-/// Whether the ray from p along +x goes through the triangle.
+/** Whether the ray from p along +x goes through the triangle. */
 bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
 {
   if (Crosses(p, a, b) == (Crosses(p, b, c) != Crosses(p, c, a)))
@@ -70,8 +74,10 @@ bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
   return a[0] + u * (b[0] - a[0]) + v * (c[0] - a[0]) > p[0];
 }
 
-/// For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
-/// not count.
+/**
+ * For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
+ * not count.
+ */
 std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
   const IndexedSurface& surface, const SurfaceFeatures& features)
 {
@@ -114,7 +120,7 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
   return innermost;
 }
 
-/// The component that each belongs to: itself, or, for a cavity, the one about it (-1: none).
+/** The component that each belongs to: itself, or, for a cavity, the one about it (-1: none). */
 std::vector<int> HostsOf(const IndexedSurface& surface, const SurfaceFeatures& features)
 {
   const int n = static_cast<int>(features.Components.size());

@@ -11,7 +11,7 @@
 
 namespace volumic
 {
-/// Which components of a surface go into an output.
+/** Which components of a surface go into an output. */
 struct ComponentChoice
 {
   KeepComponentsType Mode = KeepComponentsType::AllComponents;

@@ -38,7 +38,7 @@ void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)
   }
 }
 
-/// All levels have the place of the first voxel, the direction and the real size of level 0.
+/** All levels have the place of the first voxel, the direction and the real size of level 0. */
 void CheckPlace(vtkImageData* level0, vtkImageData* image, unsigned int h)
 {
   const int* extent0 = level0->GetExtent();
@@ -89,7 +89,7 @@ void CheckShrinks(vtkImageData* below, vtkImageData* image, unsigned int h)
   }
 }
 
-/// U_h / U_0: what the pyramid wrote down, or else what the spacings tell.
+/** U_h / U_0: what the pyramid wrote down, or else what the spacings tell. */
 double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
 {
   vtkDataArray* unit0 = level0->GetFieldData()->GetArray("Unit");

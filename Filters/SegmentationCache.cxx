@@ -33,7 +33,7 @@ vtkDataObject* DataOf(vtkAlgorithmOutput* connection)
   return producer->GetOutputDataObject(connection->GetIndex());
 }
 
-/// When anything of it was changed last; blocks do not tell of it by themselves.
+/** When anything of it was changed last; blocks do not tell of it by themselves. */
 vtkMTimeType TimeOf(vtkDataObject* data)
 {
   vtkMTimeType time = data->GetMTime();
@@ -48,7 +48,7 @@ vtkMTimeType TimeOf(vtkDataObject* data)
   return time;
 }
 
-/// Whether the data of an input go once they have been used; they must not stay because of us.
+/** Whether the data of an input go once they have been used; they must not stay because of us. */
 bool AreReleased(vtkAlgorithm* filter)
 {
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -92,7 +92,7 @@ void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgori
     return;
   }
   this->Time = filter->GetMTime();
-  this->Given = InputsOf(filter);
+  this->InputsOfRun = InputsOf(filter);
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
   this->PlannedEnd = run->GetSettings().End.FinestLevel;
   this->Recovery = run->HasRecovery();
@@ -110,11 +110,11 @@ void SegmentationCache::Drop()
 {
   this->Run.reset();
   this->Results.reset();
-  this->Given.clear();
+  this->InputsOfRun.clear();
   this->Time = 0;
 }
 
-void SegmentationCache::Allow(vtkMTimeType before, vtkMTimeType after)
+void SegmentationCache::IgnoreChange(vtkMTimeType before, vtkMTimeType after)
 {
   if (this->Time != 0 && this->Time == before)
   {
@@ -122,9 +122,10 @@ void SegmentationCache::Allow(vtkMTimeType before, vtkMTimeType after)
   }
 }
 
-bool SegmentationCache::Serves(vtkAlgorithm* filter) const
+bool SegmentationCache::IsValidFor(vtkAlgorithm* filter) const
 {
-  return this->Time != 0 && this->Time == filter->GetMTime() && this->Given == InputsOf(filter);
+  return this->Time != 0 && this->Time == filter->GetMTime() &&
+    this->InputsOfRun == InputsOf(filter);
 }
 
 int SegmentationCache::EndOf(const SegmentationEnd& end) const

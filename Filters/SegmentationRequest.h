@@ -16,8 +16,8 @@ class vtkPolyData;
 namespace volumic
 {
 /**
- * What a run is asked for, beside the settings: where it ends, inputs that may come in other objects
- * for one that goes on, and what hears of the work.
+ * What a run is asked for, beside the settings: where it ends, inputs that may come in other
+ * objects for one that goes on, and what hears of the work.
  */
 struct SegmentationRequest
 {
@@ -29,7 +29,7 @@ struct SegmentationRequest
   Deadline Limit;
   /** When the run began: what came before counts to the seconds of its first level. */
   Deadline::Clock::time_point Started = Deadline::Clock::now();
-  ProgressMonitor::Tell Progress;
+  ProgressMonitor::Callback Progress;
   std::function<void(const std::string& text)> Warn;
 };
 }

@@ -53,8 +53,8 @@ struct SegmentationEnd
 
 /**
  * The properties of vtkDeformableSurface, which documents them, with their only defaults: it writes
- * them here, and hands them to a run as they are. Numbers, also those of enumerations, may be out of
- * range: SurfaceSegmentation checks them.
+ * them here, and hands them to a run as they are. Numbers, also those of enumerations, may be out
+ * of range: SurfaceSegmentation checks them.
  */
 struct SegmentationSettings
 {

@@ -75,9 +75,9 @@ void SurfaceSegmentation::ReadComponentChoice()
     }
     if (this->Components.Places.empty())
     {
-      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or Attracting "
-             "Positions, or give seeds to input port 1 (Initial Surface), or points known to belong "
-             "to the object to input port 2 (Attracting Points).");
+      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
+             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points known "
+             "to belong to the object to input port 2 (Attracting Points).");
     }
   }
 }
@@ -172,17 +172,17 @@ void SurfaceSegmentation::Run()
   {
     this->Begin();
   }
-  this->Found.SetHandedOver(nullptr);
+  this->Found.SetStoppedSurface(nullptr);
   if (!this->Found.HasAtRest(this->Choice.Last))
   {
     // What the evolution refers to stays in its place.
     this->Threads.emplace(this->Settings.End.NumberOfThreads);
-    this->Watcher.emplace(
+    this->Progress.emplace(
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
-    this->Watcher->AfterIteration = [this](const Monitor::Status& status)
+    this->Progress->AfterIteration = [this](const Monitor::Status& status)
     {
-      this->Snapshots.Offer(*this->Evolution, status.Level, this->Levels.UnitInWorld(status.Level),
-        status.Iteration, this->Found);
+      this->Snapshots.TakeIfDue(*this->Evolution, status.Level,
+        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found);
     };
     this->Threads->Run([this] { this->RunLevels(); });
   }
@@ -212,7 +212,7 @@ void SurfaceSegmentation::RunLevels()
   if (!this->Evolution)
   {
     this->Evolution =
-      std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Watcher);
+      std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Progress);
     this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
   }
@@ -220,9 +220,9 @@ void SurfaceSegmentation::RunLevels()
   while (this->GoesOn && this->Reached > this->Choice.Last)
   {
     const int level = this->Reached - 1;
-    if (!this->Watcher->LoadLevel(level))
+    if (!this->Progress->BeginLevel(level))
     {
-      this->HandOverStopped(level);
+      this->KeepStoppedSurface(level);
       break;
     }
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
@@ -237,10 +237,10 @@ void SurfaceSegmentation::RunLevels()
     }
     else if (!this->Evolution->Divide(image, level))
     {
-      this->HandOverStopped(level);
+      this->KeepStoppedSurface(level);
       break;
     }
-    this->Snapshots.Offer(
+    this->Snapshots.TakeIfDue(
       *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found);
     this->GoesOn = this->RunLevel(level);
     this->Reached = level;
@@ -257,7 +257,7 @@ bool SurfaceSegmentation::RunLevel(int level)
   description.Level = level;
   description.Unit = this->Levels.UnitInWorld(level);
   description.Iterations = this->Evolution->Iterations();
-  description.StopReason = result.IsAtRest ? Describe(reason) : this->WhyStopped();
+  description.StopReason = result.IsAtRest ? Describe(reason) : this->DescribeStop();
   if (level < this->Choice.Coarsest)
   {
     const SurfaceEvolution::LostParts lost = this->Evolution->Lost();
@@ -280,22 +280,22 @@ bool SurfaceSegmentation::RunLevel(int level)
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
 }
 
-std::string SurfaceSegmentation::WhyStopped() const
+std::string SurfaceSegmentation::DescribeStop() const
 {
-  return this->Watcher->IsOutOfTime() ? TimeLimitReason : Describe(StopReason::Cancelled);
+  return this->Progress->IsOutOfTime() ? TimeLimitReason : Describe(StopReason::Cancelled);
 }
 
-void SurfaceSegmentation::HandOverStopped(int level)
+void SurfaceSegmentation::KeepStoppedSurface(int level)
 {
   if (level == this->Choice.Coarsest)
   {
-    this->Found.SetHandedOver(MakeStopped(level, this->WhyStopped()));
+    this->Found.SetStoppedSurface(MakeStopped(level, this->DescribeStop()));
     return;
   }
   // The block of the level above is a surface at rest and stays one.
   vtkNew<vtkPolyData> surface;
   surface->ShallowCopy(this->Found.SurfaceOf(level + 1));
-  SetStopReason(surface, this->WhyStopped());
-  this->Found.SetHandedOver(surface);
+  SetStopReason(surface, this->DescribeStop());
+  this->Found.SetStoppedSurface(surface);
 }
 }

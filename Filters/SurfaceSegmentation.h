@@ -32,25 +32,27 @@ namespace volumic
 class SurfaceSegmentation
 {
 public:
-  /// @throws std::invalid_argument if the levels are not a pyramid or a setting is out of range.
+  /** @throws std::invalid_argument if the levels are not a pyramid or a setting is out of range. */
   SurfaceSegmentation(const SegmentationVolume& volume, const SegmentationRequest& request);
   ~SurfaceSegmentation();
 
-  /// For the next Run(). With EdgeLength the finest level stays what was planned.
+  /** For the next Run(). With EdgeLength the finest level stays what was planned. */
   void Renew(const SegmentationRequest& request);
 
-  /// Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
-  /// it is empty where there is none yet.
-  /// @throws std::invalid_argument if settings and image do not fit.
+  /**
+   * Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
+   * it is empty where there is none yet.
+   * @throws std::invalid_argument if settings and image do not fit.
+   */
   void Run();
 
-  /// Whether Run() would go on from a level at rest that is not the image itself.
+  /** Whether Run() would go on from a level at rest that is not the image itself. */
   bool CanGoOn() const;
 
   const SegmentationSettings& GetSettings() const { return this->Settings; }
   bool HasRecovery() const { return this->Settings.Options.RecoverLostParts; }
   const SegmentationResults& Results() const { return this->Found; }
-  /// The level at which the last Run() was to end.
+  /** The level at which the last Run() was to end. */
   int EndsAt() const { return this->Choice.Last; }
 
 private:
@@ -60,8 +62,8 @@ private:
   void Begin();
   void RunLevels();
   bool RunLevel(int level);
-  void HandOverStopped(int level);
-  std::string WhyStopped() const;
+  void KeepStoppedSurface(int level);
+  std::string DescribeStop() const;
 
   SegmentationSettings Settings; ///< End as asked for; SeedRadius in the workspace
   SegmentationRequest Request;
@@ -71,7 +73,7 @@ private:
   SurfaceSnapshots Snapshots;
   SegmentationResults Found;
   std::optional<HostThreads> Threads;
-  std::optional<ProgressMonitor> Watcher;
+  std::optional<ProgressMonitor> Progress;
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.

@@ -33,8 +33,8 @@ Workspace::Workspace(vtkImageData* level0, Metric metric)
   const double determinant = vtkMatrix3x3::Determinant(this->Forward.data());
   if (!std::isfinite(determinant) || determinant == 0.0)
   {
-    Refuse("spacing and direction of the image do not span a space; set the spacing to the distances "
-           "of the voxels.");
+    Refuse("spacing and direction of the image do not span a space; set the spacing to the "
+           "distances of the voxels.");
   }
   vtkMatrix3x3::Invert(this->Forward.data(), this->Backward.data());
   this->Mirrored = determinant < 0.0;

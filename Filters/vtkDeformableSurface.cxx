@@ -43,7 +43,7 @@ vtkStandardNewMacro(vtkDeformableSurface);
 
 namespace
 {
-/// Share of the progress that the pyramid takes where it is built here.
+/** Share of the progress that the pyramid takes where it is built here. */
 constexpr double PyramidShare = 0.02;
 
 /** Whether the levels are made here: the data of input port 0 are no pyramid. */
@@ -56,7 +56,7 @@ bool BuildsPyramid(vtkDataObject* input)
 void FillByNothing(vtkInformationVector* output, bool isAborted, bool withPhases)
 {
   volumic::SegmentationResults nothing(0, 0, volumic::Workspace(), withPhases);
-  nothing.SetHandedOver(volumic::MakeStopped(
+  nothing.SetStoppedSurface(volumic::MakeStopped(
     0, isAborted ? Describe(volumic::StopReason::Cancelled) : volumic::TimeLimitReason));
   nothing.FillOutputs(0, output);
 }
@@ -148,7 +148,7 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   internals.GoesToTheEnd = !internals.Cache.CanGoOn();
   const vtkMTimeType before = this->GetMTime();
   this->Modified();
-  internals.Cache.Allow(before, this->GetMTime());
+  internals.Cache.IgnoreChange(before, this->GetMTime());
   return true;
 }
 
@@ -306,7 +306,7 @@ void vtkDeformableSurface::RunOrGoOn(
 {
   const volumic::SegmentationSettings& settings = this->Internals->Settings;
   volumic::SegmentationCache& cache = this->Internals->Cache;
-  const bool isKept = cache.Serves(this);
+  const bool isKept = cache.IsValidFor(this);
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   this->SetErrorCode(vtkErrorCode::NoError);
@@ -377,6 +377,6 @@ int vtkDeformableSurface::RequestData(
   }
   const vtkMTimeType before = this->GetMTime();
   volumic::ForgetAbort(this);
-  this->Internals->Cache.Allow(before, this->GetMTime());
+  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
   return 1;
 }

@@ -9,8 +9,8 @@
  * moved and bent by forces, merges with itself and comes apart as the object demands, first at the
  * coarsest level of an image pyramid, then, each time divided, at the finer ones. At any moment it
  * is closed, oriented, manifold and free of self-intersections. At the end of a level its triangles
- * are even: edges are between delta and 2.5 delta long, where delta is about one voxel of the level
- * (in between, as when it is cancelled, the band of a fresh merge may have longer ones).
+ * are well-shaped: edges are between delta and 2.5 delta long, where delta is about one voxel of
+ * the level (in between, as when it is cancelled, the band of a fresh merge may have longer ones).
  *
  * @par Input:
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
@@ -18,15 +18,16 @@
  *   is used, by default the active point scalars: any numeric type, values of at most 1e37 in size
  *   (the surface computes in single precision, after IsoValue was subtracted where that matters:
  *   10^9 to 10^9 + 50 are fine). Of several components of an image SelectedComponent chooses one;
- *   levels of a pyramid have one. NaN voxels are background, see NaNIsBackground, and so are blanked
- *   ones, as vtkImagePyramid says; infinite ones are refused. At least 8 voxels along each axis.
+ *   levels of a pyramid have one. NaN voxels are background, see NaNIsBackground, and so are
+ *   blanked ones, as vtkImagePyramid says; infinite ones are refused. At least 8 voxels along each
+ *   axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components,
  *   cavities among them facing inward, at most five times as wide as the image; polygons are
- *   triangulated). Triangles may be of any size and shape: where they are not yet even and of the
- *   level's size the surface gets another mesh first, which may lose what is thinner than about two
- *   edges. With Initialization Seeds, the centres of the seeds (see also SeedPositions). World
- *   coordinates.
+ *   triangulated). Triangles may be of any size and shape: where they are not yet well-shaped and
+ *   of the level's size the surface gets another mesh first, which may lose what is thinner than
+ *   about two edges. With Initialization Seeds, the centres of the seeds (see also SeedPositions).
+ *   World coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
  *   PointAttractionWeight and AttractingPositions. Point arrays, optional: `Weight` (any numeric
  *   type, at least 0, default 1) and `Radius` (world units, default 0: automatic).
@@ -77,8 +78,8 @@
  * (mean over the vertices, along the normals, per unit of mass, in smallest voxel distances of
  * level 0 and units of the simulated time, squared), `MeanEdgeLength` (world units; with Metric
  * Voxels as if voxels were cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`,
- * `ActiveVertices` (those awake), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of
- * operations in this iteration), `EulerCharacteristic`, `Components`, `RecoveredParts` (found
+ * `ActiveVertices` (those not at rest), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers
+ * of operations in this iteration), `EulerCharacteristic`, `Components`, `RecoveredParts` (found
  * before this iteration, see Recovery), `Deletions` (components deleted) and `DeletedGenus` (the
  * sum of their genera), `AddedEulerCharacteristic` (of what was added before it: the start, what
  * encloses lost parts). `Vertices`, `MeanEdgeLength`, `EulerCharacteristic` and `Components` of the
@@ -96,16 +97,17 @@
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever
- * triangles could meet, operations are verified by tests of the triangles and displacements that
- * make them meet are taken back; merges need the image's consent. Documentation/differences.md of
- * the sources names all that differs from the paper. The lengths that the constraints speak of are
- * those of the workspace that Metric chooses. Results are the same bits for any number of threads.
+ * triangles could intersect, operations are verified by tests of the triangles and displacements
+ * that make them intersect are rolled back; merges need the image's consent.
+ * Documentation/differences.md of the sources names all that differs from the paper. The lengths
+ * that the constraints speak of are those of the workspace that Metric chooses. Results are the
+ * same bits for any number of threads.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. At
  * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if,
- * with Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level; at its
- * start one tells the number of voxels that are NaN. All else is told by the field data only.
+ * with Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level; at
+ * its start one tells the number of voxels that are NaN. All else is told by the field data only.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
@@ -259,9 +261,9 @@ public:
    * Which components the outputs Surface and Levels hold, with their arrays and field data; the
    * evolution is the same. AllComponents (default); LargestComponent: that of the largest area;
    * ComponentsAtPoints: those that enclose a seed of port 1, a point of port 2, or one of the
-   * SeedPositions or AttractingPositions, or pass it within the length of an edge (2.5 Delta); LargeComponents: those that enclose at least
-   * MinimumComponentVolume (world units cubed, default 0). Cavities go with the component about
-   * them: they are kept if it is.
+   * SeedPositions or AttractingPositions, or pass it within the length of an edge (2.5 Delta);
+   * LargeComponents: those that enclose at least MinimumComponentVolume (world units cubed, default
+   * 0). Cavities go with the component about them: they are kept if it is.
    */
   virtual void SetKeepComponents(int value);
   virtual int GetKeepComponents();
@@ -283,8 +285,8 @@ public:
   /**
    * What the surface starts from. EnclosingIcosahedron (default): an icosahedron about the image,
    * shrunk to a rounded box. Seeds: icosahedra of SeedRadius that grow inside the object, at the
-   * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the closed iso-surface of the
-   * coarsest level. InputSurface: the polygons of port 1.
+   * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the
+   * closed iso-surface of the coarsest level. InputSurface: the polygons of port 1.
    */
   virtual void SetInitialization(int value);
   virtual int GetInitialization();
@@ -296,10 +298,10 @@ public:
 
   ///@{
   /**
-   * SeedPositions: centres of seeds, see Initialization, in world coordinates; none by default. They
-   * add to the points of port 1, and spare a source for them. One that lies outside the image by
-   * more than a voxel is an error; of those in the image the ones outside the object, or too near
-   * to another, are left out. An index that is none gives NaN.
+   * SeedPositions: centres of seeds, see Initialization, in world coordinates; none by default.
+   * They add to the points of port 1, and spare a source for them. One that lies outside the image
+   * by more than a voxel is an error; of those in the image the ones outside the object, or too
+   * near to another, are left out. An index that is none gives NaN.
    */
   void AddSeedPosition(double x, double y, double z);
   void ClearSeedPositions();
@@ -405,14 +407,14 @@ public:
   ///@{
   /**
    * How much the points of port 2 and the AttractingPositions, known to belong to the object,
-   * attract the surface (1 by default; 0: not at all); times the point's own `Weight`. Around a point the field is raised to
-   * the object's side, the nearer the more, so that a point of weight 1 makes a ball of its
-   * `Radius` part of the object even where the image is all background, and a surface that passes
-   * nearer than that comes out to the point. Points near each other join: a few close a gap
-   * through which the isopotential alone would leak, and points along a vessel keep it at the
-   * coarse levels. Under a weight of about 0.3 a point only tips places near IsoValue. A radius
-   * is at least two units of the level, so without an array `Radius` the balls shrink with the
-   * levels. Merges, Recovery, SnapToIsoValue and `Residual` all see the raised field.
+   * attract the surface (1 by default; 0: not at all); times the point's own `Weight`. Around a
+   * point the field is raised to the object's side, the nearer the more, so that a point of weight
+   * 1 makes a ball of its `Radius` part of the object even where the image is all background, and a
+   * surface that passes nearer than that comes out to the point. Points near each other join: a few
+   * close a gap through which the isopotential alone would leak, and points along a vessel keep it
+   * at the coarse levels. Under a weight of about 0.3 a point only tips places near IsoValue. A
+   * radius is at least two units of the level, so without an array `Radius` the balls shrink with
+   * the levels. Merges, Recovery, SnapToIsoValue and `Residual` all see the raised field.
    */
   virtual void SetPointAttractionWeight(double value);
   virtual double GetPointAttractionWeight();
@@ -481,7 +483,8 @@ public:
    * with cavities, which a surface that comes from outside cannot reach otherwise (seeds in the
    * object and the start from the iso-surface can); NoRecovery is the paper's behaviour, where only
    * what is connected to the surface is found again. Field data and History tell how many parts
-   * were found, `MissingParts` and `MissingBoundary` what of them the surface has not got in the end.
+   * were found, `MissingParts` and `MissingBoundary` what of them the surface has not got in the
+   * end.
    */
   virtual void SetRecovery(int value);
   virtual int GetRecovery();
@@ -564,9 +567,9 @@ public:
 
   ///@{
   /**
-   * End at a coarse level, fine enough to judge an IsoValue: the finest from FinestLevel on that has
-   * at most a million voxels, or the coarsest of the run if none has. Switched off, the run goes on
-   * from there (see Going on). Default: off.
+   * End at a coarse level, fine enough to judge an IsoValue: the finest from FinestLevel on that
+   * has at most a million voxels, or the coarsest of the run if none has. Switched off, the run
+   * goes on from there (see Going on). Default: off.
    */
   void SetPreview(bool preview);
   virtual bool GetPreview();
@@ -575,10 +578,10 @@ public:
 
   ///@{
   /**
-   * In ParaView's window: show the surface of each level as soon as it rests, from the one of Preview
-   * on, while finer ones go on. Each is a run of its own that goes on from the last one, also for
-   * TimeLimit; with EdgeLength there are two. Elsewhere it has no effect: a run goes to its end at
-   * once. Default: off.
+   * In ParaView's window: show the surface of each level as soon as it rests, from the one of
+   * Preview on, while finer ones go on. Each is a run of its own that goes on from the last one,
+   * also for TimeLimit; with EdgeLength there are two. Elsewhere it has no effect: a run goes to
+   * its end at once. Default: off.
    */
   void SetShowLevels(bool show);
   virtual bool GetShowLevels();
@@ -586,9 +589,9 @@ public:
   ///@}
 
   /**
-   * With ShowLevels: whether a finer level is still to come; it is then computed at the next Update().
-   * ParaView's window asks it of its live sources several times a second. Who asks it gets the
-   * levels one by one.
+   * With ShowLevels: whether a finer level is still to come; it is then computed at the next
+   * Update(). ParaView's window asks it of its live sources several times a second. Who asks it
+   * gets the levels one by one.
    */
   bool GetNeedsUpdate();
 
@@ -659,7 +662,7 @@ protected:
 
 private:
   class vtkInternals;
-  /// What is asked of a run to the end as set; `started` when RequestData() was.
+  /// What a run is asked for by the properties and the inputs.
   volumic::SegmentationRequest RequestAsSet(vtkInformationVector** input);
   /// Makes it a request for the next level to be shown, if it is not the last one. @return whether.
   bool ChooseStep(volumic::SegmentationRequest& request, bool isKept);

@@ -45,7 +45,7 @@ static_assert(AreEqual(Class::AllComponents, KeepComponentsType::AllComponents) 
   AreEqual(Class::ComponentsAtPoints, KeepComponentsType::ComponentsAtPoints) &&
   AreEqual(Class::LargeComponents, KeepComponentsType::LargeComponents));
 
-/** Changes a property that decides on the end of a run only: what is kept of the last one serves. */
+/** Changes a property that decides on the end of a run only: what is kept of the last one stays. */
 template <typename T>
 void ChangeEnd(
   vtkDeformableSurface* filter, volumic::SegmentationCache& cache, T& property, T value)
@@ -55,7 +55,7 @@ void ChangeEnd(
     const vtkMTimeType before = filter->GetMTime();
     property = value;
     filter->Modified();
-    cache.Allow(before, filter->GetMTime());
+    cache.IgnoreChange(before, filter->GetMTime());
   }
 }
 

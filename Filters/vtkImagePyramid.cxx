@@ -77,8 +77,10 @@ void AddLevel(vtkMultiBlockDataSet* pyramid, int level, vtkImageData* image, dou
     vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
 }
 
-/// Level 0: the input with the chosen array as its active scalars; no voxel is copied, but where one
-/// component was selected, which takes the place of the array.
+/**
+ * Level 0: the input with the chosen array as its active scalars; no voxel is copied, but where one
+ * component was selected, which takes the place of the array.
+ */
 vtkSmartPointer<vtkImageData> ShareInput(vtkImageData* input, vtkDataArray* voxels)
 {
   vtkSmartPointer<vtkImageData> image;
@@ -122,7 +124,7 @@ struct Settings
   int NumberOfThreads;
 };
 
-/// @return whether all levels were finished.
+/** @return whether all levels were finished. */
 bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const Settings& settings,
   const volumic::PyramidProgress& progress, vtkMultiBlockDataSet* pyramid,
   volumic::ValidVoxels& valid)

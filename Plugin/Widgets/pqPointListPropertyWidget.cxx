@@ -41,7 +41,7 @@
 
 namespace
 {
-/// One that is in the view, and what hears of it.
+/** One that is in the view, and what hears of it. */
 struct Handle
 {
   vtkSmartPointer<vtkSMNewWidgetRepresentationProxy> Proxy;
@@ -51,7 +51,7 @@ struct Handle
   vtkSMProperty* Position() const { return this->Proxy->GetProperty("WorldPosition"); }
 };
 
-/// Seen on slices of all colours; ParaView's own handles are thin and white.
+/** Seen on slices of all colours; ParaView's own handles are thin and white. */
 void MakeVisible(vtkSMNewWidgetRepresentationProxy* handle)
 {
   auto* widget = vtk3DWidgetRepresentation::SafeDownCast(handle->GetClientSideObject());
@@ -65,7 +65,7 @@ void MakeVisible(vtkSMNewWidgetRepresentationProxy* handle)
   }
 }
 
-/// Whether the handles are to be shown before the user says something.
+/** Whether the handles are to be shown before the user says something. */
 bool AreHandlesShownFirst(vtkSMProperty* property)
 {
   vtkPVXMLElement* hints = property->GetHints();
@@ -74,7 +74,7 @@ bool AreHandlesShownFirst(vtkSMProperty* property)
   return !list || !list->GetScalarAttribute("show", &show) || show != 0;
 }
 
-/// Invalid where the input isn't known.
+/** Invalid where the input isn't known. */
 vtkBoundingBox BoundsOfInput(vtkSMProxy* filter)
 {
   vtkBoundingBox box;
