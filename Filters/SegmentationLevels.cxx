@@ -20,7 +20,7 @@ namespace
 constexpr const char* Port0 = "Input port 0: ";
 
 /** Image Pyramid has counted them, and tells it itself where it is a filter of the user's. */
-bool MayHaveNaNsToTell(const SegmentationVolume& volume)
+bool MayHaveNaNsToReport(const SegmentationVolume& volume)
 {
   vtkDataArray* counted = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
   return !counted || (volume.LevelsAreOwn && counted->GetTuple1(0) > 0.0);
@@ -40,7 +40,7 @@ PyramidLevels ReadVoxels(const SegmentationVolume& volume)
 }
 
 SegmentationLevels::SegmentationLevels(const SegmentationVolume& volume)
-  : MayHaveUntoldNaNs(MayHaveNaNsToTell(volume)), Voxels(ReadVoxels(volume))
+  : MayHaveUnreportedNaNs(MayHaveNaNsToReport(volume)), Voxels(ReadVoxels(volume))
 {
   for (unsigned int block = 0; block < volume.Levels->GetNumberOfBlocks(); ++block)
   {
@@ -98,10 +98,10 @@ std::array<double, 2> SegmentationLevels::Range(int level) const
   return PrefixErrors(Port0, [&] { return this->Voxels.Range(level); });
 }
 
-std::string SegmentationLevels::DescribeUntoldNaNs() const
+std::string SegmentationLevels::DescribeUnreportedNaNs() const
 {
   const std::string text =
-    this->MayHaveUntoldNaNs ? this->Voxels.DescribeNaNsOfLevel0() : std::string();
+    this->MayHaveUnreportedNaNs ? this->Voxels.DescribeNaNsOfLevel0() : std::string();
   return text.empty() ? text : Port0 + text;
 }
 

@@ -57,8 +57,8 @@ public:
   /** Smallest and largest voxel of a level; the first is the larger one if none is valid. */
   std::array<double, 2> Range(int level) const;
 
-  /** What is to be told of the NaN voxels of level 0; empty: nothing, or it has been told. */
-  std::string DescribeUntoldNaNs() const;
+  /** What is to be reported of the NaN voxels of level 0; empty: nothing, or it has been. */
+  std::string DescribeUnreportedNaNs() const;
 
   /** The field of a level, valid until the next call. */
   LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
@@ -66,7 +66,7 @@ public:
 private:
   /** Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on. */
   std::vector<vtkSmartPointer<vtkDataObject>> Images;
-  bool MayHaveUntoldNaNs;
+  bool MayHaveUnreportedNaNs;
   PyramidLevels Voxels;
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none

@@ -17,7 +17,7 @@ namespace volumic
 {
 /**
  * What a run is asked for, beside the settings: where it ends, inputs that may come in other
- * objects for one that goes on, and what hears of the work.
+ * objects for one that goes on, and the callbacks.
  */
 struct SegmentationRequest
 {

@@ -76,8 +76,8 @@ void SurfaceSegmentation::ReadComponentChoice()
     if (this->Components.Places.empty())
     {
       Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
-             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points known "
-             "to belong to the object to input port 2 (Attracting Points).");
+             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
+             "known to belong to the object to input port 2 (Attracting Points).");
     }
   }
 }
@@ -161,7 +161,7 @@ void SurfaceSegmentation::Run()
   if (!this->Evolution)
   {
     // Once for all runs that go on from this one.
-    const std::string text = this->Levels.DescribeUntoldNaNs();
+    const std::string text = this->Levels.DescribeUnreportedNaNs();
     if (!text.empty())
     {
       this->Request.Warn(text);

@@ -284,7 +284,7 @@ bool vtkDeformableSurface::ShowKept(
   }
   const int end = cache.EndOf(request.End);
   results->FillOutputs(end, output);
-  results->WarnOf(end, cache.HasRecovery() && !this->GetPreview(), request.Warn);
+  results->WarnOf(end, cache.HasRecovery() && !this->Internals->Settings.End.Preview, request.Warn);
   return true;
 }
 

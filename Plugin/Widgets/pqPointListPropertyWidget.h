@@ -11,7 +11,6 @@
 #include <memory>
 
 class QTableWidgetItem;
-class vtkObject;
 
 /**
  * A list of points for a repeatable property of three numbers each: a table, and in the view a
@@ -21,8 +20,7 @@ class vtkObject;
  *
  *   <DoubleVectorProperty panel_widget="PointList" ...>
  *     <Hints>
- *       <PointList show="0"/>  <!-- handles only where the box Show Points is checked; default: 1
- *       -->
+ *       <PointList show="0"/>  <!-- handles only where Show Points is checked; default: 1 -->
  */
 class pqPointListPropertyWidget : public pqPropertyWidget
 {
@@ -71,8 +69,8 @@ private:
   void change(const QList<QVariant>& coordinates);
   void fillTable();
   void placeHandles();
-  void followHandle(vtkObject* position, unsigned long, void*);
-  void finishDragging(vtkObject*, unsigned long, void*);
+  /** Takes over the position to which a handle is dragged. */
+  void followHandle(int index, const double position[3]);
   void render();
 
   struct Internals;
