@@ -11,12 +11,16 @@ class vtkInformationVector;
 
 namespace volumic
 {
-/// Updates an algorithm that works within another one; what it, or its executive, reports as an
-/// error is not printed but returned, without the place in the source. Empty if all went well.
+/**
+ * Updates an algorithm that works within another one; what it, or its executive, reports as an
+ * error is not printed but returned, without the place in the source. Empty if all went well.
+ */
 std::string UpdateAndCollectErrors(vtkAlgorithm* algorithm);
 
-/// What a filter's SetErrorCode gets for what ended its run: vtkErrorCode::UserError for
-/// std::invalid_argument (what was given is wrong), else vtkErrorCode::UnknownError (memory).
+/**
+ * What a filter's SetErrorCode gets for what ended its run: vtkErrorCode::UserError for
+ * std::invalid_argument (what was given is wrong), else vtkErrorCode::UnknownError (memory).
+ */
 unsigned long ErrorCodeOf(const std::exception& error);
 
 /**

@@ -20,16 +20,16 @@ namespace volumic
 {
 namespace
 {
-/// What hears the progress of a pyramid, and aborts it.
-struct Follower
+/** Observes the progress of a pyramid, and aborts it. */
+struct ProgressObserver
 {
-  const Checkpoint& GoesOn;
+  const Checkpoint& GoOn;
   bool Stopped = false;
 
-  static void Hear(vtkObject* pyramid, unsigned long, void* client, void* share)
+  static void OnProgress(vtkObject* pyramid, unsigned long, void* client, void* share)
   {
-    auto* self = static_cast<Follower*>(client);
-    self->Stopped = self->Stopped || !self->GoesOn(*static_cast<double*>(share));
+    auto* self = static_cast<ProgressObserver*>(client);
+    self->Stopped = self->Stopped || !self->GoOn(*static_cast<double*>(share));
     if (self->Stopped)
     {
       static_cast<vtkImagePyramid*>(pyramid)->SetAbortExecute(1);
@@ -57,19 +57,19 @@ EdgeLengthPlan PlanEdgeLength(
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn)
 {
-  Follower follower{ goOn };
-  vtkNew<vtkCallbackCommand> hear;
-  hear->SetClientData(&follower);
-  hear->SetCallback(&Follower::Hear);
-  const unsigned long hearing = pyramid->AddObserver(vtkCommand::ProgressEvent, hear);
-  // What it warns of is told by the filter that it works within.
+  ProgressObserver client{ goOn };
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&client);
+  observer->SetCallback(&ProgressObserver::OnProgress);
+  const unsigned long progressTag = pyramid->AddObserver(vtkCommand::ProgressEvent, observer);
+  // Warnings are given by the filter that it works within.
   vtkNew<vtkCallbackCommand> ignore;
-  const unsigned long ignoring = pyramid->AddObserver(vtkCommand::WarningEvent, ignore);
+  const unsigned long warningTag = pyramid->AddObserver(vtkCommand::WarningEvent, ignore);
   pyramid->SetInputData(image);
   pyramid->SetInputArrayToProcess(0, selection);
   const std::string errors = UpdateAndCollectErrors(pyramid);
-  pyramid->RemoveObserver(hearing);
-  pyramid->RemoveObserver(ignoring);
+  pyramid->RemoveObserver(progressTag);
+  pyramid->RemoveObserver(warningTag);
   if (!errors.empty() && pyramid->GetErrorCode() == vtkErrorCode::UnknownError)
   {
     throw std::runtime_error(errors);
@@ -78,7 +78,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
   {
     Refuse(errors);
   }
-  if (follower.Stopped)
+  if (client.Stopped)
   {
     return nullptr;
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellVoxels.h"
 
+#include "ImageVoxels.h"
+
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -13,27 +15,26 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <string>
 
 namespace volumic
 {
 namespace
 {
-/// The array of cells that is meant, if cells are.
+/** The array of cells that is meant, if cells are. */
 vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
 {
-  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
-    ? selection->Get(vtkDataObject::FIELD_NAME())
-    : nullptr;
-  if (name && *name)
+  const std::string name = ChosenName(selection);
+  if (!name.empty())
   {
     const bool areCells = selection->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
       selection->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-    return areCells ? image->GetCellData()->GetArray(name) : nullptr;
+    return areCells ? image->GetCellData()->GetArray(name.c_str()) : nullptr;
   }
   return image->GetPointData()->GetScalars() ? nullptr : image->GetCellData()->GetScalars();
 }
 
-/// Hides the points that stand for hidden cells.
+/** Hides the points that stand for hidden cells. */
 void BlankAsCells(vtkImageData* cells, vtkImageData* points)
 {
   auto* ghosts = vtkUnsignedCharArray::SafeDownCast(

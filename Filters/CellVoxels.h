@@ -10,7 +10,7 @@ class vtkInformation;
 
 namespace volumic
 {
-/// An image whose voxels are points, and which array they are in.
+/** An image whose voxels are points, and which array they are in. */
 struct PointVoxels
 {
   vtkSmartPointer<vtkImageData> Image;

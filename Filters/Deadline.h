@@ -7,14 +7,16 @@
 
 namespace volumic
 {
-/// When a run must end.
+/** When a run must end. */
 class Deadline
 {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param start when the run began
-  /// @param limit seconds from then on; 0: none
+  /**
+   * @param start when the run began
+   * @param limit seconds from then on; 0: none
+   */
   explicit Deadline(Clock::time_point start = Clock::now(), double limit = 0.0)
     : Start(start)
     , Limit(limit)

@@ -19,7 +19,7 @@ namespace
 {
 constexpr const char* StandardBackend = "STDThread";
 
-/// More threads than processors gain nothing, and TBB complains.
+/** More threads than processors gain nothing, and TBB complains. */
 int LimitToProcessors(int numberOfThreads)
 {
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -38,7 +38,7 @@ std::string ChooseBackend(int numberOfThreads)
   return host;
 }
 
-/// The backends let exceptions end the program: the first one is kept and thrown again.
+/** The backends let exceptions end the program: the first one is kept and thrown again. */
 class Body
 {
 public:

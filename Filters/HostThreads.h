@@ -23,14 +23,16 @@ namespace volumic
 class HostThreads final : public Executor
 {
 public:
-  /// @param numberOfThreads 0 = all that the host has; never more than there are processors.
+  /** @param numberOfThreads 0 = all that the host has; never more than there are processors. */
   explicit HostThreads(int numberOfThreads);
 
-  /// Runs `work`, within which For() may be called; choosing a backend has its price, which is paid
-  /// here once.
+  /**
+   * Runs `work`, within which For() may be called; choosing a backend has its price, which is paid
+   * here once.
+   */
   void Run(const std::function<void()>& work);
 
-  /// @see Executor. Outside Run() everything is done on the calling thread.
+  /** @see Executor. Outside Run() everything is done on the calling thread. */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
 

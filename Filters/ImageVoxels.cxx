@@ -28,7 +28,7 @@ std::string Quote(const char* name)
   return name ? "'" + std::string(name) + "'" : std::string("without a name");
 }
 
-/// `it has 'a' and 'b'`, so that a user sees what could have been chosen.
+/** `it has 'a' and 'b'`, so that a user sees what could have been chosen. */
 std::string ArraysOf(vtkImageData* image)
 {
   std::string text;
@@ -49,7 +49,9 @@ std::string ArraysOf(vtkImageData* image)
   return text;
 }
 
-/// The array that the selection names, whatever its type; the reason in a message if there is none.
+/**
+ * The array that the selection names, whatever its type; the reason in a message if there is none.
+ */
 vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
 {
   if (selection && selection->Has(vtkDataObject::FIELD_ASSOCIATION()))
@@ -64,16 +66,13 @@ vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
         "array: " + ArraysOf(image) + ".");
     }
   }
-  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
-    ? selection->Get(vtkDataObject::FIELD_NAME())
-    : nullptr;
-  // A ParaView script that never saw the data chooses the array without a name.
-  if (name && *name)
+  const std::string name = ChosenName(selection);
+  if (!name.empty())
   {
-    vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name);
+    vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name.c_str());
     if (!array)
     {
-      Refuse("the image has no point array " + Quote(name) + "; " + ArraysOf(image) + ".");
+      Refuse("the image has no point array " + Quote(name.c_str()) + "; " + ArraysOf(image) + ".");
     }
     return array;
   }
@@ -112,6 +111,15 @@ void ComputeMagnitude(const T* values, int components, vtkIdType count, Real* ma
     magnitudes[i] = static_cast<Real>(std::sqrt(sum));
   }
 }
+}
+
+std::string ChosenName(vtkInformation* selection)
+{
+  // A ParaView script that never saw the data chooses the array without a name.
+  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
+    ? selection->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  return name ? name : "";
 }
 
 bool FloatHolds(double smallest, double largest)

@@ -11,10 +11,15 @@ class vtkDataArray;
 class vtkImageData;
 class vtkInformation;
 
-/// What the filters ask of an image before they believe it. Errors are std::invalid_argument with
-/// a message that names the array and the way out.
+/**
+ * What the filters ask of an image before they believe it. Errors are std::invalid_argument with
+ * a message that names the array and the way out.
+ */
 namespace volumic
 {
+/** The name of the array that a selection means; empty: none, as for the active scalars. */
+std::string ChosenName(vtkInformation* selection);
+
 /**
  * The array of voxels that was chosen: `selection` is GetInputArrayInformation(0) of the filter.
  * @throws if the image has no voxels, or there is no such array, or it is not numeric point data
@@ -22,8 +27,10 @@ namespace volumic
  */
 vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image);
 
-/// The same, of one component.
-/// @throws also if it has several.
+/**
+ * The same, of one component.
+ * @throws also if it has several.
+ */
 vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
 
 /**
@@ -33,17 +40,19 @@ vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
  */
 vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component);
 
-/// The same values in one plain block of memory: the array itself where it is one already.
+/** The same values in one plain block of memory: the array itself where it is one already. */
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
 
-/// Whether single precision keeps the differences of voxels of this range: rounding changes them by
-/// less than 1e-5 of the range.
+/**
+ * Whether single precision keeps the differences of voxels of this range: rounding changes them by
+ * less than 1e-5 of the range.
+ */
 bool FloatHolds(double smallest, double largest);
 
-/// `array 'name'`, for messages.
+/** `array 'name'`, for messages. */
 std::string NameOf(vtkDataArray* array);
 
-/// `256 x 256 x 108`, for messages.
+/** `256 x 256 x 108`, for messages. */
 std::string SizeOf(vtkImageData* image);
 }
 

@@ -3,9 +3,10 @@
 #include "InitialSurfaces.h"
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/Field.h"
-#include "PolyDataPoints.h"
+#include "SurfaceTransform.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -22,14 +23,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <utility>
 
 namespace volumic
 {
 namespace
 {
-/// Points that no triangle uses are left out.
+/** Points that no triangle uses are left out. */
 IndexedSurface Triangles(vtkPolyData* polyData)
 {
   IndexedSurface surface;
@@ -58,15 +57,7 @@ IndexedSurface Triangles(vtkPolyData* polyData)
   return surface;
 }
 
-void TurnRound(IndexedSurface& surface)
-{
-  for (Triangle& triangle : surface.Triangles)
-  {
-    std::swap(triangle[1], triangle[2]);
-  }
-}
-
-/// The level with a voxel of background on all sides.
+/** The level with a voxel of background on all sides. */
 vtkSmartPointer<vtkImageData> PadByBackground(
   const LevelImage& image, const SurfaceOptions& options)
 {
@@ -79,8 +70,8 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   SequentialExecutor thread;
   const Field field(image, options, thread);
   std::fill(values, values + padded->GetNumberOfPoints(), field.Background());
-  // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are moved
-  // a little to the side of the background. The surface finds its place anyway.
+  // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are
+  // moved a little to the side of the background. The surface finds its place anyway.
   const float iso = static_cast<float>(options.IsoValue - image.Base);
   const float room = 0.01f * std::max(field.Highest(), -field.Lowest());
   const float beside = options.ObjectIsBright ? iso - room : iso + room;
@@ -103,46 +94,15 @@ IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
 {
   if (!polyData || polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() == 0)
   {
-    throw std::invalid_argument("The initial surface has no polygons. Give a closed "
-                                "surface, or choose another Initialization.");
+    Refuse("The initial surface has no polygons. Give a closed surface, or choose another "
+           "Initialization.");
   }
   vtkNew<vtkTriangleFilter> triangulate;
   triangulate->SetInputData(polyData);
   triangulate->PassVertsOff();
   triangulate->PassLinesOff();
   triangulate->Update();
-  IndexedSurface surface = Triangles(triangulate->GetOutput());
-  for (Point& point : surface.Points)
-  {
-    point = space.ToWorkspace(point);
-  }
-  if (space.IsMirrored())
-  {
-    TurnRound(surface);
-  }
-  return surface;
-}
-
-std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space)
-{
-  std::vector<Point> seeds;
-  if (!polyData)
-  {
-    return seeds;
-  }
-  if (IsSurfaceOnly(polyData))
-  {
-    throw std::invalid_argument("The seeds must be vertices or mere points, but the data is a "
-                                "surface. Give the centres of the seeds, or set Initialization to "
-                                "Input Surface.");
-  }
-  for (const vtkIdType id : PointsMeantBy(polyData))
-  {
-    Point point;
-    polyData->GetPoint(id, point.data());
-    seeds.push_back(space.ToWorkspace(point));
-  }
-  return seeds;
+  return ToWorkspace(Triangles(triangulate->GetOutput()), space);
 }
 
 IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& options)
@@ -158,7 +118,7 @@ IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& o
   // VTK orients iso-surfaces towards low values.
   if (!options.ObjectIsBright)
   {
-    TurnRound(surface);
+    FlipOrientation(surface);
   }
   return surface;
 }

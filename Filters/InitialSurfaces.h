@@ -8,22 +8,20 @@
 #include "Core/Image/LevelImage.h"
 #include "Workspace.h"
 
-#include <vector>
-
 class vtkPolyData;
 
 namespace volumic
 {
-/// The polygons of a poly data, triangulated, as a surface of the workspace.
-/// @throws std::invalid_argument if there is none.
+/**
+ * The polygons of a poly data, triangulated, as a surface of the workspace.
+ * @throws std::invalid_argument if there is none.
+ */
 IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space);
 
-/// The points that it means (PointsMeantBy), in the workspace; none if it is null.
-/// @throws std::invalid_argument if it has polygons or lines only.
-std::vector<Point> SeedsOf(vtkPolyData* polyData, const Workspace& space);
-
-/// The iso-surface of a level (workspace), closed at the border of the image by background, outward
-/// oriented, by vtkFlyingEdges3D.
+/**
+ * The iso-surface of a level (workspace), closed at the border of the image by background, outward
+ * oriented, by vtkFlyingEdges3D.
+ */
 IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& options);
 }
 

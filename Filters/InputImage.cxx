@@ -21,7 +21,7 @@ namespace volumic
 {
 namespace
 {
-/// Whether the filter Resample To Image makes an image of it that shows the same.
+/** Whether the filter Resample To Image makes an image of it that shows the same. */
 bool CanBeResampled(vtkDataObject* data)
 {
   for (const char* type : { "vtkRectilinearGrid", "vtkStructuredGrid", "vtkUnstructuredGridBase",

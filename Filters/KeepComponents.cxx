@@ -2,26 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KeepComponents.h"
 
-#include "Core/Common/Refuse.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "PolyDataPoints.h"
-#include "SurfaceOutput.h"
-#include "vtkDeformableSurface.h"
-
-#include <vtkPolyData.h>
+#include "SurfaceTransform.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <stdexcept>
 
 namespace volumic
 {
 namespace
 {
-/// Places sorted along y, so that what is near a triangle or a vertex is found without a search of
-/// all.
+/**
+ * Places sorted along y, so that what is near a triangle or a vertex is found without a search of
+ * all.
+ */
 class SortedPlaces
 {
 public:
@@ -33,7 +29,7 @@ public:
       [&](std::size_t a, std::size_t b) { return places[a][1] < places[b][1]; });
   }
 
-  /// Calls visit(index) for the places with low <= y <= high.
+  /** Calls visit(index) for the places with low <= y <= high. */
   template <typename Visitor>
   void Visit(double low, double high, const Visitor& visit) const
   {
@@ -50,8 +46,10 @@ private:
   std::vector<std::size_t> Order;
 };
 
-/// Whether the ray from p along +y of the plane (y, z) crosses the edge. Both faces of an edge get
-/// the same answer, and of a vertex on the ray one of the two edges counts.
+/**
+ * Whether the ray from p along +y of the plane (y, z) crosses the edge. Both faces of an edge get
+ * the same answer, and of a vertex on the ray one of the two edges counts.
+ */
 bool Crosses(const Point& p, const Point& a, const Point& b)
 {
   if ((a[2] > p[2]) == (b[2] > p[2]))
@@ -63,7 +61,7 @@ bool Crosses(const Point& p, const Point& a, const Point& b)
   return p[1] < low[1] + (p[2] - low[2]) / (high[2] - low[2]) * (high[1] - low[1]);
 }
 
-/// Whether the ray from p along +x goes through the triangle.
+/** Whether the ray from p along +x goes through the triangle. */
 bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
 {
   if (Crosses(p, a, b) == (Crosses(p, b, c) != Crosses(p, c, a)))
@@ -76,8 +74,10 @@ bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
   return a[0] + u * (b[0] - a[0]) + v * (c[0] - a[0]) > p[0];
 }
 
-/// For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
-/// not count.
+/**
+ * For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
+ * not count.
+ */
 std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
   const IndexedSurface& surface, const SurfaceFeatures& features)
 {
@@ -120,7 +120,7 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
   return innermost;
 }
 
-/// The component that each belongs to: itself, or, for a cavity, the one about it (-1: none).
+/** The component that each belongs to: itself, or, for a cavity, the one about it (-1: none). */
 std::vector<int> HostsOf(const IndexedSurface& surface, const SurfaceFeatures& features)
 {
   const int n = static_cast<int>(features.Components.size());
@@ -228,40 +228,10 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
 }
 }
 
-std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space)
-{
-  std::vector<Point> places;
-  const auto add = [&](vtkPolyData* points, const char* port)
-  {
-    try
-    {
-      for (const vtkIdType id : PointsMeantBy(points))
-      {
-        Point world;
-        points->GetPoint(id, world.data());
-        places.push_back(space.ToWorkspace(world));
-      }
-    }
-    catch (const std::invalid_argument& error)
-    {
-      Refuse("Input port ", port, ": ", error.what());
-    }
-  };
-  if (port1 && !IsSurfaceOnly(port1))
-  {
-    add(port1, "1 (Initial Surface)");
-  }
-  if (port2)
-  {
-    add(port2, "2 (Attracting Points)");
-  }
-  return places;
-}
-
 SurfaceResult KeepChosen(
   const SurfaceResult& surface, const ComponentChoice& choice, const Workspace& space)
 {
-  if (choice.Mode == vtkDeformableSurface::AllComponents)
+  if (choice.Mode == KeepComponentsType::AllComponents)
   {
     return surface;
   }
@@ -285,14 +255,14 @@ SurfaceResult KeepChosen(
     {
       largest = static_cast<int>(c);
     }
-    isKept[c] = choice.Mode == vtkDeformableSurface::LargeComponents && isSolid &&
+    isKept[c] = choice.Mode == KeepComponentsType::LargeComponents && isSolid &&
       component.Volume >= choice.MinimumVolume;
   }
-  if (choice.Mode == vtkDeformableSurface::LargestComponent && largest >= 0)
+  if (choice.Mode == KeepComponentsType::LargestComponent && largest >= 0)
   {
     isKept[largest] = true;
   }
-  if (choice.Mode == vtkDeformableSurface::ComponentsAtPoints)
+  if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
   {
     MarkTouching(surface, features, choice.Places, hosts, isKept);
   }

@@ -4,26 +4,20 @@
 #define volumicKeepComponents_h
 
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "SegmentationSettings.h"
 #include "Workspace.h"
 
 #include <vector>
 
-class vtkPolyData;
-
 namespace volumic
 {
-/// Which components of a surface go into an output.
+/** Which components of a surface go into an output. */
 struct ComponentChoice
 {
-  int Mode = 0;               ///< vtkDeformableSurface::KeepComponentsType
+  KeepComponentsType Mode = KeepComponentsType::AllComponents;
   double MinimumVolume = 0.0; ///< world units, cubed
   std::vector<Point> Places;  ///< workspace
 };
-
-/// The places for a choice by points: those that port 1 and port 2 mean (PointsMeantBy). Both may be
-/// missing; a surface at port 1 has no seeds. Workspace.
-/// @throws std::invalid_argument for other cells without vertices.
-std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space);
 
 /**
  * The part of a closed surface that is chosen. A cavity (negative volume) belongs to the component

@@ -21,7 +21,7 @@ namespace volumic
 {
 namespace
 {
-/// An array of n values in memory that may turn out not to be had, which is no reason to abort.
+/** An array of n values in memory that may turn out not to be had, which is no reason to abort. */
 template <typename Real>
 vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int level)
 {
@@ -39,8 +39,10 @@ vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int leve
   return array;
 }
 
-/// The voxels that level 1 is made of: as double where they are integers that single precision would
-/// not keep apart.
+/**
+ * The voxels that level 1 is made of: as double where they are integers that single precision would
+ * not keep apart.
+ */
 vtkSmartPointer<vtkDataArray> SourceVoxels(
   vtkDataArray* contiguous, const ValidVoxels& valid, Executor& executor)
 {
@@ -71,7 +73,7 @@ vtkSmartPointer<vtkDataArray> SourceVoxels(
   return wide;
 }
 
-/// Input voxels of each level that are looked at: what progress is measured by.
+/** Input voxels of each level that are looked at: what progress is measured by. */
 std::vector<double> ShareDoneBefore(const std::vector<LevelGeometry>& levels)
 {
   std::vector<double> share(levels.size(), 0.0);
@@ -87,7 +89,9 @@ std::vector<double> ShareDoneBefore(const std::vector<LevelGeometry>& levels)
   return share;
 }
 
-/// Level h + 1 from level h, where voxels without a value are known by their marks (none: all have).
+/**
+ * Level h + 1 from level h, where voxels without a value are known by their marks (none: all have).
+ */
 template <typename T>
 bool Reduce(const T* below, const std::vector<std::uint8_t>& marks, const LevelGeometry& geometry,
   typename RealOf<T>::Type* made, const LevelGeometry& above, Executor& executor,

@@ -17,7 +17,7 @@ class vtkDataArray;
 
 namespace volumic
 {
-/// The share of the whole work that is done, in [0, 1], and the text for it; false asks to stop.
+/** The share of the whole work that is done, in [0, 1], and the text for it; false asks to stop. */
 using PyramidProgress = std::function<bool(double share, const std::string& text)>;
 
 /**

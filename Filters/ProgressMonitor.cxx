@@ -30,8 +30,8 @@ std::string TextOf(const Monitor::Status& status)
 }
 }
 
-ProgressMonitor::ProgressMonitor(Tell tell, int coarsest, int finest, const Deadline& limit)
-  : Host(std::move(tell)), Coarsest(coarsest), Finest(finest), Limit(limit)
+ProgressMonitor::ProgressMonitor(Callback callback, int coarsest, int finest, const Deadline& limit)
+  : Host(std::move(callback)), Coarsest(coarsest), Finest(finest), Limit(limit)
 {
 }
 
@@ -47,7 +47,7 @@ bool ProgressMonitor::GoOn(const Status& status)
     Join("Level ", status.Level, ", ", TextOf(status), ", ", status.Vertices, " vertices"));
 }
 
-bool ProgressMonitor::LoadLevel(int level)
+bool ProgressMonitor::BeginLevel(int level)
 {
   // Who stops at the name of a level expects to get the surface of that level.
   return this->Report(level, 0.0,

@@ -19,31 +19,33 @@ namespace volumic
 class ProgressMonitor final : public Monitor
 {
 public:
-  /// Share of the work that is done and what is being done; false asks to stop.
-  using Tell = std::function<bool(double share, const std::string& text)>;
+  /** Share of the work that is done and what is being done; false asks to stop. */
+  using Callback = std::function<bool(double share, const std::string& text)>;
 
-  /// From the level `coarsest` to the level `finest`. A level has about three times the vertices of
-  /// the one above, and takes so much more of the work.
-  ProgressMonitor(Tell tell, int coarsest, int finest, const Deadline& limit = Deadline());
+  /**
+   * From the level `coarsest` to the level `finest`. A level has about three times the vertices of
+   * the one above, and takes so much more of the work.
+   */
+  ProgressMonitor(Callback callback, int coarsest, int finest, const Deadline& limit = Deadline());
 
-  /// May look at the surface.
+  /** May look at the surface. */
   std::function<void(const Status&)> AfterIteration = [](const Status&) {};
 
   bool Continue(const Status& status) override;
   bool GoOn(const Status& status) override;
 
-  /// Before the voxels of a level are made ready; false asks to stop.
-  bool LoadLevel(int level);
+  /** Before the voxels of a level are made ready; false asks to stop. */
+  bool BeginLevel(int level);
 
   bool IsStopped() const { return this->Stopped; }
 
-  /// Whether it was time that has stopped it, and not the host.
+  /** Whether it was time that has stopped it, and not the host. */
   bool IsOutOfTime() const { return this->OutOfTime; }
 
 private:
   bool Report(int level, double fraction, const std::string& text);
 
-  Tell Host;
+  Callback Host;
   int Coarsest;
   int Finest;
   Deadline Limit;

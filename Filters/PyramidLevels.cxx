@@ -5,6 +5,7 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Image/ThickPart.h"
 #include "ImageVoxels.h"
+#include "PrefixErrors.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -37,7 +38,7 @@ void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)
   }
 }
 
-/// All levels have the place of the first voxel, the direction and the real size of level 0.
+/** All levels have the place of the first voxel, the direction and the real size of level 0. */
 void CheckPlace(vtkImageData* level0, vtkImageData* image, unsigned int h)
 {
   const int* extent0 = level0->GetExtent();
@@ -88,7 +89,7 @@ void CheckShrinks(vtkImageData* below, vtkImageData* image, unsigned int h)
   }
 }
 
-/// U_h / U_0: what the pyramid wrote down, or else what the spacings tell.
+/** U_h / U_0: what the pyramid wrote down, or else what the spacings tell. */
 double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
 {
   vtkDataArray* unit0 = level0->GetFieldData()->GetArray("Unit");
@@ -156,14 +157,8 @@ PyramidLevels::PyramidLevels(
       Refuse(
         "block ", h, " is ", block ? block->GetClassName() : "empty", ", not an image.", WayOut);
     }
-    try
-    {
-      this->Voxels.emplace_back(ChooseVoxels(selection, image));
-    }
-    catch (const std::invalid_argument& error)
-    {
-      Refuse("level ", h, ": ", error.what());
-    }
+    this->Voxels.emplace_back(PrefixErrors(
+      Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); }));
     if (h == 0)
     {
       CheckSize(image, "the image", "Resample it more finely.");
@@ -182,15 +177,12 @@ PyramidLevels::PyramidLevels(
 
 ValidVoxels PyramidLevels::ValidAt(int level, Executor& executor) const
 {
-  try
-  {
-    return FindValidVoxels(this->Voxels[level], ContiguousVoxels(this->Voxels[level]),
-      this->Images[level], this->NaNIsBackground, executor);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    Refuse("level ", level, ": ", error.what());
-  }
+  return PrefixErrors(Join("level ", level, ": "),
+    [&]
+    {
+      return FindValidVoxels(this->Voxels[level], ContiguousVoxels(this->Voxels[level]),
+        this->Images[level], this->NaNIsBackground, executor);
+    });
 }
 
 bool PyramidLevels::HasRoom(int level) const

@@ -31,7 +31,7 @@ namespace volumic
 class PyramidLevels
 {
 public:
-  /// The fewest voxels along an axis on which a surface can evolve.
+  /** The fewest voxels along an axis on which a surface can evolve. */
   static constexpr int MinimumSize = 8;
 
   /**
@@ -48,33 +48,40 @@ public:
   int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }
 
-  /// Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it.
+  /** Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it. */
   bool HasRoom(int level) const;
 
   std::int64_t NumberOfVoxels(int level) const;
 
-  /// Voxels of the finest level along each axis.
+  /** Voxels of the finest level along each axis. */
   std::array<int, 3> SizeOfLevel0() const;
 
-  /// U_h in world units. Level -1, finer than the image, has U_0 / T, with sqrt 3 for T unless told.
+  /**
+   * U_h in world units. Level -1, finer than the image, has U_0 / T, with sqrt 3 for T unless told.
+   */
   double UnitInWorld(int level) const;
   void SetFactorBelowLevel0(double t) { this->FactorBelowLevel0 = t; }
 
-  /// Whether something of the object, which is above the value (bright) or below, is thick enough
-  /// at a level to hold a surface there (ThickPart.h).
+  /**
+   * Whether something of the object, which is above the value (bright) or below, is thick enough
+   * at a level to hold a surface there (ThickPart.h).
+   */
   bool HoldsObject(int level, double isoValue, bool objectIsBright) const;
 
-  /// Smallest and largest voxel of a level among those that are valid (ValidVoxels.h); the first is
-  /// the larger one if none is.
+  /**
+   * Smallest and largest voxel of a level among those that are valid (ValidVoxels.h); the first is
+   * the larger one if none is.
+   */
   std::array<double, 2> Range(int level) const;
 
-  /// What DescribeNaNs() says of level 0; nothing if there are none.
+  /** What DescribeNaNs() says of level 0; nothing if there are none. */
   std::string DescribeNaNsOfLevel0() const;
 
   /**
    * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call.
    * Float voxels are shared, unless their differences are small beside their size; others are
-   * converted. Of what is converted `base` is subtracted first, in double: it is the Base of the result.
+   * converted. Of what is converted `base` is subtracted first, in double: it is the Base of the
+   * result.
    * @param base       a value of the field that matters, such as the iso-value
    * @param background the value that voxels get which are not valid
    * @throws if the level is under MinimumSize along an axis, or has voxels that are infinite or too
@@ -96,7 +103,7 @@ private:
   mutable std::vector<std::array<double, 2>> Ranges; ///< by level; the larger first: not known yet
 };
 
-/// Level 0 if the blocks are the levels of a pyramid (two at least), else null.
+/** Level 0 if the blocks are the levels of a pyramid (two at least), else null. */
 vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks);
 }
 

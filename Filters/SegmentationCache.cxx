@@ -33,7 +33,7 @@ vtkDataObject* DataOf(vtkAlgorithmOutput* connection)
   return producer->GetOutputDataObject(connection->GetIndex());
 }
 
-/// When anything of it was changed last; blocks do not tell of it by themselves.
+/** When anything of it was changed last; blocks do not tell of it by themselves. */
 vtkMTimeType TimeOf(vtkDataObject* data)
 {
   vtkMTimeType time = data->GetMTime();
@@ -48,7 +48,7 @@ vtkMTimeType TimeOf(vtkDataObject* data)
   return time;
 }
 
-/// Whether the data of an input go once they have been used; they must not stay because of us.
+/** Whether the data of an input go once they have been used; they must not stay because of us. */
 bool AreReleased(vtkAlgorithm* filter)
 {
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -92,10 +92,10 @@ void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgori
     return;
   }
   this->Time = filter->GetMTime();
-  this->Given = InputsOf(filter);
+  this->InputsOfRun = InputsOf(filter);
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
-  this->PlannedEnd = run->GetSettings().FinestLevel;
-  this->Recovery = run->GetSettings().Options.RecoverLostParts;
+  this->PlannedEnd = run->GetSettings().End.FinestLevel;
+  this->Recovery = run->HasRecovery();
   if (run->CanGoOn())
   {
     this->Run = std::move(run);
@@ -110,11 +110,11 @@ void SegmentationCache::Drop()
 {
   this->Run.reset();
   this->Results.reset();
-  this->Given.clear();
+  this->InputsOfRun.clear();
   this->Time = 0;
 }
 
-void SegmentationCache::Allow(vtkMTimeType before, vtkMTimeType after)
+void SegmentationCache::IgnoreChange(vtkMTimeType before, vtkMTimeType after)
 {
   if (this->Time != 0 && this->Time == before)
   {
@@ -122,22 +122,23 @@ void SegmentationCache::Allow(vtkMTimeType before, vtkMTimeType after)
   }
 }
 
-bool SegmentationCache::Serves(vtkAlgorithm* filter) const
+bool SegmentationCache::IsValidFor(vtkAlgorithm* filter) const
 {
-  return this->Time != 0 && this->Time == filter->GetMTime() && this->Given == InputsOf(filter);
+  return this->Time != 0 && this->Time == filter->GetMTime() &&
+    this->InputsOfRun == InputsOf(filter);
 }
 
-int SegmentationCache::EndOf(const SegmentationRequest& request) const
+int SegmentationCache::EndOf(const SegmentationEnd& end) const
 {
   const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
-  const int finest = this->EndIsPlanned ? this->PlannedEnd : request.FinestLevel;
-  return request.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
+  const int finest = this->EndIsPlanned ? this->PlannedEnd : end.FinestLevel;
+  return end.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
 }
 
-const SegmentationResults* SegmentationCache::ResultsFor(const SegmentationRequest& request) const
+const SegmentationResults* SegmentationCache::ResultsFor(const SegmentationEnd& end) const
 {
   const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
-  return results.HasAtRest(this->EndOf(request)) ? &results : nullptr;
+  return results.HasAtRest(this->EndOf(end)) ? &results : nullptr;
 }
 
 int SegmentationCache::EndOfRun() const

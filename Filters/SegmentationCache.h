@@ -4,6 +4,7 @@
 #define volumicSegmentationCache_h
 
 #include "SegmentationResults.h"
+#include "SegmentationSettings.h"
 #include "SurfaceSegmentation.h"
 
 #include <vtkType.h>
@@ -28,25 +29,25 @@ public:
   SegmentationCache();
   ~SegmentationCache();
 
-  /// It serves until the filter tells of another change, or one of its inputs.
+  /** It is valid until the filter, or one of its inputs, is modified. */
   void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter);
   void Drop();
 
-  /// A change of the filter that does not matter to what is kept: from one time to another.
-  void Allow(vtkMTimeType before, vtkMTimeType after);
+  /** The filter was modified, from one MTime to another, by what does not matter to the run. */
+  void IgnoreChange(vtkMTimeType before, vtkMTimeType after);
 
-  /// Whether neither the filter nor its inputs have changed otherwise.
-  bool Serves(vtkAlgorithm* filter) const;
+  /** Whether neither the filter nor its inputs have changed otherwise. */
+  bool IsValidFor(vtkAlgorithm* filter) const;
 
-  /// The results of a run that would end where asked, null where there are none.
-  const SegmentationResults* ResultsFor(const SegmentationRequest& request) const;
-  /// The level at which it ends.
-  int EndOf(const SegmentationRequest& request) const;
-  /// Whether there is a run that can.
+  /** The results of a run that would end where asked, null where there are none. */
+  const SegmentationResults* ResultsFor(const SegmentationEnd& end) const;
+  /** The level at which it ends. */
+  int EndOf(const SegmentationEnd& end) const;
+  /** Whether there is a run that can. */
   bool CanGoOn() const { return this->Run != nullptr; }
-  /// The level at which it has ended.
+  /** The level at which it has ended. */
   int EndOfRun() const;
-  /// The run, where it can go on from what it has; else null. It is kept no longer.
+  /** The run, where it can go on from what it has; else null. It is kept no longer. */
   std::unique_ptr<SurfaceSegmentation> TakeRun();
 
   bool HasRecovery() const { return this->Recovery; }
@@ -58,7 +59,7 @@ private:
   std::unique_ptr<SurfaceSegmentation> Run;
   std::unique_ptr<SegmentationResults> Results; ///< Those of Run where there is one.
   vtkMTimeType Time = 0; ///< 0: nothing is kept
-  Inputs Given;
+  Inputs InputsOfRun;
   bool EndIsPlanned = false;
   int PlannedEnd = 0;
   bool Recovery = false;

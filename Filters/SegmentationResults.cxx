@@ -26,7 +26,7 @@ void SetBlock(
   blocks->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
 }
 
-/// What its reader adds or takes away does not change what is kept; the arrays are shared.
+/** What its reader adds or takes away does not change what is kept; the arrays are shared. */
 vtkSmartPointer<vtkPolyData> ShallowCopyOf(vtkPolyData* surface)
 {
   auto copy = vtkSmartPointer<vtkPolyData>::New();
@@ -49,12 +49,12 @@ SegmentationResults& SegmentationResults::operator=(const SegmentationResults&) 
 
 void SegmentationResults::AddSnapshot(int level, const std::string& name, vtkPolyData* surface)
 {
-  this->Film.push_back({ level, name, surface });
+  this->Snapshots.push_back({ level, name, surface });
 }
 
-void SegmentationResults::SetHandedOver(vtkPolyData* surface)
+void SegmentationResults::SetStoppedSurface(vtkPolyData* surface)
 {
-  this->HandedOver = surface;
+  this->StoppedSurface = surface;
 }
 
 bool SegmentationResults::HasAtRest(int level) const
@@ -76,7 +76,7 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
     SetBlock(levels, static_cast<unsigned int>(level < 0 ? this->NumberOfLevels : level),
       Join("Level ", level), isThere ? ShallowCopyOf(found->second.Surface).GetPointer() : nullptr);
   }
-  finest = this->HandedOver ? this->HandedOver.GetPointer() : finest;
+  finest = this->StoppedSurface ? this->StoppedSurface.GetPointer() : finest;
   if (finest)
   {
     vtkPolyData::GetData(outputs, 0)->ShallowCopy(finest);
@@ -88,15 +88,16 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
     [last](const HistoryRow& row) { return row.Level >= last; });
   vtkTable::GetData(outputs, 2)->ShallowCopy(MakeHistory(rows, this->Space, this->WithPhases));
 
-  auto film = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (const Snapshot& snapshot : this->Film)
+  auto snapshots = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const Snapshot& snapshot : this->Snapshots)
   {
     if (snapshot.Level >= last)
     {
-      SetBlock(film, film->GetNumberOfBlocks(), snapshot.Name, ShallowCopyOf(snapshot.Surface));
+      SetBlock(snapshots, snapshots->GetNumberOfBlocks(), snapshot.Name,
+        ShallowCopyOf(snapshot.Surface));
     }
   }
-  vtkMultiBlockDataSet::GetData(outputs, 3)->ShallowCopy(film);
+  vtkMultiBlockDataSet::GetData(outputs, 3)->ShallowCopy(snapshots);
 }
 
 std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
@@ -138,5 +139,15 @@ std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
                             : "Resample the image more finely."));
   }
   return "";
+}
+
+void SegmentationResults::WarnOf(
+  int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const
+{
+  const std::string warning = this->WarningOf(last, wantsAll);
+  if (!warning.empty())
+  {
+    warn(warning);
+  }
 }
 }

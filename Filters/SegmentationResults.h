@@ -10,6 +10,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -39,23 +40,28 @@ public:
   SegmentationResults(const SegmentationResults&);
   SegmentationResults& operator=(const SegmentationResults&);
 
-  /// The finest level that a preview visits.
+  /** The finest level that a preview visits. */
   void SetPreviewLevel(int level) { this->PreviewLevel = level; }
   int LevelOfPreview() const { return this->PreviewLevel; }
 
   void SetLevel(int level, const Level& result) { this->ByLevel[level] = result; }
   void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
   void AddSnapshot(int level, const std::string& name, vtkPolyData* surface);
-  /// Instead of that of a level: what a run that was cut off hands over.
-  void SetHandedOver(vtkPolyData* surface);
+  /** Output 0 of a run that was cut off, instead of the surface of a level; null: none. */
+  void SetStoppedSurface(vtkPolyData* surface);
 
-  /// Whether the surface rests at a level.
+  /** Whether the surface rests at a level. */
   bool HasAtRest(int level) const;
-  /// Those above `last`, too: they are kept.
+  /** Those above `last`, too: they are kept. */
   void FillOutputs(int last, vtkInformationVector* outputs) const;
-  /// What is worth a warning where a run has ended at a level; empty: nothing.
-  /// @param wantsAll whether it matters if parts of the object are missing
+  /**
+   * What is worth a warning where a run has ended at a level; empty: nothing.
+   * @param wantsAll whether it matters if parts of the object are missing
+   */
   std::string WarningOf(int last, bool wantsAll) const;
+  /** Tells it, where there is any. */
+  void WarnOf(
+    int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const;
   vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
 
 private:
@@ -72,8 +78,8 @@ private:
   bool WithPhases = false;
   std::map<int, Level> ByLevel;
   std::vector<HistoryRow> Rows;
-  std::vector<Snapshot> Film;
-  vtkSmartPointer<vtkPolyData> HandedOver;
+  std::vector<Snapshot> Snapshots;
+  vtkSmartPointer<vtkPolyData> StoppedSurface;
 };
 }
 

@@ -3,6 +3,7 @@
 #include "SurfaceOutput.h"
 
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "SurfaceTransform.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -38,7 +39,7 @@ void AddField(vtkPolyData* polyData, const char* name, Value value)
   polyData->GetFieldData()->AddArray(array);
 }
 
-/// An array with an entry per component, of as many values as `get` gives.
+/** An array with an entry per component, of as many values as `get` gives. */
 template <typename Array, int N, typename Get>
 void AddComponentField(
   vtkPolyData* polyData, const char* name, const SurfaceFeatures& features, const Get& get)
@@ -57,7 +58,7 @@ void AddComponentField(
   polyData->GetFieldData()->AddArray(array);
 }
 
-/// The same value for all triangles of a component, so that filters of cells can choose by it.
+/** The same value for all triangles of a component, so that filters of cells can choose by it. */
 template <typename Array, typename Get>
 void AddComponentOfCells(
   vtkPolyData* polyData, const char* name, const SurfaceFeatures& features, const Get& get)
@@ -74,7 +75,7 @@ void AddComponentOfCells(
   polyData->GetCellData()->AddArray(array);
 }
 
-/// The size that 98 % of the residuals don't exceed; 0 for none.
+/** The size that 98 % of the residuals don't exceed; 0 for none. */
 double ResidualQuantile(const std::vector<float>& residuals)
 {
   if (residuals.empty())
@@ -202,25 +203,6 @@ void AddColumn(
   }
   table->AddColumn(column);
 }
-}
-
-IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space)
-{
-  IndexedSurface world;
-  world.Points.reserve(surface.Points.size());
-  for (const Point& point : surface.Points)
-  {
-    world.Points.push_back(space.ToWorld(point));
-  }
-  world.Triangles = surface.Triangles;
-  if (space.IsMirrored())
-  {
-    for (Triangle& triangle : world.Triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-  return world;
 }
 
 vtkSmartPointer<vtkPolyData> MakePolyData(

@@ -16,7 +16,7 @@ class vtkTable;
 
 namespace volumic
 {
-/// What is told of a surface beside its geometry.
+/** What is told of a surface beside its geometry. */
 struct SurfaceDescription
 {
   int Level = 0;
@@ -32,24 +32,23 @@ struct SurfaceDescription
   int RecoveredCavities = 0;
 };
 
-/// Points and triangles in world coordinates, outward oriented there too.
-IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space);
-
-/// The surface in world coordinates with all arrays that vtkDeformableSurface documents.
+/** The surface in world coordinates with all arrays that vtkDeformableSurface documents. */
 vtkSmartPointer<vtkPolyData> MakePolyData(
   const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space);
 
-/// In the place of the one that it has; what it was copied from keeps its own.
+/** In the place of the one that it has; what it was copied from keeps its own. */
 void SetStopReason(vtkPolyData* surface, const std::string& reason);
 
-/// `StopReason` of what a run hands over that has come to the end of its time.
+/** `StopReason` of what a run hands over that has come to the end of its time. */
 constexpr const char* TimeLimitReason = "time limit";
 
-/// The surface of a run that was stopped before it had one: empty, with all its arrays.
+/** The surface of a run that was stopped before it had one: empty, with all its arrays. */
 vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason);
 
-/// A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
-/// if asked for.
+/**
+ * A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
+ * if asked for.
+ */
 vtkSmartPointer<vtkTable> MakeHistory(
   const std::vector<HistoryRow>& rows, const Workspace& space, bool withPhases);
 }

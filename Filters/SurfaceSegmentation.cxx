@@ -2,474 +2,195 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceSegmentation.h"
 
+#include "CheckEnumeration.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "GivenPositions.h"
 #include "InitialSurfaces.h"
+#include "InputPoints.h"
+#include "PrefixErrors.h"
 #include "SurfaceOutput.h"
-#include "vtkDeformableSurface.h"
 
-#include <vtkDataArray.h>
-#include <vtkDataObject.h>
-#include <vtkFieldData.h>
-#include <vtkInformation.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <memory>
-#include <stdexcept>
-#include <utility>
 
 namespace volumic
 {
-namespace
-{
-void CheckEnumeration(const char* name, int value, int last)
-{
-  if (value < 0 || value > last)
-  {
-    Refuse(name, " is ", value, "; it must be 0 to ", last, ".");
-  }
-}
-
-/// Image Pyramid has counted them, and tells it itself where it is a filter of the user's.
-bool MayHaveNaNsToTell(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings)
-{
-  vtkDataArray* counted = blocks->GetFieldData()->GetArray("NaNVoxels");
-  return !counted || (settings.LevelsAreOwn && counted->GetTuple1(0) > 0.0);
-}
-
-/// The levels, with errors that name the port.
-PyramidLevels ReadLevels(
-  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-{
-  CheckEnumeration("Metric", settings.Metric, vtkDeformableSurface::World);
-  try
-  {
-    return PyramidLevels(
-      blocks, selection, static_cast<Metric>(settings.Metric), settings.NaNIsBackground);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    Refuse("Input port 0: ", error.what());
-  }
-}
-
-}
-
 SurfaceSegmentation::SurfaceSegmentation(
-  vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings)
-  : Settings(settings), MayHaveUntoldNaNs(MayHaveNaNsToTell(blocks, settings)),
-    Pyramid(ReadLevels(blocks, selection, settings)),
-    Film(settings.SnapshotInterval, this->Pyramid.GetWorkspace())
+  const SegmentationVolume& volume, const SegmentationRequest& request)
+  : Settings(volume.Settings), Levels(volume),
+    Snapshots(volume.Settings.SnapshotInterval, this->Levels.GetWorkspace())
 {
-  for (unsigned int block = 0; block < blocks->GetNumberOfBlocks(); ++block)
-  {
-    this->Images.emplace_back(blocks->GetBlock(block));
-  }
-  CheckEnumeration("Initialization", settings.Initialization, vtkDeformableSurface::InputSurface);
-  CheckEnumeration("Border Value", settings.BorderValue, vtkDeformableSurface::Replicate);
+  SurfaceOptions& options = this->Settings.Options;
   CheckEnumeration(
-    "Recovery", settings.Recovery, vtkDeformableSurface::RecoverObjectsAndCavities);
-  if (settings.Options.MaximumNumberOfIterations < 1)
+    "Initialization", this->Settings.Initialization, InitializationType::InputSurface);
+  CheckEnumeration("Border Value", options.BorderValue, Border::Replicate);
+  CheckEnumeration(
+    "Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
+  if (options.MaximumNumberOfIterations < 1)
   {
-    Refuse("Maximum Number Of Iterations is ", settings.Options.MaximumNumberOfIterations,
+    Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
       "; it must be at least 1.");
   }
-  if (settings.SnapshotInterval < 0)
+  if (this->Settings.SnapshotInterval < 0)
   {
-    Refuse("Snapshot Interval is ", settings.SnapshotInterval, "; it must be 0 (off) or more.");
+    Refuse(
+      "Snapshot Interval is ", this->Settings.SnapshotInterval, "; it must be 0 (off) or more.");
   }
-  if (settings.Options.SeedRadius < 0.0 || !std::isfinite(settings.Options.SeedRadius))
+  if (options.SeedRadius < 0.0 || !std::isfinite(options.SeedRadius))
   {
-    Refuse("Seed Radius is ", settings.Options.SeedRadius, "; it must be 0 (automatic) or more.");
+    Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
-  this->Settings.Options.BorderValue = static_cast<Border>(settings.BorderValue);
-  this->Settings.Options.RecoverLostParts =
-    settings.Recovery != vtkDeformableSurface::NoRecovery;
-  this->Settings.Options.RecoverCavities =
-    settings.Recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
-  this->Settings.Options.SeedRadius /= this->Pyramid.GetWorkspace().WorldUnit();
-  this->ChooseEdgeLength();
-  this->ReadAttraction(blocks);
+  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
+  options.RecoverCavities = this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities;
+  options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
+  this->Renew(request);
+  this->ChooseEdgeLength(volume);
+  this->Levels.ReadAttraction(volume.Levels, this->Settings, this->Request);
   this->ReadComponentChoice();
 }
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
 
-std::vector<Point> SurfaceSegmentation::SeedPositions() const
-{
-  return PositionsOf(this->Settings.SeedPositions, "Seed Positions", this->Pyramid.GetWorkspace(),
-    this->Pyramid.SizeOfLevel0());
-}
-
-std::vector<Point> SurfaceSegmentation::AttractingPositions() const
-{
-  return PositionsOf(this->Settings.AttractingPositions, "Attracting Positions",
-    this->Pyramid.GetWorkspace(), this->Pyramid.SizeOfLevel0());
-}
-
 void SurfaceSegmentation::ReadComponentChoice()
 {
   CheckEnumeration(
-    "Keep Components", this->Settings.KeepComponents, vtkDeformableSurface::LargeComponents);
+    "Keep Components", this->Settings.KeepComponents, KeepComponentsType::LargeComponents);
   if (!(this->Settings.MinimumComponentVolume >= 0.0))
   {
     Refuse("Minimum Component Volume is ", this->Settings.MinimumComponentVolume,
       "; it must be 0 or more.");
   }
-  this->Choice.Mode = this->Settings.KeepComponents;
-  this->Choice.MinimumVolume = this->Settings.MinimumComponentVolume;
-  if (this->Choice.Mode == vtkDeformableSurface::ComponentsAtPoints)
+  this->Components.Mode = this->Settings.KeepComponents;
+  this->Components.MinimumVolume = this->Settings.MinimumComponentVolume;
+  if (this->Components.Mode == KeepComponentsType::ComponentsAtPoints)
   {
-    this->Choice.Places = PlacesOf(this->Settings.InitialSurface, this->Settings.AttractingPoints,
-      this->Pyramid.GetWorkspace());
-    for (const std::vector<Point>& more : { this->SeedPositions(), this->AttractingPositions() })
+    this->Components.Places = PlacesOf(this->Request.InitialSurface, this->Request.AttractingPoints,
+      this->Levels.GetWorkspace());
+    for (const std::vector<Point>& more : { this->Levels.SeedPositions(this->Settings),
+           this->Levels.AttractingPositions(this->Settings) })
     {
-      this->Choice.Places.insert(this->Choice.Places.end(), more.begin(), more.end());
+      this->Components.Places.insert(this->Components.Places.end(), more.begin(), more.end());
     }
-    if (this->Choice.Places.empty())
+    if (this->Components.Places.empty())
     {
-      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or Attracting "
-             "Positions, or give seeds to input port 1 (Initial Surface), or points known to belong "
-             "to the object to input port 2 (Attracting Points).");
+      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
+             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
+             "known to belong to the object to input port 2 (Attracting Points).");
     }
   }
 }
 
-void SurfaceSegmentation::ReadAttraction(vtkMultiBlockDataSet* blocks)
+void SurfaceSegmentation::ChooseEdgeLength(const SegmentationVolume& volume)
 {
-  std::vector<AttractingPoint> points;
-  try
-  {
-    points = AttractingPointsOf(this->Settings.AttractingPoints, this->Pyramid.GetWorkspace(),
-      this->Pyramid.SizeOfLevel0());
-  }
-  catch (const std::invalid_argument& error)
-  {
-    Refuse("Input port 2 (Attracting Points): ", error.what());
-  }
-  for (const Point& place : this->AttractingPositions())
-  {
-    points.emplace_back();
-    points.back().Place = place;
-  }
-  if (!points.empty() && this->Settings.Options.PointAttractionWeight > 0.0)
-  {
-    this->Points = std::make_unique<PointAttraction>(
-      std::move(points), this->Settings.Options.PointAttractionWeight);
-  }
-  if (this->Settings.Options.EdgeAttractionWeight > 0.0)
-  {
-    this->Edges = std::make_unique<EdgeLevels>(blocks, this->Settings.EdgeSelection,
-      this->Settings.NumberOfThreads,
-      [this](double)
-      {
-        return this->Settings.Progress(0.0, "Pyramid of the map of edges") &&
-          !this->Settings.Limit.IsOver();
-      });
-  }
-}
-
-std::array<double, 2> SurfaceSegmentation::RangeOfLevel(int level) const
-{
-  try
-  {
-    return this->Pyramid.Range(level);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    Refuse("Input port 0: ", error.what());
-  }
-}
-
-LevelImage SurfaceSegmentation::Load(int level, Executor& threads)
-{
-  LevelImage image;
-  const double iso = this->Settings.Options.IsoValue;
-  const std::array<double, 2> range = this->RangeOfLevel(std::max(level, 0));
-  // As outside the image (Field.h): as far from the iso-value as any voxel is.
-  const double away = std::max(range[1] - iso, iso - range[0]);
-  const double background = this->Settings.Options.ObjectIsBright ? iso - away : iso + away;
-  try
-  {
-    image = this->Pyramid.Load(level, iso, background, threads);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    Refuse("Input port 0: ", error.what());
-  }
-  if (this->Edges)
-  {
-    image.Edges = this->Edges->Load(level, image.Size, threads);
-  }
-  if (this->Points)
-  {
-    this->Bent = this->Points->Bend(image, this->Settings.Options, threads);
-    image.Values = this->Bent.data();
-  }
-  return image;
-}
-
-void SurfaceSegmentation::ChooseEdgeLength()
-{
-  if (this->Settings.EdgeLength != 0.0 && !this->Settings.EdgeLengthIsPlanned)
+  double factor = volume.FactorBelowLevel0;
+  if (this->Settings.EdgeLength != 0.0 && !volume.EdgeLengthIsPlanned)
   {
     std::vector<double> units;
-    for (int level = 0; level < this->Pyramid.NumberOfLevels(); ++level)
+    for (int level = 0; level < this->Levels.Pyramid().NumberOfLevels(); ++level)
     {
-      units.push_back(this->Pyramid.UnitInWorld(level));
+      units.push_back(this->Levels.UnitInWorld(level));
     }
     EdgeLengthPreferences preferences;
     preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
     const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
-    this->Settings.FinestLevel = plan.FinestLevel;
+    this->Settings.End.FinestLevel = plan.FinestLevel;
     this->Settings.Options.SamplingRatio = plan.SamplingRatio;
-    this->Settings.FactorBelowLevel0 = plan.ReductionFactor;
+    factor = plan.ReductionFactor;
   }
-  this->Pyramid.SetFactorBelowLevel0(this->Settings.FactorBelowLevel0);
-}
-
-void SurfaceSegmentation::ChooseLevels()
-{
-  const int last = this->Pyramid.NumberOfLevels() - 1;
-  this->Coarsest = this->Settings.CoarsestLevel;
-  if (this->Settings.CoarsestLevel == -1)
-  {
-    // A pyramid may go on to levels of a single voxel.
-    for (this->Coarsest = last; !this->Pyramid.HasRoom(this->Coarsest);)
-    {
-      --this->Coarsest;
-    }
-  }
-  const int finest = this->Settings.FinestLevel;
-  if (this->Coarsest < 0 || this->Coarsest > last)
-  {
-    Refuse("Coarsest Level is ", this->Settings.CoarsestLevel,
-      ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
-  }
-  if (this->Settings.EdgeLength != 0.0 && finest > this->Coarsest)
-  {
-    Refuse("Edge Length is ", this->Settings.EdgeLength, ", for which the finest level is ",
-      finest, ", but Coarsest Level is ", this->Settings.CoarsestLevel,
-      "; set it to that level, a coarser one, or -1 for the last.");
-  }
-  if (finest < -1 || finest > this->Coarsest)
-  {
-    Refuse("Finest Level is ", finest, "; it must lie between 0 and the coarsest level, ",
-      this->Coarsest, ", or be -1 for a last division beyond the image.");
-  }
-  this->PreviewLevel = 0;
-  while (this->PreviewLevel < this->Coarsest &&
-    this->Pyramid.NumberOfVoxels(this->PreviewLevel) > VoxelsOfPreview)
-  {
-    ++this->PreviewLevel;
-  }
-}
-
-void SurfaceSegmentation::ChooseEnd(int coarsestWithObject)
-{
-  this->PreviewLevel = std::min(this->PreviewLevel, coarsestWithObject);
-  this->LastLevel = this->Settings.Preview
-    ? std::max(this->Settings.FinestLevel, this->PreviewLevel)
-    : this->Settings.FinestLevel;
-}
-
-void SurfaceSegmentation::WarnOfNaNs()
-{
-  if (this->MayHaveUntoldNaNs)
-  {
-    const std::string text = this->Pyramid.DescribeNaNsOfLevel0();
-    if (!text.empty())
-    {
-      this->Settings.Warn("Input port 0: " + text);
-    }
-  }
-}
-
-void SurfaceSegmentation::CheckIsoValue()
-{
-  const double iso = this->Settings.Options.IsoValue;
-  const std::array<double, 2> range = this->RangeOfLevel(0);
-  if (std::isnan(iso))
-  {
-    Refuse(
-      "Iso Value is not set. Set it to the value that parts the object from the background; the "
-      "voxels range from ",
-      range[0], " to ", range[1], ".");
-  }
-  if (iso <= range[0] || iso >= range[1])
-  {
-    Refuse("Iso Value is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
-      "; set it between them.");
-  }
-}
-
-int SurfaceSegmentation::CoarsestLevelWithObject(int from)
-{
-  const bool bright = this->Settings.Options.ObjectIsBright;
-  const double iso = this->Settings.Options.IsoValue;
-  int level = from;
-  for (; level > 0; --level)
-  {
-    const std::array<double, 2> range = this->RangeOfLevel(level);
-    if (bright ? range[1] > iso : range[0] < iso)
-    {
-      break;
-    }
-  }
-  return level;
-}
-
-int SurfaceSegmentation::CoarsestLevelThatHolds(int from)
-{
-  const SurfaceOptions& options = this->Settings.Options;
-  // With recovery a surface that has vanished comes again, sooner than one that starts on a finer
-  // level. Where other forces stop the surface, the object is not what its voxels' values tell.
-  if (options.RecoverLostParts || !(options.IsopotentialWeight > 0.0) ||
-    options.GradientWeight > 0.0 || this->Edges)
-  {
-    return from;
-  }
-  int level = from;
-  while (level > std::max(this->LastLevel, 0) &&
-    !this->Pyramid.HoldsObject(level, options.IsoValue, options.ObjectIsBright))
-  {
-    --level;
-  }
-  return level;
-}
-
-void SurfaceSegmentation::CheckObjectIsThere()
-{
-  if (this->Points)
-  {
-    this->ChooseEnd(this->Coarsest);
-    return; // Every level shows what points mark.
-  }
-  const int level = this->CoarsestLevelWithObject(this->Coarsest);
-  this->ChooseEnd(level);
-  if (this->Settings.CoarsestLevel == -1 && level >= this->LastLevel)
-  {
-    this->Coarsest = this->CoarsestLevelThatHolds(level);
-    return;
-  }
-  if (level == this->Coarsest)
-  {
-    return;
-  }
-  if (this->Settings.EdgeLength != 0.0 && this->Coarsest == this->LastLevel)
-  {
-    Refuse("Edge Length is ", this->Settings.EdgeLength, ", for which the finest level is ",
-      this->LastLevel, ", but the object is too thin for it: no voxel is ",
-      this->Settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ",
-      this->Settings.Options.IsoValue, " there. Give a shorter Edge Length.");
-  }
-  Refuse("the object has vanished at level ", this->Coarsest, ", the coarsest: no voxel is ",
-    this->Settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ",
-    this->Settings.Options.IsoValue,
-    " there. It is too thin for that level; set Coarsest Level to ", level,
-    ", where it is still there, or less.");
+  this->Levels.SetFactorBelowLevel0(factor);
 }
 
 void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
 {
-  const Workspace& space = this->Pyramid.GetWorkspace();
+  const Workspace& space = this->Levels.GetWorkspace();
+  const int level = this->Choice.Coarsest;
+  vtkPolyData* given = this->Request.InitialSurface;
+  const InitializationType type = this->Settings.Initialization;
   std::vector<Point> seeds;
-  if (this->Settings.Initialization == vtkDeformableSurface::Seeds)
+  if (type == InitializationType::Seeds)
   {
-    seeds = this->SeedPositions();
+    seeds = this->Levels.SeedPositions(this->Settings);
   }
-  const bool hasPositions = !seeds.empty();
-  try
-  {
-    switch (this->Settings.Initialization)
+  const bool isGiven =
+    type == InitializationType::InputSurface || type == InitializationType::Seeds;
+  const bool ofPositions = !seeds.empty() && !given;
+  const char* place =
+    ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "";
+  PrefixErrors(place,
+    [&]
     {
-      case vtkDeformableSurface::Seeds:
+      switch (type)
       {
-        const std::vector<Point> connected = SeedsOf(this->Settings.InitialSurface, space);
-        seeds.insert(seeds.begin(), connected.begin(), connected.end());
-        evolution.StartSeeds(image, this->Coarsest, seeds);
-        break;
+        case InitializationType::Seeds:
+        {
+          const std::vector<Point> connected = SeedsOf(given, space);
+          seeds.insert(seeds.begin(), connected.begin(), connected.end());
+          evolution.StartSeeds(image, level, seeds);
+          break;
+        }
+        case InitializationType::IsoSurface:
+          evolution.StartSurface(image, level, ClosedIsoSurface(image, this->Settings.Options));
+          break;
+        case InitializationType::InputSurface:
+          evolution.StartSurface(image, level, SurfaceOf(given, space));
+          break;
+        case InitializationType::EnclosingIcosahedron:
+          evolution.StartEnclosing(image, level);
+          break;
       }
-      case vtkDeformableSurface::IsoSurface:
-        evolution.StartSurface(
-          image, this->Coarsest, ClosedIsoSurface(image, this->Settings.Options));
-        break;
-      case vtkDeformableSurface::InputSurface:
-        evolution.StartSurface(
-          image, this->Coarsest, SurfaceOf(this->Settings.InitialSurface, space));
-        break;
-      default:
-        evolution.StartEnclosing(image, this->Coarsest);
-        break;
-    }
-  }
-  catch (const std::invalid_argument& error)
-  {
-    const bool isGiven = this->Settings.Initialization == vtkDeformableSurface::InputSurface ||
-      this->Settings.Initialization == vtkDeformableSurface::Seeds;
-    const bool ofPositions = hasPositions && !this->Settings.InitialSurface;
-    Refuse(ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "",
-      error.what());
-  }
+    });
 }
 
 void SurfaceSegmentation::Renew(const SegmentationRequest& request)
 {
-  const int planned = this->Settings.FinestLevel;
-  static_cast<SegmentationRequest&>(this->Settings) = request;
+  const int planned = this->Settings.End.FinestLevel;
+  this->Request = request;
+  this->Settings.End = request.End;
   if (this->Settings.EdgeLength != 0.0)
   {
-    this->Settings.FinestLevel = planned;
+    this->Settings.End.FinestLevel = planned;
   }
 }
 
 void SurfaceSegmentation::Run()
 {
-  const int before = this->Coarsest;
-  this->ChooseLevels();
-  this->CheckIsoValue();
-  this->CheckObjectIsThere();
+  const int before = this->Choice.Coarsest;
+  this->Choice = ChooseLevels(this->Levels, this->Settings);
   if (!this->Evolution)
   {
-    this->WarnOfNaNs(); // Once for all runs that go on from this one.
+    // Once for all runs that go on from this one.
+    const std::string text = this->Levels.DescribeUnreportedNaNs();
+    if (!text.empty())
+    {
+      this->Request.Warn(text);
+    }
   }
   // Where a run begins may depend on where it is to end; then nothing of the last one serves.
-  if (!this->Evolution || this->Coarsest != before)
+  if (!this->Evolution || this->Choice.Coarsest != before)
   {
     this->Begin();
   }
-  this->Found.SetHandedOver(nullptr);
-  if (!this->Found.HasAtRest(this->LastLevel))
+  this->Found.SetStoppedSurface(nullptr);
+  if (!this->Found.HasAtRest(this->Choice.Last))
   {
     // What the evolution refers to stays in its place.
-    this->Threads.emplace(this->Settings.NumberOfThreads);
-    this->Watcher.emplace(
-      this->Settings.Progress, this->Coarsest, this->LastLevel, this->Settings.Limit);
-    this->Watcher->AfterIteration = [this](const Monitor::Status& status)
+    this->Threads.emplace(this->Settings.End.NumberOfThreads);
+    this->Progress.emplace(
+      this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
+    this->Progress->AfterIteration = [this](const Monitor::Status& status)
     {
-      this->Film.Offer(*this->Evolution, status.Level, this->Pyramid.UnitInWorld(status.Level),
-        status.Iteration, this->Found);
+      this->Snapshots.TakeIfDue(*this->Evolution, status.Level,
+        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found);
     };
     this->Threads->Run([this] { this->RunLevels(); });
   }
-  const std::string warning =
-    this->Found.WarningOf(this->LastLevel, this->WantsAllParts());
-  if (!warning.empty() && !this->Settings.IsStep)
+  if (!this->Request.IsStep)
   {
-    this->Settings.Warn(warning);
+    this->Found.WarnOf(
+      this->Choice.Last, this->HasRecovery() && !this->Settings.End.Preview, this->Request.Warn);
   }
-}
-
-bool SurfaceSegmentation::WantsAllParts() const
-{
-  return this->Settings.Options.RecoverLostParts && !this->Settings.Preview;
 }
 
 bool SurfaceSegmentation::CanGoOn() const
@@ -481,9 +202,9 @@ void SurfaceSegmentation::Begin()
 {
   this->Evolution.reset();
   this->GoesOn = false;
-  this->Found = SegmentationResults(this->Pyramid.NumberOfLevels(), this->Coarsest,
-    this->Pyramid.GetWorkspace(), this->Settings.Profile);
-  this->Found.SetPreviewLevel(this->PreviewLevel);
+  this->Found = SegmentationResults(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
+    this->Levels.GetWorkspace(), this->Settings.Profile);
+  this->Found.SetPreviewLevel(this->Choice.Preview);
 }
 
 void SurfaceSegmentation::RunLevels()
@@ -491,36 +212,36 @@ void SurfaceSegmentation::RunLevels()
   if (!this->Evolution)
   {
     this->Evolution =
-      std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Watcher);
-    this->Reached = this->Coarsest + 1;
+      std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Progress);
+    this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
   }
-  this->Evolution->StartClock(this->Settings.Started);
-  while (this->GoesOn && this->Reached > this->LastLevel)
+  this->Evolution->StartClock(this->Request.Started);
+  while (this->GoesOn && this->Reached > this->Choice.Last)
   {
     const int level = this->Reached - 1;
-    if (!this->Watcher->LoadLevel(level))
+    if (!this->Progress->BeginLevel(level))
     {
-      this->HandOverStopped(level);
+      this->KeepStoppedSurface(level);
       break;
     }
-    const LevelImage image = this->Load(level, *this->Threads);
-    if (level == this->Settings.FinestLevel)
+    const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
+    if (level == this->Settings.End.FinestLevel)
     {
       this->Evolution->SetMeanEdgeLength(
-        this->Settings.EdgeLength / this->Pyramid.GetWorkspace().WorldUnit());
+        this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit());
     }
-    if (level == this->Coarsest)
+    if (level == this->Choice.Coarsest)
     {
       this->Start(*this->Evolution, image);
     }
     else if (!this->Evolution->Divide(image, level))
     {
-      this->HandOverStopped(level);
+      this->KeepStoppedSurface(level);
       break;
     }
-    this->Film.Offer(
-      *this->Evolution, level, this->Pyramid.UnitInWorld(level), 0, this->Found);
+    this->Snapshots.TakeIfDue(
+      *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found);
     this->GoesOn = this->RunLevel(level);
     this->Reached = level;
   }
@@ -534,10 +255,10 @@ bool SurfaceSegmentation::RunLevel(int level)
   result.IsAtRest = reason != StopReason::Cancelled;
   SurfaceDescription& description = result.Description;
   description.Level = level;
-  description.Unit = this->Pyramid.UnitInWorld(level);
+  description.Unit = this->Levels.UnitInWorld(level);
   description.Iterations = this->Evolution->Iterations();
-  description.StopReason = result.IsAtRest ? Describe(reason) : this->WhyStopped();
-  if (level < this->Coarsest)
+  description.StopReason = result.IsAtRest ? Describe(reason) : this->DescribeStop();
+  if (level < this->Choice.Coarsest)
   {
     const SurfaceEvolution::LostParts lost = this->Evolution->Lost();
     description.LostParts = lost.Found;
@@ -548,9 +269,9 @@ bool SurfaceSegmentation::RunLevel(int level)
     description.RecoveredCavities = lost.EnclosedCavities;
   }
   const SurfaceResult surface = this->Evolution->Result();
-  const SurfaceResult kept = KeepChosen(surface, this->Choice, this->Pyramid.GetWorkspace());
+  const SurfaceResult kept = KeepChosen(surface, this->Components, this->Levels.GetWorkspace());
   result.KeepsNone = kept.Points.empty() && !surface.Points.empty();
-  result.Surface = MakePolyData(kept, description, this->Pyramid.GetWorkspace());
+  result.Surface = MakePolyData(kept, description, this->Levels.GetWorkspace());
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
   // With recovery a finer level may find again what has vanished.
@@ -559,22 +280,22 @@ bool SurfaceSegmentation::RunLevel(int level)
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
 }
 
-std::string SurfaceSegmentation::WhyStopped() const
+std::string SurfaceSegmentation::DescribeStop() const
 {
-  return this->Watcher->IsOutOfTime() ? TimeLimitReason : Describe(StopReason::Cancelled);
+  return this->Progress->IsOutOfTime() ? TimeLimitReason : Describe(StopReason::Cancelled);
 }
 
-void SurfaceSegmentation::HandOverStopped(int level)
+void SurfaceSegmentation::KeepStoppedSurface(int level)
 {
-  if (level == this->Coarsest)
+  if (level == this->Choice.Coarsest)
   {
-    this->Found.SetHandedOver(MakeStopped(level, this->WhyStopped()));
+    this->Found.SetStoppedSurface(MakeStopped(level, this->DescribeStop()));
     return;
   }
   // The block of the level above is a surface at rest and stays one.
   vtkNew<vtkPolyData> surface;
   surface->ShallowCopy(this->Found.SurfaceOf(level + 1));
-  SetStopReason(surface, this->WhyStopped());
-  this->Found.SetHandedOver(surface);
+  SetStopReason(surface, this->DescribeStop());
+  this->Found.SetStoppedSurface(surface);
 }
 }

@@ -3,76 +3,27 @@
 #ifndef volumicSurfaceSegmentation_h
 #define volumicSurfaceSegmentation_h
 
-#include "AttractionInputs.h"
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Image/PointAttraction.h"
-#include "Deadline.h"
+#include "Core/Image/LevelImage.h"
 #include "HostThreads.h"
 #include "KeepComponents.h"
+#include "LevelChoice.h"
 #include "ProgressMonitor.h"
-#include "PyramidLevels.h"
+#include "SegmentationLevels.h"
+#include "SegmentationRequest.h"
 #include "SegmentationResults.h"
+#include "SegmentationSettings.h"
+#include "SegmentationVolume.h"
 #include "SurfaceSnapshots.h"
 
-#include <vtkSmartPointer.h>
-
-#include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-class vtkDataObject;
-class vtkInformation;
-class vtkMultiBlockDataSet;
-class vtkPoints;
-class vtkPolyData;
-
 namespace volumic
 {
-/// What may differ between a run and one that goes on from where it has ended.
-struct SegmentationRequest
-{
-  int FinestLevel = 0;  ///< with EdgeLength: as planned
-  bool Preview = false; ///< to end at a level of few voxels
-  bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
-  int NumberOfThreads = 0;
-  vtkPolyData* InitialSurface = nullptr; ///< input port 1, may be missing
-  Deadline Limit;
-  /// When the run began: what came before counts to the seconds of its first level.
-  Deadline::Clock::time_point Started = Deadline::Clock::now();
-  ProgressMonitor::Tell Progress;
-  std::function<void(const std::string& text)> Warn;
-};
-
-/// What a user of vtkDeformableSurface has chosen, and what hears of the work.
-struct SegmentationSettings : SegmentationRequest
-{
-  /// SeedRadius in world units; BorderValue and RecoverLostParts follow from the enumerations
-  /// below.
-  SurfaceOptions Options;
-  int Initialization = 0; ///< vtkDeformableSurface::InitializationType, if it is one
-  int BorderValue = 0;    ///< vtkDeformableSurface::BorderValueType, if it is one
-  int Recovery = 0;       ///< vtkDeformableSurface::RecoveryType, if it is one
-  int KeepComponents = 0; ///< vtkDeformableSurface::KeepComponentsType, if it is one
-  double MinimumComponentVolume = 0.0; ///< world units cubed
-  int Metric = 0;         ///< vtkDeformableSurface::MetricType, if it is one
-  bool NaNIsBackground = true;
-  bool LevelsAreOwn = false; ///< they were made for this run: nobody was told of their NaN voxels
-  double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
-  bool EdgeLengthIsPlanned = false; ///< the levels were made for it, and what follows is set
-  int CoarsestLevel = -1;
-  double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
-  bool Profile = false;                  ///< columns of the seconds of each phase in the history
-  int SnapshotInterval = 0;              ///< iterations; 0: no snapshots
-  vtkPolyData* AttractingPoints = nullptr;  ///< input port 2, may be missing
-  vtkPoints* SeedPositions = nullptr;       ///< world, beside those of port 1; may be missing
-  vtkPoints* AttractingPositions = nullptr; ///< world, beside those of port 2; may be missing
-  vtkInformation* EdgeSelection = nullptr;  ///< of the map of edges; without effect at weight 0
-};
-
 /**
  * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
  * outputs of vtkDeformableSurface hold. One that has ended at a level can go on from there, as if
@@ -81,74 +32,48 @@ struct SegmentationSettings : SegmentationRequest
 class SurfaceSegmentation
 {
 public:
-  /// Preview ends at the finest level of at most so many voxels.
-  static constexpr int VoxelsOfPreview = 1000000;
-
-  /// @param selection says which array holds the voxels (GetInputArrayInformation)
-  /// @throws std::invalid_argument if the blocks are not a pyramid or a setting is out of range.
-  SurfaceSegmentation(
-    vtkMultiBlockDataSet* blocks, vtkInformation* selection, const SegmentationSettings& settings);
+  /** @throws std::invalid_argument if the levels are not a pyramid or a setting is out of range. */
+  SurfaceSegmentation(const SegmentationVolume& volume, const SegmentationRequest& request);
   ~SurfaceSegmentation();
 
-  /// For the next Run(). With EdgeLength the finest level stays what was planned.
+  /** For the next Run(). With EdgeLength the finest level stays what was planned. */
   void Renew(const SegmentationRequest& request);
 
-  /// Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
-  /// it is empty where there is none yet.
-  /// @throws std::invalid_argument if settings and image do not fit.
+  /**
+   * Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
+   * it is empty where there is none yet.
+   * @throws std::invalid_argument if settings and image do not fit.
+   */
   void Run();
 
-  /// Whether Run() would go on from a level at rest that is not the image itself.
+  /** Whether Run() would go on from a level at rest that is not the image itself. */
   bool CanGoOn() const;
 
   const SegmentationSettings& GetSettings() const { return this->Settings; }
+  bool HasRecovery() const { return this->Settings.Options.RecoverLostParts; }
   const SegmentationResults& Results() const { return this->Found; }
-  /// The level at which the last Run() was to end.
-  int EndsAt() const { return this->LastLevel; }
+  /** The level at which the last Run() was to end. */
+  int EndsAt() const { return this->Choice.Last; }
 
 private:
-  void ChooseEdgeLength();
-  void ChooseLevels();
-  void ChooseEnd(int coarsestWithObject);
-  /// Seed Positions and Attracting Positions in the workspace.
-  std::vector<Point> SeedPositions() const;
-  std::vector<Point> AttractingPositions() const;
+  void ChooseEdgeLength(const SegmentationVolume& volume);
   void ReadComponentChoice();
-  void ReadAttraction(vtkMultiBlockDataSet* blocks);
-  std::array<double, 2> RangeOfLevel(int level) const;
-  LevelImage Load(int level, Executor& threads);
-  void WarnOfNaNs();
-  void CheckIsoValue();
-  /// At most `from`; 0 where no other level has any of the object.
-  int CoarsestLevelWithObject(int from);
-  /// At most `from`, at least the level to end at: the coarsest on which the object is thick enough
-  /// for a surface that starts there not to vanish, if that would be the end.
-  int CoarsestLevelThatHolds(int from);
-  void CheckObjectIsThere();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
-  bool WantsAllParts() const;
   void Begin();
   void RunLevels();
   bool RunLevel(int level);
-  void HandOverStopped(int level);
-  std::string WhyStopped() const;
+  void KeepStoppedSurface(int level);
+  std::string DescribeStop() const;
 
-  SegmentationSettings Settings;
-  bool MayHaveUntoldNaNs;
-  /// Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on.
-  std::vector<vtkSmartPointer<vtkDataObject>> Images;
-  PyramidLevels Pyramid;
-  std::unique_ptr<PointAttraction> Points; ///< null: none
-  std::unique_ptr<EdgeLevels> Edges;       ///< null: none
-  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
-  ComponentChoice Choice;
-  int Coarsest = 0;
-  int LastLevel = 0;    ///< the finest to visit
-  int PreviewLevel = 0; ///< the finest to visit for a preview
-  SurfaceSnapshots Film;
+  SegmentationSettings Settings; ///< End as asked for; SeedRadius in the workspace
+  SegmentationRequest Request;
+  SegmentationLevels Levels;
+  ComponentChoice Components;
+  LevelChoice Choice;
+  SurfaceSnapshots Snapshots;
   SegmentationResults Found;
   std::optional<HostThreads> Threads;
-  std::optional<ProgressMonitor> Watcher;
+  std::optional<ProgressMonitor> Progress;
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.

@@ -14,7 +14,7 @@ SurfaceSnapshots::SurfaceSnapshots(int interval, const Workspace& space)
 {
 }
 
-void SurfaceSnapshots::Offer(
+void SurfaceSnapshots::TakeIfDue(
   const SurfaceEvolution& evolution, int level, double unit, int iteration,
   SegmentationResults& results) const
 {

@@ -9,12 +9,17 @@
 
 namespace volumic
 {
-/// Keeps the surface on its way: at the start of each level and after every so many iterations.
+/**
+ * Takes snapshots of the surface as it evolves: at the start of each level and after every so many
+ * iterations.
+ */
 class SurfaceSnapshots
 {
 public:
-  /// @param interval iterations from one to the next; 0: none is kept
-  /// @param space    must outlive the object
+  /**
+   * @param interval iterations from one to the next; 0: none is kept
+   * @param space    must outlive the object
+   */
   SurfaceSnapshots(int interval, const Workspace& space);
 
   /**
@@ -23,7 +28,7 @@ public:
    * @param unit      U_h, world units
    * @param iteration of this level, 0 at its start
    */
-  void Offer(const SurfaceEvolution& evolution, int level, double unit, int iteration,
+  void TakeIfDue(const SurfaceEvolution& evolution, int level, double unit, int iteration,
     SegmentationResults& results) const;
 
 private:

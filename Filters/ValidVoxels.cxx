@@ -23,7 +23,7 @@ namespace volumic
 {
 namespace
 {
-/// The ghost array, or null where no bit of `hidden` is set in it.
+/** The ghost array, or null where no bit of `hidden` is set in it. */
 const unsigned char* HidingGhosts(
   vtkDataSetAttributes* attributes, vtkIdType count, unsigned char hidden)
 {
@@ -39,8 +39,8 @@ const unsigned char* HidingGhosts(
   return hides ? values : nullptr;
 }
 
-/// Marks the corners of all cells that are seen.
-void MarkSeenCorners(
+/** Marks the corners of all visible cells. */
+void MarkVisibleCorners(
   const unsigned char* ghosts, const int* size, std::vector<std::uint8_t>& marks)
 {
   int cells[3];
@@ -68,7 +68,7 @@ void MarkSeenCorners(
   }
 }
 
-/// Empty where nothing is blanked.
+/** Empty where nothing is blanked. */
 std::vector<std::uint8_t> NotBlanked(vtkImageData* image)
 {
   std::vector<std::uint8_t> marks;
@@ -77,7 +77,7 @@ std::vector<std::uint8_t> NotBlanked(vtkImageData* image)
         image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL))
   {
     marks.assign(count, 0);
-    MarkSeenCorners(ghosts, image->GetDimensions(), marks);
+    MarkVisibleCorners(ghosts, image->GetDimensions(), marks);
   }
   if (const unsigned char* ghosts = HidingGhosts(
         image->GetPointData(), image->GetNumberOfPoints(), vtkDataSetAttributes::HIDDENPOINT))
@@ -96,9 +96,9 @@ struct InfiniteVoxels
   std::int64_t First = -1;
 };
 
-/// Takes the NaN out of those that are valid.
+/** Takes the NaN out of those that are valid. */
 template <typename T>
-InfiniteVoxels LookAtNotFinite(const T* values, std::int64_t count, ValidVoxels& valid)
+InfiniteVoxels ExcludeNaNs(const T* values, std::int64_t count, ValidVoxels& valid)
 {
   InfiniteVoxels infinite;
   if constexpr (std::is_floating_point_v<T>)
@@ -133,8 +133,8 @@ void FindRange(const T* values, const std::vector<std::uint8_t>& marks, double r
   }
 }
 
-/// `3 NaN voxels, the first at (i, j, k)`
-std::string Tell(
+/** `3 NaN voxels, the first at (i, j, k)` */
+std::string Describe(
   const char* kind, std::int64_t count, const std::string& share, std::int64_t first,
   vtkImageData* image)
 {
@@ -161,7 +161,7 @@ ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vt
       found = FindNotFiniteVoxels(values, image->GetNumberOfPoints(), executor);
       if (found.Count > 0)
       {
-        infinite = LookAtNotFinite(values, image->GetNumberOfPoints(), valid);
+        infinite = ExcludeNaNs(values, image->GetNumberOfPoints(), valid);
       }
     });
     default:
@@ -169,12 +169,13 @@ ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vt
   }
   if (infinite.Count > 0)
   {
-    Refuse(NameOf(original), " has ", Tell("infinite", infinite.Count, "", infinite.First, image),
+    Refuse(NameOf(original), " has ",
+      Describe("infinite", infinite.Count, "", infinite.First, image),
       ". Replace them by numbers, for instance by the value of the background.");
   }
   if (valid.NaNs > 0 && !nanIsBackground)
   {
-    Refuse(NameOf(original), " has ", Tell("NaN", valid.NaNs, "", valid.FirstNaN, image),
+    Refuse(NameOf(original), " has ", Describe("NaN", valid.NaNs, "", valid.FirstNaN, image),
       ". Turn NaN Is Background on, or replace them by numbers.");
   }
   return valid;
@@ -214,7 +215,8 @@ std::string DescribeNaNs(vtkDataArray* original, vtkImageData* image, const Vali
     100.0 * static_cast<double>(valid.NaNs) / static_cast<double>(image->GetNumberOfPoints());
   const std::string percent =
     share < 0.1 ? std::string() : Join(" (", std::round(share * 10.0) / 10.0, " %)");
-  return Join(NameOf(original), " has ", Tell("NaN", valid.NaNs, percent, valid.FirstNaN, image),
+  return Join(NameOf(original), " has ",
+    Describe("NaN", valid.NaNs, percent, valid.FirstNaN, image),
     ". They count as background; turn NaN Is Background off to refuse them.");
 }
 }

@@ -15,7 +15,7 @@ class vtkImageData;
 
 namespace volumic
 {
-/// Which voxels of an image have a value: neither NaN nor blanked. The others are background.
+/** Which voxels of an image have a value: neither NaN nor blanked. The others are background. */
 struct ValidVoxels
 {
   std::vector<std::uint8_t> Marks; ///< 1 or 0 per voxel; empty where all have a value
@@ -36,13 +36,13 @@ struct ValidVoxels
 ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vtkImageData* image,
   bool nanIsBackground, Executor& executor);
 
-/// The smallest and the largest voxel that is valid; the first is the larger one if none is.
+/** The smallest and the largest voxel that is valid; the first is the larger one if none is. */
 std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid);
 
-/// @throws std::invalid_argument if no voxel is valid.
+/** @throws std::invalid_argument if no voxel is valid. */
 void CheckAnyIsValid(vtkDataArray* original, const ValidVoxels& valid);
 
-/// `array 'name' has 3 NaN voxels (1.5 %), the first at (i, j, k), which are background.`
+/** `array 'name' has 3 NaN voxels (1.5 %), the first at (i, j, k), which are background.` */
 std::string DescribeNaNs(vtkDataArray* original, vtkImageData* image, const ValidVoxels& valid);
 }
 

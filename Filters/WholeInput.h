@@ -12,8 +12,10 @@
 
 namespace volumic
 {
-/// Asks an input for all that it has, not for the piece that a process of a parallel run would get:
-/// levels and surfaces depend on the whole image.
+/**
+ * Asks an input for all that it has, not for the piece that a process of a parallel run would get:
+ * levels and surfaces depend on the whole image.
+ */
 inline void AskForWholeInput(vtkInformation* info)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -28,8 +30,10 @@ inline void AskForWholeInput(vtkInformation* info)
   info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
 }
 
-/// Asks an image for none of its voxels: a process that makes nothing of them must not hold them.
-/// Data in pieces keeps the piece that the process would get, which is small and its own.
+/**
+ * Asks an image for none of its voxels: a process that makes nothing of them must not hold them.
+ * Data in pieces keeps the piece that the process would get, which is small and its own.
+ */
 inline void AskForNothing(vtkInformation* info)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -44,8 +48,10 @@ inline void AskForNothing(vtkInformation* info)
   }
 }
 
-/// Whether this is the first process of a parallel run, or the only one. It makes the whole
-/// output; the others have none, as they would only repeat it.
+/**
+ * Whether this is the first process of a parallel run, or the only one. It makes the whole
+ * output; the others have none, as they would only repeat it.
+ */
 inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
 {
   const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
@@ -53,8 +59,10 @@ inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output
            vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) <= 0;
 }
 
-/// RequestUpdateExtent of a filter whose first process makes the whole output from all of its
-/// inputs: the others ask for no image.
+/**
+ * RequestUpdateExtent of a filter whose first process makes the whole output from all of its
+ * inputs: the others ask for no image.
+ */
 inline void AskForWholeInputs(
   vtkInformation* request, vtkInformationVector** input, int ports, vtkInformationVector* output)
 {

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Workspace.h"
 
+#include "Core/Common/Refuse.h"
+
 #include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkMatrix3x3.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace volumic
 {
@@ -32,8 +33,8 @@ Workspace::Workspace(vtkImageData* level0, Metric metric)
   const double determinant = vtkMatrix3x3::Determinant(this->Forward.data());
   if (!std::isfinite(determinant) || determinant == 0.0)
   {
-    throw std::invalid_argument("spacing and direction of the image do not span a space; set the "
-                                "spacing to the distances of the voxels.");
+    Refuse("spacing and direction of the image do not span a space; set the spacing to the "
+           "distances of the voxels.");
   }
   vtkMatrix3x3::Invert(this->Forward.data(), this->Backward.data());
   this->Mirrored = determinant < 0.0;

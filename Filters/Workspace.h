@@ -11,7 +11,7 @@ class vtkImageData;
 
 namespace volumic
 {
-/// Which lengths the constraints of the surface speak of (section 5.2 of the paper).
+/** Which lengths the constraints of the surface speak of (section 5.2 of the paper). */
 enum class Metric
 {
   Voxels = 0, ///< An affine space in which voxels are cubes: the workspace is stretched.
@@ -40,16 +40,18 @@ public:
   Point ToWorld(const Point& place) const;
   Point ToWorkspace(const Point& place) const;
 
-  /// A normal of a surface: it stays perpendicular to it, and outward.
+  /** A normal of a surface: it stays perpendicular to it, and outward. */
   std::array<float, 3> NormalToWorld(const std::array<float, 3>& normal) const;
 
-  /// Whether a mirror is on the way, so that triangles must be turned round.
+  /** Whether a mirror is on the way, so that the orientation of triangles must be flipped. */
   bool IsMirrored() const { return this->Mirrored; }
 
-  /// Smallest distance of two voxels of level 0, world units: what 1 stands for in the workspace.
+  /**
+   * Smallest distance of two voxels of level 0, world units: what 1 stands for in the workspace.
+   */
   double WorldUnit() const { return this->Unit; }
 
-  /// Distance of two voxels of level 0 along each axis of the image, workspace; at least 1.
+  /** Distance of two voxels of level 0 along each axis of the image, workspace; at least 1. */
   const std::array<double, 3>& Step() const { return this->Steps; }
 
 private:

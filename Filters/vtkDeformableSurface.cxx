@@ -5,14 +5,19 @@
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Deadline.h"
 #include "InputImage.h"
+#include "PrefixErrors.h"
 #include "SegmentationCache.h"
+#include "SegmentationResults.h"
+#include "SegmentationSettings.h"
+#include "SegmentationVolume.h"
 #include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
+#include "Workspace.h"
+#include "vtkDeformableSurfaceInternals.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkDataObject.h>
@@ -21,17 +26,14 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -41,92 +43,28 @@ vtkStandardNewMacro(vtkDeformableSurface);
 
 namespace
 {
-/// Share of the progress that the pyramid takes where it is built here.
+/** Share of the progress that the pyramid takes where it is built here. */
 constexpr double PyramidShare = 0.02;
 
-vtkSmartPointer<vtkPoints> NewPositions()
+/** Whether the levels are made here: the data of input port 0 are no pyramid. */
+bool BuildsPyramid(vtkDataObject* input)
 {
-  auto positions = vtkSmartPointer<vtkPoints>::New();
-  positions->SetDataTypeToDouble();
-  return positions;
+  return vtkMultiBlockDataSet::SafeDownCast(input) == nullptr;
 }
 
-void CopyPosition(vtkPoints* positions, int index, double position[3])
+/** The outputs of a run that was stopped before it had a level. */
+void FillByNothing(vtkInformationVector* output, bool isAborted, bool withPhases)
 {
-  if (index >= 0 && index < positions->GetNumberOfPoints())
-  {
-    positions->GetPoint(index, position);
-    return;
-  }
-  std::fill(position, position + 3, vtkMath::Nan());
+  volumic::SegmentationResults nothing(0, 0, volumic::Workspace(), withPhases);
+  nothing.SetStoppedSurface(volumic::MakeStopped(
+    0, isAborted ? Describe(volumic::StopReason::Cancelled) : volumic::TimeLimitReason));
+  nothing.FillOutputs(0, output);
 }
-}
-
-class vtkDeformableSurface::vtkInternals
-{
-public:
-  volumic::SegmentationCache Cache;
-  volumic::Deadline Limit; ///< of the run
-  bool IsWatched = false;  ///< Someone asks whether a finer level is still to come.
-  bool IsOnTheWay = false; ///< One is, and nobody has asked yet.
-  bool GoesToTheEnd = false; ///< The next run shows no level before.
-};
-
-//------------------------------------------------------------------------------
-vtkImageData* vtkDeformableSurface::TakeImage(vtkDataObject* input)
-{
-  try
-  {
-    return volumic::ImageOf(input);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    volumic::Refuse("Input port 0: ", error.what());
-  }
 }
 
 //------------------------------------------------------------------------------
-vtkDeformableSurface::vtkDeformableSurface()
+vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInternals>())
 {
-  const volumic::SurfaceOptions defaults;
-  this->SelectedComponent = -1;
-  this->NaNIsBackground = true;
-  this->Metric = World;
-  this->EdgeLength = 0.0;
-  this->IsoValue = vtkMath::Nan();
-  this->ObjectIsBright = defaults.ObjectIsBright;
-  this->Initialization = EnclosingIcosahedron;
-  this->SeedPositions = NewPositions();
-  this->SeedRadius = defaults.SeedRadius;
-  this->CoarsestLevel = -1;
-  this->FinestLevel = 0;
-  this->SamplingRatio = defaults.SamplingRatio;
-  this->TensionWeight = defaults.TensionWeight;
-  this->ElasticityWeight = defaults.ElasticityWeight;
-  this->IsopotentialWeight = defaults.IsopotentialWeight;
-  this->GradientWeight = defaults.GradientWeight;
-  this->PointAttractionWeight = defaults.PointAttractionWeight;
-  this->AttractingPositions = NewPositions();
-  this->EdgeAttractionWeight = defaults.EdgeAttractionWeight;
-  this->Friction = defaults.Friction;
-  this->BorderValue = static_cast<int>(defaults.BorderValue);
-  this->Recovery = defaults.RecoverLostParts ? RecoverObjects : NoRecovery;
-  this->MinimumPartSize = defaults.MinimumPartSize;
-  this->KeepComponents = AllComponents;
-  this->MinimumComponentVolume = 0.0;
-  this->TopologyChanges = defaults.TopologyChanges;
-  this->MaximumNumberOfIterations = defaults.MaximumNumberOfIterations;
-  this->ConvergenceTolerance = defaults.ConvergenceTolerance;
-  this->FreezeMotionlessVertices = defaults.FreezeMotionlessVertices;
-  this->SnapToIsoValue = defaults.SnapToIsoValue;
-  this->NumberOfThreads = 0;
-  this->TimeLimit = 0.0;
-  this->Preview = false;
-  this->ShowLevels = false;
-  this->Profile = false;
-  this->SnapshotInterval = 0;
-  this->Internals = std::make_unique<vtkInternals>();
-
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(
@@ -181,51 +119,6 @@ void vtkDeformableSurface::SetAttractingPointsData(vtkDataObject* data)
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::AddSeedPosition(double x, double y, double z)
-{
-  this->SeedPositions->InsertNextPoint(x, y, z);
-  this->Modified();
-}
-
-void vtkDeformableSurface::ClearSeedPositions()
-{
-  this->SeedPositions->SetNumberOfPoints(0);
-  this->Modified();
-}
-
-int vtkDeformableSurface::GetNumberOfSeedPositions()
-{
-  return static_cast<int>(this->SeedPositions->GetNumberOfPoints());
-}
-
-void vtkDeformableSurface::GetSeedPosition(int index, double position[3])
-{
-  CopyPosition(this->SeedPositions, index, position);
-}
-
-void vtkDeformableSurface::AddAttractingPosition(double x, double y, double z)
-{
-  this->AttractingPositions->InsertNextPoint(x, y, z);
-  this->Modified();
-}
-
-void vtkDeformableSurface::ClearAttractingPositions()
-{
-  this->AttractingPositions->SetNumberOfPoints(0);
-  this->Modified();
-}
-
-int vtkDeformableSurface::GetNumberOfAttractingPositions()
-{
-  return static_cast<int>(this->AttractingPositions->GetNumberOfPoints());
-}
-
-void vtkDeformableSurface::GetAttractingPosition(int index, double position[3])
-{
-  CopyPosition(this->AttractingPositions, index, position);
-}
-
-//------------------------------------------------------------------------------
 vtkMultiBlockDataSet* vtkDeformableSurface::GetLevels()
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(1));
@@ -242,48 +135,11 @@ vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
 }
 
 //------------------------------------------------------------------------------
-template <typename T>
-void vtkDeformableSurface::SetForTheEnd(T& property, T value)
-{
-  if (property != value)
-  {
-    const vtkMTimeType before = this->GetMTime();
-    property = value;
-    this->Modified();
-    this->Internals->Cache.Allow(before, this->GetMTime());
-  }
-}
-
-void vtkDeformableSurface::SetFinestLevel(int level)
-{
-  this->SetForTheEnd(this->FinestLevel, level);
-}
-
-void vtkDeformableSurface::SetNumberOfThreads(int number)
-{
-  this->SetForTheEnd(this->NumberOfThreads, std::max(number, 0));
-}
-
-void vtkDeformableSurface::SetTimeLimit(double seconds)
-{
-  this->SetForTheEnd(this->TimeLimit, seconds);
-}
-
-void vtkDeformableSurface::SetPreview(bool preview)
-{
-  this->SetForTheEnd(this->Preview, preview);
-}
-
-void vtkDeformableSurface::SetShowLevels(bool show)
-{
-  this->SetForTheEnd(this->ShowLevels, show);
-}
-
 bool vtkDeformableSurface::GetNeedsUpdate()
 {
   vtkInternals& internals = *this->Internals;
   internals.IsWatched = true;
-  if (!this->ShowLevels || !internals.IsOnTheWay)
+  if (!internals.Settings.End.ShowLevels || !internals.IsOnTheWay)
   {
     return false;
   }
@@ -292,7 +148,7 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   internals.GoesToTheEnd = !internals.Cache.CanGoOn();
   const vtkMTimeType before = this->GetMTime();
   this->Modified();
-  internals.Cache.Allow(before, this->GetMTime());
+  internals.Cache.IgnoreChange(before, this->GetMTime());
   return true;
 }
 
@@ -310,32 +166,28 @@ int vtkDeformableSurface::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-vtkDeformableSurface::Volume vtkDeformableSurface::VolumeAsSet()
+volumic::SegmentationVolume vtkDeformableSurface::VolumeAsSet()
 {
-  Volume volume;
+  volumic::SegmentationVolume volume;
   volume.Selection = this->GetInputArrayInformation(0);
-  volume.IsoValue = this->IsoValue;
-  volume.FinestLevel = this->FinestLevel;
-  volume.SamplingRatio = this->SamplingRatio;
-  volume.FactorBelowLevel0 = std::sqrt(3.0);
-  volume.EdgeLengthIsPlanned = false;
-  volume.LevelsAreOwn = false;
+  volume.Settings = this->Internals->Settings;
   return volume;
 }
 
 //------------------------------------------------------------------------------
 void vtkDeformableSurface::MakeLevels(
-  vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume)
+  vtkImagePyramid* pyramid, vtkImageData* image, volumic::SegmentationVolume& volume)
 {
-  pyramid->SetSelectedComponent(this->SelectedComponent);
-  pyramid->SetNaNIsBackground(this->NaNIsBackground);
-  pyramid->SetNumberOfThreads(this->NumberOfThreads);
-  if (this->EdgeLength != 0.0)
+  volumic::SegmentationSettings& settings = volume.Settings;
+  pyramid->SetSelectedComponent(settings.SelectedComponent);
+  pyramid->SetNaNIsBackground(settings.NaNIsBackground);
+  pyramid->SetNumberOfThreads(settings.End.NumberOfThreads);
+  if (settings.EdgeLength != 0.0)
   {
-    const volumic::EdgeLengthPlan plan =
-      volumic::PlanEdgeLength(this->EdgeLength, this->SamplingRatio, image, pyramid);
-    volume.FinestLevel = plan.FinestLevel;
-    volume.SamplingRatio = plan.SamplingRatio;
+    const volumic::EdgeLengthPlan plan = volumic::PlanEdgeLength(
+      settings.EdgeLength, settings.Options.SamplingRatio, image, pyramid);
+    settings.End.FinestLevel = plan.FinestLevel;
+    settings.Options.SamplingRatio = plan.SamplingRatio;
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
@@ -345,14 +197,16 @@ void vtkDeformableSurface::MakeLevels(
 }
 
 //------------------------------------------------------------------------------
-vtkDeformableSurface::Volume vtkDeformableSurface::PrepareVolume(vtkDataObject* input)
+volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* input)
 {
-  Volume volume = this->VolumeAsSet();
+  volumic::SegmentationVolume volume = this->VolumeAsSet();
   volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
   if (!volume.Levels)
   {
     vtkNew<vtkImagePyramid> pyramid;
-    this->MakeLevels(pyramid, TakeImage(input), volume);
+    vtkImageData* image =
+      volumic::PrefixErrors("Input port 0: ", [input] { return volumic::ImageOf(input); });
+    this->MakeLevels(pyramid, image, volume);
   }
   return volume;
 }
@@ -366,9 +220,37 @@ bool vtkDeformableSurface::ShowPyramidProgress(double share)
 }
 
 //------------------------------------------------------------------------------
+volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVector** input)
+{
+  volumic::SegmentationRequest request;
+  request.Started = volumic::Deadline::Clock::now();
+  request.End = this->Internals->Settings.End;
+  const double limit = request.End.TimeLimit;
+  if (!(limit >= 0.0))
+  {
+    volumic::Refuse("Time Limit is ", limit, "; it must be 0 (none) or more.");
+  }
+  request.Limit = volumic::Deadline(request.Started, limit);
+  this->Internals->Limit = request.Limit;
+  request.InitialSurface = vtkPolyData::GetData(input[1]);
+  request.AttractingPoints = vtkPolyData::GetData(input[2]);
+  request.EdgeSelection = this->GetInputArrayInformation(1);
+  const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
+  request.Progress = [this, before](double share, const std::string& text)
+  {
+    this->SetProgressText(text.c_str());
+    this->UpdateProgress(before + (1.0 - before) * share);
+    return !volumic::IsAbortRequested(this);
+  };
+  request.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
+  return request;
+}
+
+//------------------------------------------------------------------------------
 bool vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, bool isKept)
 {
-  const bool isWatched = this->ShowLevels && this->Internals->IsWatched;
+  const volumic::SegmentationSettings& settings = this->Internals->Settings;
+  const bool isWatched = settings.End.ShowLevels && this->Internals->IsWatched;
   if (!isWatched || std::exchange(this->Internals->GoesToTheEnd, false))
   {
     return false;
@@ -376,140 +258,90 @@ bool vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, boo
   const volumic::SegmentationCache& cache = this->Internals->Cache;
   if (!isKept || !cache.CanGoOn())
   {
-    request.Preview = true;
-    request.IsStep = !this->Preview;
+    request.End.Preview = true;
+    request.IsStep = !settings.End.Preview;
     return request.IsStep;
   }
   const int next = cache.EndOfRun() - 1;
-  if (this->EdgeLength != 0.0 || next <= std::max(this->FinestLevel, 0))
+  if (settings.EdgeLength != 0.0 || next <= std::max(settings.End.FinestLevel, 0))
   {
     return false;
   }
-  request.FinestLevel = next;
+  request.End.FinestLevel = next;
   request.IsStep = true;
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDeformableSurface::ShowKept(
+  const volumic::SegmentationRequest& request, vtkInformationVector* output)
+{
+  const volumic::SegmentationCache& cache = this->Internals->Cache;
+  const volumic::SegmentationResults* results = cache.ResultsFor(request.End);
+  if (!results)
+  {
+    return false;
+  }
+  const int end = cache.EndOf(request.End);
+  results->FillOutputs(end, output);
+  results->WarnOf(end, cache.HasRecovery() && !this->Internals->Settings.End.Preview, request.Warn);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
+  const volumic::SegmentationRequest& request, vtkDataObject* input)
+{
+  if (BuildsPyramid(input))
+  {
+    this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
+  }
+  const volumic::SegmentationVolume volume = this->PrepareVolume(input);
+  return volume.Levels ? std::make_unique<volumic::SurfaceSegmentation>(volume, request) : nullptr;
 }
 
 //------------------------------------------------------------------------------
 void vtkDeformableSurface::RunOrGoOn(
   vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::SegmentationSettings settings;
-  settings.Started = volumic::Deadline::Clock::now();
+  const volumic::SegmentationSettings& settings = this->Internals->Settings;
   volumic::SegmentationCache& cache = this->Internals->Cache;
-  const bool isKept = cache.Serves(this);
+  const bool isKept = cache.IsValidFor(this);
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!(this->TimeLimit >= 0.0))
-  {
-    volumic::Refuse("Time Limit is ", this->TimeLimit, "; it must be 0 (none) or more.");
-  }
-  this->Internals->Limit = volumic::Deadline(settings.Started, this->TimeLimit);
-  vtkDataObject* data = vtkDataObject::GetData(input[0]);
-  const double before = vtkMultiBlockDataSet::SafeDownCast(data) ? 0.0 : PyramidShare;
-
-  settings.FinestLevel = this->FinestLevel;
-  settings.Preview = this->Preview;
-  settings.NumberOfThreads = this->NumberOfThreads;
-  settings.InitialSurface = vtkPolyData::GetData(input[1]);
-  settings.Limit = this->Internals->Limit;
-  settings.Progress = [this, before](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(before + (1.0 - before) * share);
-    return !volumic::IsAbortRequested(this);
-  };
-  settings.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
-
-  const auto warnOf = [&](const volumic::SegmentationResults& results, int end, bool hasRecovery)
-  {
-    const std::string warning = results.WarningOf(end, hasRecovery && !this->Preview);
-    if (!warning.empty())
-    {
-      settings.Warn(warning);
-    }
-  };
-
+  volumic::SegmentationRequest request = this->RequestAsSet(input);
   this->Internals->IsOnTheWay = false;
-  if (isKept)
+  if (isKept && this->ShowKept(request, output))
   {
-    if (const volumic::SegmentationResults* results = cache.ResultsFor(settings))
-    {
-      const int end = cache.EndOf(settings);
-      results->FillOutputs(end, output);
-      warnOf(*results, end, cache.HasRecovery());
-      return;
-    }
+    return;
   }
-  const bool isStep = this->ChooseStep(settings, isKept);
+  const bool isStep = this->ChooseStep(request, isKept);
   std::unique_ptr<volumic::SurfaceSegmentation> run = isKept ? cache.TakeRun() : nullptr;
   cache.Drop();
   if (run)
   {
-    run->Renew(settings);
+    run->Renew(request);
   }
   else
   {
-    if (before > 0.0)
-    {
-      this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
-    }
-    const Volume volume = this->PrepareVolume(data);
-    if (!volume.Levels)
-    {
-      const bool isAborted = volumic::IsAbortRequested(this) || !settings.Limit.IsOver();
-      volumic::SegmentationResults nothing(0, 0, volumic::Workspace(), this->Profile);
-      nothing.SetHandedOver(volumic::MakeStopped(
-        0, isAborted ? Describe(volumic::StopReason::Cancelled) : volumic::TimeLimitReason));
-      nothing.FillOutputs(0, output);
-      return;
-    }
-    settings.FinestLevel = volume.FinestLevel;
-    settings.Options.IsoValue = volume.IsoValue;
-    settings.Options.ObjectIsBright = this->ObjectIsBright;
-    settings.Options.SeedRadius = this->SeedRadius; // still in world units
-    settings.Options.SamplingRatio = volume.SamplingRatio;
-    settings.Options.TensionWeight = this->TensionWeight;
-    settings.Options.ElasticityWeight = this->ElasticityWeight;
-    settings.Options.IsopotentialWeight = this->IsopotentialWeight;
-    settings.Options.GradientWeight = this->GradientWeight;
-    settings.Options.PointAttractionWeight = this->PointAttractionWeight;
-    settings.Options.EdgeAttractionWeight = this->EdgeAttractionWeight;
-    settings.Options.Friction = this->Friction;
-    settings.Options.MinimumPartSize = this->MinimumPartSize;
-    settings.Options.TopologyChanges = this->TopologyChanges;
-    settings.Options.MaximumNumberOfIterations = this->MaximumNumberOfIterations;
-    settings.Options.ConvergenceTolerance = this->ConvergenceTolerance;
-    settings.Options.FreezeMotionlessVertices = this->FreezeMotionlessVertices;
-    settings.Options.SnapToIsoValue = this->SnapToIsoValue;
-    settings.Initialization = this->Initialization;
-    settings.BorderValue = this->BorderValue;
-    settings.Recovery = this->Recovery;
-    settings.KeepComponents = this->KeepComponents;
-    settings.MinimumComponentVolume = this->MinimumComponentVolume;
-    settings.CoarsestLevel = this->CoarsestLevel;
-    settings.Metric = this->Metric;
-    settings.NaNIsBackground = this->NaNIsBackground;
-    settings.LevelsAreOwn = volume.LevelsAreOwn;
-    settings.EdgeLength = this->EdgeLength;
-    settings.EdgeLengthIsPlanned = volume.EdgeLengthIsPlanned;
-    settings.FactorBelowLevel0 = volume.FactorBelowLevel0;
-    settings.Profile = this->Profile;
-    settings.SnapshotInterval = this->SnapshotInterval;
-    settings.AttractingPoints = vtkPolyData::GetData(input[2]);
-    settings.SeedPositions = this->SeedPositions;
-    settings.AttractingPositions = this->AttractingPositions;
-    settings.EdgeSelection = this->GetInputArrayInformation(1);
-    run = std::make_unique<volumic::SurfaceSegmentation>(volume.Levels, volume.Selection, settings);
+    run = this->NewRun(request, vtkDataObject::GetData(input[0]));
+  }
+  if (!run)
+  {
+    const bool isAborted = volumic::IsAbortRequested(this) || !request.Limit.IsOver();
+    FillByNothing(output, isAborted, settings.Profile);
+    return;
   }
   run->Run();
   run->Results().FillOutputs(run->EndsAt(), output);
-  const bool isCutOff = settings.Limit.IsOver() || volumic::IsAbortRequested(this);
-  const bool isFinest = run->EndsAt() <= this->FinestLevel && this->EdgeLength == 0.0;
+  const bool isCutOff = request.Limit.IsOver() || volumic::IsAbortRequested(this);
+  const bool isFinest =
+    run->EndsAt() <= settings.End.FinestLevel && settings.EdgeLength == 0.0;
   if (isStep && isFinest)
   {
-    warnOf(run->Results(), run->EndsAt(), run->GetSettings().Options.RecoverLostParts);
+    run->Results().WarnOf(
+      run->EndsAt(), run->HasRecovery() && !settings.End.Preview, request.Warn);
   }
   cache.Keep(std::move(run), this);
   this->Internals->IsOnTheWay = isStep && !isCutOff && !isFinest;
@@ -545,48 +377,6 @@ int vtkDeformableSurface::RequestData(
   }
   const vtkMTimeType before = this->GetMTime();
   volumic::ForgetAbort(this);
-  this->Internals->Cache.Allow(before, this->GetMTime());
+  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
   return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
-  os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
-  os << indent << "Metric: " << this->Metric << endl;
-  os << indent << "EdgeLength: " << this->EdgeLength << endl;
-  os << indent << "IsoValue: " << this->IsoValue << endl;
-  os << indent << "ObjectIsBright: " << this->ObjectIsBright << endl;
-  os << indent << "Initialization: " << this->Initialization << endl;
-  os << indent << "SeedPositions: " << this->GetNumberOfSeedPositions() << endl;
-  os << indent << "SeedRadius: " << this->SeedRadius << endl;
-  os << indent << "CoarsestLevel: " << this->CoarsestLevel << endl;
-  os << indent << "FinestLevel: " << this->FinestLevel << endl;
-  os << indent << "SamplingRatio: " << this->SamplingRatio << endl;
-  os << indent << "TensionWeight: " << this->TensionWeight << endl;
-  os << indent << "ElasticityWeight: " << this->ElasticityWeight << endl;
-  os << indent << "IsopotentialWeight: " << this->IsopotentialWeight << endl;
-  os << indent << "GradientWeight: " << this->GradientWeight << endl;
-  os << indent << "PointAttractionWeight: " << this->PointAttractionWeight << endl;
-  os << indent << "AttractingPositions: " << this->GetNumberOfAttractingPositions() << endl;
-  os << indent << "EdgeAttractionWeight: " << this->EdgeAttractionWeight << endl;
-  os << indent << "Friction: " << this->Friction << endl;
-  os << indent << "BorderValue: " << this->BorderValue << endl;
-  os << indent << "Recovery: " << this->Recovery << endl;
-  os << indent << "MinimumPartSize: " << this->MinimumPartSize << endl;
-  os << indent << "KeepComponents: " << this->KeepComponents << endl;
-  os << indent << "MinimumComponentVolume: " << this->MinimumComponentVolume << endl;
-  os << indent << "TopologyChanges: " << this->TopologyChanges << endl;
-  os << indent << "MaximumNumberOfIterations: " << this->MaximumNumberOfIterations << endl;
-  os << indent << "ConvergenceTolerance: " << this->ConvergenceTolerance << endl;
-  os << indent << "FreezeMotionlessVertices: " << this->FreezeMotionlessVertices << endl;
-  os << indent << "SnapToIsoValue: " << this->SnapToIsoValue << endl;
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
-  os << indent << "TimeLimit: " << this->TimeLimit << endl;
-  os << indent << "Preview: " << this->Preview << endl;
-  os << indent << "ShowLevels: " << this->ShowLevels << endl;
-  os << indent << "Profile: " << this->Profile << endl;
-  os << indent << "SnapshotInterval: " << this->SnapshotInterval << endl;
 }

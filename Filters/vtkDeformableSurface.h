@@ -9,8 +9,8 @@
  * moved and bent by forces, merges with itself and comes apart as the object demands, first at the
  * coarsest level of an image pyramid, then, each time divided, at the finer ones. At any moment it
  * is closed, oriented, manifold and free of self-intersections. At the end of a level its triangles
- * are even: edges are between delta and 2.5 delta long, where delta is about one voxel of the level
- * (in between, as when it is cancelled, the band of a fresh merge may have longer ones).
+ * are well-shaped: edges are between delta and 2.5 delta long, where delta is about one voxel of
+ * the level (in between, as when it is cancelled, the band of a fresh merge may have longer ones).
  *
  * @par Input:
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
@@ -18,15 +18,16 @@
  *   is used, by default the active point scalars: any numeric type, values of at most 1e37 in size
  *   (the surface computes in single precision, after IsoValue was subtracted where that matters:
  *   10^9 to 10^9 + 50 are fine). Of several components of an image SelectedComponent chooses one;
- *   levels of a pyramid have one. NaN voxels are background, see NaNIsBackground, and so are blanked
- *   ones, as vtkImagePyramid says; infinite ones are refused. At least 8 voxels along each axis.
+ *   levels of a pyramid have one. NaN voxels are background, see NaNIsBackground, and so are
+ *   blanked ones, as vtkImagePyramid says; infinite ones are refused. At least 8 voxels along each
+ *   axis.
  * - Port 1, optional: a vtkPolyData. With Initialization InputSurface, its polygons are the initial
  *   surface (closed, oriented outward, manifold, not self-intersecting, any number of components,
  *   cavities among them facing inward, at most five times as wide as the image; polygons are
- *   triangulated). Triangles may be of any size and shape: where they are not yet even and of the
- *   level's size the surface gets another mesh first, which may lose what is thinner than about two
- *   edges. With Initialization Seeds, the centres of the seeds (see also SeedPositions). World
- *   coordinates.
+ *   triangulated). Triangles may be of any size and shape: where they are not yet well-shaped and
+ *   of the level's size the surface gets another mesh first, which may lose what is thinner than
+ *   about two edges. With Initialization Seeds, the centres of the seeds (see also SeedPositions).
+ *   World coordinates.
  * - Port 2, optional: a vtkPolyData with points known to belong to the object, see
  *   PointAttractionWeight and AttractingPositions. Point arrays, optional: `Weight` (any numeric
  *   type, at least 0, default 1) and `Radius` (world units, default 0: automatic).
@@ -77,8 +78,8 @@
  * (mean over the vertices, along the normals, per unit of mass, in smallest voxel distances of
  * level 0 and units of the simulated time, squared), `MeanEdgeLength` (world units; with Metric
  * Voxels as if voxels were cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`,
- * `ActiveVertices` (those awake), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers of
- * operations in this iteration), `EulerCharacteristic`, `Components`, `RecoveredParts` (found
+ * `ActiveVertices` (those not at rest), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers
+ * of operations in this iteration), `EulerCharacteristic`, `Components`, `RecoveredParts` (found
  * before this iteration, see Recovery), `Deletions` (components deleted) and `DeletedGenus` (the
  * sum of their genera), `AddedEulerCharacteristic` (of what was added before it: the start, what
  * encloses lost parts). `Vertices`, `MeanEdgeLength`, `EulerCharacteristic` and `Components` of the
@@ -96,16 +97,17 @@
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever
- * triangles could meet, operations are verified by tests of the triangles and displacements that
- * make them meet are taken back; merges need the image's consent. Documentation/differences.md of
- * the sources names all that differs from the paper. The lengths that the constraints speak of are
- * those of the workspace that Metric chooses. Results are the same bits for any number of threads.
+ * triangles could intersect, operations are verified by tests of the triangles and displacements
+ * that make them intersect are rolled back; merges need the image's consent.
+ * Documentation/differences.md of the sources names all that differs from the paper. The lengths
+ * that the constraints speak of are those of the workspace that Metric chooses. Results are the
+ * same bits for any number of threads.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. At
  * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if,
- * with Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level; at its
- * start one tells the number of voxels that are NaN. All else is told by the field data only.
+ * with Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level; at
+ * its start one tells the number of voxels that are NaN. All else is told by the field data only.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
@@ -145,7 +147,6 @@
 
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
-#include "vtkSmartPointer.h" // For the levels and lists of positions
 
 #include <memory> // For what is hidden
 
@@ -154,11 +155,12 @@ class vtkImageData;
 class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
-class vtkPoints;
 class vtkTable;
 namespace volumic
 {
 struct SegmentationRequest;
+struct SegmentationVolume;
+class SurfaceSegmentation;
 }
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
@@ -209,8 +211,8 @@ public:
    * Which component of an array of several is taken, of an image: 0 for the first one; -1, the
    * default: the magnitude. An array of one component is taken as it is with either.
    */
-  vtkSetMacro(SelectedComponent, int);
-  vtkGetMacro(SelectedComponent, int);
+  virtual void SetSelectedComponent(int value);
+  virtual int GetSelectedComponent();
   ///@}
 
   ///@{
@@ -218,8 +220,8 @@ public:
    * Voxels that are NaN are background, whatever is around them, and a warning tells how many there
    * are (for a pyramid, vtkImagePyramid's). Off: they are refused. Default: on.
    */
-  vtkSetMacro(NaNIsBackground, bool);
-  vtkGetMacro(NaNIsBackground, bool);
+  virtual void SetNaNIsBackground(bool value);
+  virtual bool GetNaNIsBackground();
   vtkBooleanMacro(NaNIsBackground, bool);
   ///@}
 
@@ -230,8 +232,8 @@ public:
    * slices' distance; Voxels: those of an affine space in which voxels are cubes, so that triangles
    * are stretched as the voxels are, and fewer. No difference where voxels are cubes.
    */
-  vtkSetMacro(Metric, int);
-  vtkGetMacro(Metric, int);
+  virtual void SetMetric(int value);
+  virtual int GetMetric();
   void SetMetricToVoxels() { this->SetMetric(Voxels); }
   void SetMetricToWorld() { this->SetMetric(World); }
   ///@}
@@ -241,16 +243,16 @@ public:
    * The isopotential that is searched, in the units of the voxels. Must be set (NaN, the default,
    * is an error that tells the range).
    */
-  vtkSetMacro(IsoValue, double);
-  vtkGetMacro(IsoValue, double);
+  virtual void SetIsoValue(double value);
+  virtual double GetIsoValue();
   ///@}
 
   ///@{
   /**
    * The object is where the field is above IsoValue (off: below). Default: on.
    */
-  vtkSetMacro(ObjectIsBright, bool);
-  vtkGetMacro(ObjectIsBright, bool);
+  virtual void SetObjectIsBright(bool value);
+  virtual bool GetObjectIsBright();
   vtkBooleanMacro(ObjectIsBright, bool);
   ///@}
 
@@ -259,12 +261,12 @@ public:
    * Which components the outputs Surface and Levels hold, with their arrays and field data; the
    * evolution is the same. AllComponents (default); LargestComponent: that of the largest area;
    * ComponentsAtPoints: those that enclose a seed of port 1, a point of port 2, or one of the
-   * SeedPositions or AttractingPositions, or pass it within the length of an edge (2.5 Delta); LargeComponents: those that enclose at least
-   * MinimumComponentVolume (world units cubed, default 0). Cavities go with the component about
-   * them: they are kept if it is.
+   * SeedPositions or AttractingPositions, or pass it within the length of an edge (2.5 Delta);
+   * LargeComponents: those that enclose at least MinimumComponentVolume (world units cubed, default
+   * 0). Cavities go with the component about them: they are kept if it is.
    */
-  vtkSetMacro(KeepComponents, int);
-  vtkGetMacro(KeepComponents, int);
+  virtual void SetKeepComponents(int value);
+  virtual int GetKeepComponents();
   void SetKeepComponentsToAllComponents() { this->SetKeepComponents(AllComponents); }
   void SetKeepComponentsToLargestComponent() { this->SetKeepComponents(LargestComponent); }
   void SetKeepComponentsToComponentsAtPoints() { this->SetKeepComponents(ComponentsAtPoints); }
@@ -275,19 +277,19 @@ public:
   /**
    * Enclosed volume, world units cubed, that KeepComponents LargeComponents asks for. Default: 0.
    */
-  vtkSetMacro(MinimumComponentVolume, double);
-  vtkGetMacro(MinimumComponentVolume, double);
+  virtual void SetMinimumComponentVolume(double value);
+  virtual double GetMinimumComponentVolume();
   ///@}
 
   ///@{
   /**
    * What the surface starts from. EnclosingIcosahedron (default): an icosahedron about the image,
    * shrunk to a rounded box. Seeds: icosahedra of SeedRadius that grow inside the object, at the
-   * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the closed iso-surface of the
-   * coarsest level. InputSurface: the polygons of port 1.
+   * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the
+   * closed iso-surface of the coarsest level. InputSurface: the polygons of port 1.
    */
-  vtkSetMacro(Initialization, int);
-  vtkGetMacro(Initialization, int);
+  virtual void SetInitialization(int value);
+  virtual int GetInitialization();
   void SetInitializationToEnclosingIcosahedron() { this->SetInitialization(EnclosingIcosahedron); }
   void SetInitializationToSeeds() { this->SetInitialization(Seeds); }
   void SetInitializationToIsoSurface() { this->SetInitialization(IsoSurface); }
@@ -296,10 +298,10 @@ public:
 
   ///@{
   /**
-   * SeedPositions: centres of seeds, see Initialization, in world coordinates; none by default. They
-   * add to the points of port 1, and spare a source for them. One that lies outside the image by
-   * more than a voxel is an error; of those in the image the ones outside the object, or too near
-   * to another, are left out. An index that is none gives NaN.
+   * SeedPositions: centres of seeds, see Initialization, in world coordinates; none by default.
+   * They add to the points of port 1, and spare a source for them. One that lies outside the image
+   * by more than a voxel is an error; of those in the image the ones outside the object, or too
+   * near to another, are left out. An index that is none gives NaN.
    */
   void AddSeedPosition(double x, double y, double z);
   void ClearSeedPositions();
@@ -313,8 +315,8 @@ public:
    * 0.96 delta is taken as that, below which the edges of an icosahedron are too short. With
    * Metric Voxels lengths are those of the workspace, right along the smallest voxel distance.
    */
-  vtkSetMacro(SeedRadius, double);
-  vtkGetMacro(SeedRadius, double);
+  virtual void SetSeedRadius(double value);
+  virtual double GetSeedRadius();
   ///@}
 
   ///@{
@@ -323,8 +325,8 @@ public:
    * is left; without Recovery, on which a part of it is left that a surface holds: 36 voxels, and
    * nowhere thinner than two.
    */
-  vtkSetMacro(CoarsestLevel, int);
-  vtkGetMacro(CoarsestLevel, int);
+  virtual void SetCoarsestLevel(int value);
+  virtual int GetCoarsestLevel();
   ///@}
 
   ///@{
@@ -338,7 +340,7 @@ public:
    * `Level -1`, the last block of the output Levels, after those of the pyramid.
    */
   void SetFinestLevel(int level);
-  vtkGetMacro(FinestLevel, int);
+  virtual int GetFinestLevel();
   ///@}
 
   ///@{
@@ -353,8 +355,8 @@ public:
    * eq. 7 allows, until the mean is right within some percent. With Metric Voxels it is that of the
    * workspace, as Delta is.
    */
-  vtkSetMacro(EdgeLength, double);
-  vtkGetMacro(EdgeLength, double);
+  virtual void SetEdgeLength(double value);
+  virtual double GetEdgeLength();
   ///@}
 
   ///@{
@@ -362,8 +364,8 @@ public:
    * delta_h / U_h (eq. 7): the smallest edge of the surface in units of the level, between
    * sqrt(3)/2.5 = 0.693 and 1. Level -1 has its share of it, see FinestLevel. Default: 0.85.
    */
-  vtkSetMacro(SamplingRatio, double);
-  vtkGetMacro(SamplingRatio, double);
+  virtual void SetSamplingRatio(double value);
+  virtual double GetSamplingRatio();
   ///@}
 
   ///@{
@@ -371,8 +373,8 @@ public:
    * Weight of the force that pulls a vertex to the barycentre of its neighbours, at least 0,
    * without unit as all four. Default: 0.2.
    */
-  vtkSetMacro(TensionWeight, double);
-  vtkGetMacro(TensionWeight, double);
+  virtual void SetTensionWeight(double value);
+  virtual double GetTensionWeight();
   ///@}
 
   ///@{
@@ -380,8 +382,8 @@ public:
    * Weight of the springs along the edges, at least 0. Default: 0.1. Springs and tension so strong,
    * against the other forces, that the time steps cannot follow act as strongly as these can.
    */
-  vtkSetMacro(ElasticityWeight, double);
-  vtkGetMacro(ElasticityWeight, double);
+  virtual void SetElasticityWeight(double value);
+  virtual double GetElasticityWeight();
   ///@}
 
   ///@{
@@ -389,8 +391,8 @@ public:
    * Weight of the force that moves a vertex along its normal to the iso-value, at least 0.
    * Default: 1.
    */
-  vtkSetMacro(IsopotentialWeight, double);
-  vtkGetMacro(IsopotentialWeight, double);
+  virtual void SetIsopotentialWeight(double value);
+  virtual double GetIsopotentialWeight();
   ///@}
 
   ///@{
@@ -398,24 +400,24 @@ public:
    * Weight of the descent along the gradient of the image, at least 0. Default: 0. To use it, give
    * an image whose valleys are the boundaries, such as the negative gradient magnitude.
    */
-  vtkSetMacro(GradientWeight, double);
-  vtkGetMacro(GradientWeight, double);
+  virtual void SetGradientWeight(double value);
+  virtual double GetGradientWeight();
   ///@}
 
   ///@{
   /**
    * How much the points of port 2 and the AttractingPositions, known to belong to the object,
-   * attract the surface (1 by default; 0: not at all); times the point's own `Weight`. Around a point the field is raised to
-   * the object's side, the nearer the more, so that a point of weight 1 makes a ball of its
-   * `Radius` part of the object even where the image is all background, and a surface that passes
-   * nearer than that comes out to the point. Points near each other join: a few close a gap
-   * through which the isopotential alone would leak, and points along a vessel keep it at the
-   * coarse levels. Under a weight of about 0.3 a point only tips places near IsoValue. A radius
-   * is at least two units of the level, so without an array `Radius` the balls shrink with the
-   * levels. Merges, Recovery, SnapToIsoValue and `Residual` all see the raised field.
+   * attract the surface (1 by default; 0: not at all); times the point's own `Weight`. Around a
+   * point the field is raised to the object's side, the nearer the more, so that a point of weight
+   * 1 makes a ball of its `Radius` part of the object even where the image is all background, and a
+   * surface that passes nearer than that comes out to the point. Points near each other join: a few
+   * close a gap through which the isopotential alone would leak, and points along a vessel keep it
+   * at the coarse levels. Under a weight of about 0.3 a point only tips places near IsoValue. A
+   * radius is at least two units of the level, so without an array `Radius` the balls shrink with
+   * the levels. Merges, Recovery, SnapToIsoValue and `Residual` all see the raised field.
    */
-  vtkSetMacro(PointAttractionWeight, double);
-  vtkGetMacro(PointAttractionWeight, double);
+  virtual void SetPointAttractionWeight(double value);
+  virtual double GetPointAttractionWeight();
   ///@}
 
   ///@{
@@ -442,8 +444,8 @@ public:
    * choose a value that drives the surface over the flat parts, and 2 here. At the end of a level
    * SnapToIsoValue then leads vertices onto the edges near them, instead of the isopotential.
    */
-  vtkSetMacro(EdgeAttractionWeight, double);
-  vtkGetMacro(EdgeAttractionWeight, double);
+  virtual void SetEdgeAttractionWeight(double value);
+  virtual double GetEdgeAttractionWeight();
   ///@}
 
   ///@{
@@ -453,8 +455,8 @@ public:
    * root of their sum, so that strong forces oscillate no more than weak ones.
    * Default: 3.
    */
-  vtkSetMacro(Friction, double);
-  vtkGetMacro(Friction, double);
+  virtual void SetFriction(double value);
+  virtual double GetFriction();
   ///@}
 
   ///@{
@@ -466,8 +468,8 @@ public:
    * setting, also of forces that know of no background, no vertex goes further out than three units
    * (a voxel and one unit); what an initial surface has further out only comes nearer.
    */
-  vtkSetMacro(BorderValue, int);
-  vtkGetMacro(BorderValue, int);
+  virtual void SetBorderValue(int value);
+  virtual int GetBorderValue();
   void SetBorderValueToBackground() { this->SetBorderValue(Background); }
   void SetBorderValueToReplicate() { this->SetBorderValue(Replicate); }
   ///@}
@@ -481,26 +483,27 @@ public:
    * with cavities, which a surface that comes from outside cannot reach otherwise (seeds in the
    * object and the start from the iso-surface can); NoRecovery is the paper's behaviour, where only
    * what is connected to the surface is found again. Field data and History tell how many parts
-   * were found, `MissingParts` and `MissingBoundary` what of them the surface has not got in the end.
+   * were found, `MissingParts` and `MissingBoundary` what of them the surface has not got in the
+   * end.
    */
-  vtkSetMacro(Recovery, int);
-  vtkGetMacro(Recovery, int);
+  virtual void SetRecovery(int value);
+  virtual int GetRecovery();
   ///@}
 
   ///@{
   /**
    * Voxels of a level that a lost part must have there to be recovered. Default: 20.
    */
-  vtkSetMacro(MinimumPartSize, int);
-  vtkGetMacro(MinimumPartSize, int);
+  virtual void SetMinimumPartSize(int value);
+  virtual int GetMinimumPartSize();
   ///@}
 
   ///@{
   /**
    * Merges and cuts (default: on). Off: contacts only stop the surface, its topology stays.
    */
-  vtkSetMacro(TopologyChanges, bool);
-  vtkGetMacro(TopologyChanges, bool);
+  virtual void SetTopologyChanges(bool value);
+  virtual bool GetTopologyChanges();
   vtkBooleanMacro(TopologyChanges, bool);
   ///@}
 
@@ -508,8 +511,8 @@ public:
   /**
    * Iterations per level at most. Default: 1000.
    */
-  vtkSetMacro(MaximumNumberOfIterations, int);
-  vtkGetMacro(MaximumNumberOfIterations, int);
+  virtual void SetMaximumNumberOfIterations(int value);
+  virtual int GetMaximumNumberOfIterations();
   ///@}
 
   ///@{
@@ -519,8 +522,8 @@ public:
    * kinetic energy: but that is small while tips still grow, and some vertices always stir.
    * Default: 0.0005.
    */
-  vtkSetMacro(ConvergenceTolerance, double);
-  vtkGetMacro(ConvergenceTolerance, double);
+  virtual void SetConvergenceTolerance(double value);
+  virtual double GetConvergenceTolerance();
   ///@}
 
   ///@{
@@ -528,8 +531,8 @@ public:
    * Vertices at rest are skipped until something near them changes (the paper's heuristic).
    * Default: on.
    */
-  vtkSetMacro(FreezeMotionlessVertices, bool);
-  vtkGetMacro(FreezeMotionlessVertices, bool);
+  virtual void SetFreezeMotionlessVertices(bool value);
+  virtual bool GetFreezeMotionlessVertices();
   vtkBooleanMacro(FreezeMotionlessVertices, bool);
   ///@}
 
@@ -538,8 +541,8 @@ public:
    * At the end of a level, move vertices onto the isopotential as far as the constraints allow.
    * Default: on.
    */
-  vtkSetMacro(SnapToIsoValue, bool);
-  vtkGetMacro(SnapToIsoValue, bool);
+  virtual void SetSnapToIsoValue(bool value);
+  virtual bool GetSnapToIsoValue();
   vtkBooleanMacro(SnapToIsoValue, bool);
   ///@}
 
@@ -548,7 +551,7 @@ public:
    * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
    */
   void SetNumberOfThreads(int number);
-  vtkGetMacro(NumberOfThreads, int);
+  virtual int GetNumberOfThreads();
   ///@}
 
   ///@{
@@ -559,36 +562,36 @@ public:
    * Levels at rest before stay in Levels; a run that has no surface yet gives an empty one.
    */
   void SetTimeLimit(double seconds);
-  vtkGetMacro(TimeLimit, double);
+  virtual double GetTimeLimit();
   ///@}
 
   ///@{
   /**
-   * End at a coarse level, fine enough to judge an IsoValue: the finest from FinestLevel on that has
-   * at most a million voxels, or the coarsest of the run if none has. Switched off, the run goes on
-   * from there (see Going on). Default: off.
+   * End at a coarse level, fine enough to judge an IsoValue: the finest from FinestLevel on that
+   * has at most a million voxels, or the coarsest of the run if none has. Switched off, the run
+   * goes on from there (see Going on). Default: off.
    */
   void SetPreview(bool preview);
-  vtkGetMacro(Preview, bool);
+  virtual bool GetPreview();
   vtkBooleanMacro(Preview, bool);
   ///@}
 
   ///@{
   /**
-   * In ParaView's window: show the surface of each level as soon as it rests, from the one of Preview
-   * on, while finer ones go on. Each is a run of its own that goes on from the last one, also for
-   * TimeLimit; with EdgeLength there are two. Elsewhere it has no effect: a run goes to its end at
-   * once. Default: off.
+   * In ParaView's window: show the surface of each level as soon as it rests, from the one of
+   * Preview on, while finer ones go on. Each is a run of its own that goes on from the last one,
+   * also for TimeLimit; with EdgeLength there are two. Elsewhere it has no effect: a run goes to
+   * its end at once. Default: off.
    */
   void SetShowLevels(bool show);
-  vtkGetMacro(ShowLevels, bool);
+  virtual bool GetShowLevels();
   vtkBooleanMacro(ShowLevels, bool);
   ///@}
 
   /**
-   * With ShowLevels: whether a finer level is still to come; it is then computed at the next Update().
-   * ParaView's window asks it of its live sources several times a second. Who asks it gets the
-   * levels one by one.
+   * With ShowLevels: whether a finer level is still to come; it is then computed at the next
+   * Update(). ParaView's window asks it of its live sources several times a second. Who asks it
+   * gets the levels one by one.
    */
   bool GetNeedsUpdate();
 
@@ -600,8 +603,8 @@ public:
    * Whether the history also tells where the time goes, by the columns ForcesSeconds and so on.
    * Default: off.
    */
-  vtkSetMacro(Profile, bool);
-  vtkGetMacro(Profile, bool);
+  virtual void SetProfile(bool value);
+  virtual bool GetProfile();
   vtkBooleanMacro(Profile, bool);
   ///@}
 
@@ -610,8 +613,8 @@ public:
    * Keep the surface at the start of each level and after every so many iterations, in output 3, to
    * see it evolve; 0, the default: off. Each costs the memory of a whole surface.
    */
-  vtkSetMacro(SnapshotInterval, int);
-  vtkGetMacro(SnapshotInterval, int);
+  virtual void SetSnapshotInterval(int value);
+  virtual int GetSnapshotInterval();
   ///@}
 
   /** The initial surface or the centres of the seeds: port 1. */
@@ -646,75 +649,30 @@ protected:
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
-  /// What the surface is searched in, and which value.
-  struct Volume
-  {
-    vtkSmartPointer<vtkMultiBlockDataSet> Levels;
-    vtkSmartPointer<vtkInformation> Selection; ///< of the array, as GetInputArrayInformation()
-    double IsoValue;
-    int FinestLevel;
-    double SamplingRatio;
-    double FactorBelowLevel0;  ///< unit of level 0 over that of level -1
-    bool EdgeLengthIsPlanned;  ///< the levels were made for EdgeLength
-    bool LevelsAreOwn;         ///< the levels are no input
-  };
   /// Without levels, the rest as the properties have it.
-  Volume VolumeAsSet();
-  /// The image that an input which is no pyramid means. Errors are thrown as std::invalid_argument.
-  static vtkImageData* TakeImage(vtkDataObject* input);
+  volumic::SegmentationVolume VolumeAsSet();
   /// Makes the pyramid of an image, for EdgeLength if there is one.
-  void MakeLevels(vtkImagePyramid* pyramid, vtkImageData* image, Volume& volume);
-  /// Makes the volume of the data of input port 0; its levels are null where ShowPyramidProgress()
-  /// said stop. Errors are thrown as std::invalid_argument.
-  virtual Volume PrepareVolume(vtkDataObject* input);
+  void MakeLevels(
+    vtkImagePyramid* pyramid, vtkImageData* image, volumic::SegmentationVolume& volume);
+  /// What the surface is searched in, of the data of input port 0; its levels are null where
+  /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
+  virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
   bool ShowPyramidProgress(double share);
 
-  int SelectedComponent;
-  bool NaNIsBackground;
-  int Metric;
-  double EdgeLength;
-  double IsoValue;
-  bool ObjectIsBright;
-  int Initialization;
-  vtkSmartPointer<vtkPoints> SeedPositions;
-  double SeedRadius;
-  int CoarsestLevel;
-  int FinestLevel;
-  double SamplingRatio;
-  double TensionWeight;
-  double ElasticityWeight;
-  double IsopotentialWeight;
-  double GradientWeight;
-  double PointAttractionWeight;
-  vtkSmartPointer<vtkPoints> AttractingPositions;
-  double EdgeAttractionWeight;
-  double Friction;
-  int BorderValue;
-  int Recovery;
-  int MinimumPartSize;
-  int KeepComponents;
-  double MinimumComponentVolume;
-  bool TopologyChanges;
-  int MaximumNumberOfIterations;
-  double ConvergenceTolerance;
-  bool FreezeMotionlessVertices;
-  bool SnapToIsoValue;
-  int NumberOfThreads;
-  double TimeLimit;
-  bool Preview;
-  bool ShowLevels;
-  bool Profile;
-  int SnapshotInterval;
-
 private:
   class vtkInternals;
-  template <typename T>
-  void SetForTheEnd(T& property, T value);
+  /// What a run is asked for by the properties and the inputs.
+  volumic::SegmentationRequest RequestAsSet(vtkInformationVector** input);
   /// Makes it a request for the next level to be shown, if it is not the last one. @return whether.
   bool ChooseStep(volumic::SegmentationRequest& request, bool isKept);
+  /// Fills the outputs with what is kept. @return whether it is all that is asked for.
+  bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
+  /// A run from the start; null where the making of its levels was stopped.
+  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
+    const volumic::SegmentationRequest& request, vtkDataObject* input);
   void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
-  std::unique_ptr<vtkInternals> Internals;
+  std::unique_ptr<vtkInternals> Internals; ///< the properties, and what is kept of the last run
 
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;
   void operator=(const vtkDeformableSurface&) = delete;

@@ -77,8 +77,10 @@ void AddLevel(vtkMultiBlockDataSet* pyramid, int level, vtkImageData* image, dou
     vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
 }
 
-/// Level 0: the input with the chosen array as its active scalars; no voxel is copied, but where one
-/// component was selected, which takes the place of the array.
+/**
+ * Level 0: the input with the chosen array as its active scalars; no voxel is copied, but where one
+ * component was selected, which takes the place of the array.
+ */
 vtkSmartPointer<vtkImageData> ShareInput(vtkImageData* input, vtkDataArray* voxels)
 {
   vtkSmartPointer<vtkImageData> image;
@@ -122,7 +124,7 @@ struct Settings
   int NumberOfThreads;
 };
 
-/// @return whether all levels were finished.
+/** @return whether all levels were finished. */
 bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const Settings& settings,
   const volumic::PyramidProgress& progress, vtkMultiBlockDataSet* pyramid,
   volumic::ValidVoxels& valid)
@@ -271,14 +273,12 @@ int vtkImagePyramid::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 int vtkImagePyramid::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   // In a parallel run the first process holds the pyramid; the others would only repeat it.
-  if (output &&
-    outputVector->GetInformationObject(0)->Get(
-      vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }

@@ -46,9 +46,9 @@
  *
  * @par Errors:
  * A message names the port, the array or the value, and the output is empty, when: the input is no
- * image (apply vtkResampleToImage to an AMR, rectilinear, structured or unstructured grid first), or
- * holds several that are no pyramid; the image is empty; there is no such array, or it is cell data
- * or not numeric, or has not the component selected; it has infinite voxels, or NaN without
+ * image (apply vtkResampleToImage to an AMR, rectilinear, structured or unstructured grid first),
+ * or holds several that are no pyramid; the image is empty; there is no such array, or it is cell
+ * data or not numeric, or has not the component selected; it has infinite voxels, or NaN without
  * NaNIsBackground, or no others; ReductionFactor is not between 1 and 2; more levels are asked for
  * than the image can give; the memory does not suffice. A warning tells the number of NaN voxels.
  * @par
@@ -83,7 +83,9 @@ public:
 
   ///@{
   /**
-   * The pyramid. The output is not an image, whatever the superclass says.
+   * The pyramid. These hide vtkImageAlgorithm::GetOutput(), which is not virtual: it returns a
+   * vtkImageData, and would return null here, also in Python, as the output is none. Who calls it
+   * by a pointer to the superclass gets null; GetOutputDataObject(0) serves there.
    */
   vtkMultiBlockDataSet* GetOutput();
   vtkMultiBlockDataSet* GetOutput(int port);
@@ -144,8 +146,8 @@ public:
   ///@}
 
   /**
-   * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where they
-   * don't go together, which Update() tells by an error.
+   * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where
+   * they don't go together, which Update() tells by an error.
    */
   int CountLevels(int sizeX, int sizeY, int sizeZ) const;
 

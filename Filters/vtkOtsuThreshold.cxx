@@ -41,7 +41,7 @@ constexpr int Bins = 1024;
 
 using Counts = std::vector<vtkIdType>;
 
-/// How many voxels each bin between the smallest and the largest voxel has.
+/** How many voxels each bin between the smallest and the largest voxel has. */
 template <typename T>
 void CountVoxels(const T* voxels, vtkIdType count, const volumic::ValidVoxels& valid,
   const std::array<double, 2>& range, volumic::Executor& threads, Counts& all)
@@ -65,7 +65,7 @@ void CountVoxels(const T* voxels, vtkIdType count, const volumic::ValidVoxels& v
     });
 }
 
-/// The bins below the split with the largest variance between the classes.
+/** The bins below the split with the largest variance between the classes. */
 int BestSplit(const Counts& counts)
 {
   // Bins stand for the values, which follow from them by a scale that changes no maximum.
@@ -98,7 +98,7 @@ int BestSplit(const Counts& counts)
   return splits[splits.size() / 2];
 }
 
-/// The largest voxel up to a value, and the smallest one above that.
+/** The largest voxel up to a value, and the smallest one above that. */
 template <typename T>
 void FindNeighbours(const T* voxels, vtkIdType count, const volumic::ValidVoxels& valid,
   double value, double neighbours[2])

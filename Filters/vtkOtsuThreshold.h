@@ -8,10 +8,10 @@
  * variance between them. It is a guess: in a CT it finds the skin rather than the bone.
  *
  * @par Input:
- * A vtkImageData, or a composite dataset with one image in it, or a pyramid, whose level 0 is taken;
- * the array chosen by SetInputArrayToProcess(), by default the active point scalars, or the active
- * cell scalars where points have none: numbers. NaN and blanked voxels (see vtkImagePyramid) are
- * left out.
+ * A vtkImageData, or a composite dataset with one image in it, or a pyramid, whose level 0 is
+ * taken; the array chosen by SetInputArrayToProcess(), by default the active point scalars, or the
+ * active cell scalars where points have none: numbers. NaN and blanked voxels (see vtkImagePyramid)
+ * are left out.
  *
  * @par Output:
  * A vtkTable with one row and the column `Threshold` (double), in the units of the voxels. No voxel
@@ -24,9 +24,9 @@
  * filter, and ParaView none of VTK's histograms.)
  *
  * @par Errors:
- * Voxels that are all equal, all NaN, or infinite, inputs that are no image, and images without such
- * an array or component: a message by ErrorEvent, an empty table, and GetErrorCode() is vtkErrorCode::UserError (0 after a good run);
- * Update() goes on, as vtkImagePyramid says.
+ * Voxels that are all equal, all NaN, or infinite, inputs that are no image, and images without
+ * such an array or component: a message by ErrorEvent, an empty table, and GetErrorCode() is
+ * vtkErrorCode::UserError (0 after a good run); Update() goes on, as vtkImagePyramid says.
  *
  * @par Thanks:
  * N. Otsu, "A threshold selection method from gray-level histograms", IEEE Trans. SMC 9, 1979.

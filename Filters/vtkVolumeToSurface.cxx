@@ -5,6 +5,9 @@
 #include "AlgorithmErrors.h"
 #include "CellVoxels.h"
 #include "Core/Common/Refuse.h"
+#include "InputImage.h"
+#include "PrefixErrors.h"
+#include "SegmentationVolume.h"
 #include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 
@@ -31,24 +34,25 @@ vtkVolumeToSurface::vtkVolumeToSurface()
 vtkVolumeToSurface::~vtkVolumeToSurface() = default;
 
 //------------------------------------------------------------------------------
-vtkDeformableSurface::Volume vtkVolumeToSurface::PrepareVolume(vtkDataObject* input)
+volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* input)
 {
   const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-    TakeImage(input), this->GetInputArrayInformation(0));
-  Volume volume = this->VolumeAsSet();
+    volumic::PrefixErrors("Input port 0: ", [input] { return volumic::ImageOf(input); }),
+    this->GetInputArrayInformation(0));
+  volumic::SegmentationVolume volume = this->VolumeAsSet();
   volume.Selection = voxels.Selection;
-  if (std::isnan(volume.IsoValue))
+  if (std::isnan(volume.Settings.Options.IsoValue))
   {
     vtkNew<vtkOtsuThreshold> otsu;
     otsu->SetInputData(voxels.Image);
     otsu->SetInputArrayToProcess(0, voxels.Selection);
-    otsu->SetSelectedComponent(this->SelectedComponent);
+    otsu->SetSelectedComponent(volume.Settings.SelectedComponent);
     const std::string errors = volumic::UpdateAndCollectErrors(otsu);
     if (!errors.empty())
     {
       volumic::Refuse("Iso Value is not set, and can't be found: ", errors);
     }
-    volume.IsoValue = otsu->GetThreshold();
+    volume.Settings.Options.IsoValue = otsu->GetThreshold();
   }
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetNumberOfLevels(this->NumberOfLevels);

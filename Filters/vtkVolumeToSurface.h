@@ -65,7 +65,7 @@ protected:
   vtkVolumeToSurface();
   ~vtkVolumeToSurface() override;
 
-  Volume PrepareVolume(vtkDataObject* input) override;
+  volumic::SegmentationVolume PrepareVolume(vtkDataObject* input) override;
 
   int NumberOfLevels;
   int MinimumLevelSize;

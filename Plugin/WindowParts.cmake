@@ -23,7 +23,9 @@ if (PARAVIEW_USE_QT)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
   volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
-  list(APPEND volumic_window_sources Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h)
+  list(APPEND volumic_window_sources
+    Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
+    Widgets/PointHandles.cxx Widgets/PointHandles.h)
 
   paraview_plugin_add_auto_start(
     CLASS_NAME pqAbortButtonBehavior

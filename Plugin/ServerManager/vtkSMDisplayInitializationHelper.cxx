@@ -27,7 +27,7 @@ std::vector<std::string> Words(const char* text)
   return { std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>() };
 }
 
-/// As in XML, whatever the locale of the program: a point, not a comma.
+/** As in XML, whatever the locale of the program: a point, not a comma. */
 double Number(const std::string& text)
 {
   std::istringstream stream(text);
@@ -53,8 +53,10 @@ void SetValues(vtkSMProperty* property, const std::vector<std::string>& values)
   }
 }
 
-/// Of the tuples that the property holds, replaces those with the same first value, a name; in the
-/// place where they are, since ParaView's panel of series goes by the place.
+/**
+ * Of the tuples that the property holds, replaces those with the same first value, a name; in the
+ * place where they are, since ParaView's panel of series goes by the place.
+ */
 void SetTuples(vtkSMProperty* property, const std::vector<std::string>& values, unsigned int size)
 {
   property->ResetToDomainDefaults();

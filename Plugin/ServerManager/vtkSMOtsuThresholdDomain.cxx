@@ -22,7 +22,7 @@ vtkStandardNewMacro(vtkSMOtsuThresholdDomain);
 
 namespace
 {
-/// What is known of the data, which is brought up to date if nothing is.
+/** What is known of the data, which is brought up to date if nothing is. */
 vtkPVDataInformation* DataOf(vtkSMSourceProxy* producer, unsigned int port)
 {
   vtkPVDataInformation* data = producer->GetDataInformation(port);
@@ -34,7 +34,9 @@ vtkPVDataInformation* DataOf(vtkSMSourceProxy* producer, unsigned int port)
   return data;
 }
 
-/// What is known of an array that is chosen as SetInputArrayToProcess has it; null: it is not there.
+/**
+ * What is known of an array that is chosen as SetInputArrayToProcess has it; null: it is not there.
+ */
 vtkPVArrayInformation* ArrayOf(vtkPVDataInformation* data, const std::string array[5])
 {
   return data->GetArrayInformation(array[4].c_str(), std::atoi(array[3].c_str()));

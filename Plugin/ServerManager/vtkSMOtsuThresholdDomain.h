@@ -5,9 +5,10 @@
  * @brief   the range of an array, with Otsu's threshold of it as the default value
  *
  * A property of one number with this domain is preset from the data when its proxy is made, and
- * whenever the user presses the button that resets it to the data. As long as the property keeps the
- * value that it was preset to, it follows the choice of another input, array or component; a value
- * that someone has given stays. Data that was never updated, as in a script, is updated for it.
+ * whenever the user presses the button that resets it to the data. As long as the property keeps
+ * the value that it was preset to, it follows the choice of another input, array or component; a
+ * value that someone has given stays. Data that was never updated, as in a script, is updated for
+ * it.
  *
  * The threshold is computed where the data is, by the helper proxy (internal_filters,
  * OtsuThreshold). Where it can't be, as for voxels that are all equal, the middle of the range is
@@ -42,7 +43,7 @@ private:
   vtkSMOtsuThresholdDomain(const vtkSMOtsuThresholdDomain&) = delete;
   void operator=(const vtkSMOtsuThresholdDomain&) = delete;
 
-  /// What is chosen now; nothing where there is no input.
+  /** What is chosen now; nothing where there is no input. */
   struct Choice
   {
     vtkSMSourceProxy* Producer = nullptr;
@@ -54,9 +55,9 @@ private:
     bool operator==(const Choice& other) const;
   };
   Choice CurrentChoice(bool useUnchecked = true);
-  /// Where none is chosen, as of data that was never updated, or none that a new input has.
+  /** Where none is chosen, as of data that was never updated, or none that a new input has. */
   void ChooseArray(bool isNewInput);
-  /// NaN if there is none.
+  /** NaN if there is none. */
   double ComputeThreshold(const Choice& choice);
   void UpdateRange(const Choice& choice);
   void Follow(const Choice& choice);

@@ -4,14 +4,14 @@
  * @class   vtkSMPyramidLevelsDomain
  * @brief   the levels that a pyramid has: a range whose end follows from the input
  *
- * The range goes from the attribute `min` of the domain to the last level of the input: of a pyramid
- * the number of its blocks tells it, of an image vtkImagePyramid::CountLevels(). Where the input
- * isn't known yet, or gives no pyramid, the end is the attribute `max`. The value of the property is
- * never changed.
+ * The range goes from the attribute `min` of the domain to the last level of the input: of a
+ * pyramid the number of its blocks tells it, of an image vtkImagePyramid::CountLevels(). Where the
+ * input isn't known yet, or gives no pyramid, the end is the attribute `max`. The value of the
+ * property is never changed.
  *
- * Required properties: Input; if there, ArraySelection (of arrays of cells the cells are the voxels)
- * and NumberOfLevels, MinimumLevelSize and ReductionFactor, without which those of vtkImagePyramid
- * are taken.
+ * Required properties: Input; if there, ArraySelection (of arrays of cells the cells are the
+ * voxels) and NumberOfLevels, MinimumLevelSize and ReductionFactor, without which those of
+ * vtkImagePyramid are taken.
  */
 #ifndef vtkSMPyramidLevelsDomain_h
 #define vtkSMPyramidLevelsDomain_h
@@ -30,7 +30,7 @@ public:
 
   void Update(vtkSMProperty* property) override;
 
-  /// None: what the property's XML says stays.
+  /** None: what the property's XML says stays. */
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
 protected:
@@ -43,7 +43,7 @@ private:
   vtkSMPyramidLevelsDomain(const vtkSMPyramidLevelsDomain&) = delete;
   void operator=(const vtkSMPyramidLevelsDomain&) = delete;
 
-  /// 0 if they are not known.
+  /** 0 if they are not known. */
   int CountLevels(vtkPVDataInformation* data);
   int CountLevelsOfImage(const int extent[6]);
 

@@ -4,8 +4,8 @@
  * @class   vtkSMVolumeTypeDomain
  * @brief   vtkSMDataTypeDomain that refuses adaptively refined grids
  *
- * The grids of an AMR dataset are images, and so ParaView takes the dataset for one where images are
- * wanted. Which types are taken is said in the XML as for vtkSMDataTypeDomain.
+ * The grids of an AMR dataset are images, and so ParaView takes the dataset for one where images
+ * are wanted. Which types are taken is said in the XML as for vtkSMDataTypeDomain.
  */
 #ifndef vtkSMVolumeTypeDomain_h
 #define vtkSMVolumeTypeDomain_h

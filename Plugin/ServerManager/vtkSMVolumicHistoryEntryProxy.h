@@ -35,7 +35,7 @@ private:
   void operator=(const vtkSMVolumicHistoryEntryProxy&) = delete;
 
   void ShowChart(vtkSMSourceProxy* source, unsigned int port);
-  /// A chart that holds that output, shown or hidden; nullptr if there is none.
+  /** A chart that holds that output, shown or hidden; nullptr if there is none. */
   vtkSMViewProxy* FindChart(vtkSMSourceProxy* source, unsigned int port);
   vtkSMViewProxy* OpenChart();
 

@@ -26,7 +26,7 @@ vtkStandardNewMacro(vtkSMVolumicSurfaceRepresentationProxy);
 
 namespace
 {
-/// Of the components, by size; easy to tell apart, and apart from the grey of the others.
+/** Of the components, by size; easy to tell apart, and apart from the grey of the others. */
 constexpr std::array<std::array<double, 3>, 20> ComponentColors = { {
   { 0.89, 0.85, 0.76 }, { 0.12, 0.47, 0.71 }, { 1.00, 0.50, 0.05 }, { 0.17, 0.63, 0.17 },
   { 0.84, 0.15, 0.16 }, { 0.58, 0.40, 0.74 }, { 0.55, 0.34, 0.29 }, { 0.89, 0.47, 0.76 },
@@ -35,8 +35,10 @@ constexpr std::array<std::array<double, 3>, 20> ComponentColors = { {
   { 0.97, 0.71, 0.82 }, { 0.86, 0.86, 0.55 }, { 0.62, 0.85, 0.90 }, { 0.20, 0.20, 0.55 },
 } };
 
-/// Its setter isn't public, since others read it from XML only: the input's domain is one of many
-/// of a proxy inside ParaView's own display, which XML can't replace.
+/**
+ * Its setter isn't public, since others read it from XML only: the input's domain is one of many
+ * of a proxy inside ParaView's own display, which XML can't replace.
+ */
 struct InputArrayDomain : vtkSMInputArrayDomain
 {
   static void LeaveOutFieldData(vtkSMInputArrayDomain* domain)
@@ -57,7 +59,7 @@ bool HasGotItsRange(vtkSMProxy* colors)
   return vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).GetAsInt() != 0;
 }
 
-/// ParaView shall neither rescale it at Apply nor look for values by itself.
+/** ParaView shall neither rescale it at Apply nor look for values by itself. */
 void SetReady(vtkSMProxy* colors)
 {
   vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode", true)
@@ -71,7 +73,7 @@ std::string SelectorOf(const char* label)
   return std::string("/Root/*[@label='") + label + "']";
 }
 
-/// The number of values that the map of components tells apart.
+/** The number of values that the map of components tells apart. */
 int CountAnnotations(vtkSMProxy* colors)
 {
   vtkSMPropertyHelper annotations(colors, "Annotations", true);

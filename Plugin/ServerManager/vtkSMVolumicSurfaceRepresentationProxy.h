@@ -32,7 +32,7 @@ public:
   vtkTypeMacro(vtkSMVolumicSurfaceRepresentationProxy, vtkSMPVRepresentationProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// From now on, shows the block that the hint names, as long as nobody chooses others.
+  /** From now on, shows the block that the hint names, as long as nobody chooses others. */
   void StartChoosingBlock();
 
   void ViewUpdated(vtkSMProxy* view) override;
@@ -49,17 +49,19 @@ private:
   void operator=(const vtkSMVolumicSurfaceRepresentationProxy&) = delete;
 
   void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
-  /// Gives the colour map in use the range or the values of the data: one that has none yet, or
-  /// still those that it got here.
+  /**
+   * Gives the colour map in use the range or the values of the data: one that has none yet, or
+   * still those that it got here.
+   */
   void AdaptColors();
   void AdaptResidualColors(vtkSMProxy* colors, vtkPVDataInformation* data);
   void AdaptComponentColors(vtkSMProxy* colors, vtkPVDataInformation* data);
   void ChooseBlock();
   vtkPVDataInformation* GetInputInformation(const std::string& block = "");
-  /// Empty if there is none.
+  /** Empty if there is none. */
   std::string FindBlockToShow();
 
-  /// What was set here last: the range is from minus it to it, the values are 0 to it.
+  /** What was set here last: the range is from minus it to it, the values are 0 to it. */
   double ResidualRange = -1.0;
   int LastComponent = -1;
   std::string ChosenBlock;

@@ -37,11 +37,11 @@ private:
   vtkVolumicHistoryRepresentation(const vtkVolumicHistoryRepresentation&) = delete;
   void operator=(const vtkVolumicHistoryRepresentation&) = delete;
 
-  /// A bit for each axis of the chart that the user wants logarithmic.
+  /** A bit for each axis of the chart that the user wants logarithmic. */
   unsigned int FindLogarithmicAxes();
   static void LeaveOutWhatHasNoLogarithm(vtkPlot* plot);
 
-  /// Those that the curves have been prepared for.
+  /** Those that the curves have been prepared for. */
   unsigned int LogarithmicAxes = 0;
 };
 

@@ -18,7 +18,7 @@
 
 namespace
 {
-/// From the eye on, through the mouse.
+/** From the eye on, through the mouse. */
 struct Ray
 {
   double Near[3];
@@ -39,7 +39,7 @@ Ray RayThrough(vtkRenderer* renderer, const int* place)
   return ray;
 }
 
-/// The axis that a slice is perpendicular to, by the property SliceMode.
+/** The axis that a slice is perpendicular to, by the property SliceMode. */
 int AxisOf(int sliceMode)
 {
   const int yz = 6;
@@ -47,8 +47,8 @@ int AxisOf(int sliceMode)
   return sliceMode == yz ? 0 : sliceMode == xz ? 1 : 2;
 }
 
-/// The share of the ray at which it meets the slice; above 1 if it doesn't.
-double Meet(const Ray& ray, vtkSMProxy* display, vtkPVDataInformation* data)
+/** The share of the ray at which it crosses the slice; above 1 if it doesn't. */
+double ShareAtSlice(const Ray& ray, vtkSMProxy* display, vtkPVDataInformation* data)
 {
   const int axis = AxisOf(vtkSMPropertyHelper(display, "SliceMode").GetAsInt());
   const int slice = vtkSMPropertyHelper(display, "Slice").GetAsInt();
@@ -95,7 +95,8 @@ bool PickOnSlices(pqRenderView* view, double position[3])
     if (isSlice)
     {
       nearest = std::min(nearest,
-        Meet(ray, display->getProxy(), display->getOutputPortFromInput()->getDataInformation()));
+        ShareAtSlice(
+          ray, display->getProxy(), display->getOutputPortFromInput()->getDataInformation()));
     }
   }
   for (int axis = 0; axis < 3; ++axis)

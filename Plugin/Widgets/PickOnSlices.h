@@ -7,8 +7,8 @@ class pqRenderView;
 
 /**
  * The point under the mouse on the nearest slice of a volume that the view shows as "Slice", which
- * ParaView's own picking doesn't see. False where there is none, or where ParaView's picking finds a
- * surface.
+ * ParaView's own picking doesn't see. False where there is none, or where ParaView's picking finds
+ * a surface.
  */
 bool PickOnSlices(pqRenderView* view, double position[3]);
 

@@ -3,28 +3,19 @@
 #include "pqPointListPropertyWidget.h"
 
 #include "PickOnSlices.h"
+#include "PointHandles.h"
 
 #include <pqModalShortcut.h>
 #include <pqPointPickingHelper.h>
 #include <pqRenderView.h>
 #include <pqUndoStack.h>
 
-#include <vtk3DWidgetRepresentation.h>
 #include <vtkBoundingBox.h>
-#include <vtkCommand.h>
-#include <vtkNew.h>
 #include <vtkPVDataInformation.h>
 #include <vtkPVXMLElement.h>
-#include <vtkPointHandleRepresentation3D.h>
-#include <vtkProperty.h>
-#include <vtkSMNewWidgetRepresentationProxy.h>
-#include <vtkSMParaViewPipelineController.h>
 #include <vtkSMProperty.h>
-#include <vtkSMPropertyHelper.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
-#include <vtkSmartPointer.h>
 
 #include <QCheckBox>
 #include <QGridLayout>
@@ -35,37 +26,12 @@
 #include <QSignalBlocker>
 #include <QTableWidget>
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 namespace
 {
-/// One that is in the view, and what hears of it.
-struct Handle
-{
-  vtkSmartPointer<vtkSMNewWidgetRepresentationProxy> Proxy;
-  unsigned long Moving = 0; ///< observer of its position
-  unsigned long Moved = 0;  ///< observer of the end of a move
-
-  vtkSMProperty* Position() const { return this->Proxy->GetProperty("WorldPosition"); }
-};
-
-/// Seen on slices of all colours; ParaView's own handles are thin and white.
-void MakeVisible(vtkSMNewWidgetRepresentationProxy* handle)
-{
-  auto* widget = vtk3DWidgetRepresentation::SafeDownCast(handle->GetClientSideObject());
-  auto* cross = vtkPointHandleRepresentation3D::SafeDownCast(
-    widget ? widget->GetRepresentation() : nullptr);
-  if (cross)
-  {
-    cross->GetProperty()->SetColor(1.0, 0.0, 1.0);
-    cross->GetProperty()->SetLineWidth(3.0);
-    cross->SetHandleSize(25.0);
-  }
-}
-
-/// Whether the handles are to be shown before the user says something.
+/** Whether the handles are to be shown before the user says something. */
 bool AreHandlesShownFirst(vtkSMProperty* property)
 {
   vtkPVXMLElement* hints = property->GetHints();
@@ -74,7 +40,7 @@ bool AreHandlesShownFirst(vtkSMProperty* property)
   return !list || !list->GetScalarAttribute("show", &show) || show != 0;
 }
 
-/// Invalid where the input isn't known.
+/** Invalid where the input isn't known. */
 vtkBoundingBox BoundsOfInput(vtkSMProxy* filter)
 {
   vtkBoundingBox box;
@@ -96,20 +62,26 @@ vtkBoundingBox BoundsOfInput(vtkSMProxy* filter)
 //------------------------------------------------------------------------------
 struct pqPointListPropertyWidget::Internals
 {
+  explicit Internals(pqPointListPropertyWidget* widget)
+    : Handles([widget](std::size_t index, const PointHandles::Position& position)
+        { widget->followHandle(static_cast<int>(index), position.data()); },
+        [widget] { Q_EMIT widget->changeFinished(); })
+  {
+  }
+
   QTableWidget* Table = nullptr;
   QCheckBox* Show = nullptr;
   QPushButton* Remove = nullptr;
   QPushButton* RemoveAll = nullptr;
   QList<QVariant> Coordinates;
-  std::vector<Handle> Handles; ///< one per point
-  bool IsPlacing = false;      ///< the handles are moved by us, not by the user
+  PointHandles Handles; ///< one per point
 };
 
 //------------------------------------------------------------------------------
 pqPointListPropertyWidget::pqPointListPropertyWidget(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
   : Superclass(proxy, parent)
-  , Parts(new Internals)
+  , Parts(new Internals(this))
 {
   this->setProperty(property);
   this->setShowLabel(false);
@@ -307,81 +279,26 @@ void pqPointListPropertyWidget::readCell(QTableWidgetItem* item)
 void pqPointListPropertyWidget::placeHandles()
 {
   SCOPED_UNDO_EXCLUDE();
-  Internals& parts = *this->Parts;
+  const QList<QVariant>& coordinates = this->Parts->Coordinates;
   auto* view = qobject_cast<pqRenderView*>(this->view());
-  const std::size_t n = view ? static_cast<std::size_t>(parts.Coordinates.size()) / 3 : 0;
-  parts.IsPlacing = true;
-  while (parts.Handles.size() > n)
+  std::vector<PointHandles::Position> positions;
+  for (int i = 0; view && i + 2 < coordinates.size(); i += 3)
   {
-    const Handle& handle = parts.Handles.back();
-    if (view)
-    {
-      vtkSMPropertyHelper(view->getProxy(), "HiddenRepresentations").Remove(handle.Proxy);
-    }
-    handle.Position()->RemoveObserver(handle.Moving);
-    handle.Proxy->RemoveObserver(handle.Moved);
-    parts.Handles.pop_back();
+    positions.push_back({ coordinates[i].toDouble(), coordinates[i + 1].toDouble(),
+      coordinates[i + 2].toDouble() });
   }
-  while (parts.Handles.size() < n)
-  {
-    vtkSMSessionProxyManager* manager = this->proxy()->GetSessionProxyManager();
-    auto made = vtkSmartPointer<vtkSMProxy>::Take(
-      manager->NewProxy("representations", "HandleWidgetRepresentation"));
-    Handle handle;
-    handle.Proxy = vtkSMNewWidgetRepresentationProxy::SafeDownCast(made);
-    vtkNew<vtkSMParaViewPipelineController> controller;
-    controller->InitializeProxy(handle.Proxy);
-    handle.Proxy->UpdateVTKObjects();
-    MakeVisible(handle.Proxy);
-    // Undo is not to know of it.
-    handle.Proxy->PrototypeOn();
-    handle.Moving = handle.Position()->AddObserver(
-      vtkCommand::ModifiedEvent, this, &pqPointListPropertyWidget::followHandle);
-    handle.Moved = handle.Proxy->AddObserver(
-      vtkCommand::EndInteractionEvent, this, &pqPointListPropertyWidget::finishDragging);
-    vtkSMPropertyHelper(view->getProxy(), "HiddenRepresentations").Add(handle.Proxy);
-    parts.Handles.push_back(handle);
-  }
-  if (view)
-  {
-    view->getProxy()->UpdateVTKObjects();
-  }
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    double place[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = parts.Coordinates[static_cast<int>(3 * i) + axis].toDouble();
-    }
-    vtkSMPropertyHelper(parts.Handles[i].Position()).Set(place, 3);
-    parts.Handles[i].Proxy->UpdateVTKObjects();
-  }
-  parts.IsPlacing = false;
+  this->Parts->Handles.Place(view, positions);
   this->updateVisibility();
 }
 
-void pqPointListPropertyWidget::followHandle(vtkObject* position, unsigned long, void*)
+void pqPointListPropertyWidget::followHandle(int index, const double position[3])
 {
-  Internals& parts = *this->Parts;
-  const auto moved = std::find_if(parts.Handles.begin(), parts.Handles.end(),
-    [&](const Handle& handle) { return handle.Position() == position; });
-  if (parts.IsPlacing || moved == parts.Handles.end())
+  for (int axis = 0; axis < 3; ++axis)
   {
-    return;
-  }
-  const int row = static_cast<int>(moved - parts.Handles.begin());
-  vtkSMPropertyHelper place(moved->Position());
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    parts.Coordinates[3 * row + static_cast<int>(axis)] = place.GetAsDouble(axis);
+    this->Parts->Coordinates[3 * index + axis] = position[axis];
   }
   this->fillTable();
   Q_EMIT this->coordinatesChanged();
-}
-
-void pqPointListPropertyWidget::finishDragging(vtkObject*, unsigned long, void*)
-{
-  Q_EMIT this->changeFinished();
 }
 
 //------------------------------------------------------------------------------
@@ -430,12 +347,7 @@ void pqPointListPropertyWidget::updateVisibility()
 {
   const bool isShown =
     this->isSelected() && this->isVisible() && this->view() && this->Parts->Show->isChecked();
-  for (const Handle& handle : this->Parts->Handles)
-  {
-    vtkSMPropertyHelper(handle.Proxy, "Visibility").Set(isShown ? 1 : 0);
-    vtkSMPropertyHelper(handle.Proxy, "Enabled").Set(isShown ? 1 : 0);
-    handle.Proxy->UpdateVTKObjects();
-  }
+  this->Parts->Handles.SetVisible(isShown);
   this->render();
   Q_EMIT this->widgetVisibilityUpdated(isShown);
 }

@@ -11,22 +11,21 @@
 #include <memory>
 
 class QTableWidgetItem;
-class vtkObject;
 
 /**
- * A list of points for a repeatable property of three numbers each: a table, and in the view a handle
- * of ParaView's per point. `P` adds the point of a surface or slice under the mouse, Ctrl+P the mesh's
- * point that is nearest to it; a handle can be dragged. A new point of the button Add lies in the
- * centre of the input.
+ * A list of points for a repeatable property of three numbers each: a table, and in the view a
+ * handle of ParaView's per point. `P` adds the point of a surface or slice under the mouse, Ctrl+P
+ * the mesh's point that is nearest to it; a handle can be dragged. A new point of the button Add
+ * lies in the centre of the input.
  *
  *   <DoubleVectorProperty panel_widget="PointList" ...>
  *     <Hints>
- *       <PointList show="0"/>  <!-- handles only where the box Show Points is checked; default: 1 -->
+ *       <PointList show="0"/>  <!-- handles only where Show Points is checked; default: 1 -->
  */
 class pqPointListPropertyWidget : public pqPropertyWidget
 {
   Q_OBJECT
-  /// x, y and z of each point.
+  /** x, y and z of each point. */
   Q_PROPERTY(QList<QVariant> coordinates READ coordinates WRITE setCoordinates)
   using Superclass = pqPropertyWidget;
 
@@ -46,7 +45,7 @@ public Q_SLOTS:
 
 Q_SIGNALS:
   void coordinatesChanged();
-  /// Whether the handles are shown; ParaView's keys for picking follow it.
+  /** Whether the handles are shown; ParaView's keys for picking follow it. */
   void widgetVisibilityUpdated(bool);
 
 protected:
@@ -66,12 +65,12 @@ private:
   Q_DISABLE_COPY(pqPointListPropertyWidget)
 
   void buildPanel();
-  /// Takes over new coordinates, in the table and the handles, and tells of them.
+  /** Takes over new coordinates, in the table and the handles, and tells of them. */
   void change(const QList<QVariant>& coordinates);
   void fillTable();
   void placeHandles();
-  void followHandle(vtkObject* position, unsigned long, void*);
-  void finishDragging(vtkObject*, unsigned long, void*);
+  /** Takes over the position to which a handle is dragged. */
+  void followHandle(int index, const double position[3]);
   void render();
 
   struct Internals;

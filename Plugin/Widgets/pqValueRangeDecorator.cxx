@@ -14,7 +14,7 @@
 
 namespace
 {
-/// Gives the widget a second row.
+/** Gives the widget a second row. */
 void AddBelow(QWidget* widget, QWidget* below)
 {
   auto* row = new QHBoxLayout;

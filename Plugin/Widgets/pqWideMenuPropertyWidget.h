@@ -6,9 +6,9 @@
 #include <pqIntVectorPropertyWidget.h>
 
 /**
- * A menu with long entries that does not keep to the panel's column of labels, whose width is that of
- * the longest word: with both, the panel would need more width than ParaView gives it, and all else
- * would be cut off at its right side.
+ * A menu with long entries that does not keep to the panel's column of labels, whose width is that
+ * of the longest word: with both, the panel would need more width than ParaView gives it, and all
+ * else would be cut off at its right side.
  *
  *   <IntVectorProperty panel_widget="WideMenu" ...>
  */

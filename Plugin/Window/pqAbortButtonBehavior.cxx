@@ -23,7 +23,7 @@
 
 namespace
 {
-/// How often events are looked for, as in ParaView 6.1.
+/** How often events are looked for, as in ParaView 6.1. */
 constexpr qint64 MillisecondsBetweenEvents = 100;
 
 pqProgressManager* progressManager()
@@ -32,7 +32,7 @@ pqProgressManager* progressManager()
   return core ? core->getProgressManager() : nullptr;
 }
 
-/// ParaView's own, which is the one thing that may be pressed while something runs.
+/** ParaView's own, which is the one thing that may be pressed while something runs. */
 QAbstractButton* findAbortButton()
 {
   for (const QPointer<QObject>& object : progressManager()->nonBlockableObjects())
@@ -54,7 +54,9 @@ QPoint placeOf(const QMouseEvent* event)
 #endif
 }
 
-/// What a user does to the window. A button of the mouse may always be let go, and the mouse moved.
+/**
+ * What a user does to the window. A button of the mouse may always be let go, and the mouse moved.
+ */
 bool isInput(const QEvent* event)
 {
   switch (event->type())
@@ -77,7 +79,9 @@ bool isInput(const QEvent* event)
   }
 }
 
-/// ParaView's timers apply, render and look for new data. One whose event is swallowed comes again.
+/**
+ * ParaView's timers apply, render and look for new data. One whose event is swallowed comes again.
+ */
 bool isTimerOfParaView(const QObject* object, const QEvent* event)
 {
   return event->type() == QEvent::Timer && object->inherits("pqTimer");

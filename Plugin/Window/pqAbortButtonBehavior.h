@@ -19,12 +19,12 @@ class vtkObject;
  * Lets the abort button in the status bar stop a run of Volumic's filters.
  *
  * ParaView 6.1 lights the button up while something runs, and looks for events with each progress,
- * but swallows all presses of the mouse: a press comes to the window first, which hands it on to the
- * button, and of the two only the button is on ParaView's list of exceptions. Before 6.1 the button
- * does not light up, and nobody looks for events: this does both.
+ * but swallows all presses of the mouse: a press comes to the window first, which hands it on to
+ * the button, and of the two only the button is on ParaView's list of exceptions. Before 6.1 the
+ * button does not light up, and nobody looks for events: this does both.
  *
- * While a filter runs the window takes nothing but a press of that button: what shortcuts and timers
- * start would come upon a pipeline at work.
+ * While a filter runs the window takes nothing but a press of that button: what shortcuts and
+ * timers start would come upon a pipeline at work.
  *
  * Of the built-in server only: others run where the window can't reach them.
  */
@@ -36,7 +36,7 @@ public:
   pqAbortButtonBehavior();
   ~pqAbortButtonBehavior() override;
 
-  /// Called by ParaView when it has loaded the plugin, and when it ends.
+  /** Called by ParaView when it has loaded the plugin, and when it ends. */
   void startup();
   void shutdown();
 
@@ -51,7 +51,7 @@ private Q_SLOTS:
   void stop();
 
 private:
-  /// Whether the event is a press of the button, on its way there.
+  /** Whether the event is a press of the button, on its way there. */
   bool isPressOfButton(QObject* object, QEvent* event) const;
 
   QPointer<QAbstractButton> Button;

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSegmentationLevels_h
+#define volumicSegmentationLevels_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Image/LevelImage.h"
+#include "Core/Image/PointAttraction.h"
+#include "EdgeLevels.h"
+#include "PyramidLevels.h"
+#include "SegmentationRequest.h"
+#include "SegmentationSettings.h"
+#include "SegmentationVolume.h"
+#include "Workspace.h"
+
+#include <vtkDataObject.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkMultiBlockDataSet;
+
+namespace volumic
+{
+/**
+ * The levels of a volume as a surface evolves on them: the voxels as attracting points bend them,
+ * and the map of edges. Errors are std::invalid_argument; messages name the port or the property.
+ */
+class SegmentationLevels
+{
+public:
+  /** @throws if the blocks are not the levels of a pyramid, or there is no such Metric. */
+  explicit SegmentationLevels(const SegmentationVolume& volume);
+  ~SegmentationLevels();
+
+  /** Takes the points and the map of edges, where the settings give them a weight. */
+  void ReadAttraction(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings,
+    const SegmentationRequest& request);
+  bool HasPoints() const { return this->Points != nullptr; }
+  bool HasEdges() const { return this->Edges != nullptr; }
+
+  const PyramidLevels& Pyramid() const { return this->Voxels; }
+  const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
+
+  /** A list of positions of the settings, in the workspace (PositionsOf in InputPoints.h). */
+  std::vector<Point> SeedPositions(const SegmentationSettings& settings) const;
+  std::vector<Point> AttractingPositions(const SegmentationSettings& settings) const;
+
+  /** U_h in world units. */
+  double UnitInWorld(int level) const { return this->Voxels.UnitInWorld(level); }
+  void SetFactorBelowLevel0(double factor) { this->Voxels.SetFactorBelowLevel0(factor); }
+
+  /** Smallest and largest voxel of a level; the first is the larger one if none is valid. */
+  std::array<double, 2> Range(int level) const;
+
+  /** What is to be reported of the NaN voxels of level 0; empty: nothing, or it has been. */
+  std::string DescribeUnreportedNaNs() const;
+
+  /** The field of a level, valid until the next call. */
+  LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
+
+private:
+  /** Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on. */
+  std::vector<vtkSmartPointer<vtkDataObject>> Images;
+  bool MayHaveUnreportedNaNs;
+  PyramidLevels Voxels;
+  std::unique_ptr<PointAttraction> Points; ///< null: none
+  std::unique_ptr<EdgeLevels> Edges;       ///< null: none
+  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
+};
+}
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSegmentationRequest_h
+#define volumicSegmentationRequest_h
+
+#include "Deadline.h"
+#include "ProgressMonitor.h"
+#include "SegmentationSettings.h"
+
+#include <functional>
+#include <string>
+
+class vtkInformation;
+class vtkPolyData;
+
+namespace volumic
+{
+/**
+ * What a run is asked for, beside the settings: where it ends, inputs that may come in other
+ * objects for one that goes on, and the callbacks.
+ */
+struct SegmentationRequest
+{
+  SegmentationEnd End;  ///< As set, or for a step on the way. With EdgeLength the level is planned.
+  bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
+  vtkPolyData* InitialSurface = nullptr;   ///< input port 1, may be missing
+  vtkPolyData* AttractingPoints = nullptr; ///< input port 2, may be missing
+  vtkInformation* EdgeSelection = nullptr; ///< of the map of edges; without effect at weight 0
+  Deadline Limit;
+  /** When the run began: what came before counts to the seconds of its first level. */
+  Deadline::Clock::time_point Started = Deadline::Clock::now();
+  ProgressMonitor::Callback Progress;
+  std::function<void(const std::string& text)> Warn;
+};
+}
+
+#endif

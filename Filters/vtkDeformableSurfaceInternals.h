@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkDeformableSurfaceInternals_h
+#define vtkDeformableSurfaceInternals_h
+
+#include "Deadline.h"
+#include "SegmentationCache.h"
+#include "SegmentationSettings.h"
+#include "vtkDeformableSurface.h"
+
+/** What vtkDeformableSurface holds, beside what all algorithms do. */
+class vtkDeformableSurface::vtkInternals
+{
+public:
+  volumic::SegmentationSettings Settings; ///< the properties
+  volumic::SegmentationCache Cache;       ///< of the last run
+  volumic::Deadline Limit;                ///< of the run
+  bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
+  bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
+  bool GoesToTheEnd = false; ///< The next run shows no level before.
+};
+
+#endif
