@@ -68,8 +68,8 @@ TEST(ContactCount, ArePairsNearerThanLambdaDeltaAndFarAlongTheSurface)
     {
       for (int w = v + 1; w < mesh.Size(); ++w)
       {
-        const bool strangers = mesh.AreFarApart(v, w);
-        if (strangers && SquaredDistance(mesh.Position[v], mesh.Position[w]) < 1.44337f * 1.44337f)
+        const bool isFar = mesh.AreFarApart(v, w);
+        if (isFar && SquaredDistance(mesh.Position[v], mesh.Position[w]) < 1.44337f * 1.44337f)
         {
           expected.push_back({ v, w });
         }

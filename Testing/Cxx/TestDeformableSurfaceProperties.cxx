@@ -85,11 +85,11 @@ TEST(DeformableSurfaceProperties, ToleranceAndLimitEndALevel)
 TEST(DeformableSurfaceProperties, FreezingAndSnappingCanBeLeftOut)
 {
   const auto usual = SurfaceWith([](vtkDeformableSurface&) {});
-  const auto awake = SurfaceWith([](vtkDeformableSurface& f) { f.FreezeMotionlessVerticesOff(); });
+  const auto active = SurfaceWith([](vtkDeformableSurface& f) { f.FreezeMotionlessVerticesOff(); });
   const auto share = [](vtkDeformableSurface* f)
   { return History(f, -1, "ActiveVertices") / History(f, -1, "Vertices"); };
   EXPECT_LT(share(usual), 0.5);
-  EXPECT_GT(share(awake), 0.99);
+  EXPECT_GT(share(active), 0.99);
   const auto loose = SurfaceWith([](vtkDeformableSurface& f) { f.SnapToIsoValueOff(); });
   EXPECT_GT(MeanResidual(loose->GetOutput()), 2 * MeanResidual(usual->GetOutput()));
 }

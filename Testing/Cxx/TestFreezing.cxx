@@ -13,7 +13,7 @@ using namespace volumic;
 
 namespace
 {
-/** A sphere whose vertices the tests move by hand, and fall asleep when they do not. */
+/** A sphere whose vertices the tests move by hand, which become motionless when they do not. */
 class Freezing : public ::testing::Test
 {
 protected:
@@ -67,7 +67,7 @@ TEST_F(Freezing, TakesFiveIterationsOfRest)
   }
   this->Iterate();
   EXPECT_EQ(this->CountActive(), 0);
-  EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "what sleeps does not move";
+  EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "what is motionless has no velocity";
 }
 
 TEST_F(Freezing, IsLeftOutOnRequest)
@@ -80,7 +80,7 @@ TEST_F(Freezing, IsLeftOutOnRequest)
   EXPECT_EQ(this->CountActive(), static_cast<int>(this->Actors.All.size()));
 }
 
-TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursAwake)
+TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursActive)
 {
   for (int i = 0; i < 10; ++i)
   {
@@ -93,7 +93,7 @@ TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursAwake)
   }
 }
 
-TEST_F(Freezing, SleepingNeighboursAreWokenByMotion)
+TEST_F(Freezing, MotionActivatesMotionlessNeighbours)
 {
   for (int i = 0; i < 5; ++i)
   {
@@ -121,7 +121,7 @@ TEST_F(Freezing, SlowMotionIsMotion)
   EXPECT_TRUE(this->IsActive(Mover));
 }
 
-TEST_F(Freezing, OneMotionDoesNotKeepAVertexAwakeForEver)
+TEST_F(Freezing, OneMotionDoesNotKeepAVertexActiveForEver)
 {
   this->Iterate(this->Actors.OutwardAt(Mover) * 0.2f);
   for (int i = 0; i < 5; ++i)

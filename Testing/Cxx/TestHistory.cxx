@@ -78,7 +78,7 @@ TEST(History, RowsTellTheStateAfterTheirIteration)
   EXPECT_GT(looks, 20);
 }
 
-TEST(History, VerticesFallAsleepAsTheyArriveIfAllowedTo)
+TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
 {
   const TestVolume volume = BallVolume(32, 10);
   for (const bool freeze : { true, false })
@@ -111,7 +111,7 @@ TEST(History, VerticesFallAsleepAsTheyArriveIfAllowedTo)
   }
 }
 
-TEST(History, NoVertexSleepsOnTheWay)
+TEST(History, NoVertexIsMotionlessOnTheWay)
 {
   const TestVolume volume = BallVolume(32, 10);
   SurfaceOptions options = IsoHalf();

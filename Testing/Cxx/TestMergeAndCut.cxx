@@ -75,7 +75,7 @@ TEST(StarMerge, RefusesRimsThatTouch)
 
 TEST(StarMerge, MakesAManifoldOfAnyTwoStars)
 {
-  // Far and skew pairs tempt the band into staying on one vertex for a whole turn.
+  // Far and skew pairs tempt the strip into staying on one vertex for a whole turn.
   for (int i = 0; i < 60; ++i)
   {
     SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
@@ -91,7 +91,7 @@ TEST(StarMerge, MakesAManifoldOfAnyTwoStars)
   }
 }
 
-TEST(StarMerge, TakesTheShortestRungs)
+TEST(StarMerge, TakesTheShortestBridgeEdges)
 {
   // Mirror images of each other: every vertex of a rim has its own across.
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
@@ -139,7 +139,7 @@ TEST(StarMerge, TakesTheShortestRungs)
 TEST(StarMerge, RefusesABandThatWouldOverfillARing)
 {
   // Each vertex of the belt of a double cone of three sides has four neighbours; the rim of a tip
-  // of fifteen sides hands five rungs to each.
+  // of fifteen sides hands five bridge edges to each.
   const auto cone = [](double z, int sides, int crowded)
   {
     IndexedSurface surface;

@@ -192,7 +192,7 @@ TEST(Merging, LeavesWhatIsFartherThanLambdaDelta)
 
 TEST(Merging, LeavesNoEdgeThatIsTooLong)
 {
-  // Rims far behind the tips: rungs of over 2.5 delta.
+  // Rims far behind the tips: bridge edges of over 2.5 delta.
   Scene scene(TwoBalls(1.4, 3.4, 2.1), Everywhere(1));
   ASSERT_LE(scene.Longest(), 2.5f);
   EXPECT_EQ(scene.Merges(), 1);

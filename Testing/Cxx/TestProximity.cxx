@@ -250,9 +250,9 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
     state.UpdateShape(all, Threads);
     Proximity proximity;
     proximity.Examine(state, all, Threads);
-    const bool meets = CountSelfIntersections(surface, 1) > 0;
+    const bool intersects = CountSelfIntersections(surface, 1) > 0;
     // The tolerance may find a touch where there is none by less than it; never the other way.
-    if (meets)
+    if (intersects)
     {
       EXPECT_FALSE(proximity.Intersections().empty()) << "at distance " << distance;
     }
@@ -322,7 +322,7 @@ TEST(NewFacesIntersect, OfAnEdgeTakesAwayTheTwoFacesOnly)
 
 TEST(Proximity, ToldRoomIsThere)
 {
-  // However two balls lie: while neither has moved by half of its slack they do not meet.
+  // However two balls lie: while neither has moved by half of its slack they do not intersect.
   for (double distance = 12.2; distance < 13.6; distance += 0.1)
   {
     IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
@@ -446,9 +446,9 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
   Proximity proximity;
   proximity.Examine(state, all, Threads);
   EXPECT_FALSE(proximity.Intersections().empty());
-  for (const Proximity::FacePair& meeting : proximity.Intersections())
+  for (const Proximity::FacePair& pair : proximity.Intersections())
   {
-    for (const std::array<int, 3>& face : { meeting.First, meeting.Second })
+    for (const std::array<int, 3>& face : { pair.First, pair.Second })
     {
       for (int corner : face)
       {

@@ -122,14 +122,14 @@ TEST(SurfacePolish, StopsWhenAskedTo)
   EXPECT_GT(edited, 0) << "what was done before stays done";
 }
 
-TEST(SurfacePolish, PushesStrangersApart)
+TEST(SurfacePolish, PushesApartWhatIsFarApartOnTheSurface)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.5);
   mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 6.9, 1.5));
   LiveSurface state(mesh);
   const auto nearest = [&state]()
   {
-    // The two components are strangers to each other throughout.
+    // The two components are far apart on the surface throughout.
     double least = 1e9;
     for (int v = 0; v < state.Mesh.Size(); ++v)
     {
@@ -216,7 +216,7 @@ TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
   }
 }
 
-TEST(SurfacePolish, LeavesAnEvenMeshAsItIs)
+TEST(SurfacePolish, LeavesAWellShapedMeshAsItIs)
 {
   LiveSurface state(MakeSphere({ 0, 0, 0 }, 8, 1.7));
   ASSERT_EQ(ShapeOf(state).EdgesOutside, 0);

@@ -17,7 +17,7 @@ struct alignas(16) Vector3
   T X = 0;
   T Y = 0;
   T Z = 0;
-  T Unused = 0;
+  T Padding = 0; ///< So that operations are on whole registers.
 
   Vector3() = default;
   Vector3(T x, T y, T z)
@@ -39,7 +39,7 @@ struct alignas(16) Vector3
     this->X += b.X;
     this->Y += b.Y;
     this->Z += b.Z;
-    this->Unused += b.Unused;
+    this->Padding += b.Padding;
     return *this;
   }
   Vector3& operator-=(const Vector3& b)
@@ -47,7 +47,7 @@ struct alignas(16) Vector3
     this->X -= b.X;
     this->Y -= b.Y;
     this->Z -= b.Z;
-    this->Unused -= b.Unused;
+    this->Padding -= b.Padding;
     return *this;
   }
   Vector3& operator*=(T s)
@@ -55,7 +55,7 @@ struct alignas(16) Vector3
     this->X *= s;
     this->Y *= s;
     this->Z *= s;
-    this->Unused *= s;
+    this->Padding *= s;
     return *this;
   }
 };

@@ -121,7 +121,7 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
     tension * (this->InnerShare * static_cast<float>(this->Options.TensionWeight) * inverse) +
     state.SpringPull[v] *
       (this->InnerShare * static_cast<float>(this->Options.ElasticityWeight) * inverse);
-  force.Unused = 0;
+  force.Padding = 0;
   return force;
 }
 
@@ -165,7 +165,7 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
           (velocity + this->Force[i] * this->Step) * (1 / (1 + friction * this->Step));
       }
     });
-  this->Resist(state, pairs);
+  this->ApplyContacts(state, pairs);
 }
 
 void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
@@ -197,7 +197,7 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
       }
     });
   // Contacts: nothing may come nearer than it is.
-  this->Resist(state, pairs);
+  this->ApplyContacts(state, pairs);
 }
 
 bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
@@ -219,7 +219,7 @@ bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
   return front ? value > 0 : value < 0;
 }
 
-void Dynamics::Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
+void Dynamics::ApplyContacts(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
 {
   this->Contacts.clear();
   for (std::size_t begin = 0; begin < pairs.size();)
@@ -311,7 +311,7 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active)
           move *= longest / length;
         }
         state.Displacement[v] = std::min(length, longest);
-        p = state.Around.Confined(p, p + move);
+        p = state.Margin.Confined(p, p + move);
       }
     });
   for (int v : active)

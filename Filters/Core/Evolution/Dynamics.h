@@ -93,7 +93,7 @@ private:
     Vector Correction;
   };
   /** Takes from the velocities what would bring vertices nearer than eq. (1) allows. */
-  void Resist(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs);
+  void ApplyContacts(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs);
   Vector CorrectionOf(const SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs,
     const ContactsOfVertex& contacts, bool separates) const;
 

@@ -55,11 +55,10 @@ struct SurfaceEvolution::Implementation
   std::vector<int> Working;            ///< Of an iteration, see CollectWorking.
   std::vector<std::uint8_t> IsWorking; ///< Whether that has it.
   std::vector<int> Suspects;
-  std::vector<double> Partial;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
-  std::chrono::steady_clock::time_point Booked = std::chrono::steady_clock::now();
-  double LevelSeconds = 0.; ///< What has been booked since the last level.
+  std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
+  double LevelSeconds = 0.; ///< Of all laps since the last level.
   bool Stopped = false;     ///< By the monitor.
   EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
   int CollapsesSinceLabels = 0; ///< Since components were labelled last.
@@ -76,7 +75,7 @@ struct SurfaceEvolution::Implementation
   bool GoOn(Monitor::Activity doing, double share);
   Checkpoint CheckpointOf(Monitor::Activity doing, double from = 0., double to = 1.);
   bool HasIteration() const;
-  double Book();
+  double Lap();
   void Enter(const LevelImage& image, int level);
   void Reset();
   void Recover();
@@ -103,7 +102,7 @@ struct SurfaceEvolution::Implementation
   void WatchComponents();
   void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
   void FillRow(HistoryRow& row);
-  double MeanEdgeLength();
+  double MeanEdgeLength() const;
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(Dynamics& dynamics);
   void DeleteInsideOut();

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace volumic
@@ -20,6 +19,8 @@ using Clock = std::chrono::steady_clock;
 constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
 constexpr int SuspiciousCollapses = 40;
+/** Vertices that one thread sums up at a time. */
+constexpr std::size_t SumBlock = 4096;
 /** Iterations between two looks for components that are inside out. */
 constexpr int InsideOutPeriod = 10;
 
@@ -343,10 +344,8 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.Deletions = s.Counts.Removed;
   row.DeletedGenus = s.Counts.RemovedGenus;
   this->FillCounts(row);
-  constexpr std::size_t size = 4096;
-  this->Partial.assign((this->Active.size() + size - 1) / size, 0.);
-  ForBlocks(this->Threads, this->Active.size(), size,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
+  const double energy = SumOfBlocks(this->Threads, this->Active.size(), SumBlock,
+    [&](std::size_t begin, std::size_t end)
     {
       double sum = 0;
       for (std::size_t i = begin; i < end; ++i)
@@ -355,10 +354,9 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
         const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
         sum += 0.5 * speed * speed;
       }
-      this->Partial[b] = sum;
+      return sum;
     });
-  row.KineticEnergy =
-    std::accumulate(this->Partial.begin(), this->Partial.end(), 0.) / std::max(row.Vertices, 1);
+  row.KineticEnergy = energy / std::max(row.Vertices, 1);
   row.MeanEdgeLength = this->MeanEdgeLength();
   row.IterationVertices = row.Vertices;
   row.IterationMeanEdgeLength = row.MeanEdgeLength;
@@ -366,25 +364,22 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.IterationComponents = row.Components;
 }
 
-double SurfaceEvolution::Implementation::MeanEdgeLength()
+double SurfaceEvolution::Implementation::MeanEdgeLength() const
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  constexpr std::size_t size = 4096;
-  this->Partial.assign((mesh.Rings.size() + size - 1) / size, 0.);
-  ForBlocks(this->Threads, mesh.Rings.size(), size,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
+  const double sum = SumOfBlocks(this->Threads, mesh.Rings.size(), SumBlock,
+    [&](std::size_t begin, std::size_t end)
     {
-      double sum = 0;
+      double block = 0;
       for (std::size_t v = begin; v < end; ++v)
       {
-        sum += this->State.EdgeLengthSum[v];
+        block += this->State.EdgeLengthSum[v];
       }
-      this->Partial[b] = sum;
+      return block;
     });
   // Each edge is in two sums.
   const std::int64_t edges =
     NumberOfEdges(mesh.NumberOfVertices(), this->State.EulerCharacteristic);
-  const double sum = std::accumulate(this->Partial.begin(), this->Partial.end(), 0.);
   return edges > 0 ? sum / (2. * static_cast<double>(edges)) : 0.;
 }
 }

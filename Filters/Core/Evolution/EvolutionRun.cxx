@@ -74,11 +74,11 @@ Checkpoint SurfaceEvolution::Implementation::CheckpointOf(
   { return this->GoOn(doing, from + (to - from) * share); };
 }
 
-double SurfaceEvolution::Implementation::Book()
+double SurfaceEvolution::Implementation::Lap()
 {
   const auto now = std::chrono::steady_clock::now();
-  const double seconds = std::chrono::duration<double>(now - this->Booked).count();
-  this->Booked = now;
+  const double seconds = std::chrono::duration<double>(now - this->LastLap).count();
+  this->LastLap = now;
   this->LevelSeconds += seconds;
   return seconds;
 }
@@ -113,11 +113,11 @@ StopReason SurfaceEvolution::Implementation::Evolve()
       return StopReason::IterationLimit;
     }
     HistoryRow row;
-    row.SecondsBefore = this->Book();
+    row.SecondsBefore = this->Lap();
     row.AddedEulerCharacteristic = s.EulerCharacteristic -
       (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
     this->Iterate(row, dynamics, remesher, Mode::Evolve);
-    row.Seconds = this->Book();
+    row.Seconds = this->Lap();
     if (this->LastIterations == 0)
     {
       row.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;

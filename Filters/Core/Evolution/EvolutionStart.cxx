@@ -53,7 +53,7 @@ bool HasEdgeOver(const SurfaceState& state, float share)
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 {
   this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
-  this->State.Around = this->TheField->Margin();
+  this->State.Margin = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;
   this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));

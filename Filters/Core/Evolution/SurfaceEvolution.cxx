@@ -227,13 +227,13 @@ bool SurfaceEvolution::IsStopped() const
 
 void SurfaceEvolution::StartClock(std::chrono::steady_clock::time_point start)
 {
-  this->Self->Booked = start;
+  this->Self->LastLap = start;
 }
 
 double SurfaceEvolution::EndLevel()
 {
   Implementation& self = *this->Self;
-  const double seconds = self.Book();
+  const double seconds = self.Lap();
   if (self.HasIteration())
   {
     self.Rows.back().SecondsAfter += seconds;

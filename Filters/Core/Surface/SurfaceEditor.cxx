@@ -267,7 +267,7 @@ Edit SurfaceEditor::Remove(int v)
 Edit SurfaceEditor::Move(int v, const Vector& position, EditTolerance tolerance)
 {
   SurfaceState& s = this->State;
-  if (!s.Around.Allows(s.Mesh.Position[v], position))
+  if (!s.Margin.Allows(s.Mesh.Position[v], position))
   {
     return {};
   }

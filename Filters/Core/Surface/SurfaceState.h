@@ -55,7 +55,7 @@ public:
   SurfaceMesh Mesh;
   VertexGrid Grid;
   SizingField Sizing;
-  ImageMargin Around; ///< Of the level: no vertex is moved further out.
+  ImageMargin Margin; ///< Of the level: no vertex is moved further out.
   int EulerCharacteristic = 0; ///< Kept by the edits; tests hold it against a count.
   EditCounts Counts;
 
