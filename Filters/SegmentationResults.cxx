@@ -3,6 +3,7 @@
 #include "SegmentationResults.h"
 
 #include "Core/Common/Join.h"
+#include "HistoryTable.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>

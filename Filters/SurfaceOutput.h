@@ -9,10 +9,8 @@
 #include <vtkSmartPointer.h>
 
 #include <string>
-#include <vector>
 
 class vtkPolyData;
-class vtkTable;
 
 namespace volumic
 {
@@ -44,13 +42,6 @@ constexpr const char* TimeLimitReason = "time limit";
 
 /** The surface of a run that was stopped before it had one: empty, with all its arrays. */
 vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason);
-
-/**
- * A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
- * if asked for.
- */
-vtkSmartPointer<vtkTable> MakeHistory(
-  const std::vector<HistoryRow>& rows, const Workspace& space, bool withPhases);
 }
 
 #endif

@@ -10,7 +10,7 @@
  * coarsest level of an image pyramid, then, each time divided, at the finer ones. At any moment it
  * is closed, oriented, manifold and free of self-intersections. At the end of a level its triangles
  * are well-shaped: edges are between delta and 2.5 delta long, where delta is about one voxel of
- * the level (in between, as when it is cancelled, the band of a fresh merge may have longer ones).
+ * the level (in between, as when it is cancelled, the strip of a fresh merge may have longer ones).
  *
  * @par Input:
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid

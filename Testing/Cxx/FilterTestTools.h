@@ -25,10 +25,10 @@
 #include <utility>
 #include <vector>
 
-/// What the tests of the VTK classes share.
+/** What the tests of the VTK classes share. */
 namespace volumic
 {
-/// Collects what an algorithm or executive says under an event (errors, warnings), unprinted.
+/** Collects what an algorithm or executive says under an event (errors, warnings), unprinted. */
 class MessagesOf
 {
 public:
@@ -66,25 +66,25 @@ private:
   std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
 };
 
-/// Level h of a pyramid.
+/** Level h of a pyramid. */
 inline vtkImageData* Level(vtkMultiBlockDataSet* pyramid, unsigned int h)
 {
   return vtkImageData::SafeDownCast(pyramid->GetBlock(h));
 }
 
-/// The active scalars.
+/** The active scalars. */
 inline vtkDataArray* Voxels(vtkImageData* image)
 {
   return image->GetPointData()->GetScalars();
 }
 
-/// U_h of a level.
+/** U_h of a level. */
 inline double UnitOf(vtkImageData* level)
 {
   return level->GetFieldData()->GetArray("Unit")->GetComponent(0, 0);
 }
 
-/// The updated filter.
+/** The updated filter. */
 inline vtkSmartPointer<vtkImagePyramid> PyramidOf(vtkImageData* image, int levels = 0)
 {
   auto pyramid = vtkSmartPointer<vtkImagePyramid>::New();
@@ -94,7 +94,7 @@ inline vtkSmartPointer<vtkImagePyramid> PyramidOf(vtkImageData* image, int level
   return pyramid;
 }
 
-/// Listens to the progress and asks to stop once it has heard a share.
+/** Listens to the progress and asks to stop once it has heard a share. */
 struct ProgressListener
 {
   std::vector<double> Shares;
@@ -125,7 +125,7 @@ struct ProgressListener
   vtkNew<vtkCallbackCommand> Command;
 };
 
-/// An image with random voxels in [0, 100], named `Voxels`, first voxel at extent 0.
+/** An image with random voxels in [0, 100], named `Voxels`, first voxel at extent 0. */
 inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int scalarType = VTK_FLOAT)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -142,8 +142,10 @@ inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int sca
   return image;
 }
 
-/// A bright ball (100) in the dark (0), its radius a share of the shortest side; float `Voxels`.
-/// Values fall over about two voxels at the boundary, so that 50 is a sphere.
+/**
+ * A bright ball (100) in the dark (0), its radius a share of the shortest side; float `Voxels`.
+ * Values fall over about two voxels at the boundary, so that 50 is a sphere.
+ */
 inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double radiusShare = 0.3)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();

@@ -20,10 +20,10 @@
 #include <cmath>
 #include <string>
 
-/// What the tests of vtkDeformableSurface share.
+/** What the tests of vtkDeformableSurface share. */
 namespace volumic
 {
-/// The updated filter, for the objects of FilterTestTools.h.
+/** The updated filter, for the objects of FilterTestTools.h. */
 inline vtkSmartPointer<vtkDeformableSurface> SurfaceOf(vtkDataObject* input)
 {
   auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
@@ -33,7 +33,7 @@ inline vtkSmartPointer<vtkDeformableSurface> SurfaceOf(vtkDataObject* input)
   return filter;
 }
 
-/// Value i of a numeric array of the field data, counted over its components; NaN without it.
+/** Value i of a numeric array of the field data, counted over its components; NaN without it. */
 inline double FieldOf(vtkPolyData* surface, const char* name, int i = 0)
 {
   vtkDataArray* array = surface->GetFieldData()->GetArray(name);
@@ -42,7 +42,7 @@ inline double FieldOf(vtkPolyData* surface, const char* name, int i = 0)
     : std::nan("");
 }
 
-/// The field of that name.
+/** The field of that name. */
 inline std::string StopReason(vtkPolyData* surface)
 {
   auto* reason =
@@ -50,7 +50,7 @@ inline std::string StopReason(vtkPolyData* surface)
   return reason ? reason->GetValue(0) : "";
 }
 
-/// Signed, unlike that of vtkMassProperties: negative if the triangles look inward.
+/** Signed, unlike that of vtkMassProperties: negative if the triangles look inward. */
 inline double EnclosedVolume(vtkPolyData* surface)
 {
   double volume = 0.0;
@@ -71,7 +71,7 @@ inline double EnclosedVolume(vtkPolyData* surface)
   return volume;
 }
 
-/// How many edges do not have two triangles.
+/** How many edges do not have two triangles. */
 inline int OpenOrNonManifoldEdges(vtkPolyData* surface)
 {
   vtkNew<vtkFeatureEdges> edges;
@@ -83,7 +83,7 @@ inline int OpenOrNonManifoldEdges(vtkPolyData* surface)
   return static_cast<int>(edges->GetOutput()->GetNumberOfCells());
 }
 
-/// A closed surface whose points and normals are those of a sphere.
+/** A closed surface whose points and normals are those of a sphere. */
 inline void ExpectSphere(
   vtkPolyData* surface, const double* centre, double radius, double tolerance)
 {
@@ -101,7 +101,7 @@ inline void ExpectSphere(
     0.03 * 4. * std::pow(radius, 3));
 }
 
-/// The same points, to the bit, and as many triangles.
+/** The same points, to the bit, and as many triangles. */
 inline bool AreSameSurfaces(vtkPolyData* a, vtkPolyData* b)
 {
   if (a->GetNumberOfPoints() != b->GetNumberOfPoints() ||
@@ -123,7 +123,7 @@ inline bool AreSameSurfaces(vtkPolyData* a, vtkPolyData* b)
   return true;
 }
 
-/// BallImage(40, 40, 40).
+/** BallImage(40, 40, 40). */
 constexpr double BallCentre[3] = { 19.5, 19.5, 19.5 };
 constexpr double BallRadius = 0.3 * 40;
 }

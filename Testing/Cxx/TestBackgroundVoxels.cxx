@@ -31,13 +31,13 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 using Where = std::function<bool(int i, int j, int k)>;
 
-/// Outside a circle about the axis along z, as beyond the field of view of a CT.
+/** Outside a circle about the axis along z, as beyond the field of view of a CT. */
 bool OutsideView(int i, int j, int)
 {
   return std::hypot(i - BallCentre[0], j - BallCentre[1]) > 17.0;
 }
 
-/// Half of the ball.
+/** Half of the ball. */
 bool Right(int i, int, int)
 {
   return i >= 20;
@@ -108,7 +108,7 @@ int CountOf(const std::string& text, const std::string& part)
   return count;
 }
 
-/// With what it warns of unprinted.
+/** With what it warns of unprinted. */
 struct QuietSurface
 {
   vtkNew<vtkVolumeToSurface> Filter;

@@ -23,7 +23,7 @@ using namespace volumic;
 
 namespace
 {
-/// A ball of radius 9.6 about (15.5, 15.5, 15.5), and points to attract its surface.
+/** A ball of radius 9.6 about (15.5, 15.5, 15.5), and points to attract its surface. */
 class DeformableSurfaceAttraction : public ::testing::Test
 {
 protected:
@@ -47,7 +47,7 @@ protected:
     this->Points->GetPointData()->AddArray(array);
   }
 
-  /// By how much the surface reaches beyond the ball along +x.
+  /** By how much the surface reaches beyond the ball along +x. */
   double Bump()
   {
     this->Filter->Update();

@@ -30,8 +30,10 @@ double BallVolume(double radius)
   return 4.0 / 3.0 * vtkMath::Pi() * std::pow(radius, 3);
 }
 
-/// A hollow ball (radii 12 and 8) about (16, 16, 16) that holds a ball of radius 4, and beside it a
-/// ball of radius 6 about (38, 16, 16).
+/**
+ * A hollow ball (radii 12 and 8) about (16, 16, 16) that holds a ball of radius 4, and beside it a
+ * ball of radius 6 about (38, 16, 16).
+ */
 vtkSmartPointer<vtkImageData> HollowBallAndBall()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -65,7 +67,7 @@ protected:
     this->Filter->SetInitializationToIsoSurface();
   }
 
-  /// Volumes of the components that are put out, in their order.
+  /** Volumes of the components that are put out, in their order. */
   std::vector<double> Volumes()
   {
     this->Filter->Update();
@@ -100,7 +102,7 @@ protected:
     return volumes;
   }
 
-  /// Each triangle says of its component what the field data say.
+  /** Each triangle says of its component what the field data say. */
   static void ExpectFeaturesOfCells(vtkPolyData* surface)
   {
     vtkDataArray* component = surface->GetCellData()->GetArray("Component");

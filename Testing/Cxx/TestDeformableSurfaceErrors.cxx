@@ -35,7 +35,7 @@ using namespace volumic;
 
 namespace
 {
-/// A filter that would work: each test spoils one thing, and expects to be told.
+/** A filter that would work: each test spoils one thing, and expects to be told. */
 class DeformableSurfaceErrors : public ::testing::Test
 {
 protected:

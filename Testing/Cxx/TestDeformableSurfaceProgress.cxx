@@ -64,7 +64,7 @@ TEST(DeformableSurfaceProgress, CancellingHandsOverAValidSurface)
 
 namespace
 {
-/// Asks to stop at the n-th progress whose text has a part.
+/** Asks to stop at the n-th progress whose text has a part. */
 struct StopAtText
 {
   std::string Part;

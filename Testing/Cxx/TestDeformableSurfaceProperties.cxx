@@ -7,7 +7,11 @@
 #include <vtkTable.h>
 #include <vtkVariant.h>
 
+#include <cmath>
 #include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 using namespace volumic;
 
@@ -43,6 +47,97 @@ double MeanResidual(vtkPolyData* surface)
   }
   return sum / static_cast<double>(residual->GetNumberOfTuples());
 }
+}
+
+namespace
+{
+/** A property as a number, and a value that is not its default. */
+struct Property
+{
+  std::string Name;
+  std::function<void(vtkDeformableSurface&)> Set;
+  std::function<double(vtkDeformableSurface&)> Get;
+  double Value;
+};
+
+#define VolumicTestedProperty(name, value)                                                         \
+  Property                                                                                         \
+  {                                                                                                \
+    #name, [](vtkDeformableSurface& f) { f.Set##name(value); },                                    \
+      [](vtkDeformableSurface& f) { return static_cast<double>(f.Get##name()); }, value            \
+  }
+
+std::vector<Property> AllProperties()
+{
+  return {
+    VolumicTestedProperty(SelectedComponent, 2),
+    VolumicTestedProperty(NaNIsBackground, 0),
+    VolumicTestedProperty(Metric, 0),
+    VolumicTestedProperty(EdgeLength, 2.5),
+    VolumicTestedProperty(IsoValue, 7),
+    VolumicTestedProperty(ObjectIsBright, 0),
+    VolumicTestedProperty(Initialization, 3),
+    VolumicTestedProperty(SeedRadius, 1.5),
+    VolumicTestedProperty(CoarsestLevel, 4),
+    VolumicTestedProperty(FinestLevel, 1),
+    VolumicTestedProperty(SamplingRatio, 0.75),
+    VolumicTestedProperty(TensionWeight, 0.25),
+    VolumicTestedProperty(ElasticityWeight, 0.5),
+    VolumicTestedProperty(IsopotentialWeight, 0.375),
+    VolumicTestedProperty(GradientWeight, 0.125),
+    VolumicTestedProperty(PointAttractionWeight, 0.625),
+    VolumicTestedProperty(EdgeAttractionWeight, 0.875),
+    VolumicTestedProperty(Friction, 6),
+    VolumicTestedProperty(BorderValue, 1),
+    VolumicTestedProperty(Recovery, 2),
+    VolumicTestedProperty(MinimumPartSize, 30),
+    VolumicTestedProperty(KeepComponents, 3),
+    VolumicTestedProperty(MinimumComponentVolume, 9),
+    VolumicTestedProperty(TopologyChanges, 0),
+    VolumicTestedProperty(MaximumNumberOfIterations, 11),
+    VolumicTestedProperty(ConvergenceTolerance, 0.25),
+    VolumicTestedProperty(FreezeMotionlessVertices, 0),
+    VolumicTestedProperty(SnapToIsoValue, 0),
+    VolumicTestedProperty(NumberOfThreads, 3),
+    VolumicTestedProperty(TimeLimit, 12),
+    VolumicTestedProperty(Preview, 1),
+    VolumicTestedProperty(ShowLevels, 1),
+    VolumicTestedProperty(Profile, 1),
+    VolumicTestedProperty(SnapshotInterval, 13),
+  };
+}
+
+bool AreSame(double a, double b)
+{
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+}
+
+TEST(DeformableSurfaceProperties, EachHasAValueOfItsOwn)
+{
+  const std::vector<Property> all = AllProperties();
+  const auto usual = vtkSmartPointer<vtkDeformableSurface>::New();
+  for (const Property& changed : all)
+  {
+    const auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+    ASSERT_NE(changed.Get(*filter), changed.Value) << changed.Name;
+    const vtkMTimeType before = filter->GetMTime();
+    changed.Set(*filter);
+    const vtkMTimeType after = filter->GetMTime();
+    EXPECT_GT(after, before) << changed.Name;
+    changed.Set(*filter);
+    EXPECT_EQ(filter->GetMTime(), after) << changed.Name;
+    for (const Property& other : all)
+    {
+      const double expected = other.Name == changed.Name ? changed.Value : other.Get(*usual);
+      EXPECT_TRUE(AreSame(other.Get(*filter), expected)) << changed.Name << ", " << other.Name;
+    }
+    std::ostringstream printed;
+    std::ostringstream line;
+    filter->Print(printed);
+    line << "  " << changed.Name << ": " << changed.Value << "\n";
+    EXPECT_NE(printed.str().find(line.str()), std::string::npos) << line.str();
+  }
 }
 
 TEST(DeformableSurfaceProperties, WeightsChangeTheSurface)

@@ -127,7 +127,7 @@ TEST(DeformableSurfaceStart, StartsFromAnIsoSurfaceThroughVoxels)
 
 namespace
 {
-/// The ball, and a rod beside it that is too thin for the coarse levels.
+/** The ball, and a rod beside it that is too thin for the coarse levels. */
 vtkSmartPointer<vtkImageData> BallAndRod()
 {
   const auto image = BallImage(64, 64, 64, 0.25);
@@ -242,7 +242,7 @@ TEST(DeformableSurfaceStart, BeginsWhereTheObjectIsStillThere)
 
 namespace
 {
-/// A ball with a ramp of about a voxel, 100 inside.
+/** A ball with a ramp of about a voxel, 100 inside. */
 vtkSmartPointer<vtkImageData> BallOfRadius(double radius, int size, double ramp = 1.0)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();

@@ -27,7 +27,7 @@ namespace
 {
 constexpr double Far = 1e9;
 
-/// BallImage(40, 40, 40) in whole steps from `base` to `base` + 50, and as an edge map.
+/** BallImage(40, 40, 40) in whole steps from `base` to `base` + 50, and as an edge map. */
 vtkSmartPointer<vtkImageData> BallAt(double base, int scalarType)
 {
   const auto ball = BallImage(40, 40, 40);
@@ -55,7 +55,7 @@ vtkSmartPointer<vtkImageData> BallAt(double base, int scalarType)
 class FarFromZero : public ::testing::TestWithParam<int>
 {
 protected:
-  /// The surface of the far ball must be that of the same one near zero.
+  /** The surface of the far ball must be that of the same one near zero. */
   static void ExpectSame(double tolerance, const std::function<void(vtkDeformableSurface*)>& set)
   {
     vtkNew<vtkDeformableSurface> nearby;

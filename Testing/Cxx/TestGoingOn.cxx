@@ -21,7 +21,7 @@ using namespace volumic;
 
 namespace
 {
-/// A ball, a thin rod and a bubble: something is lost, found again and merged.
+/** A ball, a thin rod and a bubble: something is lost, found again and merged. */
 vtkSmartPointer<vtkImageData> Scene(int size = 64)
 {
   const auto image = BallImage(size, size, size, 0.3);
@@ -80,7 +80,7 @@ void ExpectSameBlocks(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
   }
 }
 
-/// All outputs, but for the seconds.
+/** All outputs, but for the seconds. */
 void ExpectSameOutputs(vtkDeformableSurface* a, vtkDeformableSurface* b)
 {
   ExpectSameSurfaces(a->GetOutput(), b->GetOutput());
@@ -105,7 +105,7 @@ void ExpectSameOutputs(vtkDeformableSurface* a, vtkDeformableSurface* b)
 
 using Choice = std::function<void(vtkDeformableSurface*)>;
 
-/// What a run from the start gives.
+/** What a run from the start gives. */
 vtkSmartPointer<vtkDeformableSurface> FromTheStart(vtkDataObject* input, const Choice& choose, int finest)
 {
   auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
@@ -117,7 +117,7 @@ vtkSmartPointer<vtkDeformableSurface> FromTheStart(vtkDataObject* input, const C
   return filter;
 }
 
-/// Updates; @return whether levels coarser than `level` have iterated, or the pyramid was built.
+/** Updates; @return whether levels coarser than `level` have iterated, or the pyramid was built. */
 bool Reruns(vtkAlgorithm* filter, int level)
 {
   ProgressListener listener(filter);
@@ -137,7 +137,9 @@ bool Reruns(vtkAlgorithm* filter, int level)
     });
 }
 
-/// Updates; @return whether nothing at all is worked on. (The last text of the run before stays.)
+/**
+ * Updates; @return whether nothing at all is worked on. (The last text of the run before stays.)
+ */
 bool ShowsAtOnce(vtkAlgorithm* filter)
 {
   ProgressListener listener(filter);

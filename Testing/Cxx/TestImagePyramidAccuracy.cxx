@@ -21,7 +21,7 @@ using namespace volumic;
 
 namespace
 {
-/// V_h at a place in voxels of level h: trilinear, past the border the nearest voxel.
+/** V_h at a place in voxels of level h: trilinear, past the border the nearest voxel. */
 double Field(vtkImageData* image, std::array<double, 3> place)
 {
   const int* size = image->GetDimensions();
@@ -52,7 +52,7 @@ double Field(vtkImageData* image, std::array<double, 3> place)
   return sum;
 }
 
-/// Equation 5, word by word: the sum over 125 places of the field, each from 8 voxels.
+/** Equation 5, word by word: the sum over 125 places of the field, each from 8 voxels. */
 double DirectSum(vtkImageData* below, const double* spacing, const std::array<int, 3>& voxel)
 {
   const double kernel[5] = { 1 / 16., 4 / 16., 6 / 16., 4 / 16., 1 / 16. };

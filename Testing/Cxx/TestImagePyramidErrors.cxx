@@ -28,7 +28,7 @@ using namespace volumic;
 
 namespace
 {
-/// Runs the filter, which must refuse, and gives its message; the output must be empty.
+/** Runs the filter, which must refuse, and gives its message; the output must be empty. */
 class ImagePyramidErrors : public ::testing::Test
 {
 protected:
@@ -250,7 +250,7 @@ TEST_F(ImagePyramidErrors, AnErrorIsToldOnceAndEndsNoPipeline)
 
 namespace
 {
-/// Memory of this process in bytes, or 0 where that can't be told.
+/** Memory of this process in bytes, or 0 where that can't be told. */
 std::size_t AddressSpaceInUse()
 {
   std::size_t pages = 0;
@@ -265,8 +265,10 @@ std::size_t AddressSpaceInUse()
   return pages * 4096;
 }
 
-/// In a process of its own, because the limit is for the whole process: exits with 0 if the filter
-/// says that the memory does not suffice.
+/**
+ * In a process of its own, because the limit is for the whole process: exits with 0 if the filter
+ * says that the memory does not suffice.
+ */
 [[noreturn]] void RunWithoutMemory()
 {
   const auto image = RandomImage(300, 300, 300, VTK_UNSIGNED_CHAR);

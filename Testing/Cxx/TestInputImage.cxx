@@ -34,7 +34,7 @@ using namespace volumic;
 
 namespace
 {
-/// What a filter says is wrong with an input; it says it once.
+/** What a filter says is wrong with an input; it says it once. */
 std::string ErrorOf(vtkAlgorithm* filter, vtkDataObject* input)
 {
   filter->SetInputDataObject(input);
@@ -86,7 +86,7 @@ std::vector<vtkSmartPointer<vtkAlgorithm>> AllFilters()
     vtkSmartPointer<vtkVolumeToSurface>::New(), vtkSmartPointer<vtkOtsuThreshold>::New() };
 }
 
-/// Composite datasets whose only image is this.
+/** Composite datasets whose only image is this. */
 std::vector<vtkSmartPointer<vtkDataObject>> HoldersOf(vtkImageData* image)
 {
   vtkNew<vtkPolyData> other;
@@ -102,7 +102,7 @@ std::vector<vtkSmartPointer<vtkDataObject>> HoldersOf(vtkImageData* image)
   return { outer, partitions, collection };
 }
 
-/// A ball whose voxels are the second of three components, named `Field`.
+/** A ball whose voxels are the second of three components, named `Field`. */
 vtkSmartPointer<vtkImageData> VectorImage(vtkImageData* image)
 {
   auto vectors = vtkSmartPointer<vtkImageData>::New();

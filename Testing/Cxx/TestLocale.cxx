@@ -28,15 +28,17 @@ using namespace volumic;
 
 namespace
 {
-/// The two ways in which a program can have such a locale.
+/** The two ways in which a program can have such a locale. */
 enum class Way
 {
   Global,  ///< std::locale::global, for streams
   Numeric, ///< setlocale, for printf, std::to_string and strtod
 };
 
-/// Makes LC_NUMERIC of Germany for the tests, so that the system need not have it; false without
-/// localedef.
+/**
+ * Makes LC_NUMERIC of Germany for the tests, so that the system need not have it; false without
+ * localedef.
+ */
 bool MakeCommaForC()
 {
   const std::filesystem::path folder =
@@ -50,7 +52,7 @@ bool MakeCommaForC()
   return std::filesystem::exists(made / "LC_NUMERIC") || std::system(command.c_str()) == 0;
 }
 
-/// Whether printf writes 0,5 from now on.
+/** Whether printf writes 0,5 from now on. */
 bool SetCommaForC()
 {
   static const bool isMade = MakeCommaForC();

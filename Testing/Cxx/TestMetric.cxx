@@ -25,7 +25,7 @@ struct Edges
   double Longest = 0.;
 };
 
-/// Of the surface with its coordinate z divided by `stretch`.
+/** Of the surface with its coordinate z divided by `stretch`. */
 Edges EdgesOf(vtkPolyData* surface, double stretch = 1.)
 {
   Edges edges;

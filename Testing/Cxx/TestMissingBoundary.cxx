@@ -9,7 +9,9 @@ using namespace volumic;
 
 namespace
 {
-/// A ball, and sheets of one voxel about it, which coarse levels lose and level 0 cannot hold well.
+/**
+ * A ball, and sheets of one voxel about it, which coarse levels lose and level 0 cannot hold well.
+ */
 vtkSmartPointer<vtkImageData> BallAndSheets(int sheets)
 {
   const auto image = BallImage(64, 64, 64, 0.25);
@@ -27,7 +29,7 @@ vtkSmartPointer<vtkImageData> BallAndSheets(int sheets)
   return image;
 }
 
-/// Runs, and gives what is warned of.
+/** Runs, and gives what is warned of. */
 std::string WarningsOf(vtkDeformableSurface* filter, vtkImageData* image)
 {
   filter->SetInputData(image);

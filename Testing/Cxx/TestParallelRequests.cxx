@@ -28,7 +28,7 @@ namespace
 {
 constexpr int Side = 24;
 
-/// Makes what it is asked for of a ball of Side^3 voxels, and keeps in mind how much that was.
+/** Makes what it is asked for of a ball of Side^3 voxels, and keeps in mind how much that was. */
 class CountingSource : public vtkImageAlgorithm
 {
 public:
@@ -83,7 +83,7 @@ protected:
 };
 vtkStandardNewMacro(CountingSource);
 
-/// What the source made for one of two processes.
+/** What the source made for one of two processes. */
 vtkIdType VoxelsFor(vtkAlgorithm* filter, int process)
 {
   vtkNew<CountingSource> source;

@@ -13,7 +13,7 @@ using namespace volumic;
 
 namespace
 {
-/// Shows its levels; its preview is level 1 of 2.
+/** Shows its levels; its preview is level 1 of 2. */
 vtkSmartPointer<vtkVolumeToSurface> FilterOf(vtkImageData* image)
 {
   auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
@@ -23,7 +23,7 @@ vtkSmartPointer<vtkVolumeToSurface> FilterOf(vtkImageData* image)
   return filter;
 }
 
-/// The levels that who asks for updates sees, one after the other.
+/** The levels that who asks for updates sees, one after the other. */
 std::vector<int> LevelsShown(vtkDeformableSurface* filter)
 {
   std::vector<int> levels;

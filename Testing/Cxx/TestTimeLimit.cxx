@@ -18,7 +18,7 @@ namespace
 {
 constexpr double Limit = 60.0; ///< More than a run takes.
 
-/// Lets the time pass, all of it, when the n-th progress text with a part is heard.
+/** Lets the time pass, all of it, when the n-th progress text with a part is heard. */
 struct Sleeper
 {
   std::string Part;

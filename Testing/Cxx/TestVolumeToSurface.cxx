@@ -29,7 +29,7 @@ using namespace volumic;
 
 namespace
 {
-/// A row of voxels with these values.
+/** A row of voxels with these values. */
 template <typename Array, typename Value>
 vtkSmartPointer<vtkImageData> RowOf(const std::vector<Value>& values)
 {
@@ -57,7 +57,7 @@ double ThresholdOf(vtkImageData* image)
   return otsu->GetThreshold();
 }
 
-/// The image with its voxels as cells: the same values at the same places.
+/** The image with its voxels as cells: the same values at the same places. */
 vtkSmartPointer<vtkImageData> AsCells(vtkImageData* image)
 {
   auto cells = vtkSmartPointer<vtkImageData>::New();
