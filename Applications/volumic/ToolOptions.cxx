@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentOptions.h"
+#include "ToolOptions.h"
 
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
@@ -20,42 +20,42 @@ struct ProgramOption
   std::string Option;
   std::string Argument;
   std::string Help;
-  std::function<void(SegmentOptions&, const std::string& text)> Set;
+  std::function<void(ToolOptions&, const std::string& text)> Set;
 };
 
 // Options that take a file or name, each into its own member.
 ProgramOption Text(
-  const char* option, const char* argument, std::string SegmentOptions::*member, const char* help)
+  const char* option, const char* argument, std::string ToolOptions::*member, const char* help)
 {
   return { option, argument, help,
-    [member](SegmentOptions& options, const std::string& text) { options.*member = text; } };
+    [member](ToolOptions& options, const std::string& text) { options.*member = text; } };
 }
 
 // Options that add a point to a list, as often as they are given.
 ProgramOption Position(
-  const char* option, SegmentOptions::Positions SegmentOptions::*member, const char* help)
+  const char* option, ToolOptions::Positions ToolOptions::*member, const char* help)
 {
   return { option, "X,Y,Z", help,
-    [member](SegmentOptions& options, const std::string& text)
+    [member](ToolOptions& options, const std::string& text)
     {
       const std::vector<double> numbers = ParseNumbers(text, 3);
       (options.*member).push_back({ numbers[0], numbers[1], numbers[2] });
     } };
 }
 
-ProgramOption Switch(const char* option, bool SegmentOptions::*member, const char* help)
+ProgramOption Switch(const char* option, bool ToolOptions::*member, const char* help)
 {
   return { option, "", help,
-    [member](SegmentOptions& options, const std::string&) { options.*member = true; } };
+    [member](ToolOptions& options, const std::string&) { options.*member = true; } };
 }
 
-ProgramOption Show(const char* option, enum SegmentOptions::Task task, const char* help)
+ProgramOption Show(const char* option, enum ToolOptions::Task task, const char* help)
 {
   return { option, "", help,
-    [task](SegmentOptions& options, const std::string&) { options.Task = task; } };
+    [task](ToolOptions& options, const std::string&) { options.Task = task; } };
 }
 
-void SetSpacing(SegmentOptions& options, const std::string& text)
+void SetSpacing(ToolOptions& options, const std::string& text)
 {
   const std::vector<double> numbers = ParseNumbers(text, 3);
   if (*std::min_element(numbers.begin(), numbers.end()) <= 0.0)
@@ -68,25 +68,25 @@ void SetSpacing(SegmentOptions& options, const std::string& text)
 const std::vector<ProgramOption>& InputOptions()
 {
   static const std::vector<ProgramOption> options = {
-    Text("array", "NAME", &SegmentOptions::Array,
+    Text("array", "NAME", &ToolOptions::Array,
       "the point array of the volume to use; without this option the active scalars"),
     { "spacing", "X,Y,Z",
       "distances of neighbouring voxels along the three axes, instead of the file's", SetSpacing },
-    Text("seeds", "FILE", &SegmentOptions::Seeds,
+    Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
       "a .txt, .csv or .xyz file; world coordinates"),
-    Position("seed-position", &SegmentOptions::SeedPositions,
+    Position("seed-position", &ToolOptions::SeedPositions,
       "start from an icosahedron at this point too; world coordinates; may be given several times"),
-    Text("initial-surface", "FILE", &SegmentOptions::InitialSurface,
+    Text("initial-surface", "FILE", &ToolOptions::InitialSurface,
       "start from this closed surface: .vtp, .vtk, .stl, .ply or .obj; world coordinates"),
-    Text("attracting-points", "FILE", &SegmentOptions::AttractingPoints,
+    Text("attracting-points", "FILE", &ToolOptions::AttractingPoints,
       "points known to belong to the object, see --point-attraction: a mesh file's, with its "
       "arrays "
       "Weight and Radius, or the lines 'x y z [weight [radius]]' of a .txt, .csv or .xyz file; "
       "world coordinates"),
-    Position("attracting-position", &SegmentOptions::AttractingPositions,
+    Position("attracting-position", &ToolOptions::AttractingPositions,
       "a point known to belong to the object too; world coordinates; may be given several times"),
-    Text("edges", "NAME|FILE", &SegmentOptions::Edges,
+    Text("edges", "NAME|FILE", &ToolOptions::Edges,
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
   };
@@ -96,22 +96,22 @@ const std::vector<ProgramOption>& InputOptions()
 const std::vector<ProgramOption>& OutputOptions()
 {
   static const std::vector<ProgramOption> options = {
-    Text("history", "FILE.csv", &SegmentOptions::History, "write a line per iteration"),
-    Text("levels-output", "FILE.vtm|DIR", &SegmentOptions::Levels,
+    Text("history", "FILE.csv", &ToolOptions::History, "write a line per iteration"),
+    Text("levels-output", "FILE.vtm|DIR", &ToolOptions::Levels,
       "write the surface of each level: as blocks, or as level-0.vtp, level-1.vtp, ... in a "
       "folder"),
-    Text("snapshots", "FILE.vtm|DIR", &SegmentOptions::Snapshots,
+    Text("snapshots", "FILE.vtm|DIR", &ToolOptions::Snapshots,
       "write the surface on its way, every --snapshot-interval iterations (10 if that is not "
       "given): as blocks, or as snapshot-0.vtp, ... in a folder"),
-    Text("report", "FILE.json", &SegmentOptions::Report,
+    Text("report", "FILE.json", &ToolOptions::Report,
       "write components, genus, area, volume, seconds, ...; - for the standard output"),
-    Switch("quiet", &SegmentOptions::Quiet, "print errors only"),
-    Switch("progress", &SegmentOptions::Progress,
+    Switch("quiet", &ToolOptions::Quiet, "print errors only"),
+    Switch("progress", &ToolOptions::Progress,
       "print the progress even if the standard error is no terminal, then in lines"),
-    Show("list-properties", SegmentOptions::Task::ListProperties,
+    Show("list-properties", ToolOptions::Task::ListProperties,
       "print the options that are properties of the filters: class, property, option, default"),
-    Show("help", SegmentOptions::Task::ShowHelp, "print this text"),
-    Show("version", SegmentOptions::Task::ShowVersion, "print the versions of Volumic and VTK"),
+    Show("help", ToolOptions::Task::ShowHelp, "print this text"),
+    Show("version", ToolOptions::Task::ShowVersion, "print the versions of Volumic and VTK"),
   };
   return options;
 }
@@ -149,7 +149,7 @@ FoundOption FindOption(const std::string& name)
   return found;
 }
 
-void ApplyOption(SegmentOptions& options, const FoundOption& found, const std::string& text)
+void ApplyOption(ToolOptions& options, const FoundOption& found, const std::string& text)
 {
   if (found.Program)
   {
@@ -161,9 +161,9 @@ void ApplyOption(SegmentOptions& options, const FoundOption& found, const std::s
   }
 }
 
-void CheckComplete(SegmentOptions& options)
+void CheckComplete(ToolOptions& options)
 {
-  if (options.Task != SegmentOptions::Task::Segment)
+  if (options.Task != ToolOptions::Task::Segment)
   {
     return;
   }
@@ -214,15 +214,15 @@ void PrintOption(std::ostream& out, const std::string& option, const std::string
 }
 }
 
-bool SegmentOptions::HasProperty(const std::string& property) const
+bool ToolOptions::HasProperty(const std::string& property) const
 {
   return std::any_of(this->Properties.begin(), this->Properties.end(),
     [&](const auto& chosen) { return chosen.first->Property == property; });
 }
 
-SegmentOptions ParseOptions(int argc, const char* const argv[])
+ToolOptions ParseOptions(int argc, const char* const argv[])
 {
-  SegmentOptions options;
+  ToolOptions options;
   bool isPlain = false;
   for (int i = 1; i < argc; ++i)
   {
@@ -275,7 +275,7 @@ SegmentOptions ParseOptions(int argc, const char* const argv[])
   return options;
 }
 
-void ApplyProperties(const SegmentOptions& options, const FilterPair& filters)
+void ApplyProperties(const ToolOptions& options, const FilterPair& filters)
 {
   for (const auto& [property, text] : options.Properties)
   {

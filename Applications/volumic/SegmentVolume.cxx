@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentVolume.h"
 
-// From a volume to a closed surface: the program that is installed as `volumic`. See volumic.1, or
-//   volumic --help
+#include "Announcer.h"
 #include "InputFiles.h"
+#include "LoadVolume.h"
 #include "OutputChecks.h"
 #include "ParseNumbers.h"
 #include "ReadStart.h"
 #include "ReadVolume.h"
 #include "Report.h"
 #include "RunFilter.h"
-#include "SegmentOptions.h"
 #include "ToolErrors.h"
-#include "VolumeImage.h"
+#include "ToolOptions.h"
 #include "WriteResults.h"
 
 #include <vtkDataArray.h>
@@ -26,53 +26,22 @@
 #include <vtkOtsuThreshold.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSMPTools.h>
 #include <vtkTable.h>
-#include <vtkVersion.h>
 #include <vtkVolumeToSurface.h>
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 #include <utility>
 
+namespace tool
+{
 namespace
 {
-using namespace tool;
-
-/// What is told on stderr, unless --quiet.
-class Announcer
-{
-public:
-  explicit Announcer(const SegmentOptions& options) : IsQuiet(options.Quiet)
-  {
-    const bool isTerminal = isatty(STDERR_FILENO) != 0;
-    this->Style = options.Quiet ? ProgressStyle::None
-      : isTerminal              ? ProgressStyle::OneLine
-      : options.Progress        ? ProgressStyle::Lines
-                                : ProgressStyle::None;
-  }
-
-  void Say(const std::string& text) const
-  {
-    if (!this->IsQuiet)
-    {
-      std::cerr << "volumic: " << text << "\n";
-    }
-  }
-
-  ProgressStyle Style;
-
-private:
-  bool IsQuiet;
-};
-
 /// Whether the surfaces go into one .vtm rather than into a folder.
 bool IsBlocks(const std::string& name)
 {
@@ -80,7 +49,7 @@ bool IsBlocks(const std::string& name)
 }
 
 /// All that can be known to be wrong before the work begins.
-void CheckFiles(const SegmentOptions& options)
+void CheckFiles(const ToolOptions& options)
 {
   std::vector<OutputName> outputs;
   for (const std::string& name : options.Surfaces)
@@ -113,41 +82,7 @@ void CheckFiles(const SegmentOptions& options)
   CheckOutputs(outputs, inputs);
 }
 
-/// @param component of its voxels, -1: the magnitude
-vtkSmartPointer<vtkImageData> LoadVolume(
-  const SegmentOptions& options, int component, const Announcer& announcer)
-{
-  const vtkSmartPointer<vtkImageData> image = ReadVolume(options.Volume);
-  try
-  {
-    ChooseScalars(image, options.Array);
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(options.Volume + ": " + failure.what());
-  }
-  if (options.Spacing)
-  {
-    image->SetSpacing(options.Spacing->data());
-  }
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  const int* size = image->GetDimensions();
-  const double* spacing = image->GetSpacing();
-  const auto times = [](auto a, auto b, auto c)
-  { return NumberText(a) + " x " + NumberText(b) + " x " + NumberText(c); };
-  const std::array<double, 2> range = RangeOf(scalars, component);
-  const int components = scalars->GetNumberOfComponents();
-  const std::string taken = components == 1
-    ? ""
-    : (component < 0 ? "magnitude" : "component " + NumberText(component)) + " of " +
-      NumberText(components) + " components (--component), ";
-  announcer.Say(options.Volume + ": " + times(size[0], size[1], size[2]) + " voxels of " +
-    times(spacing[0], spacing[1], spacing[2]) + ", " + scalars->GetDataTypeAsString() + ", " +
-    taken + NumberText(range[0]) + " to " + NumberText(range[1]));
-  return image;
-}
-
-void SetStart(const SegmentOptions& options, vtkDeformableSurface* filter)
+void SetStart(const ToolOptions& options, vtkDeformableSurface* filter)
 {
   const bool isChosen = options.HasProperty("Initialization");
   for (const auto& place : options.SeedPositions)
@@ -184,7 +119,7 @@ void SetStart(const SegmentOptions& options, vtkDeformableSurface* filter)
 }
 
 /// Hand the map of edges to the filter, as a second array of the volume.
-void SetEdges(const SegmentOptions& options, vtkImageData* volume, vtkDeformableSurface* filter)
+void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter)
 {
   if (options.Edges.empty())
   {
@@ -236,7 +171,7 @@ void Attempt(std::string& failures, const Write& write)
 }
 
 /// @throws Failure if not all could be written, with a line for each file.
-void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
+void WriteOutputs(const ToolOptions& options, const ReportInput& results)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
   const std::string remark = std::string("volumic " VOLUMIC_VERSION) +
@@ -282,7 +217,7 @@ void WriteOutputs(const SegmentOptions& options, const ReportInput& results)
 }
 
 /// Run a filter; of too little memory, whoever told of it, is said for which volume and what helps.
-FilterRun RunOnVolume(const SegmentOptions& options, vtkAlgorithm* filter, const std::string& title,
+FilterRun RunOnVolume(const ToolOptions& options, vtkAlgorithm* filter, const std::string& title,
   ProgressStyle style)
 {
   const std::string help =
@@ -306,7 +241,7 @@ FilterRun RunOnVolume(const SegmentOptions& options, vtkAlgorithm* filter, const
 
 /// Gives the surface's filter its levels: a pyramid that is run here, or, where the length of the
 /// edges decides on the pyramid, the volume. @return the run of the pyramid, if there was one.
-FilterRun GiveLevels(const SegmentOptions& options, vtkImageData* volume, vtkImagePyramid* pyramid,
+FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImagePyramid* pyramid,
   vtkDeformableSurface* filter, ProgressStyle style)
 {
   if (auto* whole = vtkVolumeToSurface::SafeDownCast(filter))
@@ -329,9 +264,10 @@ FilterRun GiveLevels(const SegmentOptions& options, vtkImageData* volume, vtkIma
   filter->SetInputConnection(pyramid->GetOutputPort());
   return run;
 }
+}
 
-ExitCode Segment(
-  const SegmentOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
+ExitCode SegmentVolume(
+  const ToolOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
 {
   const Announcer announcer(options);
   CheckFiles(options);
@@ -396,82 +332,4 @@ ExitCode Segment(
   }
   return results.IsFinished ? Success : Unfinished;
 }
-
-ExitCode Run(int argc, char* argv[])
-{
-  const SegmentOptions options = ParseOptions(argc, argv);
-  vtkNew<vtkImagePyramid> pyramid;
-  vtkSmartPointer<vtkDeformableSurface> filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  if (options.HasProperty("EdgeLength"))
-  {
-    filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-  }
-  const FilterPair filters{ pyramid, filter };
-  switch (options.Task)
-  {
-    case SegmentOptions::Task::ShowHelp:
-      PrintHelp(std::cout, filters);
-      return Success;
-    case SegmentOptions::Task::ShowVersion:
-      std::cout << "volumic " VOLUMIC_VERSION " (VTK " << vtkVersion::GetVTKVersion() << ")\n";
-      return Success;
-    case SegmentOptions::Task::ListProperties:
-      PrintProperties(std::cout, filters);
-      return Success;
-    case SegmentOptions::Task::Segment:
-      break;
-  }
-  ApplyProperties(options, filters);
-  try
-  {
-    return Segment(options, pyramid, filter);
-  }
-  catch (const std::bad_alloc&)
-  {
-    throw Failure(options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
-  }
-  catch (const std::exception& error)
-  {
-    // By its words only TBB, which VTK's threads may be of, tells that it gets no memory for one.
-    if (std::string(error.what()).find("pthread_create") == std::string::npos)
-    {
-      throw;
-    }
-    throw Failure(options.Volume + ": not enough memory to segment it: no thread can be started; "
-      "crop it, or resample it to fewer voxels");
-  }
-}
-}
-
-int main(int argc, char* argv[])
-{
-  // Under a limit of memory VTK's own threads of the standard library end the program; Volumic's
-  // don't.
-  if (vtkSMPTools::GetBackend() == std::string("STDThread"))
-  {
-    vtkSMPTools::SetBackend("Sequential");
-  }
-  try
-  {
-    const ExitCode code = Run(argc, argv);
-    if (!std::cout.flush())
-    {
-      throw Failure("the standard output cannot be written; is its disk full?");
-    }
-    return code;
-  }
-  catch (const tool::UsageError& error)
-  {
-    std::cerr << "volumic: " << error.what() << "\nTry 'volumic --help'.\n";
-    return tool::UsageFailure;
-  }
-  catch (const std::bad_alloc&)
-  {
-    std::cerr << "volumic: not enough memory\n";
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "volumic: " << error.what() << "\n";
-  }
-  return tool::RuntimeFailure;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicSegmentOptions_h
-#define volumicSegmentOptions_h
+#ifndef volumicToolOptions_h
+#define volumicToolOptions_h
 
 #include "SurfaceProperties.h"
 
@@ -15,7 +15,7 @@
 namespace tool
 {
 /// What the command line asks for.
-struct SegmentOptions
+struct ToolOptions
 {
   using Positions = std::vector<std::array<double, 3>>; ///< world coordinates
   enum class Task
@@ -51,10 +51,10 @@ struct SegmentOptions
 };
 
 /// @throws UsageError if the command line is not understood or lacks something.
-SegmentOptions ParseOptions(int argc, const char* const argv[]);
+ToolOptions ParseOptions(int argc, const char* const argv[]);
 
 /// Set the chosen properties. @throws UsageError if a text is no value of its property.
-void ApplyProperties(const SegmentOptions& options, const FilterPair& filters);
+void ApplyProperties(const ToolOptions& options, const FilterPair& filters);
 
 /// The text of --help; the defaults of the properties are the filters' own.
 void PrintHelp(std::ostream& out, const FilterPair& filters);
