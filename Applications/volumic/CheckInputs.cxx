@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -75,6 +76,49 @@ void CheckMetaText(std::ifstream& file, std::uint64_t values)
   }
 }
 
+/// Files that hold the data together, as much each.
+void CheckMetaFiles(const std::vector<std::string>& files, std::uint64_t needed)
+{
+  for (const std::string& file : files)
+  {
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(file, failed);
+    if (failed)
+    {
+      throw Failure("its data file " + file + " cannot be opened");
+    }
+    if (size < needed / files.size())
+    {
+      throw Failure("its data file " + file + " is cut off: it has " + std::to_string(size) +
+        " bytes, " + std::to_string(needed / files.size()) + " are needed");
+    }
+  }
+}
+
+/// The files of "slice%03d.raw FIRST LAST [STEP]"; none if the pattern is another.
+std::vector<std::string> FilesOfMetaPattern(const std::string& name, const std::string& words)
+{
+  static const std::regex pattern(R"((\S*)%(0?)(\d*)d(\S*) +(\d+) +(\d+)(?: +(\d+))?)");
+  std::smatch match;
+  std::vector<std::string> files;
+  if (!std::regex_match(words, match, pattern))
+  {
+    return files;
+  }
+  const auto number = [&](int part) { return std::strtol(match[part].str().c_str(), nullptr, 10); };
+  const long step = match[7].matched ? std::max(number(7), 1L) : 1;
+  const std::size_t most = 100000; // a damaged header's range may have no end
+  for (long i = number(5); i <= number(6) && files.size() < most; i += step)
+  {
+    std::string digits = std::to_string(i);
+    const auto width = static_cast<std::size_t>(number(3));
+    digits.insert(0, width - std::min(width, digits.size()), match[2].length() > 0 ? '0' : ' ');
+    files.push_back((std::filesystem::path(name).parent_path() /
+      (match[1].str() + digits + match[4].str())).string());
+  }
+  return files;
+}
+
 /// The files in the lines behind the header: one for each slice, or one if there is but one.
 void CheckMetaList(const std::string& name, std::uint64_t needed)
 {
@@ -95,20 +139,8 @@ void CheckMetaList(const std::string& name, std::uint64_t needed)
     throw Failure("its header lists " + std::to_string(files.size() - 1) + " files for " +
       std::to_string(slices) + " slices");
   }
-  for (std::uint64_t i = 1; i <= slices; ++i)
-  {
-    std::error_code failed;
-    const std::uintmax_t size = std::filesystem::file_size(files[i], failed);
-    if (failed)
-    {
-      throw Failure("its data file " + files[i] + " cannot be opened");
-    }
-    if (size < needed / slices)
-    {
-      throw Failure("its data file " + files[i] + " is cut off: it has " + std::to_string(size) +
-        " bytes, " + std::to_string(needed / slices) + " are needed");
-    }
-  }
+  const auto first = files.begin() + 1;
+  CheckMetaFiles({ first, first + static_cast<std::ptrdiff_t>(slices) }, needed);
 }
 
 // ---- NIfTI --------------------------------------------------------------------------------------
@@ -149,9 +181,15 @@ bool CheckMeta(const std::string& name)
   const std::uint64_t values = MetaValues(name);
   const std::uint64_t needed = Times(values, bytes);
   const bool isPacked = IsTrue(HeaderValue(name, "CompressedData"));
-  if (dataFile.find('%') != std::string::npos || dataFile.empty() || bytes == 0)
+  if (dataFile.empty() || bytes == 0)
   {
     return false;
+  }
+  if (dataFile.find('%') != std::string::npos)
+  {
+    const std::vector<std::string> files = FilesOfMetaPattern(name, dataFile);
+    CheckMetaFiles(files, isPacked ? 0 : needed);
+    return !isPacked && !files.empty();
   }
   if (dataFile.compare(0, 4, "LIST") == 0)
   {

@@ -12,7 +12,7 @@ namespace tool
 // with the bytes that are there and those that its header asks for.
 
 /// MetaImage (.mha, .mhd): the size of the data, and the checksum of packed ones. False where that
-/// was not possible: packed data in several files, or files of a pattern.
+/// was not possible: packed data in several files.
 bool CheckMeta(const std::string& name);
 
 /// NIfTI and Analyze: the type of the voxels, and the checksum of a packed file.

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DicomHeader.h"
 
+#include "ParseNumbers.h"
 #include "ToolErrors.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <vector>
 
 namespace tool
@@ -149,12 +151,42 @@ void TakeSyntax(const std::string& syntax, ElementStream& stream)
   }
 }
 
+/// What the element is called, if vtkDICOMImageReader takes a number from its text; else null.
+const char* NameOfDecimal(const Element& element)
+{
+  return element.Tag == Tag(0x0020, 0x0032) ? "position"
+    : element.Tag == Tag(0x0020, 0x0037)    ? "orientation"
+    : element.Tag == Tag(0x0028, 0x0030)    ? "spacing"
+    : element.Tag == Tag(0x0028, 0x1052)    ? "intercept"
+    : element.Tag == Tag(0x0028, 0x1053)    ? "slope"
+                                            : nullptr;
+}
+
+/// @throws Failure if a part of the text, between backslashes, is no number.
+void CheckDecimal(const std::string& text, const char* name)
+{
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, '\\');)
+  {
+    part.erase(std::remove(part.begin(), part.end(), ' '), part.end());
+    try
+    {
+      ParseNumber<double>(part);
+    }
+    catch (const UsageError&)
+    {
+      throw Failure(std::string("its header is damaged: ") + name + " '" + text + "'");
+    }
+  }
+}
+
 /// Keep the value of the element, or go behind it.
 void Take(const Element& element, ElementStream& stream, DicomHeader& header)
 {
   std::string* text = element.Tag == Tag(0x0002, 0x0010) ? &header.Syntax
     : element.Tag == Tag(0x0002, 0x0002)                 ? &header.Class
     : element.Tag == Tag(0x0008, 0x0016)                 ? &header.Class
+    : element.Tag == Tag(0x0008, 0x103E)                 ? &header.Description
     : element.Tag == Tag(0x0020, 0x000E)                 ? &header.Series
                                                          : nullptr;
   int* number = element.Tag == Tag(0x0028, 0x0002) ? &header.Samples
@@ -178,6 +210,10 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
     {
       throw Failure("its header is damaged: the number of frames is '" + frames + "'");
     }
+  }
+  else if (const char* name = NameOfDecimal(element); name && element.Length != Undefined)
+  {
+    CheckDecimal(Text(stream.Bytes(element.Length)), name);
   }
   else
   {

@@ -14,6 +14,7 @@ struct DicomHeader
   std::string Syntax; ///< how the file is encoded, an identifier
   std::string Class;  ///< of the object: an image of CT, a report, ...
   std::string Series; ///< the identifier of the series
+  std::string Description; ///< of the series, for people
   int Samples = 1;    ///< per pixel
   int Frames = 1;
   int Rows = 0;

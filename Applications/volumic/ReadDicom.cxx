@@ -23,6 +23,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -38,7 +39,6 @@ struct Slice
   Vector3 Down;
   Vector3 Spacing; ///< between columns, between rows; the thickness
   std::string Study;
-  std::string Series;
   vtkSmartPointer<vtkImageData> Image;
 };
 
@@ -66,6 +66,10 @@ void CheckPixels(const DicomHeader& header)
   if (header.Frames > 1)
   {
     throw Failure(NumberText(header.Frames) + " frames; files of several frames are not read");
+  }
+  if (header.Samples != 1)
+  {
+    throw Failure(NumberText(header.Samples) + " components per pixel; one is needed");
   }
   if (header.Bits != 8 && header.Bits != 16)
   {
@@ -100,7 +104,41 @@ DicomHeader ReadHeader(const std::string& file)
   }
 }
 
-Slice ReadSlice(const std::string& file, const DicomHeader& header)
+/// @throws Failure with a list of the series unless there is one. `files` have these headers.
+void CheckSingleSeries(
+  const std::vector<std::string>& files, const std::vector<DicomHeader>& headers)
+{
+  std::vector<std::pair<std::size_t, int>> series; // the first file of each, and how many it has
+  for (std::size_t i = 0; i < headers.size(); ++i)
+  {
+    const auto found = std::find_if(series.begin(), series.end(),
+      [&](const auto& other) { return headers[other.first].Series == headers[i].Series; });
+    if (found == series.end())
+    {
+      series.emplace_back(i, 1);
+    }
+    else
+    {
+      ++found->second;
+    }
+  }
+  if (series.size() < 2)
+  {
+    return;
+  }
+  std::string names;
+  for (const auto& [first, count] : series)
+  {
+    const std::string& description = headers[first].Description;
+    names += (names.empty() ? "" : "; ") + (description.empty() ? "unnamed" : description) + ": " +
+      NumberText(count) + (count == 1 ? " file, " : " files, from ") +
+      std::filesystem::path(files[first]).filename().string();
+  }
+  throw Failure(NumberText(static_cast<int>(series.size())) +
+    " series, one per folder is needed (" + names + ")");
+}
+
+Slice ReadSlice(const std::string& file)
 {
   vtkNew<vtkDICOMImageReader> reader;
   reader->SetFileName(file.c_str());
@@ -122,7 +160,6 @@ Slice ReadSlice(const std::string& file, const DicomHeader& header)
   // The file has the distance of the rows first, and so had VTK's reader.
   std::swap(slice.Spacing[0], slice.Spacing[1]);
 #endif
-  slice.Series = header.Series;
   slice.Study = reader->GetStudyUID() ? reader->GetStudyUID() : "";
   slice.Image = reader->GetOutput();
   if (!slice.Image->GetPointData()->GetScalars())
@@ -134,7 +171,7 @@ Slice ReadSlice(const std::string& file, const DicomHeader& header)
 
 void CheckFits(const Slice& slice, const Slice& first)
 {
-  const bool isSameSeries = slice.Study == first.Study && slice.Series == first.Series &&
+  const bool isSameSeries = slice.Study == first.Study &&
     Dot(slice.Across, first.Across) > 0.999 && Dot(slice.Down, first.Down) > 0.999;
   const bool isSameSize = std::equal(slice.Image->GetDimensions(), slice.Image->GetDimensions() + 2,
                             first.Image->GetDimensions()) &&
@@ -143,9 +180,7 @@ void CheckFits(const Slice& slice, const Slice& first)
   if (!isSameSeries || !isSameSize)
   {
     throw Failure(slice.File + ": its " +
-      (!isSameSize                       ? "size or pixel spacing"
-          : slice.Series != first.Series ? "series"
-                                         : "study or orientation") +
+      (isSameSize ? "study or orientation" : "size or pixel spacing") +
       " differs from that of " + first.File + "; one series per folder is needed");
   }
 }
@@ -169,14 +204,22 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
         " does; one series per folder is needed");
     }
   }
+  double shortest = mean;
+  double longest = mean;
+  for (std::size_t i = 1; i < slices.size(); ++i)
+  {
+    shortest = std::min(shortest, along(i) - along(i - 1));
+    longest = std::max(longest, along(i) - along(i - 1));
+  }
+  if (std::max(longest - mean, mean - shortest) > UnevenDistance * mean)
+  {
+    const auto rounded = [](double length) { return NumberText(std::round(1e3 * length) / 1e3); };
+    throw Failure("slices are " + rounded(shortest) + " to " + rounded(longest) +
+      " mm apart: some are missing, or the volume must be resampled");
+  }
   for (std::size_t i = 1; i < slices.size(); ++i)
   {
     const double step = along(i) - along(i - 1);
-    if (std::abs(step - mean) > UnevenDistance * mean)
-    {
-      throw Failure(slices[i].File + " is " + NumberText(step) + " mm from the slice before, " +
-        NumberText(mean) + " mm is the mean: some are missing, or the volume must be resampled");
-    }
     Vector3 aside;
     for (int c = 0; c < 3; ++c)
     {
@@ -220,23 +263,26 @@ bool IsDicom(const std::string& file)
 
 vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
 {
-  std::vector<Slice> slices;
-  int type = 0;
+  std::vector<std::string> images;
+  std::vector<DicomHeader> headers;
   for (const std::string& file : files)
   {
     const DicomHeader header = ReadHeader(file);
-    if (header.IsOtherThanImage())
+    if (!header.IsOtherThanImage())
     {
-      continue;
+      images.push_back(file);
+      headers.push_back(header);
     }
-    slices.push_back(ReadSlice(file, header));
+  }
+  CheckSingleSeries(images, headers);
+
+  std::vector<Slice> slices;
+  int type = 0;
+  for (const std::string& file : images)
+  {
+    slices.push_back(ReadSlice(file));
     CheckFits(slices.back(), slices.front());
     vtkDataArray* pixels = slices.back().Image->GetPointData()->GetScalars();
-    if (pixels->GetNumberOfComponents() != 1)
-    {
-      throw Failure(file + ": " + NumberText(pixels->GetNumberOfComponents()) +
-        " components per pixel; one is needed");
-    }
     // Slices may differ in slope and shift, and so in type: the widest holds all.
     const bool isWider = slices.size() == 1 ||
       pixels->GetDataTypeSize() > vtkDataArray::GetDataTypeSize(type) ||
@@ -258,7 +304,9 @@ vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
   placement.Spacing = { slices[0].Spacing[0], slices[0].Spacing[1], distance };
   placement.Origin = slices[0].Position;
   const int* size = slices[0].Image->GetDimensions();
-  return MakeImage(
+  vtkSmartPointer<vtkImageData> image = MakeImage(
     { size[0], size[1], static_cast<int>(slices.size()) }, StackVoxels(slices, type), placement);
+  SetWorldAxes(image, "LPS");
+  return image;
 }
 }

@@ -34,6 +34,7 @@ struct Description
   std::array<int, 3> Size = { 0, 0, 0 }; ///< voxels along x, y, z
   VolumePlacement Placement;
   std::string File = "matrix.dat";
+  bool IsAxial = true; ///< the slices
 };
 
 std::string TextOf(vtkXMLDataElement* element)
@@ -123,6 +124,10 @@ Description Describe(const std::string& plist)
     throw Failure("main.plist: the sizes " + shape[0] + " x " + shape[1] + " x " + shape[2] +
       " are not those of a volume");
   }
+  if (vtkXMLDataElement* orientation = Find(project, "orientation"))
+  {
+    description.IsAxial = TextOf(orientation) == "1";
+  }
   return description;
 }
 
@@ -203,6 +208,13 @@ vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
   archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
   archive.Finish();
   SwapLittleEndian(values);
-  return MakeImage(description.Size, values, description.Placement);
+  vtkSmartPointer<vtkImageData> image =
+    MakeImage(description.Size, values, description.Placement);
+  if (description.IsAxial)
+  {
+    // The rows of axial slices are stored from back to front: a left-handed frame.
+    SetWorldAxes(image, "LAS");
+  }
+  return image;
 }
 }

@@ -5,6 +5,7 @@
 // here: https://teem.sourceforge.net/nrrd/format.html.
 #include "ReadVolume.h"
 
+#include "Bunzip.h"
 #include "Inflate.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
@@ -161,9 +162,13 @@ void Decode(std::string data, const Fields& fields, vtkDataArray* values)
   {
     data = Unzipped(data, size + std::max(skip, 0));
   }
+  else if (encoding == "bzip2" || encoding == "bz2")
+  {
+    data = Bunzip(data, size + std::max(skip, 0));
+  }
   else if (encoding != "raw")
   {
-    throw Failure("the encoding '" + encoding + "' is not read: raw, gzip and text are");
+    throw Failure("the encoding '" + encoding + "' is not read: raw, gzip, bzip2 and text are");
   }
   const std::size_t start =
     skip >= 0 ? static_cast<std::size_t>(skip) : data.size() - std::min(size, data.size());
@@ -237,6 +242,16 @@ VolumePlacement PlacementOf(const Fields& fields)
   }
   return placement;
 }
+
+/// The sides of the body that the axes of a `space` point to; empty for other spaces.
+std::string WorldAxesOf(const std::string& space)
+{
+  static const std::map<std::string, std::string> axes = { { "right-anterior-superior", "RAS" },
+    { "ras", "RAS" }, { "left-anterior-superior", "LAS" }, { "las", "LAS" },
+    { "left-posterior-superior", "LPS" }, { "lps", "LPS" } };
+  const auto found = axes.find(Lower(space));
+  return found == axes.end() ? "" : found->second;
+}
 }
 
 vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
@@ -266,7 +281,13 @@ vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
     Decode(file.empty() ? content.substr(dataStart)
                         : ReadBytes((std::filesystem::path(name).parent_path() / file).string()),
       fields, values);
-    return MakeImage(size, values, PlacementOf(fields));
+    vtkSmartPointer<vtkImageData> image = MakeImage(size, values, PlacementOf(fields));
+    const std::string axes = WorldAxesOf(Field(fields, "space", ""));
+    if (!axes.empty())
+    {
+      SetWorldAxes(image, axes);
+    }
+    return image;
   }
   catch (const UsageError& error)
   {

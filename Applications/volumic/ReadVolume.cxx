@@ -3,6 +3,7 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
+#include "InputFiles.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
@@ -101,35 +102,42 @@ Image ReadMetaVoxels(const std::string& name, bool isWhole)
   return image;
 }
 
+/// The directions of the axes that a MetaImage's header lists, axis after axis.
+std::array<Vector3, 3> MetaAxes(const std::string& name, const std::string& key)
+{
+  std::istringstream words(HeaderValue(name, key));
+  std::array<Vector3, 3> axes;
+  for (Vector3& axis : axes)
+  {
+    if (!(words >> axis[0] >> axis[1] >> axis[2]))
+    {
+      throw Failure(key + " does not hold nine numbers");
+    }
+  }
+  return axes;
+}
+
 /// MetaImage; VTK's reader drops the directions of the axes, which are in the header's text.
 Image ReadMeta(const std::string& name)
 {
   const bool isWhole = CheckMeta(name);
   Image image = ReadMetaVoxels(name, isWhole);
-  std::ifstream file(name, std::ios::binary);
-  std::string line;
-  while (std::getline(file, line) && line.compare(0, 15, "ElementDataFile") != 0)
+  for (const char* key : { "TransformMatrix", "Rotation", "Orientation" })
   {
-    std::istringstream words(line);
-    std::string key;
-    std::string equals;
-    words >> key >> equals;
-    if (key != "TransformMatrix" && key != "Rotation" && key != "Orientation")
+    if (!HeaderValue(name, key).empty())
     {
-      continue;
+      VolumePlacement placement;
+      placement.Axes = MetaAxes(name, key);
+      image->GetSpacing(placement.Spacing.data());
+      image->GetOrigin(placement.Origin.data());
+      PlaceImage(image, placement);
+      break;
     }
-    VolumePlacement placement;
-    for (Vector3& axis : placement.Axes) // the file lists axis after axis
-    {
-      if (!(words >> axis[0] >> axis[1] >> axis[2]))
-      {
-        throw Failure(key + " does not hold nine numbers");
-      }
-    }
-    image->GetSpacing(placement.Spacing.data());
-    image->GetOrigin(placement.Origin.data());
-    PlaceImage(image, placement);
-    break;
+  }
+  const std::string sides = HeaderValue(name, "AnatomicalOrientation");
+  if (sides.size() == 3 && sides.find_first_not_of("LRAPSI") == std::string::npos)
+  {
+    SetWorldAxes(image, "LPS"); // whatever the letters, which tell of the voxels' axes
   }
   return image;
 }
@@ -183,6 +191,7 @@ Image ReadNifti(const std::string& name)
     try
     {
       PlaceImage(image, PlacementOf(matrix, image->GetSpacing()));
+      SetWorldAxes(image, "RAS");
       return image;
     }
     catch (const Failure& error)
@@ -383,6 +392,6 @@ void ChooseScalars(vtkImageData* image, const std::string& name)
   {
     array->SetName("Intensity");
   }
-  points->SetScalars(array);
+  points->SetActiveScalars(array->GetName()); // SetScalars would drop the one that was active
 }
 }

@@ -26,7 +26,7 @@ void ChooseScalars(vtkImageData* image, const std::string& array);
 
 // ---- The parts, each in its file ----------------------------------------------------------------
 
-/// NRRD (.nrrd, .nhdr; encodings raw, gzip, text), in the file's `space`.
+/// NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`.
 vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name);
 
 /// The volume of an InVesalius project (.inv3), unit mm, its axes as they are stored: the world axes

@@ -63,6 +63,11 @@ void CheckFiles(const ToolOptions& options)
     outputs.push_back(
       { name, IsBlocks(name) ? OutputName::Kind::Blocks : OutputName::Kind::Folder, prefix });
   }
+  if (!options.WrittenVolume.empty())
+  {
+    CheckVolumeName(options.WrittenVolume);
+  }
+  outputs.push_back({ options.WrittenVolume, OutputName::Kind::File, "" });
   outputs.push_back({ options.History, OutputName::Kind::File, "" });
   outputs.push_back({ options.Report == "-" ? "" : options.Report, OutputName::Kind::File, "" });
   outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
@@ -273,6 +278,14 @@ ExitCode SegmentVolume(
   CheckFiles(options);
   const vtkSmartPointer<vtkImageData> volume =
     LoadVolume(options, filter->GetSelectedComponent(), announcer);
+  if (!options.WrittenVolume.empty())
+  {
+    WriteVolume(volume, options.WrittenVolume);
+  }
+  if (!options.WantsSurface())
+  {
+    return Success;
+  }
   SetStart(options, filter);
   SetEdges(options, volume, filter);
   if (!options.HasProperty("IsoValue"))

@@ -13,7 +13,8 @@ namespace tool
 struct ToolOptions;
 
 /**
- * Read the volume, find the surface and write what the options ask for.
+ * Read the volume, find the surface unless the volume is all that is to be written, and write what
+ * the options ask for.
  * @param pyramid, filter with their properties set; the second is a vtkVolumeToSurface where the
  * length of the edges decides on the pyramid.
  * @return Success or Unfinished.

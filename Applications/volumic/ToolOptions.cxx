@@ -105,11 +105,15 @@ const std::vector<ProgramOption>& OutputOptions()
       "given): as blocks, or as snapshot-0.vtp, ... in a folder"),
     Text("report", "FILE.json", &ToolOptions::Report,
       "write components, genus, area, volume, seconds, ...; - for the standard output"),
+    Text("write-volume", "FILE.vti", &ToolOptions::WrittenVolume,
+      "write the volume as it was read; without another file to write, that is all"),
     Switch("quiet", &ToolOptions::Quiet, "print errors only"),
     Switch("progress", &ToolOptions::Progress,
       "print the progress even if the standard error is no terminal, then in lines"),
     Show("list-properties", ToolOptions::Task::ListProperties,
       "print the options that are properties of the filters: class, property, option, default"),
+    Show("list-files", ToolOptions::Task::ListFiles,
+      "print the files that the volume is read from, one per line"),
     Show("help", ToolOptions::Task::ShowHelp, "print this text"),
     Show("version", ToolOptions::Task::ShowVersion, "print the versions of Volumic and VTK"),
   };
@@ -163,7 +167,7 @@ void ApplyOption(ToolOptions& options, const FoundOption& found, const std::stri
 
 void CheckComplete(ToolOptions& options)
 {
-  if (options.Task != ToolOptions::Task::Segment)
+  if (options.Task != ToolOptions::Task::Segment && options.Task != ToolOptions::Task::ListFiles)
   {
     return;
   }
@@ -171,8 +175,11 @@ void CheckComplete(ToolOptions& options)
   {
     throw UsageError("no volume is given");
   }
-  if (options.Surfaces.empty() && options.Levels.empty() && options.Report.empty() &&
-    options.History.empty() && options.Snapshots.empty())
+  if (options.Task == ToolOptions::Task::ListFiles)
+  {
+    return;
+  }
+  if (!options.WantsSurface() && options.WrittenVolume.empty())
   {
     throw UsageError("no file to write is given");
   }
@@ -218,6 +225,12 @@ bool ToolOptions::HasProperty(const std::string& property) const
 {
   return std::any_of(this->Properties.begin(), this->Properties.end(),
     [&](const auto& chosen) { return chosen.first->Property == property; });
+}
+
+bool ToolOptions::WantsSurface() const
+{
+  return !this->Surfaces.empty() || !this->Levels.empty() || !this->Report.empty() ||
+    !this->History.empty() || !this->Snapshots.empty();
 }
 
 ToolOptions ParseOptions(int argc, const char* const argv[])

@@ -23,7 +23,8 @@ struct ToolOptions
     Segment,
     ShowHelp,
     ShowVersion,
-    ListProperties
+    ListProperties,
+    ListFiles
   };
   Task Task = Task::Segment;
 
@@ -41,6 +42,7 @@ struct ToolOptions
   std::string Levels;                           ///< .vtm, or a folder
   std::string Snapshots;                        ///< .vtm, or a folder
   std::string Report;                           ///< .json
+  std::string WrittenVolume;                    ///< .vti
   bool Quiet = false;
   bool Progress = false; ///< also where stderr is no terminal
 
@@ -48,6 +50,9 @@ struct ToolOptions
   std::vector<std::pair<const PropertyOption*, std::string>> Properties;
 
   bool HasProperty(const std::string& property) const;
+
+  /// Whether a surface is wanted, or something that tells of it.
+  bool WantsSurface() const;
 };
 
 /// @throws UsageError if the command line is not understood or lacks something.

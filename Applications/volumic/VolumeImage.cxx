@@ -5,9 +5,12 @@
 #include "ToolErrors.h"
 
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 
 #include <cmath>
 
@@ -68,6 +71,14 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
   image->SetSpacing(placement.Spacing.data());
   image->SetOrigin(placement.Origin.data());
   image->SetDirectionMatrix(matrix);
+}
+
+void SetWorldAxes(vtkImageData* image, const std::string& axes)
+{
+  vtkNew<vtkStringArray> label;
+  label->SetName("Axes");
+  label->InsertNextValue(axes);
+  image->GetFieldData()->AddArray(label);
 }
 
 vtkSmartPointer<vtkImageData> MakeImage(

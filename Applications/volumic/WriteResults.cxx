@@ -13,6 +13,7 @@
 #include <vtkFacetWriter.h>
 #include <vtkHoudiniPolyDataWriter.h>
 #include <vtkIVWriter.h>
+#include <vtkImageData.h>
 #include <vtkMCubesWriter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -25,8 +26,10 @@
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWriter.h>
+#include <vtkXMLImageDataWriter.h>
 #include <vtkXMLMultiBlockDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLWriter.h>
 
 #include <algorithm>
 #include <cctype>
@@ -99,15 +102,20 @@ void WriteWith(vtkPolyData* surface, const std::string& name, const std::string&
 
 /// With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is appended
 /// for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
+void WriteInline(vtkXMLWriter* writer, vtkDataObject* data, const std::string& name)
+{
+  writer->SetInputData(data);
+  writer->SetDataModeToBinary();
+  writer->WriteToOutputStringOn();
+  Run(writer);
+  const std::string text = writer->GetOutputString();
+  WriteBytes(name, text.data(), text.size());
+}
+
 void WriteVtp(vtkPolyData* surface, const std::string& name, const std::string&)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(surface);
-  writer->SetDataModeToBinary();
-  writer->WriteToOutputStringOn();
-  Run(writer.Get());
-  const std::string text = writer->GetOutputString();
-  WriteBytes(name, text.data(), text.size());
+  WriteInline(writer, surface, name);
 }
 
 void WriteLegacy(vtkPolyData* surface, const std::string& name, const std::string&)
@@ -244,6 +252,15 @@ struct Format
   void (*Check)(const std::string& path, vtkPolyData*);
 };
 
+/// The suffix, in small letters.
+std::string SuffixOf(const std::string& name)
+{
+  std::string suffix = fs::path(name).extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
 const Format* FindFormat(const std::string& name)
 {
   static const std::map<std::string, Format> formats = {
@@ -258,10 +275,7 @@ const Format* FindFormat(const std::string& name)
     { ".facet", { WriteFacet, CheckText<8> } },
     { ".tri", { WriteWith<vtkMCubesWriter>, CheckTriangles<0, 72> } },
   };
-  std::string suffix = fs::path(name).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found = formats.find(suffix);
+  const auto found = formats.find(SuffixOf(name));
   return found == formats.end() ? nullptr : &found->second;
 }
 }
@@ -287,6 +301,26 @@ void WriteSurface(vtkPolyData* surface, const std::string& name, const std::stri
       {
         format->Check(path, surface);
       }
+    });
+}
+
+void CheckVolumeName(const std::string& name)
+{
+  if (SuffixOf(name) != ".vti")
+  {
+    throw UsageError(name + ": a volume is written as .vti");
+  }
+}
+
+void WriteVolume(vtkImageData* volume, const std::string& name)
+{
+  WriteBeside(name,
+    [&](const std::string& path)
+    {
+      vtkNew<vtkXMLImageDataWriter> writer;
+      writer->SetCompressorTypeToLZ4(); // four times as fast as zlib, at 1.5 times the size (a CT)
+      WriteInline(writer, volume, path);
+      CheckXml(path);
     });
 }
 

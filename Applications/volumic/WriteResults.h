@@ -5,6 +5,7 @@
 
 #include <string>
 
+class vtkImageData;
 class vtkMultiBlockDataSet;
 class vtkPolyData;
 class vtkTable;
@@ -23,6 +24,12 @@ void CheckSurfaceName(const std::string& name);
  * format has one (.stl, .ply).
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const std::string& remark);
+
+/// @throws UsageError if the name of a volume to write does not end in .vti.
+void CheckVolumeName(const std::string& name);
+
+/// Write a volume with all its arrays and field data as .vti.
+void WriteVolume(vtkImageData* volume, const std::string& name);
 
 /// Write the blocks that are not empty to one .vtm, with their files in a folder beside it.
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name);

@@ -3,6 +3,7 @@
 
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
+#include "InputFiles.h"
 #include "SegmentVolume.h"
 #include "SurfaceProperties.h"
 #include "ToolErrors.h"
@@ -44,6 +45,12 @@ ExitCode Run(int argc, char* argv[])
       return Success;
     case ToolOptions::Task::ListProperties:
       PrintProperties(std::cout, filters);
+      return Success;
+    case ToolOptions::Task::ListFiles:
+      for (const std::string& file : FilesOfVolume(options.Volume))
+      {
+        std::cout << file << "\n";
+      }
       return Success;
     case ToolOptions::Task::Segment:
       break;

@@ -60,8 +60,9 @@ class Results:
 
     def __init__(self, folder, volume):
         os.makedirs(folder, exist_ok=True)
+        inputs = files_of_volume(volume)
         for name in filter(None, (name_of_volume(volume), *FILES)):
-            check_output(os.path.join(folder, name), files_of_volume(volume))
+            check_output(os.path.join(folder, name), inputs)
         self.folder = folder
         self.paths = []
 

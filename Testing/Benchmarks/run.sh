@@ -89,8 +89,7 @@ install_packages "${packages[@]}" "${needed[@]}"
 prepare_skull
 build_vtk_flavour -DVOLUMIC_BUILD_BENCHMARKS=ON
 run_step "Reading the skull CT" benchmark-skull \
-  "$(vtk_python)" "$root/Examples/Python/read_volume.py" \
-  "$(cranium)" "$results/skull.vti"
+  "$build/install-vtk/bin/volumic" "$(cranium)" --write-volume "$results/skull.vti"
 
 # list_scans: name, file and iso-value of the volumes of ../shared/data, from the table there. Of
 # several iso-values the first; half a step up where voxels are whole numbers, so that none equals it.

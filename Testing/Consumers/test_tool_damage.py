@@ -9,7 +9,6 @@ import os
 import plistlib
 import resource
 import struct
-import sys
 import tarfile
 import unittest
 
@@ -21,8 +20,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from tool_test_case import ISO, ORIGIN, SIZE, SPACING, ToolTestCase, ball, make_image
 
-sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "Python"))
-import medical_files  # pylint: disable=wrong-import-position
+import medical_files
 
 
 def noisy_ball(dtype="i2"):
@@ -101,11 +99,11 @@ class FilesTest(DamageTest):
         self.accepted_file("b.mhd", pattern)
         self.refused_file("a.mhd", listed[:-8], "lists 17 files for 18 slices")
         self.write_bytes("7.raw", b"half")
-        self.refused_file("a.mhd", listed, "7.raw is cut off: it has 4 bytes, 1144 are needed")
-        self.refused_file("b.mhd", pattern,
-                          "not read completely|cannot read data from file")
+        for name, content in (("a.mhd", listed), ("b.mhd", pattern)):
+            self.refused_file(name, content, "7.raw is cut off: it has 4 bytes, 1144 are needed")
         os.remove(self.path("7.raw"))
-        self.refused_file("a.mhd", listed, "7.raw cannot be opened")
+        for name, content in (("a.mhd", listed), ("b.mhd", pattern)):
+            self.refused_file(name, content, "7.raw cannot be opened")
 
     def test_meta_image_as_text(self):
         header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
@@ -373,7 +371,8 @@ class SeriesTest(DamageTest):
         self.series()
         for k in range(1, SIZE[2], 2):
             self.write_bytes(f"series/IM{k:02}", self.slice(k, series="1.2.4"))
-        self.refused_series("IM01: its series differs from that of .*IM00; one series per folder")
+        self.refused_series(r"series: 2 series, one per folder is needed \(head: .* files, from IM00;"
+                            r" head: .* files, from IM01\)")
 
     def test_several_frames(self):
         self.series()

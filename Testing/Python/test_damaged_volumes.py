@@ -6,7 +6,6 @@ import gzip
 import os
 import struct
 import sys
-import tempfile
 import unittest
 
 import numpy as np
@@ -15,6 +14,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 import medical_files
 from examples_path import EXAMPLES
+from folder_test_case import FolderTestCase
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
@@ -26,23 +26,11 @@ VOXELS = np.random.default_rng(7).integers(0, 700, (9, 12, 15)).astype("i2")
 BYTES = VOXELS.size * 2
 
 
-class DamagedTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def write_bytes(self, name, content):
-        with open(os.path.join(self.folder, name), "wb") as file:
-            file.write(content)
-        return file.name
-
-    def write(self, writer, name):
-        writer.SetFileName(os.path.join(self.folder, name))
-        writer.SetInputData(make_image(VOXELS, SPACING))
-        writer.Write()
-        with open(os.path.join(self.folder, name), "rb") as file:
-            return file.read()
+class DamagedTest(FolderTestCase):
+    def bytes_of(self, writer, name):
+        """What the writer writes of the volume."""
+        self.write(writer, name, make_image(VOXELS, SPACING))
+        return self.content(name)
 
     def refused(self, path, reason):
         with self.assertRaisesRegex(VolumeError, reason) as caught:
@@ -70,10 +58,10 @@ class FilesTest(DamagedTest):
     def test_raw_meta_image(self):
         writer = vtkMetaImageWriter()
         writer.SetCompression(False)
-        self.cut("a.mha", self.write(writer, "a.mha"), "cut off: it has .* its header asks for")
+        self.cut("a.mha", self.bytes_of(writer, "a.mha"), "cut off: it has .* its header asks for")
 
     def test_packed_meta_image(self):
-        content = self.write(vtkMetaImageWriter(), "a.mha")
+        content = self.bytes_of(vtkMetaImageWriter(), "a.mha")
         self.cut("a.mha", content, "packed data are cut off", rests=(0.5, -10, -1))
         self.flipped("a.mha", content, "packed data", content.index(b"LOCAL") + 10)
 
@@ -88,10 +76,10 @@ class FilesTest(DamagedTest):
             read_volume(self.write_bytes(name, content))
         self.write_bytes("7.raw", b"half")
         for name, content in headers.items():
-            self.refused(self.write_bytes(name, content), "cut off")
+            self.refused(self.write_bytes(name, content), "7.raw is cut off")
         os.remove(os.path.join(self.folder, "7.raw"))
         for name, content in headers.items():
-            self.refused(self.write_bytes(name, content), "7.raw is missing")
+            self.refused(self.write_bytes(name, content), "7.raw cannot be opened")
 
     def test_meta_image_as_text(self):
         header = medical_files.meta_header(VOXELS, SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
@@ -101,7 +89,7 @@ class FilesTest(DamagedTest):
                  "values, its header asks for 1620")
 
     def test_vtk_xml(self):
-        content = self.write(vtkXMLImageDataWriter(), "a.vti")
+        content = self.bytes_of(vtkXMLImageDataWriter(), "a.vti")
         self.cut("a.vti", content, "cannot be read", rests=(0.5, -100))
 
     def test_nrrd(self):
@@ -134,8 +122,8 @@ class FilesTest(DamagedTest):
         medical_files.write_inv3(path, VOXELS, SPACING)
         with open(path, "rb") as file:
             content = file.read()
-        self.cut("a.inv3", content, "not a readable|main.plist", rests=(0.5, -10, -1))
-        self.flipped("a.inv3", content, "not a readable|main.plist|not an|bytes", 100)
+        self.cut("a.inv3", content, "packed data are damaged or cut off", rests=(0.5, -10, -1))
+        self.flipped("a.inv3", content, "packed data are damaged or cut off|archive is damaged", 100)
 
 
 class SeriesTest(DamagedTest):
@@ -175,14 +163,14 @@ class SeriesTest(DamagedTest):
     def test_numbers_that_are_none(self):
         for name in ("frames", "slope", "intercept"):
             self.write_bytes("IM3", self.slice(3, **{name: "1A"}))
-            self.refused_series(f"IM3: its header is damaged: {name} '1A'")
+            self.refused_series(f"IM3: its header is damaged: .*{name}.* '1A'")
 
     def test_sequences_without_end(self):
         content = self.slice(3)
         place = content.index(struct.pack("<HH", 0x0008, 0x1140)) + 12
         self.write_bytes("IM3", content[:place] + struct.pack(
             "<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF) * 3000)
-        self.refused_series("IM3: the DICOM header is damaged")
+        self.refused_series("IM3: its header is damaged: sequences within sequences without end")
 
     def test_reports_and_directories_are_no_slices(self):
         for name, kind in (("DICOMDIR", "1.2.840.10008.1.3.10"),
