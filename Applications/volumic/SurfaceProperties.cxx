@@ -116,7 +116,7 @@ std::vector<PropertyOption> MakeProperties()
       "voxel",
       "background", "replicate"),
     SURFACE_MENU(Metric, "metric",
-      "which lengths are even where voxels are not cubes: those in which each voxel is one, or those "
+      "which lengths are uniform where voxels are not cubes: those in which each voxel is one, or those "
       "of the world",
       "voxels", "world"),
     SURFACE_NUMBER(EdgeLength, "edge-length", "LENGTH",

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The evolution of a surface as a film: from the body about the volume, level by level, to the end.
+"""Snapshots of an evolution: from the body about the volume, level by level, to the end.
 
-    evolution_film.py skull.vti skull.ogv --iso 226.5 --every 5
-    evolution_film.py scan.nii.gz frames/            # a PNG per frame
-    evolution_film.py scan.nii.gz evolution.vtp.series
+    evolution_snapshots.py skull.vti skull.ogv --iso 226.5 --every 5
+    evolution_snapshots.py scan.nii.gz frames/            # a PNG per frame
+    evolution_snapshots.py scan.nii.gz evolution.vtp.series
 
-VOLUME is what read_volume.py can read. OUTPUT: an .ogv film, a folder for a PNG series, or a
+VOLUME is what read_volume.py can read. OUTPUT: an .ogv video, a folder for a PNG series, or a
 .vtp.series, which ParaView opens as surfaces in time: press Play there. The surface is kept every so
 many iterations (vtkDeformableSurface's SnapshotInterval) and as it came to rest at each level.
 Pictures need a display; xvfb-run gives one.
@@ -47,7 +47,7 @@ def surfaces_in_time(filter_):
 
 
 def frames_of(in_time, frame, width):
-    """Pictures, all of one size with even sides, as films want them."""
+    """Pictures, all of one size with even sides, as videos want them."""
     # The first surfaces are about the whole volume.
     every = np.array([surface.GetBounds() for _, surface, _ in in_time])
     bounds = np.where([True, False] * 3, every.min(axis=0), every.max(axis=0))
@@ -61,7 +61,7 @@ def frames_of(in_time, frame, width):
             yield picture[:picture.shape[0] & ~1, :picture.shape[1] & ~1]
 
 
-def write_film(frames, path, rate):
+def write_video(frames, path, rate):
     with beside(path) as written:
         write_frames(frames, written, rate)
 
@@ -102,7 +102,7 @@ def write_series(in_time, path):
     write_text(json.dumps({"file-series-version": "1.0", "files": files}, indent=1), path)
 
 
-def make_film(arguments):
+def write_snapshots(arguments):
     if arguments.output.endswith((".ogv", ".vtp.series")):
         check_output(arguments.output, files_of_volume(arguments.volume))
     image, iso = load_volume(arguments.volume, arguments.iso)
@@ -117,7 +117,7 @@ def make_film(arguments):
     else:
         frames = frames_of(in_time, render.world_frame(image), arguments.width)
         if arguments.output.endswith(".ogv"):
-            write_film(frames, arguments.output, arguments.rate)
+            write_video(frames, arguments.output, arguments.rate)
         else:
             write_pictures(frames, arguments.output)
     print(f"Written: {arguments.output} ({len(in_time)} surfaces)")
@@ -138,12 +138,12 @@ def main():
     if arguments.every < 1:
         parser.error("--every must be at least 1")
     try:
-        make_film(arguments)
+        write_snapshots(arguments)
     except Interrupted as error:
-        print(f"evolution_film.py: {error}", file=sys.stderr)
+        print(f"evolution_snapshots.py: {error}", file=sys.stderr)
         return 3
     except (VolumeError, FilterError, ValueError, OSError) as error:
-        print(f"evolution_film.py: {error}", file=sys.stderr)
+        print(f"evolution_snapshots.py: {error}", file=sys.stderr)
         return 1
     return 0
 

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/Python/evolution_film.py: a film, pictures, and surfaces in time. Needs a display."""
+"""Examples/Python/evolution_snapshots.py: a video, pictures, and surfaces in time. Needs a display."""
 
 import json
 import os
-import tempfile
 import unittest
 
 import numpy as np
@@ -12,6 +11,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+from folder_test_case import FolderTestCase
 from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
 
 
@@ -22,21 +22,17 @@ def read_picture(path):
     return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
 
 
-class EvolutionFilmTest(unittest.TestCase):
+class EvolutionSnapshotsTest(FolderTestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
+        super().setUp()
         self.ring = write_volume(self.path("ring.mha"), ring_voxels(), RING_SPACING)
 
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def film(self, output, *options):
-        return run_script("evolution_film.py", self.ring, self.path(output), "--iso",
+    def snapshots(self, output, *options):
+        return run_script("evolution_snapshots.py", self.ring, self.path(output), "--iso",
                           str(RING_ISO), "--width", "200", *options)
 
     def test_pictures(self):
-        run = self.film("frames", "--every", "20")
+        run = self.snapshots("frames", "--every", "20")
         self.assertEqual(run.returncode, 0, run.stderr)
         names = sorted(os.listdir(self.path("frames")))
         self.assertGreater(len(names), 20)
@@ -48,8 +44,8 @@ class EvolutionFilmTest(unittest.TestCase):
         self.assertGreater(light[1], 1000)
         self.assertGreater(light[0], 1.5 * light[1])
 
-    def test_film(self):
-        run = self.film("ring.ogv", "--every", "40")
+    def test_video(self):
+        run = self.snapshots("ring.ogv", "--every", "40")
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(self.path("ring.ogv"), "rb") as file:
             start = file.read(64)
@@ -57,7 +53,7 @@ class EvolutionFilmTest(unittest.TestCase):
         self.assertIn(b"theora", start)
 
     def test_surfaces_in_time(self):
-        run = self.film("ring.vtp.series", "--every", "10", "--finest-level", "1")
+        run = self.snapshots("ring.vtp.series", "--every", "10", "--finest-level", "1")
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(self.path("ring.vtp.series"), encoding="utf-8") as file:
             files = json.load(file)["files"]
@@ -76,8 +72,8 @@ class EvolutionFilmTest(unittest.TestCase):
         self.assertTrue(surface.GetFieldData().GetAbstractArray("StopReason"))
 
     def test_refusals(self):
-        self.assertEqual(self.film("a.ogv", "--every", "0").returncode, 2)
-        run = self.film("a.ogv", "--iso", "1e6")
+        self.assertEqual(self.snapshots("a.ogv", "--every", "0").returncode, 2)
+        run = self.snapshots("a.ogv", "--iso", "1e6")
         self.assertEqual(run.returncode, 1)
         self.assertIn("Iso Value", run.stderr)
         self.assertFalse(os.path.exists(self.path("a.ogv")))
