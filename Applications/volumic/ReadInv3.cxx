@@ -9,7 +9,6 @@
 #include "VolumeImage.h"
 #include "VtkMessages.h"
 
-#include <vtkByteSwap.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkXMLDataElement.h>
@@ -164,26 +163,6 @@ Description ReadDescription(const std::string& name)
     throw Failure(std::string("main.plist: ") + error.what());
   }
 }
-
-void SwapLittleEndian(vtkDataArray* values)
-{
-  void* bytes = values->GetVoidPointer(0);
-  const auto count = static_cast<std::size_t>(values->GetNumberOfValues());
-  switch (values->GetDataTypeSize())
-  {
-    case 2:
-      vtkByteSwap::Swap2LERange(bytes, count);
-      break;
-    case 4:
-      vtkByteSwap::Swap4LERange(bytes, count);
-      break;
-    case 8:
-      vtkByteSwap::Swap8LERange(bytes, count);
-      break;
-    default:
-      break;
-  }
-}
 }
 
 vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
@@ -207,7 +186,7 @@ vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
     static_cast<vtkIdType>(description.Size[0]) * description.Size[1] * description.Size[2]);
   archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
   archive.Finish();
-  SwapLittleEndian(values);
+  ToNativeOrder(values, false);
   vtkSmartPointer<vtkImageData> image =
     MakeImage(description.Size, values, description.Placement);
   if (description.IsAxial)

@@ -8,10 +8,10 @@
 #include "Bunzip.h"
 #include "Inflate.h"
 #include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 
-#include <vtkByteSwap.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkType.h>
@@ -39,20 +39,6 @@ std::string ReadBytes(const std::string& name)
     throw Failure(name + ": cannot be opened");
   }
   return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
-}
-
-std::string Trimmed(const std::string& text)
-{
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  const std::size_t last = text.find_last_not_of(" \t\r\n");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-std::string Lower(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 /// Fields by lower-case name; `dataStart` is where the data of an attached file begin.
@@ -178,18 +164,7 @@ void Decode(std::string data, const Fields& fields, vtkDataArray* values)
       std::to_string(start + size) + " needed");
   }
   std::memcpy(values->GetVoidPointer(0), data.data() + start, size);
-  const int width = values->GetDataTypeSize();
-  if (width > 1)
-  {
-    const auto count = static_cast<std::size_t>(values->GetNumberOfTuples());
-    const bool isBig = Lower(Field(fields, "endian", "little")) == "big";
-    void (*swap)(void*, std::size_t) = nullptr;
-    // "BE" is the identity on a big-endian machine, and the other way round.
-    swap = width == 2 ? (isBig ? vtkByteSwap::Swap2BERange : vtkByteSwap::Swap2LERange)
-      : width == 4    ? (isBig ? vtkByteSwap::Swap4BERange : vtkByteSwap::Swap4LERange)
-                      : (isBig ? vtkByteSwap::Swap8BERange : vtkByteSwap::Swap8LERange);
-    swap(values->GetVoidPointer(0), count);
-  }
+  ToNativeOrder(values, Lower(Field(fields, "endian", "little")) == "big");
 }
 
 /// "(1,0,0) (0,1,0) (0,0,1)" as vectors.

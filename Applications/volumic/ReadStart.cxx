@@ -5,6 +5,7 @@
 #include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
@@ -40,14 +41,6 @@ vtkSmartPointer<vtkPolyData> ReadWith(const std::string& name)
   VtkMessages messages;
   messages.UpdateReader(reader, name);
   return reader->GetOutput();
-}
-
-std::string SuffixOf(const std::string& name)
-{
-  std::string suffix = std::filesystem::path(name).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
 }
 
 /// STL; one that has been cut off between two triangles looks whole to VTK's reader.
@@ -161,10 +154,8 @@ bool IsHeading(const std::vector<std::string>& words)
 {
   const auto isName = [](const std::string& word)
   {
-    std::string lower = word;
+    std::string lower = Lower(word);
     lower.erase(std::remove(lower.begin(), lower.end(), '"'), lower.end());
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return !lower.empty() && std::isalpha(static_cast<unsigned char>(lower[0])) != 0 &&
       lower != "nan" && lower.compare(0, 3, "inf") != 0;
   };

@@ -5,6 +5,7 @@
 #include "CheckInputs.h"
 #include "InputFiles.h"
 #include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
@@ -31,7 +32,6 @@
 #endif
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -311,13 +311,10 @@ Reader ChooseReader(const std::string& name)
     { ".dicom", ReadDicomFile },
     { ".ima", ReadDicomFile },
   };
-  std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = Lower(name);
   for (const auto& [suffix, reader] : readers)
   {
-    if (lower.size() > suffix.size() &&
-      lower.compare(lower.size() - suffix.size(), suffix.size(), suffix) == 0)
+    if (lower.size() > suffix.size() && EndsWith(lower, suffix))
     {
       return reader;
     }

@@ -4,6 +4,7 @@
 
 #include "ToolErrors.h"
 
+#include <vtkByteSwap.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -13,6 +14,7 @@
 #include <vtkStringArray.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace tool
 {
@@ -93,6 +95,21 @@ vtkSmartPointer<vtkImageData> MakeImage(
   image->GetPointData()->SetScalars(scalars);
   PlaceImage(image, placement);
   return image;
+}
+
+void ToNativeOrder(vtkDataArray* values, bool isBig)
+{
+  // "BE" is the identity on a big-endian machine, and the other way round.
+  const int width = values->GetDataTypeSize();
+  void (*swap)(void*, std::size_t) = nullptr;
+  swap = width == 2 ? (isBig ? vtkByteSwap::Swap2BERange : vtkByteSwap::Swap2LERange)
+    : width == 4    ? (isBig ? vtkByteSwap::Swap4BERange : vtkByteSwap::Swap4LERange)
+    : width == 8    ? (isBig ? vtkByteSwap::Swap8BERange : vtkByteSwap::Swap8LERange)
+                    : nullptr;
+  if (swap)
+  {
+    swap(values->GetVoidPointer(0), static_cast<std::size_t>(values->GetNumberOfValues()));
+  }
 }
 
 vtkSmartPointer<vtkDataArray> Rescaled(vtkDataArray* values, double slope, double shift)

@@ -42,6 +42,9 @@ vtkSmartPointer<vtkImageData> MakeImage(
  */
 void SetWorldAxes(vtkImageData* image, const std::string& axes);
 
+/// Turn values that are as a file has them, big-endian or not, into those of this machine.
+void ToNativeOrder(vtkDataArray* values, bool isBig);
+
 /// An array of float: slope times value plus shift.
 vtkSmartPointer<vtkDataArray> Rescaled(vtkDataArray* values, double slope, double shift);
 

@@ -5,6 +5,7 @@
 #include "CheckInputs.h"
 #include "CheckWritten.h"
 #include "OutputFiles.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
@@ -31,8 +32,6 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLWriter.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -251,15 +250,6 @@ struct Format
   /// Whether the disk took it all; none where that was seen at once.
   void (*Check)(const std::string& path, vtkPolyData*);
 };
-
-/// The suffix, in small letters.
-std::string SuffixOf(const std::string& name)
-{
-  std::string suffix = fs::path(name).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
 
 const Format* FindFormat(const std::string& name)
 {

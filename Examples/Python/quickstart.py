@@ -27,7 +27,7 @@ from pipeline import SKULL, build_pyramid, load_volume, prepare_surface, run_sur
 from pyramid_picture import pyramid_picture
 from read_volume import VolumeError, files_of_volume, write_image
 from render import world_frame, write_png
-from surface_pictures import levels_picture, views_picture, visited_levels
+from surface_pictures import levels_picture, views_picture
 from surface_results import (
     component_facts, input_facts, level_facts, summary_lines, surface_facts, versions,
     write_blocks, write_history, write_report, write_surface)

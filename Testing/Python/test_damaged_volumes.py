@@ -13,8 +13,8 @@ from vtkmodules.vtkIOImage import vtkMetaImageWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 import medical_files
+from damage_test_case import DamageTestCase
 from examples_path import EXAMPLES
-from folder_test_case import FolderTestCase
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
@@ -26,32 +26,20 @@ VOXELS = np.random.default_rng(7).integers(0, 700, (9, 12, 15)).astype("i2")
 BYTES = VOXELS.size * 2
 
 
-class DamagedTest(FolderTestCase):
+class DamagedTest(DamageTestCase):
     def bytes_of(self, writer, name):
         """What the writer writes of the volume."""
         self.write(writer, name, make_image(VOXELS, SPACING))
         return self.content(name)
 
-    def refused(self, path, reason):
+    def accepted_file(self, name, content):
+        read_volume(self.write_bytes(name, content))
+
+    def refused_file(self, name, content, reason):
+        path = self.write_bytes(name, content)
         with self.assertRaisesRegex(VolumeError, reason) as caught:
             read_volume(path)
         self.assertIn(path, str(caught.exception))
-
-    def cut(self, name, content, reason, rests=(0.5, -10)):
-        read_volume(self.write_bytes(name, content))
-        for rest in rests:
-            with self.subTest(name, rest=rest):
-                count = int(len(content) * rest) if rest > 0 else rest
-                self.refused(self.write_bytes(name, content[:count]), reason)
-
-    def flipped(self, name, content, reason, start, times=25):
-        generator = np.random.default_rng(8)
-        for _ in range(times):
-            damaged = bytearray(content)
-            place = int(generator.integers(start, len(content)))
-            damaged[place] ^= 1 << int(generator.integers(8))
-            with self.subTest(name, place=place):
-                self.refused(self.write_bytes(name, bytes(damaged)), reason)
 
 
 class FilesTest(DamagedTest):
@@ -76,10 +64,10 @@ class FilesTest(DamagedTest):
             read_volume(self.write_bytes(name, content))
         self.write_bytes("7.raw", b"half")
         for name, content in headers.items():
-            self.refused(self.write_bytes(name, content), "7.raw is cut off")
+            self.refused_file(name, content, "7.raw is cut off")
         os.remove(os.path.join(self.folder, "7.raw"))
         for name, content in headers.items():
-            self.refused(self.write_bytes(name, content), "7.raw cannot be opened")
+            self.refused_file(name, content, "7.raw cannot be opened")
 
     def test_meta_image_as_text(self):
         header = medical_files.meta_header(VOXELS, SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
@@ -98,9 +86,9 @@ class FilesTest(DamagedTest):
         self.cut("a.nrrd", content, "packed data are cut off", rests=(0.5, -10, -1))
         self.flipped("a.nrrd", content, "packed data", len(header) + 11)
         more = header + b"\n" + gzip.compress(VOXELS.tobytes() + b"more")
-        self.refused(self.write_bytes("a.nrrd", more), f"give more than the {BYTES} bytes")
+        self.refused_file("a.nrrd", more, f"give more than the {BYTES} bytes")
         bomb = header + b"\n" + gzip.compress(bytes(100 << 20))
-        self.refused(self.write_bytes("a.nrrd", bomb), f"give more than the {BYTES} bytes")
+        self.refused_file("a.nrrd", bomb, f"give more than the {BYTES} bytes")
         halves = gzip.compress(VOXELS.tobytes()[:99]) + gzip.compress(VOXELS.tobytes()[99:])
         read_volume(self.write_bytes("b.nrrd", header + b"\n" + halves))
 
@@ -115,7 +103,7 @@ class FilesTest(DamagedTest):
             struct.pack_into("<h", header, 70, kind)
             for name, data in (("a.nii", header), ("a.nii.gz", gzip.compress(header))):
                 with self.subTest(name, kind=kind):
-                    self.refused(self.write_bytes(name, data), f"the data type {kind} is none")
+                    self.refused_file(name, data, f"the data type {kind} is none")
 
     def test_invesalius_project(self):
         path = os.path.join(self.folder, "a.inv3")
