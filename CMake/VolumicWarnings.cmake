@@ -40,7 +40,7 @@ volumic_add_warnings(
   TARGETS VolumicCore
   WARNINGS ${volumic_warnings} ${volumic_conversion_warnings})
 volumic_add_warnings(
-  TARGETS FiltersVolumic SegmentVolume BuildPyramid ServerManagerVolumic Volumic
+  TARGETS FiltersVolumic volumic BuildPyramid ServerManagerVolumic Volumic
   WARNINGS ${volumic_vtk_warnings} ${volumic_conversion_warnings})
 volumic_add_warnings(
   TARGETS TestCore VolumicTestSupport TestSupport

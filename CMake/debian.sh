@@ -18,6 +18,7 @@ mkdir -p "$logs"
 # Debian's own interpreter; another python3 (conda, pyenv) may be the first on PATH.
 python=/usr/bin/python3
 
+. "$root/CMake/script_options.sh"
 . "$root/CMake/debian_packages.sh"
 
 # ---- Steps -------------------------------------------------------------------------------------
@@ -88,16 +89,23 @@ compile_and_install()
   cmake --install "$build/$1"
 }
 
-configure_vtk()
+# find_vtk: prepares VTK; the array vtk_options tells cmake where it is.
+find_vtk()
 {
-  local prefix directory=()
+  local prefix
   prepare_vtk
   prefix=$(vtk_prefix)
+  vtk_options=(-DPython3_EXECUTABLE="$(vtk_python)")
   if [ -n "$prefix" ]; then
-    directory=(-DVTK_DIR="$(echo "$prefix/usr/lib/$(multiarch)"/cmake/vtk-*)")
+    vtk_options+=(-DVTK_DIR="$(echo "$prefix/usr/lib/$(multiarch)"/cmake/vtk-*)")
   fi
-  configure vtk -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF -DPython3_EXECUTABLE="$(vtk_python)" \
-    "${directory[@]}" "$@"
+}
+
+configure_vtk()
+{
+  local vtk_options
+  find_vtk
+  configure vtk -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF "${vtk_options[@]}" "$@"
 }
 
 configure_paraview()

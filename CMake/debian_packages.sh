@@ -9,7 +9,8 @@
 # build/ (prepare_paraview, prepare_vtk). And names of packages tell versions: what can be derived
 # from another package's dependencies, is, so that a new release needs no change here.
 
-tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy)
+# libbz2-dev: for NRRD files that are packed so.
+tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libbz2-dev)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
 test_packages=(dpkg-dev file locales libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth
   libgl1-mesa-dri libxtst6)

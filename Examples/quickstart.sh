@@ -14,22 +14,27 @@ set -euo pipefail
 usage="Usage: bash Examples/quickstart.sh [VOLUME [ISO]] [--output DIR]
 VOLUME: .vti, .mha, .mhd, .nrrd, .nii, .nii.gz, .inv3 or a folder with one DICOM series"
 
+usage() { say "$usage"; }
+
 script_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 # shellcheck source=../CMake/debian.sh
 . "$script_folder/../CMake/debian.sh"
 
 output=$build/quickstart
 inputs=()
-while [ $# -gt 0 ]; do
+take_option()
+{
   case $1 in
-    --output) [ $# -ge 2 ] || fail "--output needs a folder. $usage"; output=$2; shift ;;
+    --output)
+      need_value "a folder. $usage" "$@"
+      output=$2
+      ;;
     --output=*) output=${1#--output=} ;;
-    -h | --help) say "$usage"; exit ;;
     -[!0-9.]*) fail "Unknown option $1. $usage" ;;
     *) inputs+=("$1") ;;
   esac
-  shift
-done
+}
+parse_options "$@"
 [ "${#inputs[@]}" -le 2 ] || fail "Too many arguments. $usage"
 if [ "${#inputs[@]}" -ge 1 ] && [ ! -e "${inputs[0]}" ]; then
   fail "${inputs[0]}: no such file or folder."

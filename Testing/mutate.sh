@@ -23,25 +23,18 @@ USAGE
 
 selection=
 check_only=false
-while [ $# -gt 0 ]; do
+take_option()
+{
   case $1 in
     -R)
-      [ $# -ge 2 ] || fail "-R needs a regular expression"
+      need_value "a regular expression" "$@"
       selection=$2
-      shift
       ;;
     --check) check_only=true ;;
-    -h | --help)
-      usage
-      exit 0
-      ;;
-    *)
-      usage >&2
-      fail "Unknown option: $1"
-      ;;
+    *) return 1 ;;
   esac
-  shift
-done
+}
+parse_options "$@"
 
 list=$root/Testing/mutations.txt
 files=()        # of Filters/Core
@@ -123,19 +116,15 @@ copy_sources()
 
 configure_copies()
 {
-  local prefix directory=() worker
-  prepare_vtk
-  prefix=$(vtk_prefix)
-  if [ -n "$prefix" ]; then
-    directory=(-DVTK_DIR="$(echo "$prefix/usr/lib/$(multiarch)"/cmake/vtk-*)")
-  fi
+  local vtk_options worker
+  find_vtk
   copy_sources
   for ((worker = 0; worker < workers; ++worker)); do
     # Optimised a little: compiled once and run once.
     cmake -S "$copies/$worker/sources" -B "$copies/$worker/build" -G Ninja \
       -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF \
       -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_TOOL=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF \
-      -DVOLUMIC_WRAP_PYTHON=OFF -DPython3_EXECUTABLE="$(vtk_python)" "${directory[@]}"
+      -DVOLUMIC_WRAP_PYTHON=OFF "${vtk_options[@]}"
   done
 }
 

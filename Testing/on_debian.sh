@@ -28,31 +28,28 @@ USAGE
 system=
 mirror=
 binds=()
-while [[ ${1-} == -* ]]; do
+take_option()
+{
   case $1 in
-    -h | --help)
-      usage
-      exit 0
+    --system)
+      need_value "a value" "$@"
+      system=$2
       ;;
-    --system | --bind | --mirror)
-      [ $# -ge 2 ] || fail "$1 needs a value"
-      case $1 in
-        --system) system=$2 ;;
-        --bind)
-          [ -d "$2" ] || fail "--bind: $2 is not a folder"
-          binds+=("$(realpath "$2")")
-          ;;
-        --mirror) mirror=$2 ;;
-      esac
-      shift
+    --bind)
+      need_value "a value" "$@"
+      [ -d "$2" ] || fail "--bind: $2 is not a folder"
+      binds+=("$(realpath "$2")")
       ;;
-    *)
-      usage >&2
-      fail "Unknown option: $1"
+    --mirror)
+      need_value "a value" "$@"
+      mirror=$2
       ;;
+    -*) return 1 ;;
+    *) used=0 ;; # the release
   esac
-  shift
-done
+}
+parse_options "$@"
+set -- "${arguments[@]}"
 if [ $# -eq 0 ]; then
   usage >&2
   fail "Which release of Debian?"

@@ -21,26 +21,19 @@ USAGE
 
 flavours=(vtk paraview)
 selection=(--no-tests=error)
-while [ $# -gt 0 ]; do
+take_option()
+{
   case $1 in
     --vtk-only) flavours=(vtk) ;;
     --paraview-only) flavours=(paraview) ;;
     -R)
-      [ $# -ge 2 ] || fail "-R needs a regular expression"
+      need_value "a regular expression" "$@"
       selection=(-R "$2") # may well select none of one flavour's tests
-      shift
       ;;
-    -h | --help)
-      usage
-      exit 0
-      ;;
-    *)
-      usage >&2
-      fail "Unknown option: $1"
-      ;;
+    *) return 1 ;;
   esac
-  shift
-done
+}
+parse_options "$@"
 
 # run_tests FLAVOUR: one step, whose output is shown as it comes. Failures don't stop the script, so
 # that the other flavour's tests are run too.

@@ -22,41 +22,30 @@ USAGE
 
 presets=(asan tsan)
 selection=()
-while [ $# -gt 0 ]; do
+take_option()
+{
   case $1 in
     --address-only) presets=(asan) ;;
     --thread-only) presets=(tsan) ;;
     -R)
-      [ $# -ge 2 ] || fail "-R needs a regular expression"
+      need_value "a regular expression" "$@"
       selection=(-R "$2")
-      shift
       ;;
-    -h | --help)
-      usage
-      exit 0
-      ;;
-    *)
-      usage >&2
-      fail "Unknown option: $1"
-      ;;
+    *) return 1 ;;
   esac
-  shift
-done
+}
+parse_options "$@"
 
 cd "$root" # where presets are looked for
 
 # configure_sanitized PRESET: the tree build/PRESET.
 configure_sanitized()
 {
-  local prefix directory=()
-  prepare_vtk
-  prefix=$(vtk_prefix)
-  if [ -n "$prefix" ]; then
-    directory=(-DVTK_DIR="$(echo "$prefix/usr/lib/$(multiarch)"/cmake/vtk-*)")
-  fi
+  local vtk_options
+  find_vtk
   cd "$root"
   # Afresh: with the preset's flags of today, and wherever the checkout was moved from.
-  cmake --fresh --preset "$1" -DPython3_EXECUTABLE="$(vtk_python)" "${directory[@]}"
+  cmake --fresh --preset "$1" "${vtk_options[@]}"
 }
 
 build_sanitized()

@@ -5,8 +5,8 @@
 
     batch.py scans --output surfaces --iso 226.5 --format stl
 
-Every volume in the folder that read_volume.py knows by its suffix is segmented, and every folder in
-it as a DICOM series. OUTPUT then holds a surface for each, and results.csv with a line for each:
+Every volume in the folder (.vti .mha .mhd .nrrd .nhdr .nii .nii.gz .inv3) is segmented, and every
+folder in it as a DICOM series. OUTPUT then holds a surface for each, and results.csv with a line for each:
 how it ended, its iso-value, seconds, vertices, components, genus, area and volume (world units), or
 the error. A volume that fails does not stop the others.
 
@@ -23,11 +23,12 @@ import time
 
 from output_files import check_output, write_text
 from pipeline import load_volume, prepare_surface, run_surface
-from read_volume import READERS, VolumeError, files_of_volume
+from read_volume import VolumeError, files_of_volume
 from segment import INTERRUPTED, add_filter_options, filter_properties
 from surface_results import SURFACE_WRITERS, surface_facts, surface_line, write_surface
 from terminal import FilterError, Interrupted
 
+SUFFIXES = (".vti", ".mha", ".mhd", ".nrrd", ".nhdr", ".nii", ".nii.gz", ".inv3")
 FACTS = ("stop_reason", "vertices", "triangles", "components", "genus", "area", "volume")
 COLUMNS = ("volume_file", "status", "iso_value", "seconds", *FACTS, "surface_file", "error")
 
@@ -36,7 +37,7 @@ def find_volumes(folder):
     """Names of the files and folders in the folder that may be volumes, sorted."""
     return sorted(entry.name for entry in os.scandir(folder)
                   if not entry.name.startswith(".")
-                  and (entry.is_dir() or entry.name.lower().endswith(tuple(READERS))))
+                  and (entry.is_dir() or entry.name.lower().endswith(SUFFIXES)))
 
 
 def surface_names(volumes, suffix):
@@ -48,7 +49,7 @@ def surface_names(volumes, suffix):
 
 def stem_of(name):
     """The name without the suffix of a volume."""
-    suffixes = [suffix for suffix in READERS if name.lower().endswith(suffix)]
+    suffixes = [suffix for suffix in SUFFIXES if name.lower().endswith(suffix)]
     return name[:len(name) - max(map(len, suffixes))] if suffixes else name
 
 
@@ -114,7 +115,7 @@ def main():
     if not os.path.isdir(arguments.folder):
         parser.error(f"{arguments.folder}: no such folder")
     if not find_volumes(arguments.folder):
-        parser.error(f"{arguments.folder}: no volume in there ({', '.join(READERS)} or DICOM"
+        parser.error(f"{arguments.folder}: no volume in there ({', '.join(SUFFIXES)} or DICOM"
                      " folders)")
     try:
         properties = filter_properties(arguments)

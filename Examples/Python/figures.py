@@ -116,9 +116,9 @@ def history(skull):
 
 def evolution(skull):
     direct = without_pyramid(skull)
-    films = direct.GetSnapshots()
-    taken = {field(films.GetBlock(b), "Iterations"): films.GetBlock(b)
-             for b in range(films.GetNumberOfBlocks())}
+    snapshots = direct.GetSnapshots()
+    taken = {field(snapshots.GetBlock(b), "Iterations"): snapshots.GetBlock(b)
+             for b in range(snapshots.GetNumberOfBlocks())}
     stages = [(f"Iteration {n}", taken[n]) for n in SNAPSHOTS if n in taken]
     stages.append((f"At rest, iteration {iterations(direct)[0][1]}", direct.GetOutput()))
     as_paper, start = skull.run_as_paper()

@@ -27,7 +27,7 @@ from pipeline import SKULL, build_pyramid, load_volume, prepare_surface, run_sur
 from pyramid_picture import pyramid_picture
 from read_volume import VolumeError, files_of_volume, write_image
 from render import world_frame, write_png
-from surface_pictures import levels_picture, views_picture, visited_levels
+from surface_pictures import levels_picture, views_picture
 from surface_results import (
     component_facts, input_facts, level_facts, summary_lines, surface_facts, versions,
     write_blocks, write_history, write_report, write_surface)
@@ -60,8 +60,9 @@ class Results:
 
     def __init__(self, folder, volume):
         os.makedirs(folder, exist_ok=True)
+        inputs = files_of_volume(volume)
         for name in filter(None, (name_of_volume(volume), *FILES)):
-            check_output(os.path.join(folder, name), files_of_volume(volume))
+            check_output(os.path.join(folder, name), inputs)
         self.folder = folder
         self.paths = []
 

@@ -91,8 +91,8 @@ def iterations(surface):
 
 def starts(surface):
     """The surface before the first iteration of each level, by level."""
-    films = surface.GetSnapshots()
-    blocks = [films.GetBlock(b) for b in range(films.GetNumberOfBlocks())]
+    snapshots = surface.GetSnapshots()
+    blocks = [snapshots.GetBlock(b) for b in range(snapshots.GetNumberOfBlocks())]
     return {field(block, "Level"): block for block in blocks if field(block, "Iterations") == 0}
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all readers of this folder share: the error they raise and the image they return.
+"""The images of these scripts, and the error about a volume that cannot be read.
 
 An image is a vtkImageData with one scalar component per voxel. Its world coordinates are those of
 the file. Where the file tells which side of the body the world axes point to, the image carries
@@ -10,7 +10,6 @@ inferior), one for each of world x, y, z. "LPS" is what DICOM uses, "RAS" what N
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
 ARRAY_NAME = "Intensity"
@@ -22,7 +21,7 @@ class VolumeError(Exception):
     """A volume that cannot be read; the text says which file and why."""
 
 
-def make_image(voxels, spacing, origin=(0, 0, 0), direction=None, axes=None):
+def make_image(voxels, spacing, origin=(0, 0, 0), direction=None):
     """vtkImageData of the array voxels[z, y, x]; origin and spacing in world units.
 
     direction: 3 x 3, its columns the unit vectors of index x, y, z in the world.
@@ -31,6 +30,8 @@ def make_image(voxels, spacing, origin=(0, 0, 0), direction=None, axes=None):
         raise VolumeError(f"a volume has three dimensions, not {voxels.ndim}")
     if voxels.dtype.kind not in "iuf":
         raise VolumeError(f"voxels of type {voxels.dtype} are not numbers that VTK images can hold")
+    if not all(np.isfinite(s) and s > 0 for s in spacing):
+        raise VolumeError(f"the voxel spacing must be positive, not {tuple(spacing)}")
     native = np.ascontiguousarray(voxels, dtype=voxels.dtype.newbyteorder("="))
     if native.dtype == np.float16:
         native = native.astype(np.float32)
@@ -40,28 +41,10 @@ def make_image(voxels, spacing, origin=(0, 0, 0), direction=None, axes=None):
     image = vtkImageData()
     image.SetDimensions(voxels.shape[::-1])
     image.GetPointData().SetScalars(scalars)
-    return place_image(image, spacing, origin, direction, axes)
-
-
-def place_image(image, spacing, origin, direction=None, axes=None):
-    """Give the image its place in the world; see make_image. Returns the image."""
-    if not all(np.isfinite(s) and s > 0 for s in spacing):
-        raise VolumeError(f"the voxel spacing must be positive, not {tuple(spacing)}")
     image.SetSpacing([float(s) for s in spacing])
     image.SetOrigin([float(o) for o in origin])
     if direction is not None:
-        matrix = np.asarray(direction, dtype=float).reshape(3, 3)
-        if not np.isfinite(matrix).all() or abs(np.linalg.det(matrix)) < 1e-6:
-            raise VolumeError("the directions of the voxel axes do not span the space")
-        if not np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-3):
-            raise VolumeError("the voxel axes are not at right angles: such a sheared or tilted"
-                              " volume must be resampled first")
-        image.SetDirectionMatrix(matrix.ravel())
-    if axes:
-        label = vtkStringArray()
-        label.SetName(AXES_NAME)
-        label.InsertNextValue(axes)
-        image.GetFieldData().AddArray(label)
+        image.SetDirectionMatrix(np.ravel(direction))
     return image
 
 

@@ -306,8 +306,8 @@ Runs
   --slow                those marked slow too
   --no-recovery         us-paper too
   --repetitions N       of each run; the one of median processor time is told (default 1)
-  --metric NAME         voxels or world (default): which lengths are even where voxels are no cubes,
-                        for us and for the peers that aim at even triangles
+  --metric NAME         voxels or world (default): which lengths are uniform where voxels are no
+                        cubes, for us and for the peers that aim at well-shaped triangles
   --initialization N    0 enclosing icosahedron (default), 1 seeds, 2 iso-surface of the coarsest
                         level
   --coarsest LEVEL      where us-N starts; default: the coarsest level at which a voxel of the

@@ -38,7 +38,7 @@ SurfaceJob SmoothedJob(vtkImageData* image, double isoValue);
 /** The same, then vtkQuadricDecimation to about `vertices`. */
 SurfaceJob DecimatedJob(vtkImageData* image, double isoValue, long long vertices);
 
-/** What a user would do today for even triangles: the smoothed surface, then CGAL's
+/** What a user would do today for well-shaped triangles: the smoothed surface, then CGAL's
     isotropic_remeshing in 3 iterations to edges of about `edgeLength`. */
 SurfaceJob RemeshedJob(vtkImageData* image, double isoValue, double edgeLength);
 

@@ -43,7 +43,8 @@ growth=
 surface_options=()
 growth_options=()
 packages=("${tool_packages[@]}" libbenchmark-dev libcgal-dev)
-while [ $# -gt 0 ]; do
+take_option()
+{
   case $1 in
     --with-itk) packages+=(libinsighttoolkit5-dev) ;;
     --surface-only) with_pyramid= ;;
@@ -51,31 +52,30 @@ while [ $# -gt 0 ]; do
     --slow | --no-recovery) surface_options+=("$1") ;;
     --all-scans) all_scans=yes ;;
     --growth) growth=yes ;;
-    --volume | --iso)
-      [ $# -ge 2 ] || fail "$1 needs a value"
-      if [ "$1" = --volume ]; then volume=$2; else iso=$2; fi
-      shift
+    --volume)
+      need_value "a value" "$@"
+      volume=$2
       ;;
-    --generate | --repetitions | --max-size)
-      [[ ${2:-} =~ ^[0-9]+$ ]] || fail "$1 needs a number"
-      case $1 in
-        --generate) generated_size=$2 ;;
-        --repetitions) repetitions=$2 ;;
-        --max-size) growth_options+=("$1" "$2") ;;
-      esac
-      shift
+    --iso)
+      need_value "a value" "$@"
+      iso=$2
       ;;
-    -h | --help)
-      usage
-      exit 0
+    --generate)
+      need_number "$@"
+      generated_size=$2
       ;;
-    *)
-      usage >&2
-      fail "Unknown option: $1"
+    --repetitions)
+      need_number "$@"
+      repetitions=$2
       ;;
+    --max-size)
+      need_number "$@"
+      growth_options+=("$1" "$2")
+      ;;
+    *) return 1 ;;
   esac
-  shift
-done
+}
+parse_options "$@"
 [ -z "$volume" ] || [ -n "$iso" ] || fail "--volume needs --iso VALUE"
 [ -z "$iso" ] || [ -n "$volume" ] || fail "--iso needs --volume FILE.vti"
 
@@ -89,8 +89,7 @@ install_packages "${packages[@]}" "${needed[@]}"
 prepare_skull
 build_vtk_flavour -DVOLUMIC_BUILD_BENCHMARKS=ON
 run_step "Reading the skull CT" benchmark-skull \
-  "$(vtk_python)" "$root/Examples/Python/read_volume.py" \
-  "$(cranium)" "$results/skull.vti"
+  "$build/install-vtk/bin/volumic" "$(cranium)" --write-volume "$results/skull.vti"
 
 # list_scans: name, file and iso-value of the volumes of ../shared/data, from the table there. Of
 # several iso-values the first; half a step up where voxels are whole numbers, so that none equals it.

@@ -21,7 +21,7 @@ from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
 
 from tool_test_case import (
-    CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SIZE, SPACING, ToolTestCase, ball, make_image)
+    CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image)
 from volumic import vtkDeformableSurface, vtkImagePyramid
 
 # What is set in another way: inputs, and what of the pyramid is the surface's.

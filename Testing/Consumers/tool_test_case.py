@@ -8,13 +8,15 @@ VOLUMIC_PROGRAM names the program, VOLUMIC_MANUAL its manual page.
 import json
 import os
 import subprocess
-import tempfile
-import unittest
+import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
+from folder_test_case import FolderTestCase  # pylint: disable=wrong-import-position
 
 PROGRAM = os.environ["VOLUMIC_PROGRAM"]
 MANUAL = os.environ["VOLUMIC_MANUAL"]
@@ -48,26 +50,7 @@ def make_image(voxels, spacing=SPACING, origin=ORIGIN, direction=np.eye(3)):
     return image
 
 
-class ToolTestCase(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, writer, name, image):
-        writer.SetFileName(self.path(name))
-        writer.SetInputData(image)
-        writer.Write()
-        return self.path(name)
-
-    def write_bytes(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content)
-        return self.path(name)
-
+class ToolTestCase(FolderTestCase):
     def ball_file(self):
         return self.write(vtkXMLImageDataWriter(), "ball.vti", make_image(ball()))
 
@@ -84,8 +67,8 @@ class ToolTestCase(unittest.TestCase):
         """The report of a run, parsed."""
         return json.loads(self.run_tool(*arguments, "--report", "-", status=status).stdout)
 
-    def refused(self, reason, *arguments, status=1):
+    def refused(self, reason, *arguments, status=1, **options):
         """The program ends with this status and says why, in one line that names itself."""
-        process = self.run_tool(*arguments, status=status)
+        process = self.run_tool(*arguments, status=status, **options)
         self.assertRegex(process.stderr, reason)
         self.assertRegex(process.stderr.strip().splitlines()[-1 if status == 1 else 0], "^volumic: ")

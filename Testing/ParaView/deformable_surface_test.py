@@ -7,7 +7,6 @@ import sys
 import unittest
 
 import numpy
-from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
@@ -55,15 +54,6 @@ def surface_of(source, **properties):
     return simple.DeformableSurface(source, **properties)
 
 
-def output(filter_, port=SURFACE):
-    filter_.UpdatePipeline()
-    return servermanager.Fetch(filter_, idx=port)
-
-
-def field(surface, name):
-    return surface.GetFieldData().GetAbstractArray(name).GetValue(0)
-
-
 def names(attributes):
     return {attributes.GetAbstractArray(i).GetName() for i in range(attributes.GetNumberOfArrays())}
 
@@ -92,23 +82,23 @@ class DeformableSurfaceTest(unittest.TestCase):
         self.assertEqual(len(ways), 3 * len(corners))
         self.assertEqual(ways, {(b, a) for a, b in ways})
         characteristic = surface.GetNumberOfPoints() - len(ways) // 2 + len(corners)
-        self.assertEqual(field(surface, "EulerCharacteristic"), characteristic)
+        self.assertEqual(testing.field(surface, "EulerCharacteristic"), characteristic)
 
     def check_ball(self, surface, tolerance):
         self.check_valid(surface)
-        self.assertEqual(field(surface, "StopReason"), "converged")
-        self.assertEqual(field(surface, "NumberOfComponents"), 1)
-        self.assertEqual(field(surface, "Genus"), 0)
+        self.assertEqual(testing.field(surface, "StopReason"), "converged")
+        self.assertEqual(testing.field(surface, "NumberOfComponents"), 1)
+        self.assertEqual(testing.field(surface, "Genus"), 0)
         distance = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
         self.assertLess(numpy.abs(distance - RADIUS).max(), tolerance)
 
     def test_ball(self):
-        surface = output(surface_of(self.ball, IsoValue=0.0))
+        surface = testing.fetch(surface_of(self.ball, IsoValue=0.0))
         self.check_ball(surface, 0.2)
         volume = 4.0 / 3.0 * numpy.pi * RADIUS**3
-        self.assertAlmostEqual(field(surface, "Volume") / volume, 1.0, delta=0.02)
+        self.assertAlmostEqual(testing.field(surface, "Volume") / volume, 1.0, delta=0.02)
         area = 4.0 * numpy.pi * RADIUS**2
-        self.assertAlmostEqual(field(surface, "Area") / area, 1.0, delta=0.02)
+        self.assertAlmostEqual(testing.field(surface, "Area") / area, 1.0, delta=0.02)
         centroid = surface.GetFieldData().GetArray("ComponentCentroid").GetTuple(0)
         numpy.testing.assert_allclose(centroid, CENTRE, atol=0.05)
         normals = vtk_to_numpy(surface.GetPointData().GetNormals())
@@ -116,7 +106,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         self.assertGreater((normals * away).sum(axis=1).min(), 0.9)
 
     def test_arrays(self):
-        surface = output(surface_of(self.ball, IsoValue=0.0))
+        surface = testing.fetch(surface_of(self.ball, IsoValue=0.0))
         for name, kind in POINT_ARRAYS.items():
             self.assertEqual(surface.GetPointData().GetArray(name).GetClassName(), kind)
         self.assertEqual(names(surface.GetCellData()),
@@ -125,7 +115,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         self.assertLessEqual(FIELDS, names(surface.GetFieldData()))
         inertia = surface.GetFieldData().GetArray("ComponentInertia")
         self.assertEqual(inertia.GetNumberOfComponents(), 6)
-        self.assertEqual(field(surface, "Level"), 0)
+        self.assertEqual(testing.field(surface, "Level"), 0)
 
     def test_default_iso_value_is_otsus_threshold(self):
         filter_ = surface_of(simple.Wavelet())
@@ -133,24 +123,25 @@ class DeformableSurfaceTest(unittest.TestCase):
         low, high = filter_.Input.PointData["RTData"].GetRange()
         self.assertNotAlmostEqual(filter_.IsoValue, (low + high) / 2, places=3)
         self.assertEqual(filter_.Voxels[1], "RTData")
-        self.check_valid(output(filter_))
+        self.check_valid(testing.fetch(filter_))
 
     def test_levels_and_history(self):
         filter_ = surface_of(simple.Wavelet())
-        surface, blocks, table = (output(filter_, port) for port in (SURFACE, LEVELS, HISTORY))
+        surface, blocks, table = (testing.fetch(filter_, port)
+                                  for port in (SURFACE, LEVELS, HISTORY))
         self.assertEqual(blocks.GetClassName(), "vtkMultiBlockDataSet")
         self.assertEqual(testing.names(blocks), ["Level 0", "Level 1"])
         self.assertEqual(blocks.GetNumberOfBlocks(), 2)
         for h, level in enumerate(testing.levels(blocks)):
             self.check_valid(level)
-            self.assertEqual(field(level, "Level"), h)
+            self.assertEqual(testing.field(level, "Level"), h)
         numpy.testing.assert_array_equal(points(blocks.GetBlock(0)), points(surface))
 
         self.assertEqual(table.GetClassName(), "vtkTable")
         columns = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())]
         self.assertEqual(columns, COLUMNS)
         column = {name: vtk_to_numpy(table.GetColumnByName(name)) for name in COLUMNS}
-        rows = sum(field(level, "Iterations") for level in testing.levels(blocks))
+        rows = sum(testing.field(level, "Iterations") for level in testing.levels(blocks))
         numpy.testing.assert_array_equal(column["Iteration"], 1 + numpy.arange(rows))
         self.assertTrue((numpy.diff(column["Level"]) <= 0).all(), "from coarse to fine")
         self.assertEqual(column["Vertices"][-1], surface.GetNumberOfPoints())
@@ -168,8 +159,8 @@ class DeformableSurfaceTest(unittest.TestCase):
 
     def test_scripted_levels(self):
         filter_ = surface_of(self.ball, IsoValue=0.0, FinestLevel=1)
-        self.assertEqual(field(output(filter_), "Level"), 1)
-        blocks = output(filter_, LEVELS)
+        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)
+        blocks = testing.fetch(filter_, LEVELS)
         self.assertEqual(blocks.GetBlock(0).GetNumberOfPoints() if blocks.GetBlock(0) else 0, 0)
         self.check_ball(blocks.GetBlock(1), 0.6)
 
@@ -177,14 +168,15 @@ class DeformableSurfaceTest(unittest.TestCase):
         pyramid = simple.ImagePyramid(self.ball)
         filter_ = surface_of(pyramid, IsoValue=0.0)
         self.assertEqual(filter_.Voxels[1], "v")
-        self.check_ball(output(filter_), 0.2)
+        self.check_ball(testing.fetch(filter_), 0.2)
         # The filter builds the same pyramid for an image.
         numpy.testing.assert_array_equal(
-            points(output(filter_)), points(output(surface_of(self.ball, IsoValue=0.0))))
+            points(testing.fetch(filter_)),
+            points(testing.fetch(surface_of(self.ball, IsoValue=0.0))))
 
     def test_initial_surface(self):
         sphere = simple.Sphere(Center=CENTRE, Radius=15.0, ThetaResolution=16, PhiResolution=16)
-        surface = output(surface_of(self.ball, IsoValue=0.0, InitialSurface=sphere,
+        surface = testing.fetch(surface_of(self.ball, IsoValue=0.0, InitialSurface=sphere,
                                     Initialization="Input Surface"))
         self.check_ball(surface, 0.2)
 
@@ -197,7 +189,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         place = (CENTRE[0] + RADIUS + 3.0, CENTRE[1], CENTRE[2])
         known = simple.PointSource(Center=place, NumberOfPoints=1, Radius=0.0)
         for weight, passed in ((1.0, True), (0.0, False)):
-            surface = output(surface_of(self.ball, IsoValue=0.0, AttractingPoints=known,
+            surface = testing.fetch(surface_of(self.ball, IsoValue=0.0, AttractingPoints=known,
                                         PointAttractionWeight=weight))
             self.check_valid(surface)
             self.assertEqual(surface.GetBounds()[1] > place[0], passed)
@@ -210,7 +202,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         for weight, radius in ((0.0, 5.0), (2.0, 9.0)):
             filter_ = surface_of(source, IsoValue=RADIUS - 5.0, EdgeAttractionWeight=weight)
             filter_.Voxels, filter_.EdgeMap = ["POINTS", "v"], ["POINTS", "edges"]
-            surface = output(filter_)
+            surface = testing.fetch(filter_)
             self.check_valid(surface)
             away = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
             self.assertAlmostEqual(away.mean(), radius, delta=0.3)
@@ -219,23 +211,23 @@ class DeformableSurfaceTest(unittest.TestCase):
         small, large = 3.0 - distances((-12.0, 0.0, 0.0)), 7.0 - distances((8.0, 0.0, 0.0))
         source = testing.produce(image_of(numpy.maximum(small, large)))
         for keep, count in (("All", 2), ("Largest", 1)):
-            surface = output(surface_of(source, IsoValue=0.0, FinestLevel=1, CoarsestLevel=1,
+            surface = testing.fetch(surface_of(source, IsoValue=0.0, FinestLevel=1, CoarsestLevel=1,
                                         KeepComponents=keep))
             self.check_valid(surface)
-            self.assertEqual(field(surface, "NumberOfComponents"), count)
+            self.assertEqual(testing.field(surface, "NumberOfComponents"), count)
 
     def test_recovery_of_a_cavity(self):
         source = testing.produce(image_of(numpy.minimum(RADIUS - distances(), distances() - 3.0)))
         for recovery, characteristic in (("Objects", 2), ("Objects and Cavities", 4)):
-            surface = output(surface_of(source, IsoValue=0.0, Recovery=recovery))
+            surface = testing.fetch(surface_of(source, IsoValue=0.0, Recovery=recovery))
             self.check_valid(surface)
-            self.assertEqual(field(surface, "EulerCharacteristic"), characteristic)
+            self.assertEqual(testing.field(surface, "EulerCharacteristic"), characteristic)
 
     def check_error(self, expected, source, **properties):
         """The message that a bad input gives, and that there is no output afterwards."""
         filter_ = surface_of(source, **properties)
         with testing.CapturedMessages() as messages:
-            surface = output(filter_)
+            surface = testing.fetch(filter_)
         self.assertIn("vtkDeformableSurface", messages.text)
         for word in expected:
             self.assertIn(word, messages.text)
@@ -245,15 +237,15 @@ class DeformableSurfaceTest(unittest.TestCase):
     def test_error_for_an_iso_value_out_of_range_and_the_way_out(self):
         filter_ = self.check_error(["Iso Value", "1000", "range"], self.ball, IsoValue=1000.0)
         filter_.IsoValue = 0.0
-        self.check_ball(output(filter_), 0.2)
+        self.check_ball(testing.fetch(filter_), 0.2)
 
     def test_an_error_leaves_no_old_surface_with_the_client(self):
         filter_ = surface_of(self.ball, IsoValue=0.0)
         for iso_value, is_good in ((0.0, True), (1000.0, False), (0.0, True)):
             filter_.IsoValue = iso_value
             with testing.CapturedMessages() as messages:
-                surface = output(filter_)
-                levels, history = output(filter_, LEVELS), output(filter_, HISTORY)
+                surface = testing.fetch(filter_)
+                levels, history = testing.fetch(filter_, LEVELS), testing.fetch(filter_, HISTORY)
             self.assertEqual("ERROR" in messages.text, not is_good, messages.text)
             self.assertNotIn("vtkInformation", messages.text, "VTK's own report of the failure")
             self.assertEqual(surface.GetNumberOfPoints() > 0, is_good)
@@ -264,7 +256,7 @@ class DeformableSurfaceTest(unittest.TestCase):
             self.assertEqual(known > 0, is_good)
 
     def test_thread_counts_agree_to_the_bit(self):
-        one, two = [output(surface_of(simple.Wavelet(), NumberOfThreads=n)) for n in (1, 2)]
+        one, two = [testing.fetch(surface_of(simple.Wavelet(), NumberOfThreads=n)) for n in (1, 2)]
         self.assertEqual(points(one).tobytes(), points(two).tobytes())
         self.assertEqual(triangles(one).tobytes(), triangles(two).tobytes())
 
@@ -281,11 +273,11 @@ class DeformableSurfaceTest(unittest.TestCase):
             if len(reports) == 10:
                 algorithm.SetAbortExecute(1)
         tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
-        surface = output(filter_)
+        surface = testing.fetch(filter_)
         self.check_valid(surface)
-        self.assertEqual(field(surface, "StopReason"), "cancelled")
-        self.assertGreater(output(filter_, HISTORY).GetNumberOfRows(), 0)
-        self.assertLess(output(filter_, HISTORY).GetNumberOfRows(), 11)
+        self.assertEqual(testing.field(surface, "StopReason"), "cancelled")
+        self.assertGreater(testing.fetch(filter_, HISTORY).GetNumberOfRows(), 0)
+        self.assertLess(testing.fetch(filter_, HISTORY).GetNumberOfRows(), 11)
         # ParaView keeps it, also for the filters after it, and does not start again by itself.
         self.assertEqual(testing.fetch(simple.Elevation(filter_)).GetNumberOfPoints(),
                          surface.GetNumberOfPoints())
@@ -294,7 +286,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         algorithm.RemoveObserver(tag)
         self.assertEqual(algorithm.GetAbortExecute(), 0)
         algorithm.Modified()
-        self.check_ball(output(filter_), 0.2)
+        self.check_ball(testing.fetch(filter_), 0.2)
         self.assertEqual(len(executions), 2)
 
 

@@ -8,7 +8,6 @@ import unittest
 
 import numpy
 from paraview import simple
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
@@ -61,16 +60,6 @@ BAD_FILES = {
 }
 
 
-def written(name, image):
-    path = testing.output_path(f"volume-{name}.vti")
-    writer = vtkXMLImageDataWriter()
-    writer.SetDataModeToBinary()  # see output_files.py
-    writer.SetFileName(path)
-    writer.SetInputData(image)
-    writer.Write()
-    return path
-
-
 def bad_second_inputs():
     """What port 1 may be given, with the value of Initialization that asks for it."""
     middle = [(SIZE - 1) / 2] * 3
@@ -90,7 +79,7 @@ class ErrorsInViewTest(unittest.TestCase):
     def setUpClass(cls):
         views.open_screen()
         testing.load_plugin()
-        cls.good_file = written("good", ball())
+        cls.good_file = testing.write_volume("volume-good.vti", ball())
 
     def setUp(self):
         self.view = views.new_view("RenderView")
@@ -98,8 +87,7 @@ class ErrorsInViewTest(unittest.TestCase):
 
     def tearDown(self):
         simple.Delete(self.view)
-        for source in reversed(list(simple.GetSources().values())):
-            simple.Delete(source)
+        testing.delete_sources()
 
     def show(self, kind, path=None):
         """A filter of a reader of a file, shown in the view."""
@@ -208,7 +196,7 @@ class ErrorsInViewTest(unittest.TestCase):
 
     def test_change_of_the_file(self):
         for name, (image, kinds) in BAD_FILES.items():
-            bad_file = written(name, image())
+            bad_file = testing.write_volume(f"volume-{name}.vti", image())
             for kind in kinds:
                 with self.subTest(file=name, filter=kind):
                     self.show(kind)

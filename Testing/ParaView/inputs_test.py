@@ -10,7 +10,7 @@ import unittest
 import numpy
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import (vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+from vtkmodules.vtkCommonDataModel import (vtkMultiBlockDataSet, vtkPartitionedDataSet,
                                            vtkPartitionedDataSetCollection, vtkRectilinearGrid)
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -71,8 +71,7 @@ class InputsTest(unittest.TestCase):
         testing.load_plugin()
 
     def tearDown(self):
-        for source in reversed(list(simple.GetSources().values())):
-            simple.Delete(source)
+        testing.delete_sources()
 
     def check_ball(self, filter_):
         surface = testing.fetch(filter_)

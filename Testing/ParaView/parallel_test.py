@@ -19,9 +19,7 @@ class ParallelTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         testing.load_plugin()
-        sys.path.insert(0, os.environ["VOLUMIC_PYTHON"])
-        import volumic
-        cls.package = volumic
+        cls.package = testing.load_package()
 
     def test_there_are_two_processes(self):
         self.assertEqual(vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses(), 2)

@@ -4,6 +4,7 @@
 
 import contextlib
 import ctypes
+import importlib
 import locale
 import os
 import signal
@@ -12,12 +13,12 @@ import sys
 import tempfile
 import unittest
 
-import numpy
 from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 SQRT3 = 3.0**0.5
 
@@ -46,6 +47,12 @@ def load_plugin(remote=False):
     simple.LoadPlugin(plugin_path(), remote=remote, ns=simple.__dict__)
 
 
+def load_package():
+    """The Python package. Once it is imported, Python knows an object of ours by its class."""
+    sys.path.insert(0, os.environ["VOLUMIC_PYTHON"])
+    return importlib.import_module("volumic")
+
+
 def make_image(values, spacing=(1.0, 1.0, 1.0), origin=(0.0, 0.0, 0.0), start=(0, 0, 0), name="v"):
     """vtkImageData of values[z, y, x], whose extent begins at `start`."""
     image = vtkImageData()
@@ -72,10 +79,38 @@ def produce(data):
     return source
 
 
-def fetch(proxy):
-    """The output of a filter, on the client."""
+def write_volume(file_name, image):
+    """Path of a .vti file, in the folder for what tests write."""
+    path = output_path(file_name)
+    writer = vtkXMLImageDataWriter()
+    writer.SetDataModeToBinary()  # see output_files.py
+    writer.SetFileName(path)
+    writer.SetInputData(image)
+    writer.Write()
+    return path
+
+
+def fetch(proxy, port=0):
+    """An output of a filter, on the client."""
     proxy.UpdatePipeline()
-    return servermanager.Fetch(proxy)
+    return servermanager.Fetch(proxy, idx=port)
+
+
+def field(surface, name):
+    """The first value of an array of field data."""
+    return surface.GetFieldData().GetAbstractArray(name).GetValue(0)
+
+
+def delete_sources(but=None):
+    """All of the pipeline, the last ones first: what comes last has nothing after it."""
+    for source in reversed(list(simple.GetSources().values())):
+        if source != but:
+            simple.Delete(source)
+
+
+def delete_views():
+    for view in simple.GetViews():
+        simple.Delete(view)
 
 
 def levels(pyramid):

@@ -17,7 +17,6 @@ import plugin_testing as testing
 import window_testing as window
 import x_input
 from paraview import simple
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu
 
 SEEDS = f"{PROPERTIES}/SeedPositions"
@@ -49,13 +48,8 @@ def two_balls():
     """Path of a volume: balls of radius 9 about (14, 20, 20) and (46, 20, 20)."""
     z, y, x = numpy.mgrid[0:41, 0:41, 0:61].astype(float)
     distance = numpy.hypot(numpy.abs(x - 30.0) - 16.0, numpy.hypot(y - 20.0, z - 20.1)) - 9.0
-    path = testing.output_path("two-balls.vti")
-    writer = vtkXMLImageDataWriter()
-    writer.SetDataModeToBinary()  # see output_files.py
-    writer.SetFileName(path)
-    writer.SetInputData(testing.make_image(numpy.clip(50.0 - 50.0 * distance, 0.0, 100.0)))
-    writer.Write()
-    return path
+    return testing.write_volume(
+        "two-balls.vti", testing.make_image(numpy.clip(50.0 - 50.0 * distance, 0.0, 100.0)))
 
 
 def a_slice_of(volume):

@@ -56,10 +56,7 @@ class ProxyDefaultsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         testing.load_plugin()
-        # Python knows an object of ours by its class once the package is imported.
-        sys.path.insert(0, os.environ["VOLUMIC_PYTHON"])
-        import volumic
-        cls.package = volumic
+        cls.package = testing.load_package()
         cls.elements = list(proxy_elements())
 
     def new_proxy(self, group, name):

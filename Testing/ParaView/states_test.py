@@ -11,7 +11,6 @@ import unittest
 import numpy
 from paraview import simple
 from paraview import smtrace
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
@@ -67,16 +66,6 @@ def blob(scale=1.0, shift=0.0, name="density", size=24):
     return testing.make_image((scale * inside + shift).astype(numpy.float32), name=name)
 
 
-def written(file_name, image):
-    path = testing.output_path(file_name)
-    writer = vtkXMLImageDataWriter()
-    writer.SetDataModeToBinary()  # see output_files.py
-    writer.SetFileName(path)
-    writer.SetInputData(image)
-    writer.Write()
-    return path
-
-
 class StatesOfTheWindowTest(window.WindowTestCase):
     def test_python_state_in_pvpython_and_pvbatch(self):
         path = testing.output_path("from-the-window.py")
@@ -104,9 +93,10 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
         """After a file of no use the next one works, its array is chosen, its range is taken."""
         no_arrays = blob()
         no_arrays.GetPointData().Initialize()
-        files = {"none": written("none.vti", no_arrays), "again": written("again.vti", blob()),
-                 "scaled": written("scaled.vti", blob(10, -7)),
-                 "renamed": written("renamed.vti", blob(100, 1000, "voxels"))}
+        files = {"none": testing.write_volume("none.vti", no_arrays),
+                 "again": testing.write_volume("again.vti", blob()),
+                 "scaled": testing.write_volume("scaled.vti", blob(10, -7)),
+                 "renamed": testing.write_volume("renamed.vti", blob(100, 1000, "voxels"))}
         # Change File is in a menu that the recorder doesn't reach; this is what it calls.
         change = {name: self.session.add_macro(f"change_to_{name}", CHANGE_FILE.format(path=path))
                   for name, path in files.items()}
@@ -143,10 +133,8 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
 
 class TraceTest(unittest.TestCase):
     def tearDown(self):
-        for view in simple.GetViews():
-            simple.Delete(view)
-        for source in reversed(list(simple.GetSources().values())):
-            simple.Delete(source)
+        testing.delete_views()
+        testing.delete_sources()
 
     def test_trace_with_the_chart(self):
         testing.load_plugin()
@@ -170,14 +158,13 @@ class ChangedVolumeTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         testing.load_plugin()
-        cls.first = written("first.vti", blob())
+        cls.first = testing.write_volume("first.vti", blob())
         # Other values in an array of the same name, and of another one.
-        cls.same_name = written("same-name.vti", blob(10, -7))
-        cls.other_name = written("other-name.vti", blob(100, 1000, "voxels"))
+        cls.same_name = testing.write_volume("same-name.vti", blob(10, -7))
+        cls.other_name = testing.write_volume("other-name.vti", blob(100, 1000, "voxels"))
 
     def tearDown(self):
-        for source in reversed(list(simple.GetSources().values())):
-            simple.Delete(source)
+        testing.delete_sources()
 
     def filter_of(self, kind):
         reader = simple.XMLImageDataReader(FileName=self.first)

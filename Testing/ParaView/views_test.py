@@ -46,10 +46,8 @@ class ViewsTestCase(unittest.TestCase):
         testing.load_plugin()
 
     def tearDown(self):
-        for view in simple.GetViews():
-            simple.Delete(view)
-        for source in reversed(list(simple.GetSources().values())):
-            simple.Delete(source)
+        testing.delete_views()
+        testing.delete_sources()
 
 
 class HistoryChartTest(ViewsTestCase):

@@ -7,7 +7,6 @@ import sys
 import unittest
 
 import numpy
-from paraview import servermanager
 from paraview import simple
 from paraview import smtrace
 from paraview.vtk.util.numpy_support import vtk_to_numpy
@@ -37,15 +36,6 @@ def ball_of_cells():
     return image
 
 
-def output(filter_, port=SURFACE):
-    filter_.UpdatePipeline()
-    return servermanager.Fetch(filter_, idx=port)
-
-
-def field(surface, name):
-    return surface.GetFieldData().GetAbstractArray(name).GetValue(0)
-
-
 def points(surface):
     return vtk_to_numpy(surface.GetPoints().GetData())
 
@@ -57,14 +47,11 @@ class VolumeToSurfaceTest(unittest.TestCase):
         cls.ball = testing.produce(testing.make_image(ball_values(), name="density"))
 
     def tearDown(self):
-        # What comes last has nothing after it.
-        for source in reversed(list(simple.GetSources().values())):
-            if source != self.ball:
-                simple.Delete(source)
+        testing.delete_sources(but=self.ball)
 
     def check_ball(self, surface, tolerance=0.5):
-        self.assertEqual(field(surface, "StopReason"), "converged")
-        self.assertEqual(field(surface, "NumberOfComponents"), 1)
+        self.assertEqual(testing.field(surface, "StopReason"), "converged")
+        self.assertEqual(testing.field(surface, "NumberOfComponents"), 1)
         distance = numpy.linalg.norm(points(surface) - (SIZE - 1) / 2, axis=1)
         self.assertLess(numpy.abs(distance - RADIUS).max(), tolerance)
 
@@ -74,7 +61,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
         self.assertLess(filter_.IsoValue, BRIGHT - 30)
         low, high = self.ball.PointData["density"].GetRange()
         self.assertNotAlmostEqual(filter_.IsoValue, (low + high) / 2, places=3)
-        self.check_ball(output(filter_))
+        self.check_ball(testing.fetch(filter_))
 
     def test_iso_value_is_reset_to_the_data(self):
         # What the button beside the value does.
@@ -90,29 +77,30 @@ class VolumeToSurfaceTest(unittest.TestCase):
         filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
         filter_.SMProxy.UpdateVTKObjects()
         self.assertAlmostEqual(filter_.IsoValue, preset * 10 - 7, delta=0.01)
-        self.check_ball(output(filter_))
+        self.check_ball(testing.fetch(filter_))
 
     def test_voxels_in_cells(self):
         of_cells = simple.VolumetoSurface(testing.produce(ball_of_cells()))
         self.assertEqual(list(of_cells.Voxels), ["CELLS", "density"])
         of_points = simple.VolumetoSurface(self.ball)
         self.assertEqual(of_cells.IsoValue, of_points.IsoValue)
-        self.assertEqual(points(output(of_cells)).tobytes(), points(output(of_points)).tobytes())
+        self.assertEqual(points(testing.fetch(of_cells)).tobytes(),
+                         points(testing.fetch(of_points)).tobytes())
 
     def test_volume_without_a_boundary(self):
         flat = testing.produce(testing.make_image(numpy.full((16,) * 3, 4.0, numpy.float32)))
         with testing.CapturedMessages() as messages:
             filter_ = simple.VolumetoSurface(flat)
             self.assertEqual(filter_.IsoValue, 4.0)
-            surface = output(filter_)
+            surface = testing.fetch(filter_)
         self.assertIn("ranges from 4 to 4", messages.text)
         self.assertIn("Iso Value is 4, outside the range", messages.text)
         self.assertEqual(surface.GetNumberOfPoints(), 0)
 
     def test_pyramid_inside(self):
         filter_ = simple.VolumetoSurface(self.ball, NumberOfLevels=2, FinestLevel=1)
-        self.assertEqual(field(output(filter_), "Level"), 1)
-        self.assertEqual(output(filter_, LEVELS).GetNumberOfBlocks(), 2)
+        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)
+        self.assertEqual(testing.fetch(filter_, LEVELS).GetNumberOfBlocks(), 2)
 
     def test_goes_on_from_the_last_level(self):
         """By ParaView's own way of setting properties and updating."""
@@ -124,48 +112,49 @@ class VolumeToSurfaceTest(unittest.TestCase):
             words = (caller.GetProgressText() or "").split()
             if "iteration" in words:
                 levels.add(int(words[1].strip(",")))
-        self.assertEqual(field(output(filter_), "Level"), 2)
+        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 2)
         algorithm.AddObserver("ProgressEvent", progress)
         filter_.FinestLevel = 0
-        finest = output(filter_)
-        self.assertEqual(field(finest, "Level"), 0)
+        finest = testing.fetch(filter_)
+        self.assertEqual(testing.field(finest, "Level"), 0)
         self.assertEqual(levels, {0, 1}, "not anew")
-        fresh = output(simple.VolumetoSurface(self.ball))
+        fresh = testing.fetch(simple.VolumetoSurface(self.ball))
         points = [vtk_to_numpy(surface.GetPoints().GetData()) for surface in (finest, fresh)]
         self.assertEqual(points[0].tobytes(), points[1].tobytes())
         levels.clear()
         algorithm.SetProgressText("")
         filter_.FinestLevel = 1
-        self.assertEqual(field(output(filter_), "Level"), 1)
+        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)
         self.assertEqual(levels, set(), "at once")
         filter_.IsoValue = filter_.IsoValue * 0.9
-        output(filter_)
+        testing.fetch(filter_)
         self.assertEqual(levels, {1, 2}, "anew")
 
     def test_time_limit(self):
         filter_ = simple.VolumetoSurface(self.ball, TimeLimit=1e-6)
-        surface = output(filter_)
+        surface = testing.fetch(filter_)
         self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
                          "time limit")
         self.assertEqual(surface.GetNumberOfPoints(), 0)
         filter_.TimeLimit = 0
-        self.assertGreater(output(filter_).GetNumberOfPoints(), 0)
+        self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 0)
         filter_.TimeLimit = -1
         with testing.CapturedMessages() as messages:
-            self.assertEqual(output(filter_).GetNumberOfPoints(), 0)
+            self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
         self.assertIn("Time Limit is -1", messages.text)
 
     def test_snapshots(self):
         filter_ = simple.VolumetoSurface(self.ball, SnapshotInterval=10)
-        blocks = output(filter_, SNAPSHOTS)
+        blocks = testing.fetch(filter_, SNAPSHOTS)
         names = testing.names(blocks)
         self.assertEqual(names[:2], ["Level 2, iteration 0", "Level 2, iteration 10"])
         for name, surface in zip(names, testing.levels(blocks)):
             self.assertEqual(
-                name, f"Level {field(surface, 'Level')}, iteration {field(surface, 'Iterations')}")
+                name, f"Level {testing.field(surface, 'Level')},"
+                f" iteration {testing.field(surface, 'Iterations')}")
             self.assertGreater(surface.GetNumberOfPolys(), 0)
         filter_.SnapshotInterval = 0
-        self.assertEqual(output(filter_, SNAPSHOTS).GetNumberOfBlocks(), 0)
+        self.assertEqual(testing.fetch(filter_, SNAPSHOTS).GetNumberOfBlocks(), 0)
 
     def test_displays_where_people_write_a_comma(self):
         """The numbers of the plugin's XML have points in every country."""
@@ -208,7 +197,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
         config.SetFullyTraceSupplementalProxies(False)
         filter_ = simple.VolumetoSurface(registrationName="Traced", Input=source, FinestLevel=1)
         filter_.UpdatePipeline()
-        iso, wanted = filter_.IsoValue, points(output(filter_)).tobytes()
+        iso, wanted = filter_.IsoValue, points(testing.fetch(filter_)).tobytes()
         text = smtrace.stop_trace()
         self.assertIn("VolumetoSurface(", text)
         self.assertRegex(text, "FinestLevel ?= ?1")
@@ -219,14 +208,14 @@ class VolumeToSurfaceTest(unittest.TestCase):
         again = simple.FindSource("Traced")
         self.assertIsNotNone(again, text)
         self.assertAlmostEqual(again.IsoValue, iso, places=9)
-        self.assertEqual(points(output(again)).tobytes(), wanted)
+        self.assertEqual(points(testing.fetch(again)).tobytes(), wanted)
 
     def test_state(self):
         source = simple.Wavelet(registrationName="SavedWavelet")
         source.UpdatePipeline()
         filter_ = simple.VolumetoSurface(
             source, registrationName="Saved", IsoValue=140.0, SnapshotInterval=25)
-        wanted = points(output(filter_)).tobytes()
+        wanted = points(testing.fetch(filter_)).tobytes()
         # Python states: see states_test.py.
         path = testing.output_path("volume-to-surface.pvsm")
         simple.SaveState(path)
@@ -236,7 +225,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
         again = simple.FindSource("Saved")
         self.assertEqual(again.IsoValue, 140.0)
         self.assertEqual(again.SnapshotInterval, 25)
-        self.assertEqual(points(output(again)).tobytes(), wanted)
+        self.assertEqual(points(testing.fetch(again)).tobytes(), wanted)
 
     def check_abort_and_the_next_apply(self, abort):
         filter_ = simple.VolumetoSurface(self.ball)
@@ -249,13 +238,13 @@ class VolumeToSurfaceTest(unittest.TestCase):
             if len(reports) == 10:
                 abort(algorithm)
         tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
-        surface = output(filter_)
-        self.assertEqual(field(surface, "StopReason"), "cancelled")
+        surface = testing.fetch(filter_)
+        self.assertEqual(testing.field(surface, "StopReason"), "cancelled")
         self.assertGreater(surface.GetNumberOfPolys(), 0)
         algorithm.RemoveObserver(tag)
         # Nobody takes the request back; any change and Apply will do.
         filter_.Friction = 2.9
-        self.check_ball(output(filter_))
+        self.check_ball(testing.fetch(filter_))
 
     def test_abort_and_the_next_apply(self):
         self.check_abort_and_the_next_apply(lambda algorithm: algorithm.SetAbortExecute(1))

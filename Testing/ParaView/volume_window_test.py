@@ -14,7 +14,6 @@ import plugin_testing as testing
 import window_testing as window
 from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
 from paraview import simple
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
@@ -119,15 +118,10 @@ class VolumeWindowTest(window.WindowTestCase):
             window.shown("MinimumLevelSize", False)], "volume-advanced")
 
     def test_range_follows_array_and_source(self):
-        path = testing.output_path("two-arrays.vti")
         values = numpy.mgrid[0:12, 0:14, 0:16].sum(axis=0).astype(float)
         image = testing.make_image(values, name="a")
         testing.add_array(image, 100.0 - values, "b")
-        writer = vtkXMLImageDataWriter()
-        writer.SetDataModeToBinary()  # see output_files.py
-        writer.SetFileName(path)
-        writer.SetInputData(image)
-        writer.Write()
+        path = testing.write_volume("two-arrays.vti", image)
         self.play([
             gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
             gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,

@@ -99,7 +99,7 @@ class ErrorsTest(BatchTest):
         self.assertEqual([table[name]["status"] for name in ("a.nrrd", "b.mha", "c.mha", "empty")],
                          ["failed", "failed", "ok", "failed"])
         for name, reason in (("a.nrrd", "not|NRRD"), ("b.mha", "no value separates"),
-                             ("empty", "no DICOM image")):
+                             ("empty", "no DICOM slices")):
             self.assertRegex(table[name]["error"], reason)
             self.assertEqual(table[name]["vertices"], "")
         self.assertEqual(self.written(), ["c.vtp", "results.csv"])

@@ -6,7 +6,6 @@ import gzip
 import os
 import struct
 import sys
-import tempfile
 import unittest
 
 import numpy as np
@@ -14,6 +13,7 @@ from vtkmodules.vtkIOImage import vtkMetaImageWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 import medical_files
+from damage_test_case import DamageTestCase
 from examples_path import EXAMPLES
 
 sys.path.insert(0, EXAMPLES)
@@ -26,54 +26,30 @@ VOXELS = np.random.default_rng(7).integers(0, 700, (9, 12, 15)).astype("i2")
 BYTES = VOXELS.size * 2
 
 
-class DamagedTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+class DamagedTest(DamageTestCase):
+    def bytes_of(self, writer, name):
+        """What the writer writes of the volume."""
+        self.write(writer, name, make_image(VOXELS, SPACING))
+        return self.content(name)
 
-    def write_bytes(self, name, content):
-        with open(os.path.join(self.folder, name), "wb") as file:
-            file.write(content)
-        return file.name
+    def accepted_file(self, name, content):
+        read_volume(self.write_bytes(name, content))
 
-    def write(self, writer, name):
-        writer.SetFileName(os.path.join(self.folder, name))
-        writer.SetInputData(make_image(VOXELS, SPACING))
-        writer.Write()
-        with open(os.path.join(self.folder, name), "rb") as file:
-            return file.read()
-
-    def refused(self, path, reason):
+    def refused_file(self, name, content, reason):
+        path = self.write_bytes(name, content)
         with self.assertRaisesRegex(VolumeError, reason) as caught:
             read_volume(path)
         self.assertIn(path, str(caught.exception))
-
-    def cut(self, name, content, reason, rests=(0.5, -10)):
-        read_volume(self.write_bytes(name, content))
-        for rest in rests:
-            with self.subTest(name, rest=rest):
-                count = int(len(content) * rest) if rest > 0 else rest
-                self.refused(self.write_bytes(name, content[:count]), reason)
-
-    def flipped(self, name, content, reason, start, times=25):
-        generator = np.random.default_rng(8)
-        for _ in range(times):
-            damaged = bytearray(content)
-            place = int(generator.integers(start, len(content)))
-            damaged[place] ^= 1 << int(generator.integers(8))
-            with self.subTest(name, place=place):
-                self.refused(self.write_bytes(name, bytes(damaged)), reason)
 
 
 class FilesTest(DamagedTest):
     def test_raw_meta_image(self):
         writer = vtkMetaImageWriter()
         writer.SetCompression(False)
-        self.cut("a.mha", self.write(writer, "a.mha"), "cut off: it has .* its header asks for")
+        self.cut("a.mha", self.bytes_of(writer, "a.mha"), "cut off: it has .* its header asks for")
 
     def test_packed_meta_image(self):
-        content = self.write(vtkMetaImageWriter(), "a.mha")
+        content = self.bytes_of(vtkMetaImageWriter(), "a.mha")
         self.cut("a.mha", content, "packed data are cut off", rests=(0.5, -10, -1))
         self.flipped("a.mha", content, "packed data", content.index(b"LOCAL") + 10)
 
@@ -88,10 +64,10 @@ class FilesTest(DamagedTest):
             read_volume(self.write_bytes(name, content))
         self.write_bytes("7.raw", b"half")
         for name, content in headers.items():
-            self.refused(self.write_bytes(name, content), "cut off")
+            self.refused_file(name, content, "7.raw is cut off")
         os.remove(os.path.join(self.folder, "7.raw"))
         for name, content in headers.items():
-            self.refused(self.write_bytes(name, content), "7.raw is missing")
+            self.refused_file(name, content, "7.raw cannot be opened")
 
     def test_meta_image_as_text(self):
         header = medical_files.meta_header(VOXELS, SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
@@ -101,7 +77,7 @@ class FilesTest(DamagedTest):
                  "values, its header asks for 1620")
 
     def test_vtk_xml(self):
-        content = self.write(vtkXMLImageDataWriter(), "a.vti")
+        content = self.bytes_of(vtkXMLImageDataWriter(), "a.vti")
         self.cut("a.vti", content, "cannot be read", rests=(0.5, -100))
 
     def test_nrrd(self):
@@ -110,9 +86,9 @@ class FilesTest(DamagedTest):
         self.cut("a.nrrd", content, "packed data are cut off", rests=(0.5, -10, -1))
         self.flipped("a.nrrd", content, "packed data", len(header) + 11)
         more = header + b"\n" + gzip.compress(VOXELS.tobytes() + b"more")
-        self.refused(self.write_bytes("a.nrrd", more), f"give more than the {BYTES} bytes")
+        self.refused_file("a.nrrd", more, f"give more than the {BYTES} bytes")
         bomb = header + b"\n" + gzip.compress(bytes(100 << 20))
-        self.refused(self.write_bytes("a.nrrd", bomb), f"give more than the {BYTES} bytes")
+        self.refused_file("a.nrrd", bomb, f"give more than the {BYTES} bytes")
         halves = gzip.compress(VOXELS.tobytes()[:99]) + gzip.compress(VOXELS.tobytes()[99:])
         read_volume(self.write_bytes("b.nrrd", header + b"\n" + halves))
 
@@ -127,15 +103,15 @@ class FilesTest(DamagedTest):
             struct.pack_into("<h", header, 70, kind)
             for name, data in (("a.nii", header), ("a.nii.gz", gzip.compress(header))):
                 with self.subTest(name, kind=kind):
-                    self.refused(self.write_bytes(name, data), f"the data type {kind} is none")
+                    self.refused_file(name, data, f"the data type {kind} is none")
 
     def test_invesalius_project(self):
         path = os.path.join(self.folder, "a.inv3")
         medical_files.write_inv3(path, VOXELS, SPACING)
         with open(path, "rb") as file:
             content = file.read()
-        self.cut("a.inv3", content, "not a readable|main.plist", rests=(0.5, -10, -1))
-        self.flipped("a.inv3", content, "not a readable|main.plist|not an|bytes", 100)
+        self.cut("a.inv3", content, "packed data are damaged or cut off", rests=(0.5, -10, -1))
+        self.flipped("a.inv3", content, "packed data are damaged or cut off|archive is damaged", 100)
 
 
 class SeriesTest(DamagedTest):
@@ -175,14 +151,14 @@ class SeriesTest(DamagedTest):
     def test_numbers_that_are_none(self):
         for name in ("frames", "slope", "intercept"):
             self.write_bytes("IM3", self.slice(3, **{name: "1A"}))
-            self.refused_series(f"IM3: its header is damaged: {name} '1A'")
+            self.refused_series(f"IM3: its header is damaged: .*{name}.* '1A'")
 
     def test_sequences_without_end(self):
         content = self.slice(3)
         place = content.index(struct.pack("<HH", 0x0008, 0x1140)) + 12
         self.write_bytes("IM3", content[:place] + struct.pack(
             "<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF) * 3000)
-        self.refused_series("IM3: the DICOM header is damaged")
+        self.refused_series("IM3: its header is damaged: sequences within sequences without end")
 
     def test_reports_and_directories_are_no_slices(self):
         for name, kind in (("DICOMDIR", "1.2.840.10008.1.3.10"),

@@ -7,12 +7,12 @@ import signal
 import stat
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
 
 from examples_path import EXAMPLES
+from folder_test_case import FolderTestCase
 from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
 
 sys.path.insert(0, EXAMPLES)
@@ -24,24 +24,7 @@ from output_files import beside, check_output
 OLD = b"an older result"
 
 
-class OutputFilesTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write_bytes(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content)
-        return self.path(name)
-
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
+class OutputFilesTest(FolderTestCase):
     def without_rests(self):
         self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(".")], [])
 
@@ -142,9 +125,9 @@ class ScriptsTest(OutputFilesTest):
         volume = self.path("a.vti")
         self.assertEqual(run_script("read_volume.py", self.ring, volume).returncode, 0)
         before = self.content("a.vti")
-        self.refused("it would replace the input", run_script("read_volume.py", volume, volume))
+        self.refused("it is the input", run_script("read_volume.py", volume, volume))
         self.assertEqual(self.content("a.vti"), before)
-        self.refused("a.vti cannot be written", run_script(
+        self.refused("a.vti: cannot be written", run_script(
             "read_volume.py", self.ring, volume, preexec_fn=largest_file(len(before) // 2)))
         self.assertEqual(self.content("a.vti"), before)
 

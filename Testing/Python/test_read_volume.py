@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Examples/Python/read_volume.py: every format keeps voxels and place, bad files are refused."""
 
+import bz2
 import gzip
 import io
 import os
@@ -9,7 +10,6 @@ import plistlib
 import subprocess
 import sys
 import tarfile
-import tempfile
 import unittest
 
 import numpy as np
@@ -20,6 +20,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 import medical_files
 from examples_path import EXAMPLES
+from folder_test_case import FolderTestCase
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
@@ -52,26 +53,7 @@ def corner_values(image):
     return values
 
 
-class ReadVolumeTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, writer, name, image):
-        writer.SetFileName(self.path(name))
-        writer.SetInputData(image)
-        writer.Write()
-        return self.path(name)
-
-    def write_bytes(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content)
-        return self.path(name)
-
+class ReadVolumeTest(FolderTestCase):
     def check(self, image, voxels, direction=np.eye(3), spacing=SPACING, origin=ORIGIN):
         np.testing.assert_array_equal(voxels_of(image), voxels)
         np.testing.assert_allclose(image.GetSpacing(), spacing, rtol=1e-6)
@@ -124,6 +106,7 @@ class FormatsTest(ReadVolumeTest):
                 ("raw", "little", voxels.astype("<i2").tobytes()),
                 ("raw", "big", voxels.astype(">i2").tobytes()),
                 ("gzip", "little", gzip.compress(voxels.astype("<i2").tobytes())),
+                ("bzip2", "little", bz2.compress(voxels.astype("<i2").tobytes())),
                 ("text", "little", text)):
             with self.subTest(encoding=encoding, endian=endian):
                 header = medical_files.nrrd_header(voxels, SPACING, ORIGIN, TURNED, encoding,
@@ -223,14 +206,14 @@ class DicomTest(ReadVolumeTest):
         self.check(read_volume(self.write_series(some_voxels())), some_voxels(), TURNED)
 
     def test_empty_folder(self):
-        self.refused(self.folder, "no DICOM image")
+        self.refused(self.folder, "no DICOM slices")
 
     def test_two_series(self):
         self.write_series(some_voxels())
         other = medical_files.dicom_slice(some_voxels()[0], 0, SPACING, ORIGIN, TURNED,
                                           series="1.2.9", description="scout")
         self.write_bytes("zz", other)
-        self.refused(self.folder, "2 series.*scout: 1 files")
+        self.refused(self.folder, "2 series.*head: 3 files, from IM000; scout: 1 file, zz")
 
     def test_missing_slice(self):
         self.write_series(np.concatenate([some_voxels(), some_voxels()]))
@@ -241,7 +224,7 @@ class DicomTest(ReadVolumeTest):
         self.write_series(some_voxels())
         with open(self.path("IM000"), "rb") as file:
             self.write_bytes("IM009", file.read())
-        self.refused(self.folder, "several slices at one position")
+        self.refused(self.folder, "IM009 lies where .*IM000 does")
 
     def test_compressed_slices(self):
         self.write_series(some_voxels(), syntax="1.2.840.10008.1.2.4.70")
@@ -256,7 +239,7 @@ class RefusedTest(ReadVolumeTest):
         self.refused(self.path("none.nii"), "no such file")
 
     def test_unknown_suffix(self):
-        self.refused(self.write_bytes("a.stl", b"solid"), "unknown suffix.*\\.nrrd")
+        self.refused(self.write_bytes("a.stl", b"solid"), "not a format")
 
     def test_several_components(self):
         image = make_image(some_voxels(), SPACING)
@@ -269,12 +252,13 @@ class RefusedTest(ReadVolumeTest):
     def test_no_values(self):
         image = vtkImageData()
         image.SetDimensions(5, 4, 3)
-        self.refused(self.write(vtkXMLImageDataWriter(), "a.vti", image), "no values")
+        self.refused(self.write(vtkXMLImageDataWriter(), "a.vti", image), "no active scalars; there are no point arrays")
 
     def test_contents_that_are_something_else(self):
         for suffix in ("vti", "mha", "nrrd", "nii", "nii.gz", "inv3"):
             with self.subTest(suffix):
-                self.refused(self.write_bytes(f"a.{suffix}", b"something else " * 50), "not ")
+                self.refused(self.write_bytes(f"a.{suffix}", b"something else " * 50),
+                             "not |archive is damaged")
 
     def test_cut_off_files(self):
         voxels = some_voxels()

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InputFiles.h"
+
+#include "ReadVolume.h"
+#include "Texts.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+namespace tool
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// The lines of a text header, which comes before any voxels.
+std::vector<std::string> HeaderLines(const std::string& name)
+{
+  std::string head(1 << 20, '\0');
+  std::ifstream file(name, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  std::istringstream text(head);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);)
+  {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// The place in the lines of "key = value" or "key: value".
+std::size_t FindKey(const std::vector<std::string>& lines, const std::string& key)
+{
+  const auto found = std::find_if(lines.begin(), lines.end(),
+    [&](const std::string& line)
+    {
+      const std::size_t sign = line.find_first_of("=:");
+      return sign != std::string::npos && Lower(Trimmed(line.substr(0, sign))) == Lower(key);
+    });
+  return static_cast<std::size_t>(found - lines.begin());
+}
+
+/// The files that a text header names: one, a pattern of them, or a list in the lines that follow.
+void AddNamed(const std::string& name, const std::string& key, std::vector<std::string>& files)
+{
+  const fs::path folder = fs::path(name).parent_path();
+  const std::vector<std::string> lines = HeaderLines(name);
+  const std::string value = HeaderValue(name, key);
+  const std::string first = value.substr(0, value.find(' '));
+  if (first == "LIST")
+  {
+    for (std::size_t i = FindKey(lines, key) + 1; i < lines.size(); ++i)
+    {
+      files.push_back((folder / Trimmed(lines[i])).string());
+    }
+  }
+  else if (first.find('%') != std::string::npos)
+  {
+    const std::vector<std::string> matched = MatchFiles((folder / first).string());
+    files.insert(files.end(), matched.begin(), matched.end());
+  }
+  else if (!value.empty())
+  {
+    files.push_back((folder / value).string());
+  }
+}
+
+/// The files that a header of one of the formats in two parts tells of.
+void AddCompanions(const std::string& name, std::vector<std::string>& files)
+{
+  const std::string lower = Lower(name);
+  const fs::path folder = fs::path(name).parent_path();
+  if (EndsWith(lower, ".mhd") || EndsWith(lower, ".mha"))
+  {
+    AddNamed(name, "ElementDataFile", files);
+  }
+  else if (EndsWith(lower, ".nhdr") || EndsWith(lower, ".nrrd"))
+  {
+    AddNamed(name, "data file", files);
+    AddNamed(name, "datafile", files);
+  }
+  else if (EndsWith(lower, ".pvti"))
+  {
+    static const std::regex source("Source=\"([^\"]*)\"");
+    for (const std::string& line : HeaderLines(name))
+    {
+      std::smatch match;
+      if (std::regex_search(line, match, source))
+      {
+        files.push_back((folder / match[1].str()).string());
+      }
+    }
+  }
+  for (const std::string end : { ".img", ".img.gz", ".hdr", ".hdr.gz" })
+  {
+    if (EndsWith(lower, end))
+    {
+      const std::string stem = name.substr(0, name.size() - end.size());
+      for (const char* other : { ".img", ".img.gz", ".hdr", ".hdr.gz" })
+      {
+        files.push_back(stem + other);
+      }
+    }
+  }
+}
+
+/// The slices in the folder, or all files if none is DICOM.
+std::vector<std::string> FilesOfFolder(const std::string& folder)
+{
+  const std::vector<std::string> files = FilesOf(folder);
+  std::vector<std::string> slices;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
+  return slices.empty() ? files : slices;
+}
+}
+
+std::string HeaderValue(const std::string& name, const std::string& key)
+{
+  const std::vector<std::string> lines = HeaderLines(name);
+  const std::size_t line = FindKey(lines, key);
+  return line == lines.size() ? ""
+                              : Trimmed(lines[line].substr(lines[line].find_first_of("=:") + 1));
+}
+
+std::vector<std::string> FilesOfVolume(const std::string& name)
+{
+  std::vector<std::string> files;
+  try
+  {
+    if (fs::is_directory(name))
+    {
+      return FilesOfFolder(name);
+    }
+    if (!fs::exists(name))
+    {
+      return name.find_first_of("%*") == std::string::npos ? files : MatchFiles(name);
+    }
+    files.push_back(name);
+    if (IsDicom(name))
+    {
+      const fs::path folder = fs::path(name).parent_path();
+      const std::vector<std::string> series = FilesOfFolder(folder.empty() ? "." : folder.string());
+      files.insert(files.end(), series.begin(), series.end());
+    }
+    AddCompanions(name, files);
+  }
+  catch (const std::exception&)
+  {
+    // An unreadable folder, which ReadVolume tells of.
+  }
+  return files;
+}
+}

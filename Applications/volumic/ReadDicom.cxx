@@ -1,0 +1,312 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// vtkDICOMImageReader, given a folder, takes the distance of the slices from their thickness, drops
+// their orientation and mixes series. So each slice is read by a reader of its own, and placed here
+// by its position and orientation (DICOM PS3.3, C.7.6.2).
+#include "ReadVolume.h"
+
+#include "DicomHeader.h"
+#include "ParseNumbers.h"
+#include "ToolErrors.h"
+#include "VolumeImage.h"
+#include "VtkMessages.h"
+
+#include <vtkDICOMImageReader.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkVersion.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+namespace tool
+{
+namespace
+{
+struct Slice
+{
+  std::string File;
+  Vector3 Position;
+  Vector3 Across;
+  Vector3 Down;
+  Vector3 Spacing; ///< between columns, between rows; the thickness
+  std::string Study;
+  vtkSmartPointer<vtkImageData> Image;
+};
+
+/// Tolerated deviation of the distance of two slices from their mean, as a share of it.
+constexpr double UnevenDistance = 0.05;
+
+/// VTK's reader keeps numbers as float: the decimal number that the file most likely has.
+double Decimal(double number)
+{
+  char buffer[32];
+  const char* end = std::to_chars(buffer, buffer + sizeof(buffer), static_cast<float>(number)).ptr;
+  double value = number;
+  std::from_chars(buffer, end, value);
+  return value;
+}
+
+/// @throws Failure if the file has not what vtkDICOMImageReader takes for granted.
+void CheckPixels(const DicomHeader& header)
+{
+  if (!header.HasPixels)
+  {
+    throw Failure("has no pixels: it is cut off, or no slice; replace it, or take it out of the "
+                  "folder");
+  }
+  if (header.Frames > 1)
+  {
+    throw Failure(NumberText(header.Frames) + " frames; files of several frames are not read");
+  }
+  if (header.Samples != 1)
+  {
+    throw Failure(NumberText(header.Samples) + " components per pixel; one is needed");
+  }
+  if (header.Bits != 8 && header.Bits != 16)
+  {
+    throw Failure(NumberText(header.Bits) + " bits per pixel; 8 and 16 are read");
+  }
+  if (header.NeededBytes() == 0)
+  {
+    throw Failure("lacks its rows or columns: it is damaged, or no slice");
+  }
+  if (header.PixelBytes < header.NeededBytes())
+  {
+    throw Failure("the pixels are cut off: " + std::to_string(header.PixelBytes) + " bytes, " +
+      std::to_string(header.NeededBytes()) + " needed; copy the file again");
+  }
+}
+
+/// The header of a slice, or of something that is no image at all.
+DicomHeader ReadHeader(const std::string& file)
+{
+  try
+  {
+    const DicomHeader header = ReadDicomHeader(file);
+    if (!header.IsOtherThanImage())
+    {
+      CheckPixels(header);
+    }
+    return header;
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(file + ": " + failure.what());
+  }
+}
+
+/// @throws Failure with a list of the series unless there is one. `files` have these headers.
+void CheckSingleSeries(
+  const std::vector<std::string>& files, const std::vector<DicomHeader>& headers)
+{
+  std::vector<std::pair<std::size_t, int>> series; // the first file of each, and how many it has
+  for (std::size_t i = 0; i < headers.size(); ++i)
+  {
+    const auto found = std::find_if(series.begin(), series.end(),
+      [&](const auto& other) { return headers[other.first].Series == headers[i].Series; });
+    if (found == series.end())
+    {
+      series.emplace_back(i, 1);
+    }
+    else
+    {
+      ++found->second;
+    }
+  }
+  if (series.size() < 2)
+  {
+    return;
+  }
+  std::string names;
+  for (const auto& [first, count] : series)
+  {
+    const std::string& description = headers[first].Description;
+    names += (names.empty() ? "" : "; ") + (description.empty() ? "unnamed" : description) + ": " +
+      NumberText(count) + (count == 1 ? " file, " : " files, from ") +
+      std::filesystem::path(files[first]).filename().string();
+  }
+  throw Failure(NumberText(static_cast<int>(series.size())) +
+    " series, one per folder is needed (" + names + ")");
+}
+
+Slice ReadSlice(const std::string& file)
+{
+  vtkNew<vtkDICOMImageReader> reader;
+  reader->SetFileName(file.c_str());
+  VtkMessages messages;
+  messages.UpdateReader(reader, file);
+  Slice slice;
+  slice.File = file;
+  const float* position = reader->GetImagePositionPatient();
+  const float* orientation = reader->GetImageOrientationPatient();
+  for (int c = 0; c < 3; ++c)
+  {
+    slice.Position[c] = Decimal(position[c]);
+    slice.Across[c] = Decimal(orientation[c]);
+    slice.Down[c] = Decimal(orientation[3 + c]);
+  }
+  const double* spacing = reader->GetPixelSpacing();
+  slice.Spacing = { Decimal(spacing[0]), Decimal(spacing[1]), Decimal(spacing[2]) };
+#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 6, 0)
+  // The file has the distance of the rows first, and so had VTK's reader.
+  std::swap(slice.Spacing[0], slice.Spacing[1]);
+#endif
+  slice.Study = reader->GetStudyUID() ? reader->GetStudyUID() : "";
+  slice.Image = reader->GetOutput();
+  if (!slice.Image->GetPointData()->GetScalars())
+  {
+    throw Failure(file + ": has no pixels");
+  }
+  return slice;
+}
+
+void CheckFits(const Slice& slice, const Slice& first)
+{
+  const bool isSameSeries = slice.Study == first.Study &&
+    Dot(slice.Across, first.Across) > 0.999 && Dot(slice.Down, first.Down) > 0.999;
+  const bool isSameSize = std::equal(slice.Image->GetDimensions(), slice.Image->GetDimensions() + 2,
+                            first.Image->GetDimensions()) &&
+    std::abs(slice.Spacing[0] - first.Spacing[0]) < 1e-3 &&
+    std::abs(slice.Spacing[1] - first.Spacing[1]) < 1e-3;
+  if (!isSameSeries || !isSameSize)
+  {
+    throw Failure(slice.File + ": its " +
+      (isSameSize ? "study or orientation" : "size or pixel spacing") +
+      " differs from that of " + first.File + "; one series per folder is needed");
+  }
+}
+
+/// Distance of neighbouring slices, which are sorted. @throws Failure for missing, repeated and
+/// sheared ones.
+double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
+{
+  if (slices.size() == 1)
+  {
+    return slices[0].Spacing[2] > 0.0 ? slices[0].Spacing[2] : 1.0;
+  }
+  const auto along = [&](std::size_t i) { return Dot(slices[i].Position, normal); };
+  const double mean =
+    (along(slices.size() - 1) - along(0)) / static_cast<double>(slices.size() - 1);
+  for (std::size_t i = 1; i < slices.size(); ++i)
+  {
+    if (along(i) - along(i - 1) <= 1e-4)
+    {
+      throw Failure(slices[i].File + " lies where " + slices[i - 1].File +
+        " does; one series per folder is needed");
+    }
+  }
+  double shortest = mean;
+  double longest = mean;
+  for (std::size_t i = 1; i < slices.size(); ++i)
+  {
+    shortest = std::min(shortest, along(i) - along(i - 1));
+    longest = std::max(longest, along(i) - along(i - 1));
+  }
+  if (std::max(longest - mean, mean - shortest) > UnevenDistance * mean)
+  {
+    const auto rounded = [](double length) { return NumberText(std::round(1e3 * length) / 1e3); };
+    throw Failure("slices are " + rounded(shortest) + " to " + rounded(longest) +
+      " mm apart: some are missing, or the volume must be resampled");
+  }
+  for (std::size_t i = 1; i < slices.size(); ++i)
+  {
+    const double step = along(i) - along(i - 1);
+    Vector3 aside;
+    for (int c = 0; c < 3; ++c)
+    {
+      aside[c] = slices[i].Position[c] - slices[i - 1].Position[c] - step * normal[c];
+    }
+    if (std::sqrt(Dot(aside, aside)) > UnevenDistance * mean)
+    {
+      throw Failure("the gantry was tilted; the volume must be resampled first");
+    }
+  }
+  return mean;
+}
+
+/// Copy the slices' voxels one after the other. VTK's reader turns the rows upside down.
+vtkSmartPointer<vtkDataArray> StackVoxels(const std::vector<Slice>& slices, int type)
+{
+  const int* size = slices[0].Image->GetDimensions();
+  const vtkIdType area = static_cast<vtkIdType>(size[0]) * size[1];
+  auto voxels = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  voxels->SetNumberOfTuples(area * static_cast<vtkIdType>(slices.size()));
+  for (std::size_t i = 0; i < slices.size(); ++i)
+  {
+    vtkDataArray* pixels = slices[i].Image->GetPointData()->GetScalars();
+    for (int row = 0; row < size[1]; ++row)
+    {
+      voxels->InsertTuples(static_cast<vtkIdType>(i) * area + static_cast<vtkIdType>(row) * size[0],
+        size[0], static_cast<vtkIdType>(size[1] - 1 - row) * size[0], pixels);
+    }
+  }
+  return voxels;
+}
+}
+
+bool IsDicom(const std::string& file)
+{
+  // VTK's reader takes some other files for old DICOM without this mark.
+  std::ifstream stream(file, std::ios::binary);
+  char head[132];
+  return stream.read(head, sizeof(head)) && std::memcmp(head + 128, "DICM", 4) == 0;
+}
+
+vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
+{
+  std::vector<std::string> images;
+  std::vector<DicomHeader> headers;
+  for (const std::string& file : files)
+  {
+    const DicomHeader header = ReadHeader(file);
+    if (!header.IsOtherThanImage())
+    {
+      images.push_back(file);
+      headers.push_back(header);
+    }
+  }
+  CheckSingleSeries(images, headers);
+
+  std::vector<Slice> slices;
+  int type = 0;
+  for (const std::string& file : images)
+  {
+    slices.push_back(ReadSlice(file));
+    CheckFits(slices.back(), slices.front());
+    vtkDataArray* pixels = slices.back().Image->GetPointData()->GetScalars();
+    // Slices may differ in slope and shift, and so in type: the widest holds all.
+    const bool isWider = slices.size() == 1 ||
+      pixels->GetDataTypeSize() > vtkDataArray::GetDataTypeSize(type) ||
+      (pixels->GetDataTypeMin() < 0 &&
+        pixels->GetDataTypeSize() == vtkDataArray::GetDataTypeSize(type));
+    type = isWider ? pixels->GetDataType() : type;
+  }
+  if (slices.empty())
+  {
+    throw Failure("no DICOM image there");
+  }
+  VolumePlacement placement;
+  const Vector3 normal = Cross(slices[0].Across, slices[0].Down);
+  placement.Axes = { slices[0].Across, slices[0].Down, normal };
+  std::stable_sort(slices.begin(), slices.end(),
+    [&](const Slice& a, const Slice& b)
+    { return Dot(a.Position, normal) < Dot(b.Position, normal); });
+  const double distance = SliceDistance(slices, normal);
+  placement.Spacing = { slices[0].Spacing[0], slices[0].Spacing[1], distance };
+  placement.Origin = slices[0].Position;
+  const int* size = slices[0].Image->GetDimensions();
+  vtkSmartPointer<vtkImageData> image = MakeImage(
+    { size[0], size[1], static_cast<int>(slices.size()) }, StackVoxels(slices, type), placement);
+  SetWorldAxes(image, "LPS");
+  return image;
+}
+}

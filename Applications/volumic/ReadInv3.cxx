@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadVolume.h"
+
+#include "BinaryFile.h"
+#include "ParseNumbers.h"
+#include "TarFile.h"
+#include "ToolErrors.h"
+#include "VolumeImage.h"
+#include "VtkMessages.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+namespace tool
+{
+namespace
+{
+constexpr std::uint64_t LargestPlist = 1 << 20;
+
+using Element = vtkSmartPointer<vtkXMLDataElement>;
+
+/// What the project says of its volume.
+struct Description
+{
+  int Type = VTK_SHORT;
+  std::array<int, 3> Size = { 0, 0, 0 }; ///< voxels along x, y, z
+  VolumePlacement Placement;
+  std::string File = "matrix.dat";
+  bool IsAxial = true; ///< the slices
+};
+
+std::string TextOf(vtkXMLDataElement* element)
+{
+  const char* text = element->GetCharacterData();
+  return text ? text : "";
+}
+
+/// The value of a key of a dictionary, or null.
+vtkXMLDataElement* Find(vtkXMLDataElement* dictionary, const char* key)
+{
+  for (int i = 0; dictionary && i + 1 < dictionary->GetNumberOfNestedElements(); ++i)
+  {
+    vtkXMLDataElement* element = dictionary->GetNestedElement(i);
+    if (std::strcmp(element->GetName(), "key") == 0 && TextOf(element) == key)
+    {
+      return dictionary->GetNestedElement(i + 1);
+    }
+  }
+  return nullptr;
+}
+
+vtkXMLDataElement* Need(vtkXMLDataElement* dictionary, const char* key)
+{
+  vtkXMLDataElement* found = Find(dictionary, key);
+  if (!found)
+  {
+    throw Failure(std::string("main.plist lacks '") + key + "'");
+  }
+  return found;
+}
+
+/// The texts of an array of three.
+std::array<std::string, 3> ThreeOf(vtkXMLDataElement* array, const char* key)
+{
+  if (array->GetNumberOfNestedElements() != 3)
+  {
+    throw Failure(std::string("main.plist: '") + key + "' has not three numbers");
+  }
+  return { TextOf(array->GetNestedElement(0)), TextOf(array->GetNestedElement(1)),
+    TextOf(array->GetNestedElement(2)) };
+}
+
+int TypeOf(const std::string& name)
+{
+  static const std::map<std::string, int> types = { { "int8", VTK_SIGNED_CHAR },
+    { "uint8", VTK_UNSIGNED_CHAR }, { "int16", VTK_SHORT }, { "uint16", VTK_UNSIGNED_SHORT },
+    { "int32", VTK_INT }, { "uint32", VTK_UNSIGNED_INT }, { "int64", VTK_LONG_LONG },
+    { "uint64", VTK_UNSIGNED_LONG_LONG }, { "float32", VTK_FLOAT }, { "float64", VTK_DOUBLE } };
+  const auto found = types.find(name);
+  if (found == types.end())
+  {
+    throw Failure("main.plist: voxels of type '" + name + "' are not read");
+  }
+  return found->second;
+}
+
+Description Describe(const std::string& plist)
+{
+  Element root;
+  VtkMessages ignored; // What is wrong is said in one line below.
+  ignored.Catch(
+    [&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });
+  vtkXMLDataElement* project =
+    root && std::strcmp(root->GetName(), "plist") == 0 ? root->GetNestedElement(0) : nullptr;
+  if (!project)
+  {
+    throw Failure("main.plist cannot be parsed");
+  }
+  Description description;
+  vtkXMLDataElement* matrix = Need(project, "matrix");
+  description.Type = TypeOf(TextOf(Need(matrix, "dtype")));
+  if (vtkXMLDataElement* file = Find(matrix, "filename"))
+  {
+    const std::string path = TextOf(file);
+    description.File = path.substr(path.find_last_of('/') + 1);
+  }
+  const std::array<std::string, 3> shape = ThreeOf(Need(matrix, "shape"), "shape");
+  const std::array<std::string, 3> spacing = ThreeOf(Need(project, "spacing"), "spacing");
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    description.Size[axis] = ParseNumber<int>(shape[2 - axis]); // z, y, x
+    description.Placement.Spacing[axis] = ParseNumber<double>(spacing[axis]);
+  }
+  if (*std::min_element(description.Size.begin(), description.Size.end()) < 1)
+  {
+    throw Failure("main.plist: the sizes " + shape[0] + " x " + shape[1] + " x " + shape[2] +
+      " are not those of a volume");
+  }
+  if (vtkXMLDataElement* orientation = Find(project, "orientation"))
+  {
+    description.IsAxial = TextOf(orientation) == "1";
+  }
+  return description;
+}
+
+/// Go to the file of that name.
+void GoTo(TarFile& archive, const std::string& name)
+{
+  while (archive.Next())
+  {
+    if (archive.Name() == name)
+    {
+      return;
+    }
+  }
+  throw Failure("no " + name + " in it: not an InVesalius project");
+}
+
+Description ReadDescription(const std::string& name)
+{
+  TarFile archive(name);
+  GoTo(archive, "main.plist");
+  if (archive.Size() > LargestPlist)
+  {
+    throw Failure("main.plist is too large to be the description of a project");
+  }
+  std::string plist(archive.Size(), '\0');
+  archive.Read(plist.data());
+  archive.Finish();
+  try
+  {
+    return Describe(plist);
+  }
+  catch (const UsageError& error)
+  {
+    throw Failure(std::string("main.plist: ") + error.what());
+  }
+}
+}
+
+vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
+{
+  const Description description = ReadDescription(name);
+  auto values = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(description.Type));
+  std::uint64_t expected = static_cast<std::uint64_t>(values->GetDataTypeSize());
+  for (const int size : description.Size)
+  {
+    expected = Times(expected, static_cast<std::uint64_t>(size));
+  }
+  TarFile archive(name);
+  GoTo(archive, description.File);
+  if (archive.Size() != expected)
+  {
+    throw Failure(description.File + " has " + std::to_string(archive.Size()) +
+      " bytes, the sizes in main.plist ask for " + std::to_string(expected));
+  }
+  values->SetNumberOfTuples(
+    static_cast<vtkIdType>(description.Size[0]) * description.Size[1] * description.Size[2]);
+  archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
+  archive.Finish();
+  ToNativeOrder(values, false);
+  vtkSmartPointer<vtkImageData> image =
+    MakeImage(description.Size, values, description.Placement);
+  if (description.IsAxial)
+  {
+    // The rows of axial slices are stored from back to front: a left-handed frame.
+    SetWorldAxes(image, "LAS");
+  }
+  return image;
+}
+}

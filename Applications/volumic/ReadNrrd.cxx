@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// vtkNrrdReader keeps neither the directions of the axes nor compressed data, so the format is read
+// here: https://teem.sourceforge.net/nrrd/format.html.
+#include "ReadVolume.h"
+
+#include "Bunzip.h"
+#include "Inflate.h"
+#include "ParseNumbers.h"
+#include "Texts.h"
+#include "ToolErrors.h"
+#include "VolumeImage.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkType.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+namespace tool
+{
+namespace
+{
+using Fields = std::map<std::string, std::string>;
+
+std::string ReadBytes(const std::string& name)
+{
+  std::ifstream file(name, std::ios::binary);
+  if (!file)
+  {
+    throw Failure(name + ": cannot be opened");
+  }
+  return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+}
+
+/// Fields by lower-case name; `dataStart` is where the data of an attached file begin.
+Fields ParseHeader(const std::string& content, std::size_t& dataStart)
+{
+  if (content.compare(0, 7, "NRRD000") != 0)
+  {
+    throw Failure("does not start as a NRRD file does");
+  }
+  Fields fields;
+  std::size_t at = content.find('\n');
+  dataStart = content.size();
+  while (at < content.size())
+  {
+    const std::size_t end = std::min(content.find('\n', at + 1), content.size());
+    const std::string line = Trimmed(content.substr(at + 1, end - at - 1));
+    at = end;
+    if (line.empty())
+    {
+      dataStart = std::min(end + 1, content.size());
+      break;
+    }
+    const std::size_t colon = line.find(':');
+    const bool isField =
+      line[0] != '#' && colon != std::string::npos && line.compare(colon, 2, ":=") != 0;
+    if (isField)
+    {
+      const std::string key = Lower(Trimmed(line.substr(0, colon)));
+      fields[key == "datafile" ? "data file" : key] = Trimmed(line.substr(colon + 1));
+    }
+  }
+  return fields;
+}
+
+std::string Field(const Fields& fields, const std::string& key, const std::string& otherwise)
+{
+  const auto found = fields.find(key);
+  return found == fields.end() ? otherwise : found->second;
+}
+
+int TypeOf(const std::string& name)
+{
+  static const std::map<std::string, int> types = { { "signed char", VTK_SIGNED_CHAR },
+    { "int8", VTK_SIGNED_CHAR }, { "int8_t", VTK_SIGNED_CHAR }, { "uchar", VTK_UNSIGNED_CHAR },
+    { "unsigned char", VTK_UNSIGNED_CHAR }, { "uint8", VTK_UNSIGNED_CHAR },
+    { "uint8_t", VTK_UNSIGNED_CHAR }, { "short", VTK_SHORT }, { "short int", VTK_SHORT },
+    { "signed short", VTK_SHORT }, { "signed short int", VTK_SHORT }, { "int16", VTK_SHORT },
+    { "int16_t", VTK_SHORT }, { "ushort", VTK_UNSIGNED_SHORT },
+    { "unsigned short", VTK_UNSIGNED_SHORT }, { "unsigned short int", VTK_UNSIGNED_SHORT },
+    { "uint16", VTK_UNSIGNED_SHORT }, { "uint16_t", VTK_UNSIGNED_SHORT }, { "int", VTK_INT },
+    { "signed int", VTK_INT }, { "int32", VTK_INT }, { "int32_t", VTK_INT },
+    { "uint", VTK_UNSIGNED_INT }, { "unsigned int", VTK_UNSIGNED_INT },
+    { "uint32", VTK_UNSIGNED_INT }, { "uint32_t", VTK_UNSIGNED_INT }, { "longlong", VTK_LONG_LONG },
+    { "long long", VTK_LONG_LONG }, { "int64", VTK_LONG_LONG }, { "int64_t", VTK_LONG_LONG },
+    { "ulonglong", VTK_UNSIGNED_LONG_LONG }, { "unsigned long long", VTK_UNSIGNED_LONG_LONG },
+    { "uint64", VTK_UNSIGNED_LONG_LONG }, { "uint64_t", VTK_UNSIGNED_LONG_LONG },
+    { "float", VTK_FLOAT }, { "double", VTK_DOUBLE } };
+  const auto found = types.find(name);
+  if (found == types.end())
+  {
+    throw Failure("the type '" + name + "' is missing or not a number type");
+  }
+  return found->second;
+}
+
+/// What the packed data give, which is to be `count` bytes.
+std::string Unzipped(const std::string& data, std::size_t count)
+{
+  std::istringstream packed(data);
+  std::string unpacked(count, '\0');
+  Inflate(packed, count, unpacked.data());
+  return unpacked;
+}
+
+void SkipLines(std::string& data, int count)
+{
+  for (; count > 0; --count)
+  {
+    const std::size_t end = data.find('\n');
+    data.erase(0, end == std::string::npos ? data.size() : end + 1);
+  }
+}
+
+/// Fill the array with the encoded values.
+void Decode(std::string data, const Fields& fields, vtkDataArray* values)
+{
+  const std::size_t size =
+    static_cast<std::size_t>(values->GetNumberOfTuples()) * values->GetDataTypeSize();
+  const int skip = ParseNumber<int>(Field(fields, "byte skip", "0"));
+  SkipLines(data, ParseNumber<int>(Field(fields, "line skip", "0")));
+  const std::string encoding = Lower(Field(fields, "encoding", "raw"));
+  if (encoding == "text" || encoding == "txt" || encoding == "ascii")
+  {
+    std::istringstream stream(data);
+    double value = 0.0;
+    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    {
+      if (!(stream >> value))
+      {
+        throw Failure("fewer values than the sizes ask for");
+      }
+      values->SetComponent(i, 0, value);
+    }
+    return;
+  }
+  if (encoding == "gzip" || encoding == "gz")
+  {
+    data = Unzipped(data, size + std::max(skip, 0));
+  }
+  else if (encoding == "bzip2" || encoding == "bz2")
+  {
+    data = Bunzip(data, size + std::max(skip, 0));
+  }
+  else if (encoding != "raw")
+  {
+    throw Failure("the encoding '" + encoding + "' is not read: raw, gzip, bzip2 and text are");
+  }
+  const std::size_t start =
+    skip >= 0 ? static_cast<std::size_t>(skip) : data.size() - std::min(size, data.size());
+  if (data.size() < start + size)
+  {
+    throw Failure(std::to_string(data.size()) + " bytes of voxels, " +
+      std::to_string(start + size) + " needed");
+  }
+  std::memcpy(values->GetVoidPointer(0), data.data() + start, size);
+  ToNativeOrder(values, Lower(Field(fields, "endian", "little")) == "big");
+}
+
+/// "(1,0,0) (0,1,0) (0,0,1)" as vectors.
+std::vector<Vector3> ParseVectors(const std::string& text)
+{
+  std::vector<Vector3> vectors;
+  for (std::size_t open = text.find('('); open != std::string::npos;
+       open = text.find('(', open + 1))
+  {
+    const std::size_t close = text.find(')', open);
+    if (close == std::string::npos)
+    {
+      throw UsageError("'" + text + "' does not end");
+    }
+    std::string inner = text.substr(open + 1, close - open - 1);
+    inner.erase(std::remove(inner.begin(), inner.end(), ' '), inner.end());
+    const std::vector<double> numbers = ParseNumbers(inner, 3);
+    vectors.push_back({ numbers[0], numbers[1], numbers[2] });
+  }
+  return vectors;
+}
+
+VolumePlacement PlacementOf(const Fields& fields)
+{
+  VolumePlacement placement;
+  const std::string origin = Field(fields, "space origin", "(0,0,0)");
+  const std::string directions = Field(fields, "space directions", "");
+  const std::vector<Vector3> origins = ParseVectors(origin);
+  if (origins.size() != 1)
+  {
+    throw UsageError("'" + origin + "' is no origin");
+  }
+  placement.Origin = origins[0];
+  if (!directions.empty())
+  {
+    const std::vector<Vector3> steps = ParseVectors(directions);
+    if (steps.size() != 3)
+    {
+      throw UsageError("'" + directions + "' are not three vectors");
+    }
+    placement.SetSteps({ steps[0], steps[1], steps[2] });
+    return placement;
+  }
+  std::istringstream spacings(Field(fields, "spacings", "1 1 1"));
+  for (double& spacing : placement.Spacing)
+  {
+    std::string word;
+    spacings >> word;
+    spacing = Lower(word) == "nan" ? 1.0 : ParseNumber<double>(word);
+  }
+  return placement;
+}
+
+/// The sides of the body that the axes of a `space` point to; empty for other spaces.
+std::string WorldAxesOf(const std::string& space)
+{
+  static const std::map<std::string, std::string> axes = { { "right-anterior-superior", "RAS" },
+    { "ras", "RAS" }, { "left-anterior-superior", "LAS" }, { "las", "LAS" },
+    { "left-posterior-superior", "LPS" }, { "lps", "LPS" } };
+  const auto found = axes.find(Lower(space));
+  return found == axes.end() ? "" : found->second;
+}
+}
+
+vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
+{
+  std::string content = ReadBytes(name);
+  std::size_t dataStart = 0;
+  const Fields fields = ParseHeader(content, dataStart);
+  try
+  {
+    std::array<int, 3> size = { 0, 0, 0 };
+    std::istringstream sizes(Field(fields, "sizes", ""));
+    std::string more;
+    if (!(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more ||
+      *std::min_element(size.begin(), size.end()) < 1)
+    {
+      throw Failure(
+        "sizes '" + Field(fields, "sizes", "") + "'; a volume with one scalar component has three");
+    }
+    auto values = vtkSmartPointer<vtkDataArray>::Take(
+      vtkDataArray::CreateDataArray(TypeOf(Lower(Field(fields, "type", "")))));
+    values->SetNumberOfTuples(static_cast<vtkIdType>(size[0]) * size[1] * size[2]);
+    const std::string file = Field(fields, "data file", "");
+    if (file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos)
+    {
+      throw Failure("data spread over several files are not read");
+    }
+    Decode(file.empty() ? content.substr(dataStart)
+                        : ReadBytes((std::filesystem::path(name).parent_path() / file).string()),
+      fields, values);
+    vtkSmartPointer<vtkImageData> image = MakeImage(size, values, PlacementOf(fields));
+    const std::string axes = WorldAxesOf(Field(fields, "space", ""));
+    if (!axes.empty())
+    {
+      SetWorldAxes(image, axes);
+    }
+    return image;
+  }
+  catch (const UsageError& error)
+  {
+    throw Failure(name + ": the header cannot be parsed: " + error.what());
+  }
+}
+}

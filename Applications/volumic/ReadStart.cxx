@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReadStart.h"
+
+#include "BinaryFile.h"
+#include "CheckInputs.h"
+#include "ParseNumbers.h"
+#include "Texts.h"
+#include "ToolErrors.h"
+#include "VtkMessages.h"
+
+#include <vtkCellArray.h>
+#include <vtkCleanPolyData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
+#include <vtkSTLReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace tool
+{
+namespace
+{
+template <class Reader>
+vtkSmartPointer<vtkPolyData> ReadWith(const std::string& name)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(name.c_str());
+  VtkMessages messages;
+  messages.UpdateReader(reader, name);
+  return reader->GetOutput();
+}
+
+/// STL; one that has been cut off between two triangles looks whole to VTK's reader.
+vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
+{
+  const vtkSmartPointer<vtkPolyData> mesh = ReadWith<vtkSTLReader>(name);
+  BinaryFile file(name);
+  const bool isText = file.Size() < 84 || file.Text(0, 5) == "solid";
+  const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
+  if (file.Size() < 84 + 50 * triangles)
+  {
+    throw Failure(name + ": the file is cut off: it has " + std::to_string(file.Size()) +
+      " bytes, its header asks for " + std::to_string(84 + 50 * triangles));
+  }
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> ReadPly(const std::string& name)
+{
+  try
+  {
+    CheckPly(name); // VTK's reader would go on with what memory holds
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(name + ": " + failure.what());
+  }
+  return ReadWith<vtkPLYReader>(name);
+}
+
+vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
+{
+  const std::string suffix = SuffixOf(name);
+  if (!std::filesystem::exists(name))
+  {
+    throw Failure(name + ": no such file");
+  }
+  if (suffix == ".vtp")
+  {
+    return ReadWith<vtkXMLPolyDataReader>(name);
+  }
+  if (suffix == ".vtk")
+  {
+    return ReadWith<vtkPolyDataReader>(name);
+  }
+  if (suffix == ".stl")
+  {
+    return ReadStl(name);
+  }
+  if (suffix == ".ply")
+  {
+    return ReadPly(name);
+  }
+  if (suffix == ".obj")
+  {
+    return ReadWith<vtkOBJReader>(name);
+  }
+  throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");
+}
+
+/// The mesh, whose polygons have points that are there.
+vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
+{
+  vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
+  vtkNew<vtkIdList> corners;
+  vtkCellArray* polygons = mesh->GetPolys();
+  if (!polygons->IsValid())
+  {
+    throw Failure(name + ": is damaged: its polygons overlap in the file");
+  }
+  for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+  {
+    polygons->GetCellAtId(i, corners);
+    for (vtkIdType c = 0; c < corners->GetNumberOfIds(); ++c)
+    {
+      if (corners->GetId(c) < 0 || corners->GetId(c) >= mesh->GetNumberOfPoints())
+      {
+        throw Failure(name + ": is damaged: a polygon has point " +
+          std::to_string(corners->GetId(c)) + ", there are " +
+          std::to_string(mesh->GetNumberOfPoints()));
+      }
+    }
+  }
+  return mesh;
+}
+
+/// Points, and what comes with each.
+struct PointList
+{
+  vtkNew<vtkPoints> Points;
+  vtkNew<vtkDoubleArray> Weights;
+  vtkNew<vtkDoubleArray> Radii;
+};
+
+/// The words of a line, between blanks and commas, without a comment.
+std::vector<std::string> WordsOf(std::string line)
+{
+  line.resize(std::min(line.find('#'), line.size()));
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream words(line);
+  std::vector<std::string> texts;
+  for (std::string word; words >> word;)
+  {
+    texts.push_back(word);
+  }
+  return texts;
+}
+
+/// Whether these are names of columns, such as x, "y" or Weight: no numbers, mistyped or not.
+bool IsHeading(const std::vector<std::string>& words)
+{
+  const auto isName = [](const std::string& word)
+  {
+    std::string lower = Lower(word);
+    lower.erase(std::remove(lower.begin(), lower.end(), '"'), lower.end());
+    return !lower.empty() && std::isalpha(static_cast<unsigned char>(lower[0])) != 0 &&
+      lower != "nan" && lower.compare(0, 3, "inf") != 0;
+  };
+  return std::all_of(words.begin(), words.end(), isName);
+}
+
+/// Lines of three numbers, or up to `columns`; the first that is not empty may be a heading.
+void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
+{
+  std::ifstream file(name);
+  if (!file)
+  {
+    throw Failure(name + ": cannot be opened");
+  }
+  std::string line;
+  bool isFirst = true;
+  for (int number = 1; std::getline(file, line); ++number)
+  {
+    const std::string mark = "\xEF\xBB\xBF"; // of UTF-8, which some programs write
+    const bool isMarked = number == 1 && line.compare(0, mark.size(), mark) == 0;
+    const std::vector<std::string> texts = WordsOf(isMarked ? line.substr(mark.size()) : line);
+    if (texts.empty() || (isFirst && IsHeading(texts)))
+    {
+      isFirst = isFirst && texts.empty();
+      continue;
+    }
+    isFirst = false;
+    try
+    {
+      if (texts.size() < 3 || texts.size() > columns)
+      {
+        throw UsageError(columns == 3 ? "not three numbers" : "not three to five numbers");
+      }
+      std::vector<double> values = { 0.0, 0.0, 0.0, 1.0, 0.0 };
+      std::transform(texts.begin(), texts.end(), values.begin(), ParseNumber<double>);
+      list.Points->InsertNextPoint(values.data());
+      list.Weights->InsertNextValue(values[3]);
+      list.Radii->InsertNextValue(values[4]);
+    }
+    catch (const UsageError& error)
+    {
+      throw Failure(name + ", line " + NumberText(number) + ": " + error.what());
+    }
+  }
+}
+
+bool IsText(const std::string& name)
+{
+  const std::string suffix = SuffixOf(name);
+  return suffix == ".txt" || suffix == ".csv" || suffix == ".xyz";
+}
+
+/// The points as vertices, without arrays.
+vtkSmartPointer<vtkPolyData> MakeVertices(vtkPoints* points, const std::string& name)
+{
+  if (!points || points->GetNumberOfPoints() == 0)
+  {
+    throw Failure(name + ": has no points");
+  }
+  auto vertices = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    cells->InsertNextCell(1, &i);
+  }
+  vertices->SetPoints(points);
+  vertices->SetVerts(cells);
+  return vertices;
+}
+}
+
+vtkSmartPointer<vtkPolyData> ReadSeeds(const std::string& name)
+{
+  if (!IsText(name))
+  {
+    return MakeVertices(ReadMesh(name)->GetPoints(), name);
+  }
+  PointList list;
+  ReadPointLines(name, 3, list);
+  return MakeVertices(list.Points, name);
+}
+
+vtkSmartPointer<vtkPolyData> ReadAttractingPoints(const std::string& name)
+{
+  if (!IsText(name))
+  {
+    const vtkSmartPointer<vtkPolyData> mesh = ReadMesh(name);
+    const vtkSmartPointer<vtkPolyData> points = MakeVertices(mesh->GetPoints(), name);
+    points->GetPointData()->ShallowCopy(mesh->GetPointData());
+    return points;
+  }
+  PointList list;
+  list.Weights->SetName("Weight");
+  list.Radii->SetName("Radius");
+  ReadPointLines(name, 5, list);
+  const vtkSmartPointer<vtkPolyData> points = MakeVertices(list.Points, name);
+  points->GetPointData()->AddArray(list.Weights);
+  points->GetPointData()->AddArray(list.Radii);
+  return points;
+}
+
+vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& name)
+{
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputData(ReadMesh(name));
+  clean->SetTolerance(0.0);
+  clean->Update();
+  if (clean->GetOutput()->GetNumberOfPolys() == 0)
+  {
+    throw Failure(name + ": has no polygons");
+  }
+  return clean->GetOutput();
+}
+}

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceProperties.h"
+
+#include "ParseNumbers.h"
+#include "ToolErrors.h"
+
+#include <vtkDeformableSurface.h>
+#include <vtkImagePyramid.h>
+
+#include <algorithm>
+
+namespace tool
+{
+namespace
+{
+std::string JoinNames(const std::vector<std::string>& names)
+{
+  std::string joined;
+  for (const std::string& name : names)
+  {
+    joined += (joined.empty() ? "" : "|") + name;
+  }
+  return joined;
+}
+
+int FindName(const std::vector<std::string>& names, const std::string& name)
+{
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+  {
+    throw UsageError("'" + name + "' is none of " + JoinNames(names));
+  }
+  return static_cast<int>(found - names.begin());
+}
+
+// A line per property. FILTER is Surface or Pyramid; the type of a number is its getter's.
+#define VOLUMIC_NUMBER(FILTER, CLASS, PROPERTY, OPTION, ARGUMENT, HELP)                            \
+  PropertyOption                                                                                   \
+  {                                                                                                \
+    OPTION, ARGUMENT, CLASS, #PROPERTY, HELP,                                                      \
+      [](const FilterPair& filters) { return NumberText(filters.FILTER->Get##PROPERTY()); },       \
+      [](const FilterPair& filters, const std::string& text)                                       \
+    {                                                                                              \
+      filters.FILTER->Set##PROPERTY(ParseNumber<decltype(filters.FILTER->Get##PROPERTY())>(text)); \
+    }                                                                                              \
+  }
+#define SURFACE_NUMBER(PROPERTY, OPTION, ARGUMENT, HELP) \
+  VOLUMIC_NUMBER(Surface, "vtkDeformableSurface", PROPERTY, OPTION, ARGUMENT, HELP)
+#define PYRAMID_NUMBER(PROPERTY, OPTION, ARGUMENT, HELP) \
+  VOLUMIC_NUMBER(Pyramid, "vtkImagePyramid", PROPERTY, OPTION, ARGUMENT, HELP)
+
+// An option without argument that gives a boolean property the value that is not its default.
+#define SURFACE_SWITCH(PROPERTY, VALUE, OPTION, HELP)                                              \
+  PropertyOption                                                                                   \
+  {                                                                                                \
+    OPTION, "", "vtkDeformableSurface", #PROPERTY, HELP,                                           \
+      [](const FilterPair& filters)                                                                \
+    { return std::string(filters.Surface->Get##PROPERTY() ? "on" : "off"); },                      \
+      [](const FilterPair& filters, const std::string&) { filters.Surface->Set##PROPERTY(VALUE); } \
+  }
+
+// An enumeration; its names in the order of its values.
+template <class Getter, class Setter>
+PropertyOption Menu(const char* property, const char* option, const char* help,
+  const std::vector<std::string>& names, Getter get, Setter set)
+{
+  return PropertyOption{ option, JoinNames(names), "vtkDeformableSurface", property, help,
+    [=](const FilterPair& filters) { return names.at(get(filters.Surface)); },
+    [=](const FilterPair& filters, const std::string& text)
+    { set(filters.Surface, FindName(names, text)); } };
+}
+#define SURFACE_MENU(PROPERTY, OPTION, HELP, ...)                           \
+  Menu(                                                                     \
+    #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                               \
+    [](vtkDeformableSurface* surface) { return surface->Get##PROPERTY(); }, \
+    [](vtkDeformableSurface* surface, int value) { surface->Set##PROPERTY(value); })
+
+std::vector<PropertyOption> MakeProperties()
+{
+  return {
+    SURFACE_NUMBER(IsoValue, "iso", "VALUE",
+      "the value of the image at the surface that is searched, in the units of the voxels; without "
+      "this option Otsu's threshold of the image, which is told"),
+    SURFACE_SWITCH(ObjectIsBright, false, "dark", "the object is where the image is below --iso"),
+    SURFACE_NUMBER(SelectedComponent, "component", "N",
+      "the component to use of voxels that have several, counted from 0; -1: their magnitude"),
+    SURFACE_SWITCH(NaNIsBackground, false, "refuse-nan",
+      "refuse voxels that are NaN, which are background otherwise"),
+    PYRAMID_NUMBER(NumberOfLevels, "levels", "N",
+      "levels of the pyramid, the image itself included; 0: as many as --minimum-level-size "
+      "allows"),
+    PYRAMID_NUMBER(ReductionFactor, "reduction-factor", "T",
+      "how many times fewer voxels a level has along each axis than the one below; 1 < T < 2"),
+    PYRAMID_NUMBER(MinimumLevelSize, "minimum-level-size", "N",
+      "no level whose smallest axis has fewer voxels, unless --levels asks for it"),
+    SURFACE_NUMBER(CoarsestLevel, "coarsest", "LEVEL", "level to begin with; -1: the last"),
+    SURFACE_NUMBER(FinestLevel, "finest", "LEVEL",
+      "level to end with; 0: the image itself; -1: once more divided, finer than the image"),
+    SURFACE_SWITCH(Preview, true, "preview",
+      "end at a coarse level of at most a million voxels, to try a value of --iso"),
+    SURFACE_MENU(Initialization, "initialization",
+      "what to start from: an icosahedron about the image; seeds, at --seed-position and the points "
+      "of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
+      "icosahedron", "seeds", "iso-surface", "input-surface"),
+    SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",
+      "radius of the seeds in world units; 0: 1.2 times the shortest edge of the coarsest level"),
+    SURFACE_MENU(Recovery, "recovery",
+      "what to find again that a coarser level has lost: nothing; parts of the object; those and the "
+      "cavities in it",
+      "none", "objects", "objects-and-cavities"),
+    SURFACE_NUMBER(MinimumPartSize, "minimum-part-size", "N",
+      "voxels of the level that a part needs to be recovered"),
+    SURFACE_MENU(BorderValue, "border",
+      "what is outside the image: background, so that surfaces close at the border, or the nearest "
+      "voxel",
+      "background", "replicate"),
+    SURFACE_MENU(Metric, "metric",
+      "which lengths are uniform where voxels are not cubes: those in which each voxel is one, or those "
+      "of the world",
+      "voxels", "world"),
+    SURFACE_NUMBER(EdgeLength, "edge-length", "LENGTH",
+      "mean edge that is wanted, in world units; 0: as --finest and --sampling-ratio have it"),
+    SURFACE_NUMBER(SamplingRatio, "sampling-ratio", "RATIO",
+      "shortest edge of the surface in voxels of the level, 0.693 to 1; edges are up to 2.5 times "
+      "as long"),
+    SURFACE_NUMBER(TensionWeight, "tension", "WEIGHT",
+      "weight of the force to the barycentre of a vertex's neighbours"),
+    SURFACE_NUMBER(
+      ElasticityWeight, "elasticity", "WEIGHT", "weight of the springs along the edges"),
+    SURFACE_NUMBER(IsopotentialWeight, "isopotential", "WEIGHT",
+      "weight of the force along the normal to the iso-value"),
+    SURFACE_NUMBER(
+      GradientWeight, "gradient", "WEIGHT", "weight of the force along the image's gradient"),
+    SURFACE_NUMBER(PointAttractionWeight, "point-attraction", "WEIGHT",
+      "how much the points of --attracting-points make what is around them a part of the object; "
+      "0: not at all"),
+    SURFACE_NUMBER(EdgeAttractionWeight, "edge-attraction", "WEIGHT",
+      "how much the edges of the map --edges attract the surface; 0: not at all; more than "
+      "--isopotential: they stop it"),
+    SURFACE_NUMBER(Friction, "friction", "VALUE", "little oscillates, much is slow; more than 0"),
+    SURFACE_SWITCH(TopologyChanges, false, "no-topology-changes",
+      "no merges and cuts: the surface keeps its topology, contacts stop it"),
+    SURFACE_NUMBER(MaximumNumberOfIterations, "iterations", "N", "iterations per level at most"),
+    SURFACE_NUMBER(ConvergenceTolerance, "tolerance", "SHARE",
+      "a level rests when the enclosed volume changes by less than this share of it"),
+    SURFACE_SWITCH(
+      FreezeMotionlessVertices, false, "no-freeze", "compute vertices at rest too (slower)"),
+    SURFACE_SWITCH(SnapToIsoValue, false, "no-snap",
+      "don't move vertices onto the iso-value at the end of a level"),
+    SURFACE_MENU(KeepComponents, "keep",
+      "which components are written: all; the one of the largest area; those at seeds or "
+      "points known to belong to the object (--seeds, --attracting-points and so on); or "
+      "those of --minimum-component-volume; cavities stay with theirs",
+      "all", "largest", "at-points", "large"),
+    SURFACE_NUMBER(MinimumComponentVolume, "minimum-component-volume", "VOLUME",
+      "what a component must enclose to be large, in world units cubed"),
+    SURFACE_NUMBER(TimeLimit, "time-limit", "SECONDS",
+      "write the surface as it is so long after its evolution began; 0: no limit"),
+    SURFACE_NUMBER(NumberOfThreads, "threads", "N", "0: all; the result does not depend on it"),
+    SURFACE_SWITCH(Profile, true, "profile", "put into --history where the time goes"),
+    SURFACE_NUMBER(SnapshotInterval, "snapshot-interval", "N",
+      "iterations from one of the --snapshots to the next; 0: none"),
+  };
+}
+}
+
+const std::vector<PropertyOption>& SurfaceProperties()
+{
+  static const std::vector<PropertyOption> properties = MakeProperties();
+  return properties;
+}
+}

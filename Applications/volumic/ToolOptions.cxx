@@ -1,0 +1,349 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ToolOptions.h"
+
+#include "ParseNumbers.h"
+#include "ToolErrors.h"
+
+#include <algorithm>
+#include <functional>
+#include <ostream>
+#include <sstream>
+
+namespace tool
+{
+namespace
+{
+/// An option that is not a property of a filter.
+struct ProgramOption
+{
+  std::string Option;
+  std::string Argument;
+  std::string Help;
+  std::function<void(ToolOptions&, const std::string& text)> Set;
+};
+
+// Options that take a file or name, each into its own member.
+ProgramOption Text(
+  const char* option, const char* argument, std::string ToolOptions::*member, const char* help)
+{
+  return { option, argument, help,
+    [member](ToolOptions& options, const std::string& text) { options.*member = text; } };
+}
+
+// Options that add a point to a list, as often as they are given.
+ProgramOption Position(
+  const char* option, ToolOptions::Positions ToolOptions::*member, const char* help)
+{
+  return { option, "X,Y,Z", help,
+    [member](ToolOptions& options, const std::string& text)
+    {
+      const std::vector<double> numbers = ParseNumbers(text, 3);
+      (options.*member).push_back({ numbers[0], numbers[1], numbers[2] });
+    } };
+}
+
+ProgramOption Switch(const char* option, bool ToolOptions::*member, const char* help)
+{
+  return { option, "", help,
+    [member](ToolOptions& options, const std::string&) { options.*member = true; } };
+}
+
+ProgramOption Show(const char* option, enum ToolOptions::Task task, const char* help)
+{
+  return { option, "", help,
+    [task](ToolOptions& options, const std::string&) { options.Task = task; } };
+}
+
+void SetSpacing(ToolOptions& options, const std::string& text)
+{
+  const std::vector<double> numbers = ParseNumbers(text, 3);
+  if (*std::min_element(numbers.begin(), numbers.end()) <= 0.0)
+  {
+    throw UsageError("distances of voxels are more than 0");
+  }
+  options.Spacing = { numbers[0], numbers[1], numbers[2] };
+}
+
+const std::vector<ProgramOption>& InputOptions()
+{
+  static const std::vector<ProgramOption> options = {
+    Text("array", "NAME", &ToolOptions::Array,
+      "the point array of the volume to use; without this option the active scalars"),
+    { "spacing", "X,Y,Z",
+      "distances of neighbouring voxels along the three axes, instead of the file's", SetSpacing },
+    Text("seeds", "FILE", &ToolOptions::Seeds,
+      "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
+      "a .txt, .csv or .xyz file; world coordinates"),
+    Position("seed-position", &ToolOptions::SeedPositions,
+      "start from an icosahedron at this point too; world coordinates; may be given several times"),
+    Text("initial-surface", "FILE", &ToolOptions::InitialSurface,
+      "start from this closed surface: .vtp, .vtk, .stl, .ply or .obj; world coordinates"),
+    Text("attracting-points", "FILE", &ToolOptions::AttractingPoints,
+      "points known to belong to the object, see --point-attraction: a mesh file's, with its "
+      "arrays "
+      "Weight and Radius, or the lines 'x y z [weight [radius]]' of a .txt, .csv or .xyz file; "
+      "world coordinates"),
+    Position("attracting-position", &ToolOptions::AttractingPositions,
+      "a point known to belong to the object too; world coordinates; may be given several times"),
+    Text("edges", "NAME|FILE", &ToolOptions::Edges,
+      "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
+      "of the volume, or a volume of the same size"),
+  };
+  return options;
+}
+
+const std::vector<ProgramOption>& OutputOptions()
+{
+  static const std::vector<ProgramOption> options = {
+    Text("history", "FILE.csv", &ToolOptions::History, "write a line per iteration"),
+    Text("levels-output", "FILE.vtm|DIR", &ToolOptions::Levels,
+      "write the surface of each level: as blocks, or as level-0.vtp, level-1.vtp, ... in a "
+      "folder"),
+    Text("snapshots", "FILE.vtm|DIR", &ToolOptions::Snapshots,
+      "write the surface on its way, every --snapshot-interval iterations (10 if that is not "
+      "given): as blocks, or as snapshot-0.vtp, ... in a folder"),
+    Text("report", "FILE.json", &ToolOptions::Report,
+      "write components, genus, area, volume, seconds, ...; - for the standard output"),
+    Text("write-volume", "FILE.vti", &ToolOptions::WrittenVolume,
+      "write the volume as it was read; without another file to write, that is all"),
+    Switch("quiet", &ToolOptions::Quiet, "print errors only"),
+    Switch("progress", &ToolOptions::Progress,
+      "print the progress even if the standard error is no terminal, then in lines"),
+    Show("list-properties", ToolOptions::Task::ListProperties,
+      "print the options that are properties of the filters: class, property, option, default"),
+    Show("list-files", ToolOptions::Task::ListFiles,
+      "print the files that the volume is read from, one per line"),
+    Show("help", ToolOptions::Task::ShowHelp, "print this text"),
+    Show("version", ToolOptions::Task::ShowVersion, "print the versions of Volumic and VTK"),
+  };
+  return options;
+}
+
+/// What a name on the command line stands for: one of the two, or nothing.
+struct FoundOption
+{
+  const ProgramOption* Program = nullptr;
+  const PropertyOption* Property = nullptr;
+
+  bool TakesArgument() const
+  {
+    return !(this->Program ? this->Program->Argument : this->Property->Argument).empty();
+  }
+};
+
+FoundOption FindOption(const std::string& name)
+{
+  FoundOption found;
+  for (const auto* options : { &InputOptions(), &OutputOptions() })
+  {
+    for (const ProgramOption& option : *options)
+    {
+      found.Program = option.Option == name ? &option : found.Program;
+    }
+  }
+  for (const PropertyOption& option : SurfaceProperties())
+  {
+    found.Property = option.Option == name ? &option : found.Property;
+  }
+  if (!found.Program && !found.Property)
+  {
+    throw UsageError("unknown option --" + name);
+  }
+  return found;
+}
+
+void ApplyOption(ToolOptions& options, const FoundOption& found, const std::string& text)
+{
+  if (found.Program)
+  {
+    found.Program->Set(options, text);
+  }
+  else
+  {
+    options.Properties.emplace_back(found.Property, text);
+  }
+}
+
+void CheckComplete(ToolOptions& options)
+{
+  if (options.Task != ToolOptions::Task::Segment && options.Task != ToolOptions::Task::ListFiles)
+  {
+    return;
+  }
+  if (options.Volume.empty())
+  {
+    throw UsageError("no volume is given");
+  }
+  if (options.Task == ToolOptions::Task::ListFiles)
+  {
+    return;
+  }
+  if (!options.WantsSurface() && options.WrittenVolume.empty())
+  {
+    throw UsageError("no file to write is given");
+  }
+  if (options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"))
+  {
+    throw UsageError("--edge-attraction needs --edges");
+  }
+  if (!options.Seeds.empty() && !options.InitialSurface.empty())
+  {
+    throw UsageError("--seeds and --initial-surface exclude each other");
+  }
+  if (!options.SeedPositions.empty() && !options.InitialSurface.empty())
+  {
+    throw UsageError("--seed-position and --initial-surface exclude each other");
+  }
+}
+
+// ---- Help ---------------------------------------------------------------------------------------
+
+void PrintOption(std::ostream& out, const std::string& option, const std::string& argument,
+  const std::string& help)
+{
+  const std::size_t width = 80;
+  const std::size_t indent = 8;
+  out << "  --" << option << (argument.empty() ? "" : " " + argument) << "\n";
+  std::istringstream words(help);
+  std::string word;
+  std::string line;
+  while (words >> word)
+  {
+    if (!line.empty() && indent + line.size() + 1 + word.size() > width)
+    {
+      out << std::string(indent, ' ') << line << "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  out << std::string(indent, ' ') << line << "\n";
+}
+}
+
+bool ToolOptions::HasProperty(const std::string& property) const
+{
+  return std::any_of(this->Properties.begin(), this->Properties.end(),
+    [&](const auto& chosen) { return chosen.first->Property == property; });
+}
+
+bool ToolOptions::WantsSurface() const
+{
+  return !this->Surfaces.empty() || !this->Levels.empty() || !this->Report.empty() ||
+    !this->History.empty() || !this->Snapshots.empty();
+}
+
+ToolOptions ParseOptions(int argc, const char* const argv[])
+{
+  ToolOptions options;
+  bool isPlain = false;
+  for (int i = 1; i < argc; ++i)
+  {
+    std::string word = argv[i];
+    if (!isPlain && word == "--")
+    {
+      isPlain = true;
+      continue;
+    }
+    word = isPlain ? word : word == "-h" ? "--help" : word == "-q" ? "--quiet" : word;
+    if (isPlain || word.size() < 2 || word[0] != '-')
+    {
+      (options.Volume.empty() ? options.Volume : options.Surfaces.emplace_back()) = word;
+      continue;
+    }
+    if (word.compare(0, 2, "--") != 0)
+    {
+      throw UsageError("unknown option " + word);
+    }
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
+    const FoundOption found = FindOption(name);
+    std::string text;
+    if (equals != std::string::npos)
+    {
+      text = word.substr(equals + 1);
+      if (!found.TakesArgument())
+      {
+        throw UsageError("--" + name + " takes no argument");
+      }
+    }
+    else if (found.TakesArgument())
+    {
+      if (++i >= argc)
+      {
+        throw UsageError("--" + name + " needs an argument");
+      }
+      text = argv[i];
+    }
+    try
+    {
+      ApplyOption(options, found, text);
+    }
+    catch (const UsageError& error)
+    {
+      throw UsageError("--" + name + ": " + error.what());
+    }
+  }
+  CheckComplete(options);
+  return options;
+}
+
+void ApplyProperties(const ToolOptions& options, const FilterPair& filters)
+{
+  for (const auto& [property, text] : options.Properties)
+  {
+    try
+    {
+      property->Set(filters, text);
+    }
+    catch (const UsageError& error)
+    {
+      throw UsageError("--" + property->Option + ": " + error.what());
+    }
+  }
+}
+
+void PrintHelp(std::ostream& out, const FilterPair& filters)
+{
+  out << "Usage: volumic [OPTION]... VOLUME SURFACE...\n"
+         "\n"
+         "Finds the surface of an object in a 3D image with a closed, deformable surface\n"
+         "that descends a pyramid of the image from coarse to fine, and writes it.\n"
+         "\n"
+         "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
+         "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
+         "SURFACE  .vtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; all are written\n"
+         "\n"
+         "Input:\n";
+  for (const ProgramOption& option : InputOptions())
+  {
+    PrintOption(out, option.Option, option.Argument, option.Help);
+  }
+  out << "\nSegmentation:\n";
+  for (const PropertyOption& option : SurfaceProperties())
+  {
+    const std::string value = option.Get(filters);
+    const bool hasDefault = !option.Argument.empty() && value != "nan";
+    PrintOption(out, option.Option, option.Argument,
+      option.Help + (hasDefault ? " (default: " + value + ")" : ""));
+  }
+  out << "\nOutput:\n";
+  for (const ProgramOption& option : OutputOptions())
+  {
+    PrintOption(out, option.Option, option.Argument, option.Help);
+  }
+  out << "\n"
+         "Exit codes: 0 done; 1 something failed; 2 wrong usage; 3 interrupted (Ctrl-C),\n"
+         "stopped by --time-limit or the iteration limit: the surface as it was then is\n"
+         "written.\n";
+}
+
+void PrintProperties(std::ostream& out, const FilterPair& filters)
+{
+  for (const PropertyOption& option : SurfaceProperties())
+  {
+    out << option.Class << "\t" << option.Property << "\t--" << option.Option << "\t"
+        << option.Get(filters) << "\n";
+  }
+}
+}

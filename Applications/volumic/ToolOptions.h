@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicToolOptions_h
+#define volumicToolOptions_h
+
+#include "SurfaceProperties.h"
+
+#include <array>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tool
+{
+/// What the command line asks for.
+struct ToolOptions
+{
+  using Positions = std::vector<std::array<double, 3>>; ///< world coordinates
+  enum class Task
+  {
+    Segment,
+    ShowHelp,
+    ShowVersion,
+    ListProperties,
+    ListFiles
+  };
+  Task Task = Task::Segment;
+
+  std::string Volume;                ///< file, folder or pattern
+  std::vector<std::string> Surfaces; ///< files to write, at least one, unless the rest is asked for
+  std::string Array;                 ///< point array of the volume; empty: the active one
+  std::optional<std::array<double, 3>> Spacing; ///< instead of the file's, world units
+  std::string Seeds;                            ///< file of points
+  std::string InitialSurface;                   ///< file of a closed surface
+  std::string AttractingPoints;                 ///< file of points
+  Positions SeedPositions;                      ///< beside those of the file
+  Positions AttractingPositions;                ///< beside those of the file
+  std::string Edges;                            ///< point array of the volume, or file of a volume
+  std::string History;                          ///< .csv
+  std::string Levels;                           ///< .vtm, or a folder
+  std::string Snapshots;                        ///< .vtm, or a folder
+  std::string Report;                           ///< .json
+  std::string WrittenVolume;                    ///< .vti
+  bool Quiet = false;
+  bool Progress = false; ///< also where stderr is no terminal
+
+  /// The properties that were chosen, in the order of the command line, with their texts.
+  std::vector<std::pair<const PropertyOption*, std::string>> Properties;
+
+  bool HasProperty(const std::string& property) const;
+
+  /// Whether a surface is wanted, or something that tells of it.
+  bool WantsSurface() const;
+};
+
+/// @throws UsageError if the command line is not understood or lacks something.
+ToolOptions ParseOptions(int argc, const char* const argv[]);
+
+/// Set the chosen properties. @throws UsageError if a text is no value of its property.
+void ApplyProperties(const ToolOptions& options, const FilterPair& filters);
+
+/// The text of --help; the defaults of the properties are the filters' own.
+void PrintHelp(std::ostream& out, const FilterPair& filters);
+
+/// A line per property: class, property, option, default; separated by tabs.
+void PrintProperties(std::ostream& out, const FilterPair& filters);
+}
+
+#endif

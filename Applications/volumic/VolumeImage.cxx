@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeImage.h"
+
+#include "ToolErrors.h"
+
+#include <vtkByteSwap.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace tool
+{
+std::array<double, 2> RangeOf(vtkDataArray* values, int component)
+{
+  std::array<double, 2> range;
+  values->GetRange(range.data(), values->GetNumberOfComponents() == 1 ? 0 : component);
+  return range;
+}
+
+double Dot(const Vector3& a, const Vector3& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector3 Cross(const Vector3& a, const Vector3& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+void VolumePlacement::SetSteps(const std::array<Vector3, 3>& steps)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double length = std::sqrt(Dot(steps[axis], steps[axis]));
+    this->Spacing[axis] = length;
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Axes[axis][c] = length > 0.0 ? steps[axis][c] / length : 0.0;
+    }
+  }
+}
+
+void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
+{
+  // Headers round their direction cosines to some digits.
+  const double tolerance = 1e-3;
+  double matrix[9];
+  for (int a = 0; a < 3; ++a)
+  {
+    if (!(placement.Spacing[a] > 0.0) || !std::isfinite(placement.Spacing[a]))
+    {
+      throw Failure("the distance of the voxels is not positive");
+    }
+    for (int b = 0; b < 3; ++b)
+    {
+      const double product = Dot(placement.Axes[a], placement.Axes[b]);
+      if (!(std::abs(product - (a == b ? 1.0 : 0.0)) < tolerance))
+      {
+        throw Failure("the voxel axes are not at right angles: such a sheared or tilted volume "
+                      "must be resampled first");
+      }
+      matrix[3 * b + a] = placement.Axes[a][b];
+    }
+  }
+  image->SetSpacing(placement.Spacing.data());
+  image->SetOrigin(placement.Origin.data());
+  image->SetDirectionMatrix(matrix);
+}
+
+void SetWorldAxes(vtkImageData* image, const std::string& axes)
+{
+  vtkNew<vtkStringArray> label;
+  label->SetName("Axes");
+  label->InsertNextValue(axes);
+  image->GetFieldData()->AddArray(label);
+}
+
+vtkSmartPointer<vtkImageData> MakeImage(
+  const std::array<int, 3>& size, vtkDataArray* scalars, const VolumePlacement& placement)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(size[0], size[1], size[2]);
+  if (!scalars->GetName())
+  {
+    scalars->SetName("Intensity");
+  }
+  image->GetPointData()->SetScalars(scalars);
+  PlaceImage(image, placement);
+  return image;
+}
+
+void ToNativeOrder(vtkDataArray* values, bool isBig)
+{
+  // "BE" is the identity on a big-endian machine, and the other way round.
+  const int width = values->GetDataTypeSize();
+  void (*swap)(void*, std::size_t) = nullptr;
+  swap = width == 2 ? (isBig ? vtkByteSwap::Swap2BERange : vtkByteSwap::Swap2LERange)
+    : width == 4    ? (isBig ? vtkByteSwap::Swap4BERange : vtkByteSwap::Swap4LERange)
+    : width == 8    ? (isBig ? vtkByteSwap::Swap8BERange : vtkByteSwap::Swap8LERange)
+                    : nullptr;
+  if (swap)
+  {
+    swap(values->GetVoidPointer(0), static_cast<std::size_t>(values->GetNumberOfValues()));
+  }
+}
+
+vtkSmartPointer<vtkDataArray> Rescaled(vtkDataArray* values, double slope, double shift)
+{
+  auto rescaled = vtkSmartPointer<vtkFloatArray>::New();
+  rescaled->SetName(values->GetName());
+  rescaled->SetNumberOfComponents(values->GetNumberOfComponents());
+  rescaled->SetNumberOfTuples(values->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < values->GetNumberOfComponents(); ++c)
+    {
+      rescaled->SetTypedComponent(
+        i, c, static_cast<float>(slope * values->GetComponent(i, c) + shift));
+    }
+  }
+  return rescaled;
+}
+}

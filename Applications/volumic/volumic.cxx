@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// From a volume to a closed surface: the program `volumic`. See volumic.1, or
+//   volumic --help
+#include "InputFiles.h"
+#include "SegmentVolume.h"
+#include "SurfaceProperties.h"
+#include "ToolErrors.h"
+#include "ToolOptions.h"
+
+#include <vtkImagePyramid.h>
+#include <vtkNew.h>
+#include <vtkSMPTools.h>
+#include <vtkSmartPointer.h>
+#include <vtkVersion.h>
+#include <vtkVolumeToSurface.h>
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+namespace
+{
+using namespace tool;
+
+ExitCode Run(int argc, char* argv[])
+{
+  const ToolOptions options = ParseOptions(argc, argv);
+  vtkNew<vtkImagePyramid> pyramid;
+  vtkSmartPointer<vtkDeformableSurface> filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  if (options.HasProperty("EdgeLength"))
+  {
+    filter = vtkSmartPointer<vtkVolumeToSurface>::New();
+  }
+  const FilterPair filters{ pyramid, filter };
+  switch (options.Task)
+  {
+    case ToolOptions::Task::ShowHelp:
+      PrintHelp(std::cout, filters);
+      return Success;
+    case ToolOptions::Task::ShowVersion:
+      std::cout << "volumic " VOLUMIC_VERSION " (VTK " << vtkVersion::GetVTKVersion() << ")\n";
+      return Success;
+    case ToolOptions::Task::ListProperties:
+      PrintProperties(std::cout, filters);
+      return Success;
+    case ToolOptions::Task::ListFiles:
+      for (const std::string& file : FilesOfVolume(options.Volume))
+      {
+        std::cout << file << "\n";
+      }
+      return Success;
+    case ToolOptions::Task::Segment:
+      break;
+  }
+  ApplyProperties(options, filters);
+  try
+  {
+    return SegmentVolume(options, pyramid, filter);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw Failure(options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
+  }
+  catch (const std::exception& error)
+  {
+    // By its words only TBB, which VTK's threads may be of, tells that it gets no memory for one.
+    if (std::string(error.what()).find("pthread_create") == std::string::npos)
+    {
+      throw;
+    }
+    throw Failure(options.Volume + ": not enough memory to segment it: no thread can be started; "
+      "crop it, or resample it to fewer voxels");
+  }
+}
+}
+
+int main(int argc, char* argv[])
+{
+  // Under a limit of memory VTK's own threads of the standard library end the program; Volumic's
+  // don't.
+  if (vtkSMPTools::GetBackend() == std::string("STDThread"))
+  {
+    vtkSMPTools::SetBackend("Sequential");
+  }
+  try
+  {
+    const ExitCode code = Run(argc, argv);
+    if (!std::cout.flush())
+    {
+      throw Failure("the standard output cannot be written; is its disk full?");
+    }
+    return code;
+  }
+  catch (const tool::UsageError& error)
+  {
+    std::cerr << "volumic: " << error.what() << "\nTry 'volumic --help'.\n";
+    return tool::UsageFailure;
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << "volumic: not enough memory\n";
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "volumic: " << error.what() << "\n";
+  }
+  return tool::RuntimeFailure;
+}

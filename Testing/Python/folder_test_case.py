@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A test with a folder of its own, for files that it writes."""
+
+import os
+import tempfile
+import unittest
+
+
+class FolderTestCase(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, writer, name, image):
+        """Have a writer of VTK write the image; returns the path."""
+        writer.SetFileName(self.path(name))
+        writer.SetInputData(image)
+        writer.Write()
+        return self.path(name)
+
+    def write_bytes(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content)
+        return self.path(name)
+
+    def content(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
