@@ -32,6 +32,14 @@ TEST(SizingField, LooksAsFarAsTrianglesReach)
   EXPECT_LT(sizing.Contact(0), 1e-3 * sizing.ShortestEdge(0, 1));
 }
 
+TEST(SizingField, GrowsForLongEdgesOnly)
+{
+  const SizingField sizing(1.f);
+  EXPECT_EQ(sizing.ForEdgesOf(2.f).OfLevel(), 1.f);
+  EXPECT_EQ(sizing.ForEdgesOf(5.f).OfLevel(), 2.f);
+  EXPECT_GE(sizing.ForEdgesOf(3.3f).LongestEdge(0, 1), 3.3f * (1 - 1e-6f));
+}
+
 TEST(SizingField, MeasuresInDeltaOfTheLevel)
 {
   const SizingField sizing(0.85f);

@@ -156,8 +156,7 @@ void SurfaceEvolution::Implementation::FindIntersections()
   // A division leaves some edges longer than verification may rely on; it looks further for them.
   SurfaceState& s = this->State;
   const SizingField sizing = s.Sizing;
-  s.Sizing = SizingField(
-    std::max(sizing.Largest(), LongestEdge(s.Mesh) / SizingField::LongestEdgeInDelta));
+  s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh));
   this->LayGrid();
   this->CollectActive();
   s.UpdateShape(this->Active, this->Threads);

@@ -3,6 +3,8 @@
 #ifndef volumicSizingField_h
 #define volumicSizingField_h
 
+#include <algorithm>
+
 namespace volumic
 {
 /**
@@ -31,6 +33,12 @@ public:
   explicit SizingField(float delta)
     : LevelDelta(delta)
   {
+  }
+
+  /** The same, but nowhere less than what makes edges of this length legal. */
+  SizingField ForEdgesOf(float length) const
+  {
+    return SizingField(std::max(this->LevelDelta, length / LongestEdgeInDelta));
   }
 
   /** Of the level as a whole: where there is no vertex yet, and for what is told of it. */
