@@ -46,14 +46,15 @@ set(volumic_core_sources
   Surface/TopologyEdits.cxx
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
-  Evolution/EvolutionIteration.cxx
+  Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
   Evolution/GivenSurface.cxx
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
-  Evolution/SurfaceEvolution.cxx)
+  Evolution/SurfaceEvolution.cxx
+  Evolution/SurfaceIteration.cxx)
 set(volumic_core_headers
   Common/Box.h
   Common/DisjointSets.h
@@ -121,6 +122,7 @@ set(volumic_core_headers
   Evolution/LostParts.h
   Evolution/RestCriterion.h
   Evolution/SurfaceEvolution.h
+  Evolution/SurfaceIteration.h
   Evolution/SurfaceOptions.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

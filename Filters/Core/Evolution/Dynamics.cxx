@@ -182,7 +182,7 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
         const Vector n = state.Normal[v].Axis();
         const Vector pull = state.Laplacian[v];
         Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
-        if (snap)
+        if (snap && this->Options.SnapToIsoValue)
         {
           const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
           move += n * this->TheField.StepToIso(sample, n, longest);

@@ -4,14 +4,11 @@
 #define volumicEvolutionImplementation_h
 
 #include "Core/Evolution/CycleCriterion.h"
-#include "Core/Evolution/Dynamics.h"
 #include "Core/Evolution/LostBoundary.h"
 #include "Core/Evolution/RestCriterion.h"
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
-#include "Core/Surface/ComponentWatch.h"
-#include "Core/Surface/Proximity.h"
-#include "Core/Surface/Remesher.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <chrono>
@@ -21,18 +18,10 @@
 
 namespace volumic
 {
-/** What an iteration is driven by: forces; shape and residual; shape alone. */
-enum class Mode
-{
-  Evolve,
-  Regularise,
-  Adapt
-};
-
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
- * recovery), GivenSurface.cxx makes a given one ready, EvolutionIteration.cxx does one iteration,
- * EvolutionRun.cxx a whole level.
+ * recovery), GivenSurface.cxx makes a given one ready, EvolutionRun.cxx iterates until it rests and
+ * regularises it, EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -46,28 +35,21 @@ struct SurfaceEvolution::Implementation
   int LastIterations = 0;
   LostParts LastLost;
   LostBoundary Lost; ///< Of the parts that the last division found.
-  Proximity Near;
-  Proximity Recheck;
-  ComponentWatch Watch;
+  SurfaceIteration Iteration;
   RestCriterion Rest;
   CycleCriterion Cycle;
-  std::vector<int> Active;
-  std::vector<int> Working;            ///< Of an iteration, see CollectWorking.
-  std::vector<std::uint8_t> IsWorking; ///< Whether that has it.
-  std::vector<int> Suspects;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
   double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
   std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< Of all laps since the last level.
   bool Stopped = false;     ///< By the monitor.
   EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
-  int CollapsesSinceLabels = 0; ///< Since components were labelled last.
-  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
     : Options(options)
     , Threads(executor)
     , Listener(monitor)
+    , Iteration(this->State, executor)
   {
   }
 
@@ -90,17 +72,8 @@ struct SurfaceEvolution::Implementation
   void Adapt();
   void ActivateAll();
   void KeepActiveIfMoving();
-  void CollectActive();
-  void CollectWorking();
-  void AddUnmoved(int v);
-  void CollectSuspects();
-  void RollBack();
-  void RollBackVertex(int v);
-  void UpdateChanged(std::vector<int> changed);
-  void SplitBeforeVerification(Remesher& remesher);
-  void RestoreConstraints(Remesher& remesher);
-  void WatchComponents();
-  void Iterate(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode);
+  void Iterate(
+    HistoryRow& row, Dynamics& dynamics, Remesher& remesher, SurfaceIteration::Mode mode);
   void FillRow(HistoryRow& row);
   double MeanEdgeLength() const;
   void FillCounts(HistoryRow& row) const;

@@ -61,7 +61,7 @@ bool SurfaceEvolution::Implementation::Ask(
   status.Doing = doing;
   status.Iteration = this->LastIterations;
   status.Vertices = this->State.Mesh.NumberOfVertices();
-  status.ActiveVertices = static_cast<int>(this->Active.size());
+  status.ActiveVertices = static_cast<int>(this->Iteration.ActiveVertices().size());
   status.Fraction = FractionOf(doing, std::clamp(share, 0., 1.), this->LastIterations);
   this->Stopped = !(this->Listener.*question)(status);
   return !this->Stopped;
@@ -74,18 +74,18 @@ Checkpoint SurfaceEvolution::Implementation::CheckpointOf(
   { return this->GoOn(doing, from + (to - from) * share); };
 }
 
-double SurfaceEvolution::Implementation::Lap()
+void SurfaceEvolution::Implementation::Iterate(
+  HistoryRow& row, Dynamics& dynamics, Remesher& remesher, SurfaceIteration::Mode mode)
 {
-  const auto now = std::chrono::steady_clock::now();
-  const double seconds = std::chrono::duration<double>(now - this->LastLap).count();
-  this->LastLap = now;
-  this->LevelSeconds += seconds;
-  return seconds;
-}
-
-bool SurfaceEvolution::Implementation::HasIteration() const
-{
-  return this->LastIterations > 0 && !this->Rows.empty();
+  const auto start = std::chrono::steady_clock::now();
+  const bool evolves = mode == SurfaceIteration::Mode::Evolve;
+  const auto goOn = [this, evolves]
+  { return !evolves || this->GoOn(Monitor::Activity::Iterating, 1.); };
+  this->Iteration.Run(row, dynamics, remesher, mode, this->LastIterations, goOn);
+  this->FillRow(row);
+  this->SinceEvolved.Cuts += this->State.Counts.Cuts;
+  this->SinceEvolved.Removed += this->State.Counts.Removed;
+  row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 StopReason SurfaceEvolution::Implementation::Evolve()
@@ -116,7 +116,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     row.SecondsBefore = this->Lap();
     row.AddedEulerCharacteristic = s.EulerCharacteristic -
       (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
-    this->Iterate(row, dynamics, remesher, Mode::Evolve);
+    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
     row.Seconds = this->Lap();
     if (this->LastIterations == 0)
     {
@@ -159,14 +159,14 @@ void SurfaceEvolution::Implementation::KeepActiveIfMoving()
     const float least = SmallestMove * s.Sizing.At(v);
     return SquaredLength(s.Velocity[v]) > least * least;
   };
-  for (int v : this->Active)
+  for (int v : this->Iteration.ActiveVertices())
   {
     if (s.Mesh.IsAlive(v) && !s.Disturbed[v] && !moves(v))
     {
       s.Active[v] = 0;
     }
   }
-  for (int v : this->Active)
+  for (int v : this->Iteration.ActiveVertices())
   {
     if (s.Mesh.IsAlive(v) && moves(v))
     {
@@ -210,7 +210,7 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
     this->Reset();
     s.Velocity.Fill(Vector());
     HistoryRow row;
-    this->Iterate(row, dynamics, remesher, Mode::Regularise);
+    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
   }
 }
 
@@ -232,7 +232,7 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
       this->KeepActiveIfMoving();
     }
     s.Disturbed.Fill(0);
-    this->Iterate(row, dynamics, remesher, Mode::Regularise);
+    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
   }
   this->RunPolish(row);
   for (int v = 0; v < s.Mesh.Size(); ++v)
@@ -255,11 +255,11 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
     this->Options.TopologyChanges, this->Threads,
     this->CheckpointOf(Monitor::Activity::Regularising, PassesShare));
   polish.Run();
-  this->UpdateChanged(polish.TakeChanged());
+  this->Iteration.UpdateChanged(polish.TakeChanged());
   if (s.Counts.Cuts > 0)
   {
-    this->Watch.Label(s, this->Threads);
-    this->Watch.DeleteDegenerate(s);
+    this->Iteration.LabelComponents();
+    this->Iteration.DeleteDegenerate();
   }
   this->SinceEvolved.Cuts += s.Counts.Cuts;
   this->SinceEvolved.Removed += s.Counts.Removed;
@@ -269,22 +269,8 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
 void SurfaceEvolution::Implementation::DeleteInsideOut()
 {
   this->State.Counts = EditCounts();
-  this->Watch.DeleteInsideOut(this->State, this->Threads);
+  this->Iteration.DeleteInsideOut();
   this->SinceEvolved.Removed += this->State.Counts.Removed;
-  this->Unchecked = 0;
-}
-
-void SurfaceEvolution::Implementation::FinishRow()
-{
-  if (!this->HasIteration())
-  {
-    return;
-  }
-  HistoryRow& last = this->Rows.back();
-  this->FillCounts(last);
-  last.MeanEdgeLength = this->MeanEdgeLength();
-  last.RegularisationCuts = this->SinceEvolved.Cuts;
-  last.RegularisationDeletions = this->SinceEvolved.Removed;
 }
 
 void SurfaceEvolution::Implementation::FindMissing()

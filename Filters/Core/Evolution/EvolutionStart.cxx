@@ -65,22 +65,18 @@ void SurfaceEvolution::Implementation::Reset()
   s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest()));
   this->LayGrid();
   this->SplitLongEdges();
-  this->Near.Examine(s, this->Active, this->Threads);
-  this->Watch.Label(s, this->Threads);
+  this->Iteration.Examine();
+  this->Iteration.LabelComponents();
 }
 
 void SurfaceEvolution::Implementation::SplitLongEdges()
 {
   // Verification relies on it that no edge is longer than the constraints allow.
-  SurfaceState& s = this->State;
-  this->CollectActive();
-  s.UpdateShape(this->Active, this->Threads);
-  Remesher remesher(s, nullptr, false);
-  remesher.Split(this->Active);
-  this->UpdateChanged(remesher.TakeChanged());
-  if (HasEdgeOver(s, 1.0001f))
+  this->Iteration.UpdateActive();
+  this->Iteration.SplitLongEdges();
+  if (HasEdgeOver(this->State, 1.0001f))
   {
-    this->TakeRemeshed(s.Mesh.ToIndexed()); // Full rings all about it: not seen yet.
+    this->TakeRemeshed(this->State.Mesh.ToIndexed()); // Full rings all about it: not seen yet.
   }
 }
 
@@ -99,8 +95,7 @@ void SurfaceEvolution::Implementation::LayGrid()
   }
   const float delta = s.Sizing.Largest();
   const Vector margin(2 * delta, 2 * delta, 2 * delta);
-  this->Near.Clear();
-  this->Recheck.Clear();
+  this->Iteration.Forget();
   s.Reset(low - margin, high + margin);
 }
 
@@ -158,9 +153,8 @@ void SurfaceEvolution::Implementation::FindIntersections()
   const SizingField sizing = s.Sizing;
   s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh));
   this->LayGrid();
-  this->CollectActive();
-  s.UpdateShape(this->Active, this->Threads);
-  this->Near.Examine(s, this->Active, this->Threads);
+  this->Iteration.UpdateActive();
+  this->Iteration.Examine();
   s.Sizing = sizing;
 }
 
@@ -171,7 +165,7 @@ void SurfaceEvolution::Implementation::DivideOnce()
   const int olds = s.Mesh.Size();
   const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh);
   this->FindIntersections();
-  if (this->Near.Intersections().empty())
+  if (this->Iteration.Intersections().empty())
   {
     return;
   }
@@ -181,9 +175,9 @@ void SurfaceEvolution::Implementation::DivideOnce()
   const SurfaceMesh old = Undivided(s.Mesh, olds);
   KeptEdges kept(old);
   constexpr int rounds = 6;
-  for (int round = 0; round < rounds && !this->Near.Intersections().empty(); ++round)
+  for (int round = 0; round < rounds && !this->Iteration.Intersections().empty(); ++round)
   {
-    for (const Proximity::FacePair& pair : this->Near.Intersections())
+    for (const Proximity::FacePair& pair : this->Iteration.Intersections())
     {
       KeepAbout(pair.First, faces, old, round, kept);
       KeepAbout(pair.Second, faces, old, round, kept);
@@ -197,7 +191,7 @@ void SurfaceEvolution::Implementation::DivideOnce()
     volumic::Divide(s.Mesh, &kept);
     this->FindIntersections();
   }
-  if (!this->Near.Intersections().empty())
+  if (!this->Iteration.Intersections().empty())
   {
     this->TakeRemeshed(old.ToIndexed()); // The old surface intersects itself: not seen yet.
   }

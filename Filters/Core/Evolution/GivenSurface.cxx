@@ -175,7 +175,7 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
     !IsCrowded(surface, s.Sizing.OfLevel()))
   {
     this->Begin(surface);
-    if (this->Near.Intersections().empty())
+    if (this->Iteration.Intersections().empty())
     {
       if (lengths.Shortest < s.Sizing.OfLevel())
       {
@@ -242,7 +242,7 @@ void SurfaceEvolution::Implementation::Adapt()
   {
     HistoryRow row;
     this->ActivateAll();
-    this->Iterate(row, dynamics, remesher, Mode::Adapt);
+    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Adapt);
     if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
     {
       break;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/SurfaceIteration.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,8 +19,6 @@ using Clock = std::chrono::steady_clock;
 constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
 constexpr int SuspiciousCollapses = 40;
-/** Vertices that one thread sums up at a time. */
-constexpr std::size_t SumBlock = 4096;
 /** Iterations between two looks for components that are inside out. */
 constexpr int InsideOutPeriod = 10;
 
@@ -34,7 +32,7 @@ void SortUnique(std::vector<int>& vertices)
 class Stopwatch
 {
 public:
-  explicit Stopwatch(HistoryRow& row) : Row(row), Start(Clock::now()), Last(Start) {}
+  explicit Stopwatch(HistoryRow& row) : Row(row), Last(Clock::now()) {}
   void Lap(Phase phase)
   {
     const Clock::time_point now = Clock::now();
@@ -42,19 +40,20 @@ public:
       std::chrono::duration<double>(now - this->Last).count();
     this->Last = now;
   }
-  void Stop()
-  {
-    this->Row.Seconds += std::chrono::duration<double>(Clock::now() - this->Start).count();
-  }
 
 private:
   HistoryRow& Row;
-  Clock::time_point Start;
   Clock::time_point Last;
 };
 }
 
-void SurfaceEvolution::Implementation::CollectActive()
+void SurfaceIteration::Forget()
+{
+  this->Near.Clear();
+  this->Recheck.Clear();
+}
+
+void SurfaceIteration::CollectActive()
 {
   this->Active.clear();
   for (int v = 0; v < this->State.Mesh.Size(); ++v)
@@ -66,7 +65,20 @@ void SurfaceEvolution::Implementation::CollectActive()
   }
 }
 
-void SurfaceEvolution::Implementation::CollectWorking()
+void SurfaceIteration::UpdateActive()
+{
+  this->CollectActive();
+  this->State.UpdateShape(this->Active, this->Threads);
+}
+
+void SurfaceIteration::SplitLongEdges()
+{
+  Remesher remesher(this->State, nullptr, false);
+  remesher.Split(this->Active);
+  this->UpdateChanged(remesher.TakeChanged());
+}
+
+void SurfaceIteration::CollectWorking()
 {
   // The active vertices and the corners of all faces that move with them.
   SurfaceState& s = this->State;
@@ -86,7 +98,7 @@ void SurfaceEvolution::Implementation::CollectWorking()
   }
 }
 
-void SurfaceEvolution::Implementation::AddUnmoved(int v)
+void SurfaceIteration::AddUnmoved(int v)
 {
   if (!this->IsWorking[v])
   {
@@ -96,7 +108,7 @@ void SurfaceEvolution::Implementation::AddUnmoved(int v)
   }
 }
 
-void SurfaceEvolution::Implementation::CollectSuspects()
+void SurfaceIteration::CollectSuspects()
 {
   // A star that had some room when it was examined needs no new look before it has used half of
   // it: whatever comes near has used half of its own and is examined itself.
@@ -132,7 +144,7 @@ void SurfaceEvolution::Implementation::CollectSuspects()
   }
 }
 
-void SurfaceEvolution::Implementation::UpdateChanged(std::vector<int> changed)
+void SurfaceIteration::UpdateChanged(std::vector<int> changed)
 {
   SortUnique(changed);
   this->State.UpdateShape(changed, this->Threads);
@@ -142,7 +154,7 @@ void SurfaceEvolution::Implementation::UpdateChanged(std::vector<int> changed)
   }
 }
 
-void SurfaceEvolution::Implementation::RollBackVertex(int v)
+void SurfaceIteration::RollBackVertex(int v)
 {
   constexpr int most = 200; // Of what fits into the count.
   SurfaceState& s = this->State;
@@ -153,7 +165,7 @@ void SurfaceEvolution::Implementation::RollBackVertex(int v)
   s.Drift[v] = SurfaceState::NotExamined;
 }
 
-void SurfaceEvolution::Implementation::RollBack()
+void SurfaceIteration::RollBack()
 {
   // The mesh before the displacement was free of intersections, and so is any mesh all of whose
   // vertices have gone back: roll back more and more about each intersection until none is left.
@@ -203,7 +215,7 @@ void SurfaceEvolution::Implementation::RollBack()
   }
 }
 
-void SurfaceEvolution::Implementation::SplitBeforeVerification(Remesher& remesher)
+void SurfaceIteration::SplitBeforeVerification(Remesher& remesher)
 {
   const std::size_t unsplit = this->Working.size();
   remesher.Split(this->Working);
@@ -219,7 +231,7 @@ void SurfaceEvolution::Implementation::SplitBeforeVerification(Remesher& remeshe
   this->UpdateChanged(remesher.TakeChanged());
 }
 
-void SurfaceEvolution::Implementation::RestoreConstraints(Remesher& remesher)
+void SurfaceIteration::RestoreConstraints(Remesher& remesher)
 {
   SurfaceState& s = this->State;
   remesher.Collapse(this->Working);
@@ -240,7 +252,7 @@ void SurfaceEvolution::Implementation::RestoreConstraints(Remesher& remesher)
   this->UpdateChanged(remesher.TakeChanged());
 }
 
-void SurfaceEvolution::Implementation::WatchComponents()
+void SurfaceIteration::WatchComponents(int number)
 {
   SurfaceState& s = this->State;
   // A component may become a small one without any change of topology.
@@ -255,15 +267,20 @@ void SurfaceEvolution::Implementation::WatchComponents()
   const bool deleted = this->Watch.DeleteDegenerate(s);
   // Only a cut can give birth to one, and what was inside a deleted component is bare.
   this->Unchecked += s.Counts.Cuts + (deleted ? 1 : 0);
-  if (this->LastIterations % InsideOutPeriod == 0 && this->Unchecked > 0)
+  if (number % InsideOutPeriod == 0 && this->Unchecked > 0)
   {
-    this->Watch.DeleteInsideOut(s, this->Threads);
-    this->Unchecked = 0;
+    this->DeleteInsideOut();
   }
 }
 
-void SurfaceEvolution::Implementation::Iterate(
-  HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode)
+void SurfaceIteration::DeleteInsideOut()
+{
+  this->Watch.DeleteInsideOut(this->State, this->Threads);
+  this->Unchecked = 0;
+}
+
+void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode,
+  int number, const std::function<bool()>& goOn)
 {
   SurfaceState& s = this->State;
   const bool evolves = mode == Mode::Evolve;
@@ -271,15 +288,13 @@ void SurfaceEvolution::Implementation::Iterate(
   s.Counts = EditCounts();
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
-  row.Vertices = s.Mesh.NumberOfVertices();
   if (evolves)
   {
     dynamics.Accelerate(s, this->Active, this->Near.Pairs());
   }
   else
   {
-    dynamics.Relax(s, this->Active, this->Near.Pairs(),
-      mode == Mode::Regularise && this->Options.SnapToIsoValue);
+    dynamics.Relax(s, this->Active, this->Near.Pairs(), mode == Mode::Regularise);
   }
   row.TimeStep = dynamics.TimeStep();
   watch.Lap(Phase::Forces);
@@ -301,12 +316,9 @@ void SurfaceEvolution::Implementation::Iterate(
     dynamics.Freeze(s, this->Active, this->Working);
   }
   watch.Lap(Phase::Verification);
-  if (evolves && !this->GoOn(Monitor::Activity::Iterating, 1.))
+  if (!goOn())
   {
-    // The surface is free of intersections; a run that ends here needs no edits.
-    this->FillRow(row);
-    watch.Stop();
-    return;
+    return; // The surface is free of intersections; a run that ends here needs no edits.
   }
 
   if (evolves)
@@ -316,70 +328,7 @@ void SurfaceEvolution::Implementation::Iterate(
   watch.Lap(Phase::Topology);
   this->RestoreConstraints(remesher);
   watch.Lap(Phase::Remeshing);
-  this->WatchComponents();
+  this->WatchComponents(number);
   watch.Lap(Phase::Topology);
-  this->FillRow(row);
-  this->SinceEvolved.Cuts += s.Counts.Cuts;
-  this->SinceEvolved.Removed += s.Counts.Removed;
-  watch.Stop();
-}
-
-void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
-{
-  row.Vertices = this->State.Mesh.NumberOfVertices();
-  row.EulerCharacteristic = this->State.EulerCharacteristic;
-  row.Components = this->Watch.NumberOfComponents();
-}
-
-void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
-{
-  const SurfaceState& s = this->State;
-  row.Iteration = static_cast<int>(this->Rows.size()) + 1;
-  row.Level = this->Level;
-  row.Merges = s.Counts.Merges;
-  row.Cuts = s.Counts.Cuts;
-  row.Splits = s.Counts.Splits;
-  row.Collapses = s.Counts.Collapses;
-  row.Flips = s.Counts.Flips;
-  row.Deletions = s.Counts.Removed;
-  row.DeletedGenus = s.Counts.RemovedGenus;
-  this->FillCounts(row);
-  const double energy = SumOfBlocks(this->Threads, this->Active.size(), SumBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      double sum = 0;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = this->Active[i];
-        const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
-        sum += 0.5 * speed * speed;
-      }
-      return sum;
-    });
-  row.KineticEnergy = energy / std::max(row.Vertices, 1);
-  row.MeanEdgeLength = this->MeanEdgeLength();
-  row.IterationVertices = row.Vertices;
-  row.IterationMeanEdgeLength = row.MeanEdgeLength;
-  row.IterationEulerCharacteristic = row.EulerCharacteristic;
-  row.IterationComponents = row.Components;
-}
-
-double SurfaceEvolution::Implementation::MeanEdgeLength() const
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const double sum = SumOfBlocks(this->Threads, mesh.Rings.size(), SumBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      double block = 0;
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        block += this->State.EdgeLengthSum[v];
-      }
-      return block;
-    });
-  // Each edge is in two sums.
-  const std::int64_t edges =
-    NumberOfEdges(mesh.NumberOfVertices(), this->State.EulerCharacteristic);
-  return edges > 0 ? sum / (2. * static_cast<double>(edges)) : 0.;
 }
 }

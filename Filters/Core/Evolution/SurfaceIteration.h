@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfaceIteration_h
+#define volumicSurfaceIteration_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/Dynamics.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Surface/ComponentWatch.h"
+#include "Core/Surface/Proximity.h"
+#include "Core/Surface/Remesher.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * An iteration: velocities, displacement, splits, verification with roll back, merges and cuts, the
+ * other edits, components that must go. It keeps what one iteration tells the next: which pairs of
+ * vertices are close, which components are small. Before and after each call the surface is closed,
+ * oriented, manifold and free of intersections.
+ */
+class SurfaceIteration
+{
+public:
+  /** What drives it: forces; shape and residual; shape alone. */
+  enum class Mode
+  {
+    Evolve,
+    Regularise,
+    Adapt
+  };
+
+  SurfaceIteration(SurfaceState& state, Executor& executor)
+    : State(state)
+    , Threads(executor)
+  {
+  }
+
+  /** For a surface whose vertices have other numbers or lie in another grid. */
+  void Forget();
+
+  /** Collects the active vertices; their shape is up to date afterwards. */
+  void UpdateActive();
+  /** Finds close pairs and intersections of the active vertices; edges must be legal. */
+  void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
+  const std::vector<Proximity::FacePair>& Intersections() const
+  {
+    return this->Near.Intersections();
+  }
+  /** The vertices that the last iteration, or UpdateActive(), has found active. */
+  const std::vector<int>& ActiveVertices() const { return this->Active; }
+
+  /** Splits all edges of the active vertices that are too long. */
+  void SplitLongEdges();
+
+  /**
+   * Counts and times of phases go to the row; SurfaceState::Counts are those of this iteration.
+   * @param number of the iteration, for what is not done in each of them
+   * @param goOn   asked when the surface has been displaced and verified: false ends it there
+   */
+  void Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode, int number,
+    const std::function<bool()>& goOn);
+
+  /** After edits: shape of the vertices, and that their stars must be examined again. */
+  void UpdateChanged(std::vector<int> changed);
+
+  // Components, see ComponentWatch.
+  void LabelComponents() { this->Watch.Label(this->State, this->Threads); }
+  void DeleteDegenerate() { this->Watch.DeleteDegenerate(this->State); }
+  void DeleteInsideOut();
+  int NumberOfComponents() const { return this->Watch.NumberOfComponents(); }
+
+private:
+  void CollectActive();
+  void CollectWorking();
+  void AddUnmoved(int v);
+  void CollectSuspects();
+  void RollBack();
+  void RollBackVertex(int v);
+  void SplitBeforeVerification(Remesher& remesher);
+  void RestoreConstraints(Remesher& remesher);
+  void WatchComponents(int number);
+
+  SurfaceState& State;
+  Executor& Threads;
+  Proximity Near;    ///< Of all; keeps the pairs.
+  Proximity Recheck; ///< Of what has been rolled back.
+  ComponentWatch Watch;
+  std::vector<int> Active;
+  std::vector<int> Working;            ///< See CollectWorking.
+  std::vector<std::uint8_t> IsWorking; ///< Whether that has it.
+  std::vector<int> Suspects;           ///< See CollectSuspects.
+  int CollapsesSinceLabels = 0;
+  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
+};
+}
+
+#endif
