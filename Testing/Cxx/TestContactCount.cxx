@@ -64,8 +64,8 @@ TEST(ContactCount, ArePairsNearerThanLambdaDeltaAndFarAlongTheSurface)
     {
       for (int w = v + 1; w < mesh.Size(); ++w)
       {
-        const bool strangers = mesh.AreStrangers(v, w);
-        if (strangers && SquaredDistance(mesh.Position[v], mesh.Position[w]) < 1.44337f * 1.44337f)
+        const bool farApart = mesh.AreFarApart(v, w);
+        if (farApart && SquaredDistance(mesh.Position[v], mesh.Position[w]) < 1.44337f * 1.44337f)
         {
           expected.push_back({ v, w });
         }

@@ -179,8 +179,8 @@ SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
   Divide(plain);
   EXPECT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
 
-  const TestVolume volume = MakeVolume(16, [](double x, double y, double z)
-    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
+  const TestVolume volume = MakeVolume(
+    16, [](double x, double y, double z) { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
   SurfaceOptions options;
   options.IsoValue = 0.5;
   options.SamplingRatio = 1.;

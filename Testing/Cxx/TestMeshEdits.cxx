@@ -79,7 +79,7 @@ TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
     {
       if (v != from)
       {
-        EXPECT_EQ(mesh.AreStrangers(from, v), v >= other || edges[v] >= 4) << edges[v];
+        EXPECT_EQ(mesh.AreFarApart(from, v), v >= other || edges[v] >= 4) << edges[v];
       }
     }
   }

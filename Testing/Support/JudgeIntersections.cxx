@@ -30,8 +30,10 @@ Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
   return { p[0], p[1], p[2] };
 }
 
-/** False where the triangles are no halfedge mesh (edges shared by three, or run through twice in
-   the same direction, or vertices where fans touch). */
+/**
+ * False where the triangles are no halfedge mesh (edges shared by three, or run through twice in
+ * the same direction, or vertices where fans touch).
+ */
 bool BuildMesh(const TriangleSurface& surface, Mesh& mesh)
 {
   mesh.reserve(surface.Points.size(), 3 * surface.Triangles.size() / 2, surface.Triangles.size());

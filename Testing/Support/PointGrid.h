@@ -76,8 +76,10 @@ public:
     }
   }
 
-  /** Calls visit(index, squared distance) for every point within `radius` of the place; stops early
-      when it returns false. `radius` must not be over the one of the constructor. */
+  /**
+   * Calls visit(index, squared distance) for every point within `radius` of the place; stops early
+   * when it returns false. `radius` must not be over the one of the constructor.
+   */
   template <typename Visitor>
   void ForEachWithin(const std::array<double, 3>& place, double radius, Visitor visit) const
   {

@@ -14,7 +14,7 @@ namespace volumic
  * contacts, merges and verification share. Finding all pairs within a radius is O(n).
  *
  * It is kept up to date vertex by vertex, at the cost of a comparison for one that stays in its
- * cell, so work follows the awake part of the surface instead of its whole. Vertices numbered
+ * cell, so work follows the active part of the surface instead of its whole. Vertices numbered
  * along a space-filling curve make the chains run through memory nearly in order.
  * Positions beyond the grid belong to the cells of its border. Lengths: workspace.
  */
@@ -46,13 +46,11 @@ public:
   }
 
   /** Whether a vertex lies within `radius` of a point; `positions`: of all vertices. */
-  bool HasWithin(
-    const Vector& position, float radius, const std::vector<Vector>& positions) const
+  bool HasWithin(const Vector& position, float radius, const std::vector<Vector>& positions) const
   {
     bool found = false;
     this->Visit(position, radius,
-      [&](int w)
-      { found = found || SquaredDistance(position, positions[w]) <= radius * radius; });
+      [&](int w) { found = found || SquaredDistance(position, positions[w]) <= radius * radius; });
     return found;
   }
 

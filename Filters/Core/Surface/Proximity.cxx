@@ -217,14 +217,14 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
       {
         continue; // Tested from there; see Tight for what it finds.
       }
-      const NamedTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
-      const NamedTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
-      if (TrianglesMeet(one, other, SomeRoom * state.Delta))
+      const MeshTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
+      const MeshTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
+      if (TrianglesIntersect(one, other, SomeRoom * state.Delta))
       {
         room = 0;
         tight.insert(tight.end(), f.begin(), f.end());
         tight.insert(tight.end(), g.begin(), g.end());
-        if (TrianglesMeet(one, other, constraint::Contact * state.Delta))
+        if (TrianglesIntersect(one, other, constraint::Contact * state.Delta))
         {
           meetings.push_back({ f, g });
         }
@@ -235,7 +235,7 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
 }
 }
 
-NamedTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
+MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
 {
   return { { a, b, c },
     { VectorD(mesh.Position[a]), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
@@ -362,14 +362,14 @@ void Proximity::Examine(
 }
 
 bool NewFacesMeet(
-  const SurfaceState& state, const std::vector<NamedTriangle>& faces, const GoneFaces& gone)
+  const SurfaceState& state, const std::vector<MeshTriangle>& faces, const GoneFaces& gone)
 {
   const double tolerance = constraint::Contact * state.Delta;
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     for (std::size_t j = i + 1; j < faces.size(); ++j)
     {
-      if (TrianglesMeet(faces[i], faces[j], tolerance))
+      if (TrianglesIntersect(faces[i], faces[j], tolerance))
       {
         return true;
       }
@@ -387,7 +387,7 @@ bool NewFacesMeet(
   Vector high = low;
   std::vector<Bounds> bounds;
   bounds.reserve(faces.size());
-  for (const NamedTriangle& face : faces)
+  for (const MeshTriangle& face : faces)
   {
     const Vector a(face.Corner[0]);
     const Vector b(face.Corner[1]);
@@ -449,7 +449,7 @@ bool NewFacesMeet(
             Dot(b.Normal, r - b.Place) };
           meets = !(std::min({ heights[0], heights[1], heights[2] }) > room ||
                     std::max({ heights[0], heights[1], heights[2] }) < -room) &&
-            TrianglesMeet(faces[k], TriangleOf(mesh, w, u, v), tolerance);
+            TrianglesIntersect(faces[k], TriangleOf(mesh, w, u, v), tolerance);
         }
       }
     });

@@ -93,10 +93,10 @@ struct GoneFaces
  * gone. Nothing is changed.
  */
 bool NewFacesMeet(
-  const SurfaceState& state, const std::vector<NamedTriangle>& faces, const GoneFaces& gone);
+  const SurfaceState& state, const std::vector<MeshTriangle>& faces, const GoneFaces& gone);
 
 /** The triangle with the positions of the mesh. */
-NamedTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
+MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
 }
 
 #endif

@@ -55,7 +55,7 @@ RemainingContacts FindRemainingContacts(
             const bool mayHold = !hasOther && squared < static_cast<double>(reach) * reach &&
               Dot(state.Normal[v], state.Normal[w]) < 0;
             if (w != v && ((isForbidden && w > v) || mayHold) &&
-              mesh.AreStrangers(v, w))
+              mesh.AreFarApart(v, w))
             {
               hasOther = hasOther || mayHold;
               if (isForbidden && w > v)

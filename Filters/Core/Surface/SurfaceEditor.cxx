@@ -15,7 +15,7 @@ namespace volumic
 {
 namespace
 {
-VectorD AreaNormal(const NamedTriangle& t)
+VectorD AreaNormal(const MeshTriangle& t)
 {
   return Cross(t.Corner[1] - t.Corner[0], t.Corner[2] - t.Corner[0]);
 }
@@ -24,7 +24,7 @@ VectorD AreaNormal(const NamedTriangle& t)
 constexpr double LeastAspect = 0.06;
 
 /** Height over longest edge: 0 for a sliver, .87 for an even triangle. */
-double Aspect(const NamedTriangle& t)
+double Aspect(const MeshTriangle& t)
 {
   const double longest = std::max({ SquaredDistance(t.Corner[0], t.Corner[1]),
     SquaredDistance(t.Corner[1], t.Corner[2]), SquaredDistance(t.Corner[2], t.Corner[0]) });
@@ -34,7 +34,7 @@ double Aspect(const NamedTriangle& t)
 /** Longest rung of a merge's band, in delta. */
 constexpr float LongestRung = 4.f;
 
-bool IsSound(const NamedTriangle& t)
+bool IsSound(const MeshTriangle& t)
 {
   return Aspect(t) > LeastAspect;
 }
@@ -103,10 +103,10 @@ bool SurfaceEditor::CollapseInto(int kept, int removed, const Vector& position, 
       {
         return false;
       }
-      const NamedTriangle face = { { kept, b, c },
+      const MeshTriangle face = { { kept, b, c },
         { VectorD(position), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
       // The normal of a sliver says nothing, and any better shape is welcome there.
-      NamedTriangle old = face;
+      MeshTriangle old = face;
       old.Corner[0] = VectorD(mesh.Position[end]);
       const double before = Aspect(old);
       const VectorD normal = AreaNormal(face);
@@ -176,8 +176,8 @@ bool SurfaceEditor::FlipForShape(int u, int v)
   }
   const Vector oldA = FaceNormal(mesh, u, v, flip.A);
   const Vector oldB = FaceNormal(mesh, v, u, flip.B);
-  const NamedTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
-  const NamedTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
+  const MeshTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
+  const MeshTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
   if (!IsSound(first) || !IsSound(second))
   {
     return false;
@@ -216,8 +216,8 @@ bool SurfaceEditor::FlipForConstraint(int u, int v)
   {
     return false;
   }
-  const NamedTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
-  const NamedTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
+  const MeshTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
+  const MeshTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
   if (!IsSound(first) || !IsSound(second))
   {
     return false;
@@ -273,8 +273,8 @@ bool SurfaceEditor::Move(int v, const Vector& position, Care care)
   this->Faces.clear();
   for (int i = 0; i < ring.Count; ++i)
   {
-    const NamedTriangle old = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
-    NamedTriangle face = old;
+    const MeshTriangle old = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
+    MeshTriangle face = old;
     face.Corner[0] = VectorD(position);
     // What is bad already may stay so if it gets better.
     const Vector& end = s.Mesh.Position[ring.Item[i]];
@@ -424,7 +424,7 @@ bool SurfaceEditor::Cut(int u, int v, int w)
     }
   }
   bool sound = true;
-  for (const NamedTriangle& face : this->Faces)
+  for (const MeshTriangle& face : this->Faces)
   {
     sound = sound && IsSound(face);
   }

@@ -56,7 +56,7 @@ private:
   bool NearAnything(int u) const;
 
   SurfaceState& State;
-  std::vector<NamedTriangle> Faces;
+  std::vector<MeshTriangle> Faces;
 };
 }
 

@@ -306,7 +306,7 @@ bool SurfacePolish::Approaches(int v, const Vector& position) const
       approaches = approaches ||
         (w != v && squared < near * near &&
           squared < SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) &&
-          s.Mesh.AreStrangers(v, w));
+          s.Mesh.AreFarApart(v, w));
     });
   return approaches;
 }
@@ -321,7 +321,7 @@ Vector SurfacePolish::PushAt(int v) const
     [&](int w)
     {
       const float squared = SquaredDistance(p, s.Mesh.Position[w]);
-      if (w != v && squared < near * near && squared > 0 && s.Mesh.AreStrangers(v, w))
+      if (w != v && squared < near * near && squared > 0 && s.Mesh.AreFarApart(v, w))
       {
         const float distance = std::sqrt(squared);
         push += (p - s.Mesh.Position[w]) * (0.5f * (near - distance) / distance);
