@@ -18,10 +18,10 @@ using Point = std::array<double, 3>;
 using Triangle = std::array<int, 3>;
 
 /**
- * Turned by a generic rotation: then hardly anything lies straight above anything else. What still
+ * In a generic rotation: then hardly anything lies straight above anything else. What still
  * does is told apart by Covers.
  */
-Point Turned(const Point& p)
+Point Rotated(const Point& p)
 {
   // About z, then about x, by the angles of the triangle of sides 3, 4, 5.
   return { 0.8 * p[0] - 0.6 * p[1], 0.6 * (0.6 * p[0] + 0.8 * p[1]) - 0.8 * p[2],
@@ -139,7 +139,7 @@ std::vector<int> NestingDepths(const std::vector<Point>& places,
   points.reserve(places.size());
   for (const Point& p : places)
   {
-    points.push_back(Turned(p));
+    points.push_back(Rotated(p));
   }
   std::vector<int> witness(sound.size(), -1);
   for (std::size_t t = 0; t < triangles.size(); ++t)

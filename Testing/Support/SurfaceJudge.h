@@ -68,7 +68,7 @@ TopologyVerdict JudgeTopology(const TriangleSurface& surface);
 //------------------------------------------------------------------------------
 struct IntersectionVerdict
 {
-  /** Pairs of triangles that meet anywhere but at a vertex or edge which they share. */
+  /** Pairs of triangles that intersect anywhere but at a vertex or edge which they share. */
   std::size_t Pairs = 0;
   /** Triangles without area; they are left out of the pairs. */
   std::size_t FlatTriangles = 0;
@@ -76,7 +76,7 @@ struct IntersectionVerdict
 
 /**
  * With CGAL's exact predicates; its own self_intersections() where the surface is a halfedge mesh,
- * else the same test on the pairs of triangles whose boxes meet.
+ * else the same test on the pairs of triangles whose boxes overlap.
  */
 IntersectionVerdict JudgeIntersections(const TriangleSurface& surface);
 
