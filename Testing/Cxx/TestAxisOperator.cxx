@@ -40,7 +40,7 @@ double Apply(const AxisOperator& axis, const std::vector<double>& input, std::in
   return sum;
 }
 
-/// Equation 5 along one axis, word by word.
+/** Equation 5 along one axis, word by word. */
 double DirectSum(const std::vector<double>& input, double place, double offset)
 {
   const double kernel[5] = { 1, 4, 6, 4, 1 };

@@ -179,8 +179,8 @@ SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
   Divide(plain);
   EXPECT_GT(CountSelfIntersections(plain.ToIndexed()), 0) << "else it shows nothing";
 
-  const TestVolume volume = MakeVolume(16, [](double x, double y, double z)
-    { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
+  const TestVolume volume = MakeVolume(
+    16, [](double x, double y, double z) { return Soft(Distance(x, y, z, 8, 8, 8) - 4.); });
   SurfaceOptions options;
   options.IsoValue = 0.5;
   options.SamplingRatio = 1.;
@@ -259,7 +259,7 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
 
 TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
 {
-  // A body with a groove, which the division fills, and a blade in the groove. They meet in the
+  // A body with a groove, which the division fills, and a blade in the groove. They intersect in the
   // middle of edges, far from all corners if the last of five divisions is the measure.
   IndexedSurface given;
   given.Points = { { -2.1, 0, 0.6 }, { 2.1, 0, 0.6 }, { 0, -1.2, 0 }, { 0, 1.2, 0 }, { 0, 0, -0.7 },
@@ -284,6 +284,6 @@ TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
     {
       nearest = std::min(nearest, Distance(p[0], p[1], p[2], old[0], old[1], old[2]));
     }
-    EXPECT_LT(nearest, 1e-5) << "divided, not remeshed as what has met itself is";
+    EXPECT_LT(nearest, 1e-5) << "divided, not remeshed as what intersects itself is";
   }
 }

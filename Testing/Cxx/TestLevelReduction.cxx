@@ -20,7 +20,7 @@ namespace
 {
 const LevelProgress GoOn = [](double) { return true; };
 
-/// Hands out ranges as scheduling might: short ones, last first.
+/** Hands out ranges as scheduling might: short ones, last first. */
 class ScrambledExecutor : public Executor
 {
 public:

@@ -149,8 +149,7 @@ TEST(LostParts, LeavesPartsUnderTheMinimumSize)
   // A ball of radius 4 has 257 voxels.
   EXPECT_EQ(known.Find(PartKind::Object, 250).Found, 1);
   EXPECT_EQ(known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image)).Found, 1);
-  EXPECT_EQ(
-    known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image) + 1).Found, 0);
+  EXPECT_EQ(known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image) + 1).Found, 0);
   const LostPartCover none = known.Find(PartKind::Object, 265);
   EXPECT_EQ(none.Found, 0);
   EXPECT_EQ(none.Covered, 0);
@@ -162,7 +161,8 @@ TEST(LostParts, WhatLiesAtTheSurfaceIsNotLost)
   // The surface has not quite arrived: a skin of the object is outside of it, or background inside.
   for (const double radius : { 11.8, 14.2 })
   {
-    const KnownBall known(MakeVolume(48, [radius](double x, double y, double z)
+    const KnownBall known(MakeVolume(48,
+      [radius](double x, double y, double z)
       { return Soft(Distance(x, y, z, 18, 24, 24) - radius); }));
     EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
     EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
@@ -171,8 +171,8 @@ TEST(LostParts, WhatLiesAtTheSurfaceIsNotLost)
 
 TEST(LostParts, FindsNothingWhereTheSurfaceHasAll)
 {
-  const KnownBall known(MakeVolume(48, [](double x, double y, double z)
-    { return Soft(Distance(x, y, z, 18, 24, 24) - 13.); }));
+  const KnownBall known(MakeVolume(
+    48, [](double x, double y, double z) { return Soft(Distance(x, y, z, 18, 24, 24) - 13.); }));
   EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
   EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
 }

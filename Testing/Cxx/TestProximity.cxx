@@ -20,7 +20,7 @@ namespace
 {
 SequentialExecutor Threads;
 
-NamedTriangle Named(int name, const VectorD& a, const VectorD& b, const VectorD& c)
+MeshTriangle Named(int name, const VectorD& a, const VectorD& b, const VectorD& c)
 {
   return { { name, name + 1, name + 2 }, { a, b, c } };
 }
@@ -55,7 +55,7 @@ void Add(IndexedSurface& to, const IndexedSurface& more)
 
 TEST(TriangleTests, FindsACrossing)
 {
-  const NamedTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
+  const MeshTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
   EXPECT_TRUE(
     TrianglesIntersect(f, Named(3, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 1, 1 }), 1e-9));
   EXPECT_FALSE(
@@ -66,15 +66,15 @@ TEST(TriangleTests, FindsACrossing)
 
 TEST(TriangleTests, CountsWhatComesNearerThanTheTolerance)
 {
-  const NamedTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
-  const NamedTriangle g = Named(3, { 1, 1, 0.001 }, { 1, 1, 1 }, { 2, 1, 1 });
+  const MeshTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
+  const MeshTriangle g = Named(3, { 1, 1, 0.001 }, { 1, 1, 1 }, { 2, 1, 1 });
   EXPECT_FALSE(TrianglesIntersect(f, g, 1e-4));
   EXPECT_TRUE(TrianglesIntersect(f, g, 1e-2));
 }
 
 TEST(TriangleTests, TellsCoplanarTrianglesApart)
 {
-  const NamedTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
+  const MeshTriangle f = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
   EXPECT_TRUE(TrianglesIntersect(f, Named(3, { 1, 1, 0 }, { 5, 1, 0 }, { 1, 5, 0 }), 1e-9));
   EXPECT_FALSE(TrianglesIntersect(f, Named(3, { 5, 5, 0 }, { 9, 5, 0 }, { 5, 9, 0 }), 1e-9));
 }
@@ -84,24 +84,24 @@ TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
   // The other triangle shares a tip and lies on its far side: set off by the tolerance, the lines
   // of the needle's long edges meet a hundred lengths further.
   const float thin = 1e-6f;
-  const NamedTriangle needle = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, thin, 0 } } };
-  const NamedTriangle behind = { { 0, 3, 4 },
+  const MeshTriangle needle = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, thin, 0 } } };
+  const MeshTriangle behind = { { 0, 3, 4 },
     { { 0, 0, 0 }, { -0.25, -0.5, -0.25 }, { -0.25, 0.5, 0.25 } } };
   EXPECT_FALSE(TrianglesIntersect(needle, behind, 1e-4));
   EXPECT_FALSE(TrianglesIntersect(behind, needle, 1e-4));
-  const NamedTriangle across = { { 0, 3, 4 },
+  const MeshTriangle across = { { 0, 3, 4 },
     { { 0, 0, 0 }, { 0.25, -0.5, -0.25 }, { 0.25, 0.5, 0.25 } } };
   EXPECT_TRUE(TrianglesIntersect(needle, across, 1e-4));
   // All corners on one line.
-  const NamedTriangle line = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } };
+  const MeshTriangle line = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } };
   EXPECT_FALSE(TrianglesIntersect(line, behind, 1e-4));
 }
 
 TEST(TriangleTests, FindsACrossingWhicheverHasTheEdge)
 {
   // The second pierces the first with an edge; seen from the second, no edge of its own is met.
-  const NamedTriangle large = Named(0, { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 });
-  const NamedTriangle small = Named(3, { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 1 });
+  const MeshTriangle large = Named(0, { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 });
+  const MeshTriangle small = Named(3, { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 1 });
   EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9));
   EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9));
 }
@@ -115,18 +115,18 @@ TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
     {
       return axis == 0 ? VectorD(0, a, b) : (axis == 1 ? VectorD(b, 0, a) : VectorD(a, b, 0));
     };
-    const NamedTriangle large = Named(0, turned(-9, -9), turned(9, -9), turned(0, 9));
-    const NamedTriangle small = Named(3, turned(0, 0), turned(1, 0), turned(0, 1));
+    const MeshTriangle large = Named(0, turned(-9, -9), turned(9, -9), turned(0, 9));
+    const MeshTriangle small = Named(3, turned(0, 0), turned(1, 0), turned(0, 1));
     EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9)) << axis;
     EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9)) << axis;
-    const NamedTriangle beside = Named(3, turned(8, 8), turned(9, 8), turned(8, 9));
+    const MeshTriangle beside = Named(3, turned(8, 8), turned(9, 8), turned(8, 9));
     EXPECT_FALSE(TrianglesIntersect(large, beside, 1e-9)) << axis;
   }
 }
 
 TEST(TriangleTests, AllowsSharedCornersAndEdgesOnly)
 {
-  const NamedTriangle f = { { 0, 1, 2 }, { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 } } };
+  const MeshTriangle f = { { 0, 1, 2 }, { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 } } };
   // A common edge, flat and folded.
   EXPECT_FALSE(
     TrianglesIntersect(f, { { 1, 3, 2 }, { { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 } } }, 1e-9));
@@ -271,7 +271,7 @@ TEST(NewFacesIntersect, SeesWhatIsThereButNotWhatGoes)
   // A triangle through the surface at vertex 9.
   const VectorD n(Normalized(p));
   const VectorD side(0.1, 0.2, 0.1);
-  const std::vector<NamedTriangle> through = { Named(
+  const std::vector<MeshTriangle> through = { Named(
     1000, VectorD(p) * 1.1 + side, VectorD(p) * 0.9 + side, VectorD(p) * 0.9 + side * 2.) };
   EXPECT_TRUE(NewFacesIntersect(state, through, RemovedFaces()));
   EXPECT_FALSE(NewFacesIntersect(state, through, { { 9 }, 1, false }));
@@ -281,9 +281,9 @@ TEST(NewFacesIntersect, SeesNewFacesThatMeetEachOther)
 {
   LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6), 1);
   state.UpdateShape(All(state), Threads);
-  const NamedTriangle flat = Named(1000, { 10, 0, 0 }, { 12, 0, 0 }, { 10, 2, 0 });
-  const NamedTriangle across = Named(2000, { 10.5, 0.5, -1 }, { 10.5, 0.5, 1 }, { 11, 0.5, 1 });
-  const NamedTriangle beside = Named(2000, { 10.5, 0.5, 1 }, { 10.5, 0.5, 2 }, { 11, 0.5, 2 });
+  const MeshTriangle flat = Named(1000, { 10, 0, 0 }, { 12, 0, 0 }, { 10, 2, 0 });
+  const MeshTriangle across = Named(2000, { 10.5, 0.5, -1 }, { 10.5, 0.5, 1 }, { 11, 0.5, 1 });
+  const MeshTriangle beside = Named(2000, { 10.5, 0.5, 1 }, { 10.5, 0.5, 2 }, { 11, 0.5, 2 });
   EXPECT_TRUE(NewFacesIntersect(state, { flat, across }, RemovedFaces()));
   EXPECT_FALSE(NewFacesIntersect(state, { flat, beside }, RemovedFaces()));
 }
@@ -301,10 +301,10 @@ TEST(NewFacesIntersect, SeesTheMiddleOfTheLargestLegalTriangle)
   surface.Points.push_back({ 0, 0, -2 });
   surface.Triangles = { { 0, 1, 2 }, { 0, 3, 1 }, { 1, 3, 2 }, { 2, 3, 0 } };
   const LiveSurface state(surface, 1);
-  const std::vector<NamedTriangle> needle = { Named(
+  const std::vector<MeshTriangle> needle = { Named(
     1000, { 0, 0, 0.3 }, { 0, 0, -0.3 }, { 0.02, 0.02, 0.3 }) };
   EXPECT_TRUE(NewFacesIntersect(state, needle, RemovedFaces()));
-  const std::vector<NamedTriangle> above = { Named(
+  const std::vector<MeshTriangle> above = { Named(
     1000, { 0, 0, 0.3 }, { 0, 0, 0.1 }, { 0.02, 0.02, 0.3 }) };
   EXPECT_FALSE(NewFacesIntersect(state, above, RemovedFaces()));
 }
@@ -371,11 +371,11 @@ TEST(Proximity, ToldRoomIsThere)
           {
             const auto named = [&moved](std::size_t t)
             {
-              NamedTriangle triangle;
+              MeshTriangle triangle;
               for (int k = 0; k < 3; ++k)
               {
                 const Point& p = moved.Points[moved.Triangles[t][k]];
-                triangle.Name[k] = moved.Triangles[t][k];
+                triangle.Vertex[k] = moved.Triangles[t][k];
                 triangle.Corner[k] = VectorD(p[0], p[1], p[2]);
               }
               return triangle;

@@ -70,13 +70,13 @@ IndexedSurface MixedSoup(int count, unsigned int seed)
   return soup;
 }
 
-NamedTriangle Rounded(const IndexedSurface& surface, int i)
+MeshTriangle Rounded(const IndexedSurface& surface, int i)
 {
-  NamedTriangle triangle;
+  MeshTriangle triangle;
   for (int k = 0; k < 3; ++k)
   {
-    triangle.Name[k] = surface.Triangles[i][k];
-    const Point& p = surface.Points[triangle.Name[k]];
+    triangle.Vertex[k] = surface.Triangles[i][k];
+    const Point& p = surface.Points[triangle.Vertex[k]];
     triangle.Corner[k] =
       VectorD(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
   }

@@ -128,8 +128,10 @@ TEST(StandardThreads, DoWhatIsWithinABodyOnItsThread)
 
 namespace
 {
-/// In a process of its own, as the limit is for the whole process: exits with 0 if all is done all
-/// the same, with fewer threads.
+/**
+ * In a process of its own, as the limit is for the whole process: exits with 0 if all is done all
+ * the same, with fewer threads.
+ */
 [[noreturn]] void RunWithoutMemoryForThreads()
 {
   std::size_t pages = 0;

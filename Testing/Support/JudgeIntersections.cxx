@@ -30,8 +30,10 @@ Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
   return { p[0], p[1], p[2] };
 }
 
-/** False where the triangles are no halfedge mesh (edges shared by three, or run through twice in
-   the same direction, or vertices where fans touch). */
+/**
+ * False where the triangles are no halfedge mesh (edges shared by three, or run through twice in
+ * the same direction, or vertices where fans touch).
+ */
 bool BuildMesh(const TriangleSurface& surface, Mesh& mesh)
 {
   mesh.reserve(surface.Points.size(), 3 * surface.Triangles.size() / 2, surface.Triangles.size());
@@ -71,7 +73,7 @@ public:
     return { this->Corner(t, 0), this->Corner(t, 1), this->Corner(t, 2) };
   }
 
-  bool Meet(std::size_t t, std::size_t u) const
+  bool Intersect(std::size_t t, std::size_t u) const
   {
     int shared = 0;
     int freeT = 0, freeU = 0;       // corners outside a shared edge; sums of the shared ones before
@@ -138,7 +140,7 @@ IntersectionVerdict JudgeSoup(const TriangleSurface& surface)
     boxes.emplace_back(p.bbox() + q.bbox() + r.bbox(), t);
   }
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
-    [&](const Box& a, const Box& b) { verdict.Pairs += test.Meet(a.info(), b.info()); });
+    [&](const Box& a, const Box& b) { verdict.Pairs += test.Intersect(a.info(), b.info()); });
   return verdict;
 }
 

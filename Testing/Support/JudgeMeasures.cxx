@@ -16,8 +16,12 @@ namespace support
 namespace
 {
 
+/** What lengths may be outside their bounds by: points went through float. */
 constexpr double Rounding = 1e-6;
-constexpr int HopsThatMakeAPair = 4;
+/** Eq. 1: the longest edge, in delta. */
+constexpr double LongestEdge = 2.5;
+/** From so many edges apart on, vertices are a pair that eq. 1 keeps apart. */
+constexpr int EdgesThatMakeAPair = 4;
 
 /** Neighbours of all vertices, one list behind the other. */
 struct Neighbours
@@ -51,7 +55,7 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
 {
   const Neighbours neighbours(surface.Points.size(), edges);
   const PointGrid grid(surface.Points, bound);
-  // near[v] == i: v is at most HopsThatMakeAPair - 1 hops from i.
+  // near[v] == i: v is at most EdgesThatMakeAPair - 1 edges from i.
   std::vector<int> near(surface.Points.size(), -1);
   std::vector<int> queue;
   double nearestSquared = std::numeric_limits<double>::infinity();
@@ -64,7 +68,7 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
     }
     queue.assign(1, vertex);
     near[p] = vertex;
-    for (std::size_t hop = 1, done = 0; hop < HopsThatMakeAPair; ++hop)
+    for (std::size_t steps = 1, done = 0; steps < EdgesThatMakeAPair; ++steps)
     {
       for (const std::size_t end = queue.size(); done < end; ++done)
       {
@@ -111,7 +115,7 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
     verdict.Shortest = std::min(verdict.Shortest, length);
     verdict.Longest = std::max(verdict.Longest, length);
     verdict.EdgesTooShort += length < delta * (1.0 - Rounding);
-    verdict.EdgesTooLong += length > 2.5 * delta * (1.0 + Rounding);
+    verdict.EdgesTooLong += length > LongestEdge * delta * (1.0 + Rounding);
     sum += length;
   }
   if (!edges.empty())
@@ -120,7 +124,7 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
     verdict.ShareOutside =
       static_cast<double>(verdict.EdgesTooShort + verdict.EdgesTooLong) / edges.size();
   }
-  JudgePairs(surface, edges, 2.5 / std::sqrt(3.0) * delta, verdict);
+  JudgePairs(surface, edges, LongestEdge / std::sqrt(3.0) * delta, verdict);
   return verdict;
 }
 

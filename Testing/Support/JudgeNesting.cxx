@@ -17,17 +17,21 @@ namespace
 using Point = std::array<double, 3>;
 using Triangle = std::array<int, 3>;
 
-/** Turned by a generic rotation: then hardly anything lies straight above anything else. What still
-    does is told apart by Covers. */
-Point Turned(const Point& p)
+/**
+ * In a generic rotation: then hardly anything lies straight above anything else. What still
+ * does is told apart by Covers.
+ */
+Point Rotated(const Point& p)
 {
   // About z, then about x, by the angles of the triangle of sides 3, 4, 5.
   return { 0.8 * p[0] - 0.6 * p[1], 0.6 * (0.6 * p[0] + 0.8 * p[1]) - 0.8 * p[2],
     0.8 * (0.6 * p[0] + 0.8 * p[1]) + 0.6 * p[2] };
 }
 
-/** Twice the area of a, b and the place, seen from above; the same number with the opposite sign
-   for b, a, so that neighbouring triangles agree about the edge between them. */
+/**
+ * Twice the area of a, b and the place, seen from above; the same number with the opposite sign
+ * for b, a, so that neighbouring triangles agree about the edge between them.
+ */
 double Side(const Point& a, const Point& b, const Point& place)
 {
   if (a > b)
@@ -37,8 +41,10 @@ double Side(const Point& a, const Point& b, const Point& place)
   return (b[0] - a[0]) * (place[1] - a[1]) - (b[1] - a[1]) * (place[0] - a[0]);
 }
 
-/** 1 or -1 where the triangle lies above the place, by the way it runs round; else 0. Of the
-   triangles on both sides of an edge, one takes what lies exactly on it. */
+/**
+ * 1 or -1 where the triangle lies above the place, by the way it runs round; else 0. Of the
+ * triangles on both sides of an edge, one takes what lies exactly on it.
+ */
 int Covers(const Point& a, const Point& b, const Point& c, const Point& place)
 {
   const auto inside = [](double side, const Point& from, const Point& to)
@@ -133,7 +139,7 @@ std::vector<int> NestingDepths(const std::vector<Point>& places,
   points.reserve(places.size());
   for (const Point& p : places)
   {
-    points.push_back(Turned(p));
+    points.push_back(Rotated(p));
   }
   std::vector<int> witness(sound.size(), -1);
   for (std::size_t t = 0; t < triangles.size(); ++t)

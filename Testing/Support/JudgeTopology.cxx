@@ -78,8 +78,10 @@ std::vector<Side> SortedSides(const std::vector<std::array<int, 3>>& triangles)
   return sides;
 }
 
-/** Corner of the side's triangle at which `point` lies, as a number of its own: 3 triangle +
- * corner. */
+/**
+ * Corner of the side's triangle at which `point` lies, as a number of its own: 3 triangle +
+ * corner.
+ */
 int CornerAt(const Side& side, bool low)
 {
   const int corner = low == side.Forward ? side.Corner : (side.Corner + 1) % 3;
@@ -129,10 +131,10 @@ private:
   const TriangleSurface& Surface;
   TopologyVerdict Verdict;
   std::vector<std::array<int, 3>> Triangles;
-  DisjointSets Joined{ 0 };   ///< triangles that share an edge
-  DisjointSets Fans{ 0 };     ///< corners of triangles that share an edge at their vertex
-  std::vector<int> Unsound;   ///< a triangle at each edge that is not as it should be
-  std::vector<int> EdgeOwner; ///< a triangle at each edge
+  DisjointSets Joined{ 0 };         ///< triangles that share an edge
+  DisjointSets Fans{ 0 };           ///< corners of triangles that share an edge at their vertex
+  std::vector<int> Unsound;         ///< a triangle at each edge that is not as it should be
+  std::vector<int> EdgeOwner;       ///< a triangle at each edge
   std::vector<char> HasSeveralFans; ///< by vertex
   std::vector<int> NumberOfRoot;    ///< of the component of a root of Joined
   std::vector<ComponentParts> Parts;

@@ -17,6 +17,13 @@ namespace support
 namespace
 {
 
+/** Of the ball of air that must reach what the surface is to reach, in voxels. */
+constexpr double BallRadius = 1.5;
+/** A voxel counts as touched by that ball within this distance of its centre. */
+constexpr double TouchedRadius = 2.5;
+/** A voxel counts as found with a vertex within this distance. */
+constexpr double FoundRadius = 2.0;
+
 void CheckVolume(const JudgedVolume& volume)
 {
   if (!volume.Values || volume.Size[0] < 1 || volume.Size[1] < 1 || volume.Size[2] < 1)
@@ -297,10 +304,10 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
   CheckSurface(surface);
   CheckVolume(volume);
   AirMap map(volume);
-  map.Flood(1.5);
+  map.Flood(BallRadius);
   const std::vector<std::ptrdiff_t> faces = map.Ball(1.0);
-  const std::vector<std::ptrdiff_t> touched = map.Ball(2.5);
-  const PointGrid grid(surface.Points, 2.0);
+  const std::vector<std::ptrdiff_t> touched = map.Ball(TouchedRadius);
+  const PointGrid grid(surface.Points, FoundRadius);
   ReachVerdict verdict;
   map.ForEachInner(
     [&](std::size_t voxel)
@@ -312,7 +319,7 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
       }
       ++verdict.ReachableVoxels;
       bool found = false;
-      grid.ForEachWithin(map.Place(voxel), 2.0,
+      grid.ForEachWithin(map.Place(voxel), FoundRadius,
         [&found](int, double)
         {
           found = true;

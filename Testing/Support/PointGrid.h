@@ -39,8 +39,8 @@ public:
       }
     }
     // Points far apart must not cost memory: the cells grow until they are few enough.
-    const double most = std::max(1e6, 64.0 * points.size());
-    for (;; this->CellSize *= 1.3)
+    const double most = std::max(LeastCells, CellsPerPoint * points.size());
+    for (;; this->CellSize *= CellGrowth)
     {
       double cells = 1.0;
       for (int a = 0; a < 3; ++a)
@@ -76,8 +76,10 @@ public:
     }
   }
 
-  /** Calls visit(index, squared distance) for every point within `radius` of the place; stops early
-      when it returns false. `radius` must not be over the one of the constructor. */
+  /**
+   * Calls visit(index, squared distance) for every point within `radius` of the place; stops early
+   * when it returns false. `radius` must not be over the one of the constructor.
+   */
   template <typename Visitor>
   void ForEachWithin(const std::array<double, 3>& place, double radius, Visitor visit) const
   {
@@ -117,6 +119,11 @@ public:
   }
 
 private:
+  /** What the number of cells is bounded by, and what cells grow by until it is. */
+  static constexpr double LeastCells = 1e6;
+  static constexpr double CellsPerPoint = 64.0;
+  static constexpr double CellGrowth = 1.3;
+
   std::size_t Row(int y, int z) const
   {
     return (static_cast<std::size_t>(z) * this->Cells[1] + y) * this->Cells[0];

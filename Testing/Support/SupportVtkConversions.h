@@ -44,9 +44,11 @@ inline vtkSmartPointer<vtkImageData> ToImage(const Scene& scene)
   return image;
 }
 
-/** The polygons of a poly data. With an image, points are taken to its index coordinates (voxel
-    (0, 0, 0) of its extent at the origin). Throws std::invalid_argument unless all polygons are
-    triangles. */
+/**
+ * The polygons of a poly data. With an image, points are taken to its index coordinates (voxel
+ * (0, 0, 0) of its extent at the origin). Throws std::invalid_argument unless all polygons are
+ * triangles.
+ */
 inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* image = nullptr)
 {
   TriangleSurface surface;

@@ -68,14 +68,16 @@ TopologyVerdict JudgeTopology(const TriangleSurface& surface);
 //------------------------------------------------------------------------------
 struct IntersectionVerdict
 {
-  /** Pairs of triangles that meet anywhere but at a vertex or edge which they share. */
+  /** Pairs of triangles that intersect anywhere but at a vertex or edge which they share. */
   std::size_t Pairs = 0;
   /** Triangles without area; they are left out of the pairs. */
   std::size_t FlatTriangles = 0;
 };
 
-/** With CGAL's exact predicates; its own self_intersections() where the surface is a halfedge mesh,
-    else the same test on the pairs of triangles whose boxes meet. */
+/**
+ * With CGAL's exact predicates; its own self_intersections() where the surface is a halfedge mesh,
+ * else the same test on the pairs of triangles whose boxes overlap.
+ */
 IntersectionVerdict JudgeIntersections(const TriangleSurface& surface);
 
 //------------------------------------------------------------------------------
@@ -89,18 +91,23 @@ struct LengthVerdict
   std::size_t EdgesTooLong = 0;  ///< over 2.5 delta
   double ShareOutside = 0.0;     ///< of edges outside [delta, 2.5 delta]
 
-  /** Pairs of vertices at least 4 edges apart along the surface (or on different components) and
-      nearer than (2.5 / sqrt 3) delta; the least distance of such a pair, infinite without any. */
+  /**
+   * Pairs of vertices at least 4 edges apart along the surface (or on different components) and
+   * nearer than (2.5 / sqrt 3) delta; the least distance of such a pair, infinite without any.
+   */
   std::size_t NearPairs = 0;
   double NearestPair = 0.0;
 };
 
-/** Constraints of eq. 1. Each edge counts once. Comparisons allow a relative rounding of 1e-6, for
-    points that went through float. */
+/**
+ * Constraints of eq. 1. Each edge counts once. Comparisons allow a relative rounding of 1e-6, for
+ * points that went through float.
+ */
 LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta);
 
 //------------------------------------------------------------------------------
-/** Radius ratio 2 r / R of incircle and circumcircle: 1 for an equilateral triangle, 0 for a flat.
+/**
+ * Radius ratio 2 r / R of incircle and circumcircle: 1 for an equilateral triangle, 0 for a flat.
  */
 struct ShapeVerdict
 {
@@ -131,25 +138,31 @@ struct IsoDistanceVerdict
   double LargestAtVertices = 0.0;
 };
 
-/** Distance to the isopotential, |I - iso| / |grad I|, from the trilinear field and the trilinear
-    interpolation of central differences. No distance counts more than `largest`: where the field is
-    flat the quotient means nothing. Points in index coordinates, result and `largest` in the unit of
-    the volume's Spacing. */
+/**
+ * Distance to the isopotential, |I - iso| / |grad I|, from the trilinear field and the trilinear
+ * interpolation of central differences. No distance counts more than `largest`: where the field is
+ * flat the quotient means nothing. Points in index coordinates, result and `largest` in the unit of
+ * the volume's Spacing.
+ */
 IsoDistanceVerdict JudgeIsoDistance(
   const TriangleSurface& surface, const JudgedVolume& volume, double largest = 10.0);
 
 //------------------------------------------------------------------------------
 struct ReachVerdict
 {
-  /** Object voxels with a 6-neighbour of air that a ball of air of radius 1.5 voxels can reach from
-      outside the volume (within 2.5 voxels of a centre of that ball). */
+  /**
+   * Object voxels with a 6-neighbour of air that a ball of air of radius 1.5 voxels can reach from
+   * outside the volume (within 2.5 voxels of a centre of that ball).
+   */
   std::size_t ReachableVoxels = 0;
   std::size_t FoundVoxels = 0; ///< those within two voxels of a vertex
   double Share = 0.0;          ///< of the one in the other; 1 where there is nothing to reach
 };
 
-/** Target Q4: did the surface get everywhere? Outside the volume is air. Points in index
-    coordinates. */
+/**
+ * Target Q4: did the surface get everywhere? Outside the volume is air. Points in index
+ * coordinates.
+ */
 ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volume);
 
 //------------------------------------------------------------------------------

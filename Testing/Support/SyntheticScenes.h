@@ -38,34 +38,40 @@ enum class SceneKind
                      ///< the shell) can be reached from outside; the second bounds a cavity
   ThinShellWithEightHoles, ///< a wall of two voxels with eight holes: genus 7
   FourBubbles,             ///< a ball, with four seeds in it that have to merge: genus 0
-  TorusOfTwoBubbles,       ///< a ring, with two seeds in it that have to meet at both ends: genus 1
+  TorusOfTwoBubbles,       ///< a ring, with two seeds in it that have to merge at both ends: genus 1
   ShadedEllipsoid          ///< object and background both shaded, so that no iso-value fits
 };
 
 /** How a scene is sampled. */
 struct SceneOptions
 {
-  /** Voxels along each axis. Shapes scale with the smallest extent; walls said to be thin do not.
+  /**
+   * Voxels along each axis. Shapes scale with the smallest extent; walls said to be thin do not.
    */
   std::array<int, 3> Size = { 64, 64, 64 };
 
   /** World units per voxel. */
   std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
 
-  /** Off: round shapes are round in index coordinates, thus keep their topology whatever the
-      spacing is. On: they are round in the world, thus flattened along the longer side of a voxel.
+  /**
+   * Off: round shapes are round in index coordinates, thus keep their topology whatever the
+   * spacing is. On: they are round in the world, thus flattened along the longer side of a voxel.
    */
   bool RoundInWorld = false;
 
   /** The object is bright on a dark background, or the other way round. */
   bool ObjectIsBright = true;
 
-  /** Width of an edge: a step blurred by a Gaussian of half of this as standard deviation, which is
-      what the partial volume effect makes of it. Iso-surfaces at the middle stay where they are. */
+  /**
+   * Width of an edge: a step blurred by a Gaussian of half of this as standard deviation, which is
+   * what the partial volume effect makes of it. Iso-surfaces at the middle stay where they are.
+   */
   double EdgeWidth = 1.0;
 
-  /** Standard deviation of white Gaussian noise, as a share of the contrast. Values are the same on
-      every machine for the same NoiseSeed. */
+  /**
+   * Standard deviation of white Gaussian noise, as a share of the contrast. Values are the same on
+   * every machine for the same NoiseSeed.
+   */
   double NoiseShare = 0.0;
   unsigned int NoiseSeed = 1;
 };
@@ -82,8 +88,10 @@ struct Scene
 
   double IsoValue = 0.0; ///< the middle between object and background
   bool ObjectIsBright = true;
-  /** False where the background is partly brighter than the object; IsoValue is then the middle at
-      the centre of the volume. */
+  /**
+   * False where the background is partly brighter than the object; IsoValue is then the middle at
+   * the centre of the volume.
+   */
   bool OneIsoValueFits = true;
 
   int Components = 1; ///< of the whole iso-surface
@@ -92,19 +100,25 @@ struct Scene
   int ComponentsFromOutside = 1;
   int GenusFromOutside = 0;
 
-  /** Places inside the object from which it can be filled, index coordinates. Empty where the
-     object is too thin to hold a seed. */
+  /**
+   * Places inside the object from which it can be filled, index coordinates. Empty where the
+   * object is too thin to hold a seed.
+   */
   std::vector<std::array<double, 3>> Seeds;
   double SeedRadius = 0.0;
 
-  /** Coarsest level of a pyramid of factor sqrt 3 whose iso-surface still has the right components
-      and genus, at a size of 64^3 with cubic voxels. A run that starts from a coarser level has to
-      recover what vanished there. Means nothing where no iso-value fits. */
+  /**
+   * Coarsest level of a pyramid of factor sqrt 3 whose iso-surface still has the right components
+   * and genus, at a size of 64^3 with cubic voxels. A run that starts from a coarser level has to
+   * recover what vanished there. Means nothing where no iso-value fits.
+   */
   int CoarsestFaithfulLevel = 0;
 };
 
-/** Makes a scene. Throws std::invalid_argument for a size under 16 voxels along an axis, a spacing
-    or an edge width that is not positive, or a negative share of noise. */
+/**
+ * Makes a scene. Throws std::invalid_argument for a size under 16 voxels along an axis, a spacing
+ * or an edge width that is not positive, or a negative share of noise.
+ */
 Scene MakeScene(SceneKind kind, const SceneOptions& options = SceneOptions());
 
 /** The name that MakeScene gives, usable in the name of a test (letters only). */
@@ -113,8 +127,10 @@ std::string SceneName(SceneKind kind);
 /** All kinds, in the order of the enumeration. */
 std::vector<SceneKind> AllSceneKinds();
 
-/** Without the shaded one and the one with a closed cavity: those that a surface which starts
-   outside has to segment completely. */
+/**
+ * Without the shaded one and the one with a closed cavity: those that a surface which starts
+ * outside has to segment completely.
+ */
 std::vector<SceneKind> SceneKindsReachableFromOutside();
 
 } // namespace support

@@ -12,7 +12,8 @@ namespace volumic
 namespace support
 {
 
-/** A surface as plain arrays, whoever made it. Corners count counter-clockwise seen from outside.
+/**
+ * A surface as plain arrays, whoever made it. Corners count counter-clockwise seen from outside.
  */
 struct TriangleSurface
 {

@@ -17,10 +17,10 @@ namespace support
 double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
 {
   const auto [nx, ny, nz] = scene.Size;
-  // Crossings of the rows, a little beside the voxels so that no row meets an edge.
+  // Crossings of the rows, a little beside the voxels so that no row hits an edge.
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(ny) * nz);
-  const double dy = 1.234567e-4;
-  const double dz = 2.345678e-4;
+  constexpr double dy = 1.234567e-4;
+  constexpr double dz = 2.345678e-4;
   for (const auto& triangle : surface.Triangles)
   {
     const auto& a = surface.Points[triangle[0]];

@@ -11,8 +11,10 @@ namespace volumic
 namespace support
 {
 
-/** Voxels that are on the wrong side of a closed surface, as a share of the object's. The surface
-    is in index coordinates; sides are found by counting crossings along rows of voxels. */
+/**
+ * Voxels that are on the wrong side of a closed surface, as a share of the object's. The surface
+ * is in index coordinates; sides are found by counting crossings along rows of voxels.
+ */
 double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene);
 
 } // namespace support

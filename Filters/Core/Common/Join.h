@@ -11,7 +11,9 @@
 
 namespace volumic
 {
-/// Six digits, as a stream's, but all of those of large values, which may differ in the last ones.
+/**
+ * Six digits, as a stream's, but all of those of large values, which may differ in the last ones.
+ */
 template <typename Part>
 void WritePart(std::ostream& text, const Part& part)
 {

@@ -43,7 +43,7 @@ public:
     Activity Doing = Activity::Iterating;
     int Iteration = 0;       ///< Iterations done on this level.
     int Vertices = 0;        ///< Vertices of the surface now.
-    int ActiveVertices = 0;  ///< Of them, those that forces act on.
+    int ActiveVertices = 0;  ///< Of them, those that are not frozen.
     double Fraction = 0;     ///< Estimate of the share of this level that is done, in [0, 1]. It
                              ///< never becomes less.
   };

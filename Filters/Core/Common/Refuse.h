@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/// Throws std::invalid_argument with the parts as its message: what is wrong, and the way out.
+/** Throws std::invalid_argument with the parts as its message: what is wrong, and the way out. */
 template <typename... Parts>
 [[noreturn]] void Refuse(const Parts&... parts)
 {

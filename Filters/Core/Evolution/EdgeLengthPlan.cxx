@@ -29,6 +29,14 @@ struct Candidate
   double Cost = 0.;
 };
 
+/** What computed ratios and factors may be outside their bounds by. */
+constexpr double Rounding = 1e-9;
+/** Levels from this one on are not looked at: no image has as many. */
+constexpr int MaximumLevel = 40;
+/** Steps in which the longest possible length is searched, and how far, in the shortest. */
+constexpr double LengthStep = 1.01;
+constexpr double SearchedLengths = 1e6;
+
 /** Of the factor, beside 1 of the ratio, which SurfaceEvolution may still have to change. */
 constexpr double WeightOfFactor = 0.25;
 
@@ -51,9 +59,8 @@ std::optional<Candidate> BestOf(
     ratio = std::clamp(ratio, LeastRatio, MostRatio);
     t = std::pow(delta / ratio, 1. / level);
   }
-  constexpr double rounding = 1e-9;
-  if (!(ratio >= LeastRatio - rounding && ratio <= MostRatio + rounding) ||
-    !(level == 0 || (t >= LeastFactor - rounding && t <= MostFactor + rounding)))
+  if (!(ratio >= LeastRatio - Rounding && ratio <= MostRatio + Rounding) ||
+    !(level == 0 || (t >= LeastFactor - Rounding && t <= MostFactor + Rounding)))
   {
     return std::nullopt;
   }
@@ -85,8 +92,7 @@ std::optional<EdgeLengthPlan> PlanFor(double delta, const LevelSize& size,
   const std::array<double, 3>& spacing, const EdgeLengthPreferences& preferences)
 {
   std::optional<Candidate> best;
-  constexpr int mostLevels = 40;
-  for (int level = -1; level < mostLevels; ++level)
+  for (int level = -1; level < MaximumLevel; ++level)
   {
     const std::optional<Candidate> candidate =
       BestOf(level, delta, preferences.Pyramid.ReductionFactor, preferences);
@@ -124,7 +130,7 @@ EdgeLengthPlan PlanEdgeLength(double edgeLength, const LevelSize& size,
   const double shortest = MeanEdgeInDelta * LeastRatio / MostFactor * unit;
   // By small steps: what is possible ends where the image is too small for another level.
   double longest = shortest;
-  for (double length = shortest; length < 1e6 * shortest; length *= 1.01)
+  for (double length = shortest; length < SearchedLengths * shortest; length *= LengthStep)
   {
     longest = planOf(length) ? length : longest;
   }

@@ -22,6 +22,27 @@ namespace volumic
 {
 namespace
 {
+/** Points in a cell of the grid from which on searches in it are too slow. */
+constexpr int MaximumPerCell = 60;
+/** What edges may be over their bound by: positions are rounded to float. */
+constexpr double Rounding = 1.0001;
+/** Pitches of the lattices that are tried, in delta, the coarsest first. */
+constexpr double Pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 };
+/** Of large surfaces: the coarsest that still shows parts of two edges; in delta. */
+constexpr double CoarsePitch = 2.;
+/** Area from which on a surface is large, in delta^2. */
+constexpr double LargeArea = 100000.;
+/** Share of the volume that the remeshed surface must still have. */
+constexpr double LeastShareOfVolume = 0.5;
+/**
+ * Rounds of edits that bring the edges within their bounds; they end early with less than one
+ * split or collapse for so many vertices.
+ */
+constexpr int MaximumNumberOfRounds = 40;
+constexpr int VerticesPerEdit = 1000;
+/** Of the whole start, for the progress; the rest are the rounds. */
+constexpr double ShareOfRemeshing = 0.5;
+
 struct EdgeLengths
 {
   double Shortest = std::numeric_limits<double>::max();
@@ -83,17 +104,16 @@ bool FitsRings(const IndexedSurface& surface)
   return true;
 }
 
-/** Whether so many points share a place of the size of a triangle that a search finds too many. */
-bool IsCrowded(const IndexedSurface& surface, double delta)
+/** Whether some cell of the size of a triangle has so many points that a search is too slow. */
+bool IsTooDense(const IndexedSurface& surface, double delta)
 {
-  constexpr int most = 60;
   const double cell = SizingField::ReachInDelta * delta;
   std::unordered_map<std::uint64_t, int> count;
   for (const Point& p : surface.Points)
   {
-    const std::uint64_t key = LatticeKey(
-      std::llround(p[0] / cell), std::llround(p[1] / cell), std::llround(p[2] / cell));
-    if (++count[key] > most)
+    const std::uint64_t key =
+      LatticeKey(std::llround(p[0] / cell), std::llround(p[1] / cell), std::llround(p[2] / cell));
+    if (++count[key] > MaximumPerCell)
     {
       return true;
     }
@@ -119,7 +139,7 @@ bool IsSound(const IndexedSurface& surface, double delta)
 {
   const EdgeLengths lengths = LengthsOf(surface);
   return !surface.Triangles.empty() && lengths.Shortest > 0. &&
-    lengths.Longest <= SizingField::LongestEdgeInDelta * 1.0001 * delta &&
+    lengths.Longest <= SizingField::LongestEdgeInDelta * Rounding * delta &&
     CountSelfIntersections(surface, 1) == 0;
 }
 }
@@ -128,21 +148,18 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
 {
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
-  constexpr double pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 }; // in delta
-  // Large surfaces get one of the coarsest that still shows parts of two edges, for the sake of
-  // time.
-  constexpr double coarse = 2.;
-  constexpr double large = 100000.; // delta^2
+  // Large surfaces get a coarse one at once, for the sake of time.
   const double delta = this->State.Sizing.OfLevel();
   const Topology wanted = Topology::Of(surface);
-  const bool isLarge = wanted.Area > large * delta * delta;
+  const bool isLarge = wanted.Area > LargeArea * delta * delta;
   IndexedSurface best;
   int least = std::numeric_limits<int>::max();
   for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
   {
-    const double pitch = delta * (isLarge ? coarse : pitches[attempt]);
+    const double pitch = delta * (isLarge ? CoarsePitch : Pitches[attempt]);
     IndexedSurface mesh = RemeshOnLattice(surface, pitch, attempt, this->Threads,
-      [this](double share) { return this->GoOn(Monitor::Activity::Starting, 0.5 * share); });
+      [this](double share)
+      { return this->GoOn(Monitor::Activity::Starting, ShareOfRemeshing * share); });
     if (this->Stopped)
     {
       return {};
@@ -172,7 +189,7 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
   const SurfaceState& s = this->State;
   const EdgeLengths lengths = LengthsOf(surface);
   if (lengths.Longest <= SizingField::LongestEdgeInDelta * s.Sizing.OfLevel() && FitsRings(surface) &&
-    !IsCrowded(surface, s.Sizing.OfLevel()))
+    !IsTooDense(surface, s.Sizing.OfLevel()))
   {
     this->Begin(surface);
     if (this->Iteration.Intersections().empty())
@@ -205,7 +222,7 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   {
     // Of what is thinner than the lattice only shreds are left.
     const double share = ComputeFeatures(fine).Volume / ComputeFeatures(surface).Volume;
-    if (!(share > 0.5))
+    if (!(share > LeastShareOfVolume))
     {
       Refuse("The initial surface is too thin for this level, whose triangles have edges of about ",
         SizingField::RestLengthInDelta * s.Sizing.OfLevel(), " voxel distances: they would hold ",
@@ -237,13 +254,15 @@ void SurfaceEvolution::Implementation::Adapt()
   // The verified displacements and edits of an iteration, until the lengths are legal.
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   Remesher remesher(this->State, this->TheField.get(), false);
-  constexpr int rounds = 40;
-  for (int round = 0; round < rounds && this->GoOn(Monitor::Activity::Starting, 0.5 + 0.5 * round / rounds); ++round)
+  for (int round = 0; round < MaximumNumberOfRounds &&
+       this->GoOn(Monitor::Activity::Starting,
+         ShareOfRemeshing + (1. - ShareOfRemeshing) * round / MaximumNumberOfRounds);
+       ++round)
   {
     HistoryRow row;
     this->ActivateAll();
     this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Adapt);
-    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / 1000)
+    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / VerticesPerEdit)
     {
       break;
     }

@@ -33,14 +33,23 @@ IndexedSurface Icosahedron(const Point& centre, double radius)
 
 namespace
 {
+/** Of one with corners on the unit sphere: 1 / sin(2 pi / 5). */
+constexpr double EdgeOfIcosahedron = 1.0515;
+/** 16 would give 430 million vertices. */
+constexpr int MaximumNumberOfDivisions = 16;
+/**
+ * A surface so many times as wide as the image must be in another unit; a ball about a flat image
+ * is not yet.
+ */
+constexpr double MaximumWidth = 5.;
+
 /** On the unit sphere about the origin. */
 SurfaceMesh DividedSphere(double meanEdge)
 {
   SurfaceMesh mesh;
   mesh.Append(Icosahedron({ 0., 0., 0. }, 1.));
-  double edge = 1.0515;
-  constexpr int most = 16;
-  for (int i = 0; i < most && edge > meanEdge; ++i)
+  double edge = EdgeOfIcosahedron;
+  for (int i = 0; i < MaximumNumberOfDivisions && edge > meanEdge; ++i)
   {
     Divide(mesh);
     for (Vector& p : mesh.Position)
@@ -75,6 +84,7 @@ IndexedSurface EnclosingSurface(const LevelImage& image, double meanEdge)
   {
     // Voxels lie at 0 .. (Size - 1) Step; the field falls to the background one Step beyond.
     centre[k] = 0.5 * (image.Size[k] - 1) * image.Step[k];
+    // The corners of the box are on the surface: 3 (x/a)^4 = 1.
     axis[k] = std::pow(3., 0.25) * (centre[k] + image.Step[k]);
     largest = std::max(largest, axis[k]);
   }
@@ -105,9 +115,7 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
     widest = std::max(widest, bounds.High[k] - bounds.Low[k]);
     widestImage = std::max(widestImage, image.Size[k] * image.Step[k]);
   }
-  // What encloses a flat image as a ball does is not yet wrong.
-  constexpr double most = 5.;
-  if (widest > most * widestImage)
+  if (widest > MaximumWidth * widestImage)
   {
     Refuse("The initial surface is too large for the image: it is ", widest,
       " voxel distances wide, the image ", widestImage,
@@ -152,7 +160,8 @@ std::vector<Point> UsableSeeds(
     }
     const VectorD place(p[0], p[1], p[2]);
     if (IsInside(field, p) &&
-      std::none_of(chosen.begin(), chosen.end(), [&](const Point& q)
+      std::none_of(chosen.begin(), chosen.end(),
+        [&](const Point& q)
         { return SquaredDistance(VectorD(q[0], q[1], q[2]), place) < spacing * spacing; }))
     {
       chosen.push_back(p);

@@ -14,6 +14,12 @@ namespace
 {
 /** Of a smooth surface of no preferred direction: the faces of its voxels over its own area. */
 constexpr double FacesOverArea = 1.5;
+/** A patch is the surface's where it has a vertex within so many units of the level. */
+constexpr double NearUnits = 2.;
+/** A part is missed where the surface lacks more than this share of its boundary. */
+constexpr double MissedShare = 0.5;
+/** Patches that one thread looks at at a time. */
+constexpr std::size_t PatchBlock = 256;
 }
 
 void LostBoundary::Add(
@@ -62,9 +68,9 @@ LostBoundary::Missing LostBoundary::MissedBy(
 {
   const LevelImage& image = field.Image();
   const VoxelNumbers numbers(image.Size);
-  const float reach = static_cast<float>(2. * image.Unit);
+  const float reach = static_cast<float>(NearUnits * image.Unit);
   std::vector<std::uint8_t> isMissed(this->Patches.size(), 0);
-  ForBlocks(executor, this->Patches.size(), 256,
+  ForBlocks(executor, this->Patches.size(), PatchBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -87,7 +93,7 @@ LostBoundary::Missing LostBoundary::MissedBy(
   Missing result;
   for (std::size_t part = 0; part < missed.size(); ++part)
   {
-    result.Parts += missed[part] > 0.5 * whole[part];
+    result.Parts += missed[part] > MissedShare * whole[part];
   }
   result.Share = area > 0. ? area / (area + SurfaceArea(state.Mesh, executor)) : 0.;
   return result;

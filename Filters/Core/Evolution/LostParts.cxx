@@ -16,6 +16,29 @@ namespace volumic
 {
 namespace
 {
+/**
+ * Longest piece of a voxel that is looked at by its middle alone, in units of the level: cells of
+ * the cover are longer.
+ */
+constexpr double LongestPiece = 1.5;
+/** What has a vertex within so many units of the level is not lost. */
+constexpr double NearUnits = 2.;
+/**
+ * Rows pass beside the voxels by so much, in voxels along y and z, so that hardly any hits an edge
+ * or a corner of a surface on round numbers.
+ */
+constexpr double Aside[2] = { 1.2345e-4, 1.7 * 1.2345e-4 };
+/** Voxels between two calls of the checkpoint. */
+constexpr std::int64_t VoxelsPerBatch = 1 << 22;
+/** Cells between two calls of the checkpoint. */
+constexpr std::size_t CellsPerBatch = 4096;
+
+/** Shares of the whole work that are done after its steps, for the checkpoint. */
+constexpr double AfterInside = 0.25;
+constexpr double AfterCover = 0.4;
+constexpr double AfterLost = 0.7;
+constexpr double WithinCells = 0.8;
+
 enum : std::uint8_t
 {
   Unknown = 0,
@@ -38,8 +61,8 @@ public:
     for (int k = 0; k < 3; ++k)
     {
       this->Inverse[k] = 1. / field.Image().Step[k];
-      this->Pieces[k] =
-        std::max(1, static_cast<int>(std::ceil(field.Image().Step[k] / field.Image().Unit / 1.5)));
+      this->Pieces[k] = std::max(
+        1, static_cast<int>(std::ceil(field.Image().Step[k] / field.Image().Unit / LongestPiece)));
     }
   }
 
@@ -51,8 +74,10 @@ public:
   /** The connected sets of lost voxels, which count as covered once they are found. */
   VoxelParts LostOnes() { return VoxelParts(this->Mark, this->Size, Lost, Covered); }
 
-  /** Calls visit(point) for the middle of a voxel, or, where it is longer than 1.5 units along an
-      axis, for the middles of equal pieces of it that are not. */
+  /**
+   * Calls visit(point) for the middle of a voxel, or, where it is longer than LongestPiece along an
+   * axis, for the middles of equal pieces of it that are not.
+   */
   template <typename Visit>
   void VisitPieces(std::int64_t voxel, Visit&& visit) const
   {
@@ -73,7 +98,8 @@ public:
   }
 
 private:
-  void Cross(int a, int b, int c);
+  /** Finds the crossings of the rows of voxels with a face. */
+  void FindCrossings(int a, int b, int c);
 
   const SurfaceState& State;
   const Field& TheField;
@@ -83,22 +109,20 @@ private:
   double Inverse[3];
   int Pieces[3]; ///< Of a voxel along each axis, see VisitPieces.
   std::vector<std::uint8_t> Mark;
-  /** Number of the first voxel of a row, and place along it. */
+  /** Of rows and the surface: number of the first voxel of the row, and place along it. */
   std::vector<std::pair<std::int64_t, float>> Crossings;
 };
 
-void Search::Cross(int a, int b, int c)
+void Search::FindCrossings(int a, int b, int c)
 {
-  // Rows pass a little beside the voxels, so that none meets an edge or a corner exactly.
-  constexpr double aside = 1.2345e-4;
   Point corner[3];
   Bounds bounds;
   const int vertices[3] = { a, b, c };
   for (int k = 0; k < 3; ++k)
   {
     const Vector& p = this->State.Mesh.Position[vertices[k]];
-    corner[k] = { p.X * this->Inverse[0], p.Y * this->Inverse[1] - aside,
-      p.Z * this->Inverse[2] - 1.7 * aside };
+    corner[k] = { p.X * this->Inverse[0], p.Y * this->Inverse[1] - Aside[0],
+      p.Z * this->Inverse[2] - Aside[1] };
     bounds.Add(corner[k]);
   }
   const auto first = [&](int axis)
@@ -112,8 +136,7 @@ void Search::Cross(int a, int b, int c)
       const RowCrossing crossing = RowCrossing::Of(corner[0], corner[1], corner[2], j, k);
       if (crossing.Winding != 0)
       {
-        this->Crossings.emplace_back(
-          this->Numbers.Of(0, j, k), static_cast<float>(crossing.X));
+        this->Crossings.emplace_back(this->Numbers.Of(0, j, k), static_cast<float>(crossing.X));
       }
     }
   }
@@ -121,13 +144,13 @@ void Search::Cross(int a, int b, int c)
 
 void Search::MarkInside()
 {
-  this->State.Mesh.VisitFaces([this](int a, int b, int c) { this->Cross(a, b, c); });
+  this->State.Mesh.VisitFaces([this](int a, int b, int c) { this->FindCrossings(a, b, c); });
   std::sort(this->Crossings.begin(), this->Crossings.end());
   for (std::size_t i = 0; i + 1 < this->Crossings.size();)
   {
     if (this->Crossings[i].first != this->Crossings[i + 1].first)
     {
-      ++i; // An odd crossing, from a row that runs in a face: ignored.
+      ++i; // Odd ones don't exist on a closed surface.
       continue;
     }
     const std::int64_t row = this->Crossings[i].first;
@@ -144,8 +167,8 @@ void Search::MarkInside()
 
 void Search::CoverNear()
 {
-  // Two units of the level, whatever the distances of its voxels.
-  const double width = 2. * this->TheField.Image().Unit;
+  // Whatever the distances of the voxels.
+  const double width = NearUnits * this->TheField.Image().Unit;
   const auto& step = this->TheField.Image().Step;
   for (int v = 0; v < this->State.Mesh.Size(); ++v)
   {
@@ -186,9 +209,8 @@ void Search::CoverNear()
 
 bool Search::MarkLost(Executor& executor, const Checkpoint& goOn)
 {
-  constexpr std::int64_t most = 1 << 22; // Voxels between two looks whether to go on.
-  const int batch =
-    static_cast<int>(std::clamp<std::int64_t>(most / this->Numbers.Stride(2), 1, this->Size[2]));
+  const int batch = static_cast<int>(
+    std::clamp<std::int64_t>(VoxelsPerBatch / this->Numbers.Stride(2), 1, this->Size[2]));
   for (int first = 0; first < this->Size[2]; first += batch)
   {
     const int last = std::min(first + batch, this->Size[2]);
@@ -236,15 +258,14 @@ std::vector<CellLattice::Cell> CellsOf(
   std::vector<CellLattice::Cell> cells;
   for (std::int64_t voxel : part)
   {
-    search.VisitPieces(
-      voxel, [&](const Point& place) { cells.push_back(lattice.CellAt(place)); });
+    search.VisitPieces(voxel, [&](const Point& place) { cells.push_back(lattice.CellAt(place)); });
   }
   MakeUnique(cells);
   return cells;
 }
 
 /** Whether no triangle of the surface can reach the cell. */
-bool KeepsClear(
+bool IsClearOfSurface(
   const SurfaceState& state, const CellLattice& lattice, const CellLattice::Cell& cell)
 {
   const auto hasWithin = [&state](const Point& p, float radius)
@@ -277,12 +298,13 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   stopped.IsStopped = true;
   Search search(state, field, kind);
   search.MarkInside();
-  if (!goOn(0.25))
+  if (!goOn(AfterInside))
   {
     return stopped;
   }
   search.CoverNear();
-  if (!search.MarkLost(executor, [&goOn](double share) { return goOn(0.4 + 0.3 * share); }))
+  if (!search.MarkLost(executor,
+        [&goOn](double share) { return goOn(AfterCover + (AfterLost - AfterCover) * share); }))
   {
     return stopped;
   }
@@ -302,11 +324,11 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
     const std::size_t before = cells.size();
     for (const CellLattice::Cell& cell : CellsOf(*part, search, lattice))
     {
-      if (KeepsClear(state, lattice, cell))
+      if (IsClearOfSurface(state, lattice, cell))
       {
         cells.push_back(cell);
       }
-      if (++seen % 4096 == 0 && !goOn(0.8))
+      if (++seen % CellsPerBatch == 0 && !goOn(WithinCells))
       {
         return stopped;
       }

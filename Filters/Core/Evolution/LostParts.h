@@ -15,7 +15,7 @@ struct LostPartCover
 {
   int Found = 0;          ///< Parts that the surface has lost.
   int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
-  IndexedSurface Surface; ///< Closed, manifold, oriented as the kind wants it; workspace.
+  IndexedSurface Surface; ///< Closed, manifold, inward for cavities; workspace.
   LostBoundary Boundary;  ///< Of all that were found.
   bool IsStopped = false; ///< The checkpoint said stop: nothing is told, there is no surface.
 };
@@ -29,7 +29,7 @@ struct LostPartCover
  * It is the boundary of the truncated octahedra (CellLattice) that hold voxels of such parts and
  * keep clear of the surface as it is, with edges and distances that respect eq. (1). Seeds inside
  * the parts, as the paper starts from, would have to grow through places that are too thin for
- * them, and meet with holes left between them.
+ * them, and merge with holes left between them.
  *
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.

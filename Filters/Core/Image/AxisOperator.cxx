@@ -2,21 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/AxisOperator.h"
 
-#include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace volumic
 {
 namespace
 {
+/** w of eq. 5. */
 constexpr std::array<double, 5> Kernel = { 1 / 16., 4 / 16., 6 / 16., 4 / 16., 1 / 16. };
 
-/// The weights of one output voxel before all of them are brought to the same number.
+/** The weights of one output voxel before all of them are brought to the same number. */
 struct Band
 {
   std::int64_t First = 0;
@@ -24,7 +23,7 @@ struct Band
   std::array<double, AxisOperator::MaximumNumberOfTaps> Weight{};
 };
 
-/// Lower voxel and share of the upper one for a place along the axis.
+/** Lower voxel and share of the upper one for a place along the axis. */
 struct Place
 {
   std::int64_t Voxel;
@@ -69,9 +68,8 @@ AxisOperator::AxisOperator(std::int64_t inputSize, std::int64_t outputSize, doub
 {
   if (inputSize < 1 || outputSize < 1 || !(offset >= 0.0 && offset <= 1.0))
   {
-    throw std::invalid_argument(Join("AxisOperator: ", inputSize, " to ", outputSize,
-      " voxels with an offset of ", offset,
-      " voxels; sizes must be at least 1, the offset in [0, 1]."));
+    Refuse("AxisOperator: ", inputSize, " to ", outputSize, " voxels with an offset of ", offset,
+      " voxels; sizes must be at least 1, the offset in [0, 1].");
   }
   std::vector<Band> bands(outputSize);
   const double step = static_cast<double>(inputSize) / static_cast<double>(outputSize);

@@ -21,7 +21,9 @@ namespace volumic
 class AxisOperator
 {
 public:
-  /// A place between two voxels touches both: five places at most a voxel apart touch six voxels.
+  /**
+   * A place between two voxels touches both: five places at most a voxel apart touch six voxels.
+   */
   static constexpr int MaximumNumberOfTaps = 6;
 
   /**
@@ -36,13 +38,15 @@ public:
   std::int64_t InputSize() const { return this->Input; }
   std::int64_t OutputSize() const { return static_cast<std::int64_t>(this->FirstVoxel.size()); }
 
-  /// Number of weights of every output voxel (short ones are filled up with zeros).
+  /** Number of weights of every output voxel (short ones are filled up with zeros). */
   int NumberOfTaps() const { return this->Taps; }
 
-  /// First input voxel of an output voxel; First(i) + NumberOfTaps() <= InputSize(). Grows with i.
+  /**
+   * First input voxel of an output voxel; First(i) + NumberOfTaps() <= InputSize(). Grows with i.
+   */
   std::int64_t First(std::int64_t output) const { return this->FirstVoxel[output]; }
 
-  /// The weights of an output voxel, NumberOfTaps() of them; their sum is 1.
+  /** The weights of an output voxel, NumberOfTaps() of them; their sum is 1. */
   const double* Weights(std::int64_t output) const { return &this->Weight[output * this->Taps]; }
 
 private:

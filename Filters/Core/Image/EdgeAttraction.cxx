@@ -10,6 +10,9 @@ namespace volumic
 {
 namespace
 {
+/** Slope at which the force reaches its bound, in typical slopes. */
+constexpr double SlopeAtBound = 0.5;
+
 LevelImage MapOf(const LevelImage& image)
 {
   LevelImage map = image;
@@ -55,7 +58,7 @@ EdgeAttraction::EdgeAttraction(const LevelImage& image, Executor& executor)
             const double x = (row[i + 1] - row[i - 1]) / image.Step[0];
             const double y = (row[i + dy] - row[i - dy]) / image.Step[1];
             const double z = (row[i + dz] - row[i - dz]) / image.Step[2];
-            const double squared = 0.25 * (x * x + y * y + z * z);
+            const double squared = 0.25 * (x * x + y * y + z * z); // Over two steps.
             sums.First += std::sqrt(squared);
             sums.Second += squared;
           }
@@ -71,7 +74,7 @@ EdgeAttraction::EdgeAttraction(const LevelImage& image, Executor& executor)
   }
   if (all.Second > 0)
   {
-    this->Scale = static_cast<float>(all.First / (0.5 * all.Second));
+    this->Scale = static_cast<float>(all.First / (SlopeAtBound * all.Second));
   }
 }
 

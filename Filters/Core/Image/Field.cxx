@@ -2,14 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/Field.h"
 
+#include "Core/Common/Refuse.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
 namespace volumic
 {
+namespace
+{
+/** Voxels that one thread looks through at a time for the extreme values. */
+constexpr std::size_t RangeBlock = 1 << 16;
+/** Blocks of them under which a chunk is not worth a thread. */
+constexpr std::size_t RangeGrain = 4;
+/** The typical slope is measured on about as many rows: enough for a mean. */
+constexpr long SlopeRows = 4096;
+/**
+ * As many voxels past the border everything is background or replicated (until it fades): far
+ * places are taken to there, which also keeps the indices small.
+ */
+constexpr float Beyond = 3.f;
+}
+
 Field::Field(const LevelImage& image, const FieldOptions& options, Executor& executor)
   : Level(image)
   , Around(image)
@@ -19,7 +35,7 @@ Field::Field(const LevelImage& image, const FieldOptions& options, Executor& exe
 {
   if (!image.Values || image.Size[0] < 1 || image.Size[1] < 1 || image.Size[2] < 1)
   {
-    throw std::invalid_argument("The image of a level has no voxels.");
+    Refuse("The image of a level has no voxels.");
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -33,18 +49,18 @@ void Field::MeasureRange(Executor& executor)
 {
   const std::size_t count =
     static_cast<std::size_t>(this->Level.Size[0]) * this->Level.Size[1] * this->Level.Size[2];
-  constexpr std::size_t block = 1 << 16;
-  const std::size_t blocks = (count + block - 1) / block;
+  const std::size_t blocks = (count + RangeBlock - 1) / RangeBlock;
   std::vector<float> lows(blocks);
   std::vector<float> highs(blocks);
-  executor.For(blocks, 4,
+  executor.For(blocks, RangeGrain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t b = begin; b < end; ++b)
       {
         float low = std::numeric_limits<float>::max();
         float high = std::numeric_limits<float>::lowest();
-        for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i)
+        const std::size_t last = std::min(count, (b + 1) * RangeBlock);
+        for (std::size_t i = b * RangeBlock; i < last; ++i)
         {
           const float x = this->Level.Values[i];
           low = x < low ? x : low;
@@ -56,18 +72,18 @@ void Field::MeasureRange(Executor& executor)
     });
   const float low = *std::min_element(lows.begin(), lows.end());
   const float high = *std::max_element(highs.begin(), highs.end());
-  this->Best = std::max(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
-  this->Worst = std::min(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
-  const float away = std::min(this->Worst, -this->Best);
+  this->HighestValue = std::max(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
+  this->LowestValue = std::min(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
+  const float away = std::min(this->LowestValue, -this->HighestValue);
   this->Outside = this->Iso + this->Sign * away;
 }
 
 void Field::MeasureSlope()
 {
-  // On a subset of the rows along x: enough for a mean.
   const auto& size = this->Level.Size;
   const long rows = static_cast<long>(size[1]) * size[2];
-  const long stride = std::max(1L, rows / 4096) | 1L;
+  // Odd: so the rows differ from slice to slice where a slice has an even number of them.
+  const long stride = std::max(1L, rows / SlopeRows) | 1L;
   double sum = 0.;
   long crossings = 0;
   for (long row = 0; row < rows; row += stride)
@@ -98,7 +114,7 @@ void Field::MeasureSlope()
       }
     }
   }
-  const double range = static_cast<double>(this->Best) - this->Worst;
+  const double range = static_cast<double>(this->HighestValue) - this->LowestValue;
   this->Slope = static_cast<float>(
     crossings > 0 ? sum / static_cast<double>(crossings) : range * this->Inverse[0]);
   if (!(this->Slope > 0))
@@ -109,19 +125,19 @@ void Field::MeasureSlope()
 
 Field::Cell Field::Locate(const Vector& position) const
 {
-  // Two voxels past the border everything is background or replicated (until it fades): far places
-  // are clamped, which also keeps the indices small.
   const auto place = [this](float x, int axis)
   {
     const float scaled = x * this->Inverse[axis];
-    return std::min(std::max(scaled, -3.f), static_cast<float>(this->Level.Size[axis]) + 2.f);
+    const auto size = static_cast<float>(this->Level.Size[axis]);
+    return std::min(std::max(scaled, -Beyond), size - 1.f + Beyond);
   };
   const float x = place(position.X, 0);
   const float y = place(position.Y, 1);
   const float z = place(position.Z, 2);
-  const int i = static_cast<int>(x + 4.f) - 4; // floor, for x > -4
-  const int j = static_cast<int>(y + 4.f) - 4;
-  const int k = static_cast<int>(z + 4.f) - 4;
+  constexpr int positive = static_cast<int>(Beyond) + 1; // Makes a floor of the cut-off.
+  const int i = static_cast<int>(x + positive) - positive;
+  const int j = static_cast<int>(y + positive) - positive;
+  const int k = static_cast<int>(z + positive) - positive;
   return { i, j, k, x - static_cast<float>(i), y - static_cast<float>(j),
     z - static_cast<float>(k) };
 }

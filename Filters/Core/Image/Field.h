@@ -37,9 +37,9 @@ public:
   float ValueAt(const Vector& position) const;
   Sample At(const Vector& position) const;
 
-  /** Largest Value in the image; where it is not positive there is no object. */
-  float Highest() const { return this->Best; }
-  float Lowest() const { return this->Worst; }
+  /** Extremes of Value in the image; where the highest is not positive there is no object. */
+  float Highest() const { return this->HighestValue; }
+  float Lowest() const { return this->LowestValue; }
 
   /**
    * Mean absolute slope of the pairs of neighbouring voxels between which the iso-value lies: the
@@ -91,8 +91,8 @@ private:
   float Sign = 1;
   float Inverse[3] = { 1, 1, 1 };
   float Outside = 0; ///< Of the background, as Level.Values.
-  float Best = 0;
-  float Worst = 0;
+  float HighestValue = 0;
+  float LowestValue = 0;
   float Slope = 1;
   bool Replicate = false;
 };

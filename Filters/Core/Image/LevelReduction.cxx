@@ -15,14 +15,20 @@ namespace volumic
 {
 namespace
 {
-/// Input bytes that a tile of rows should touch per output slice: they stay in a core's cache.
+/** Input bytes that a tile of rows should touch per output slice: they stay in a core's cache. */
 constexpr std::int64_t TileBytes = 768 * 1024;
-/// Input voxels between two calls of the progress: about a millisecond of work.
+/** Input voxels between two calls of the progress: about a millisecond of work. */
 constexpr std::int64_t VoxelsPerBatch = 4 * 1024 * 1024;
-/// Voxels that one thread looks through at a time for values that are not finite.
+/** Rows of a tile, at least: its rows at the border are combined along z for its neighbour too. */
+constexpr std::int64_t LeastRowsPerTile = 4 * RowsPerBlock;
+/** Slices of a tile under which a chunk is not worth a thread. */
+constexpr std::size_t TileGrain = 4;
+/** Voxels that one thread looks through at a time for values that are not finite. */
 constexpr std::int64_t ScanBlock = 64 * 1024;
+/** Blocks of them under which a chunk is not worth a thread. */
+constexpr std::size_t ScanGrain = 8;
 
-/// An axis operator with its weights in the type of the computation.
+/** An axis operator with its weights in the type of the computation. */
 template <typename Real>
 struct Axis
 {
@@ -66,9 +72,7 @@ public:
     const std::int64_t rowBytes = InputSize[0] * Z.Taps * static_cast<std::int64_t>(sizeof(T));
     const std::int64_t inputRows = TileBytes / std::max<std::int64_t>(rowBytes, 1);
     const std::int64_t rows = inputRows * OutputSize[1] / InputSize[1];
-    // Short tiles make many rows twice, at their borders.
-    this->RowsPerTile =
-      std::max<std::int64_t>(rows, 4 * RowsPerBlock) / RowsPerBlock * RowsPerBlock;
+    this->RowsPerTile = std::max(rows, LeastRowsPerTile) / RowsPerBlock * RowsPerBlock;
     this->Tiles = (OutputSize[1] + this->RowsPerTile - 1) / this->RowsPerTile;
   }
 
@@ -82,7 +86,7 @@ public:
     {
       const std::int64_t begin = tasks * batch / batches;
       const std::int64_t end = tasks * (batch + 1) / batches;
-      executor.For(static_cast<std::size_t>(end - begin), 4,
+      executor.For(static_cast<std::size_t>(end - begin), TileGrain,
         [&](std::size_t first, std::size_t last) { this->RunTasks(begin + first, begin + last); });
       const bool goOn = progress(static_cast<double>(batch + 1) / static_cast<double>(batches));
       if (!goOn && batch + 1 < batches)
@@ -94,7 +98,7 @@ public:
   }
 
 private:
-  /// Rows in work, of one thread.
+  /** Rows in work, of one thread. */
   struct WorkSpace
   {
     // Enough for the rows of one band along y: the ring's size is a power of two over six.
@@ -121,7 +125,7 @@ private:
     }
   }
 
-  /// Output rows [begin, end) of one output slice.
+  /** Output rows [begin, end) of one output slice. */
   void MakeRows(std::int64_t slice, std::int64_t begin, std::int64_t end, WorkSpace& work) const
   {
     std::int64_t made = this->Y.First[begin]; // rows of the ring before this one are done
@@ -203,7 +207,7 @@ NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& e
     std::vector<std::int64_t> counts((n + ScanBlock - 1) / ScanBlock);
     const auto sizeOf = [n](std::int64_t block)
     { return std::min(ScanBlock, n - block * ScanBlock); };
-    executor.For(counts.size(), 8,
+    executor.For(counts.size(), ScanGrain,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t block = begin; block < end; ++block)

@@ -12,8 +12,10 @@
 
 namespace volumic
 {
-/// Told the share of a level that is done, in [0, 1]; false asks to stop. Called on the thread that
-/// called the computation, never from within the executor.
+/**
+ * Told the share of a level that is done, in [0, 1]; false asks to stop. Called on the thread that
+ * called the computation, never from within the executor.
+ */
 using LevelProgress = std::function<bool(double share)>;
 
 /**
@@ -35,14 +37,14 @@ bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
   typename RealOf<T>::Type* output, const LevelGeometry& outputGeometry, Executor& executor,
   const LevelProgress& progress);
 
-/// Voxels that are NaN or infinite.
+/** Voxels that are NaN or infinite. */
 struct NotFiniteVoxels
 {
   std::int64_t Count = 0;
   std::int64_t First = -1; ///< index of the first one, or -1
 };
 
-/// Counts voxels that are not finite; costs nothing for integer types.
+/** Counts voxels that are not finite; costs nothing for integer types. */
 template <typename T>
 NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& executor);
 }

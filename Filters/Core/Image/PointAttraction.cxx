@@ -16,6 +16,8 @@ namespace
 constexpr double Reach = 1.5;
 /** k: log(2) / phi(1), phi(1) = (5/9)^2. */
 constexpr float Sharpness = 2.2458f;
+/** C, in the typical slope over a unit of the level. */
+constexpr float ContrastShare = 0.25f;
 
 /** Indices of the voxels within a distance along an axis, cut to the image. */
 std::pair<int, int> Range(const LevelImage& image, int axis, double centre, double distance)
@@ -67,7 +69,7 @@ std::vector<float> PointAttraction::Bend(
   const std::size_t slice = static_cast<std::size_t>(image.Size[0]) * image.Size[1];
   std::vector<float> bent(image.Values, image.Values + slice * image.Size[2]);
   const Field field(image, options, executor);
-  const float contrast = 0.25f * field.TypicalSlope() * static_cast<float>(image.Unit);
+  const float contrast = ContrastShare * field.TypicalSlope() * static_cast<float>(image.Unit);
   const float sign = options.ObjectIsBright ? 1.f : -1.f;
   const float iso = static_cast<float>(options.IsoValue - image.Base);
   std::vector<std::vector<int>> pointsOf(static_cast<std::size_t>(image.Size[2]));

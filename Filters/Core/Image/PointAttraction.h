@@ -52,8 +52,8 @@ public:
   bool IsOn() const { return this->Weight > 0. && !this->Points.empty(); }
 
   /**
-   * LevelImage::Values of a level with the field bent, for the same Base. Sums over the points are in their order,
-   * slice by slice: the same for any executor. Cost: O(voxels + those near points).
+   * LevelImage::Values of a level with the field bent, for the same Base. Sums over the points are
+   * in their order, slice by slice: the same for any executor. Cost: O(voxels + those near points).
    */
   std::vector<float> Bend(
     const LevelImage& image, const FieldOptions& options, Executor& executor) const;

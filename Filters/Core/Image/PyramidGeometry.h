@@ -9,23 +9,25 @@
 
 namespace volumic
 {
-/// Number of voxels along each axis.
+/** Number of voxels along each axis. */
 using LevelSize = std::array<std::int64_t, 3>;
 
-/// Where the voxels of one level lie (eq. 3): voxel i along an axis is at i * Spacing from the
-/// origin, which all levels share. Spacing is mu / M_h in the unit of length of the input; it has
-/// the sign of the input's.
+/**
+ * Where the voxels of one level lie (eq. 3): voxel i along an axis is at i * Spacing from the
+ * origin, which all levels share. Spacing is mu / M_h in the unit of length of the input; it has
+ * the sign of the input's.
+ */
 struct LevelGeometry
 {
   LevelSize Size = { 0, 0, 0 };                ///< M_h, N_h, P_h
   std::array<double, 3> Spacing = { 1, 1, 1 }; ///< mu/M_h, nu/N_h, pi/P_h
   double Unit = 1.0;                           ///< U_h
 
-  /// Number of voxels, 64 bits wide also where a product of three ints would overflow.
+  /** Number of voxels, 64 bits wide also where a product of three ints would overflow. */
   std::int64_t NumberOfVoxels() const { return Size[0] * Size[1] * Size[2]; }
 };
 
-/// Which levels to make of an image.
+/** Which levels to make of an image. */
 struct PyramidOptions
 {
   double ReductionFactor = 1.7320508075688772; ///< T, in ]1, 2[; sqrt(3) suits the surface (eq. 8)
@@ -46,10 +48,12 @@ struct PyramidOptions
 std::vector<LevelGeometry> PlanPyramid(
   const LevelSize& size, const std::array<double, 3>& spacing, const PyramidOptions& options);
 
-/// How many levels the image can give: the last is the first in which no axis can shrink further.
+/**
+ * How many levels the image can give: the last is the first in which no axis can shrink further.
+ */
 int MaximumNumberOfLevels(const LevelSize& size, double reductionFactor);
 
-/// Size of the level above one of this size: floor(M / T), at least 1.
+/** Size of the level above one of this size: floor(M / T), at least 1. */
 LevelSize ReducedSize(const LevelSize& size, double reductionFactor);
 }
 

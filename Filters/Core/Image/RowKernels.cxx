@@ -33,23 +33,23 @@
 #endif
 #endif
 
-// Calls function<taps>(...): loops over a number of weights that the compiler knows are unrolled. A
-// macro, as a lambda would be no part of the clone that it is in.
-#define VOLUMIC_SWITCH_TAPS(taps, function, ...)                                                    \
-  switch (taps)                                                                                     \
-  {                                                                                                 \
-    case 1:                                                                                         \
-      return function<1>(__VA_ARGS__);                                                              \
-    case 2:                                                                                         \
-      return function<2>(__VA_ARGS__);                                                              \
-    case 3:                                                                                         \
-      return function<3>(__VA_ARGS__);                                                              \
-    case 4:                                                                                         \
-      return function<4>(__VA_ARGS__);                                                              \
-    case 5:                                                                                         \
-      return function<5>(__VA_ARGS__);                                                              \
-    default:                                                                                        \
-      return function<6>(__VA_ARGS__);                                                              \
+// Calls function<taps>(...): loops over a number of weights that the compiler knows are unrolled.
+// A macro, as a lambda would be no part of the clone that it is in.
+#define VOLUMIC_SWITCH_TAPS(taps, function, ...) \
+  switch (taps)                                  \
+  {                                              \
+    case 1:                                      \
+      return function<1>(__VA_ARGS__);           \
+    case 2:                                      \
+      return function<2>(__VA_ARGS__);           \
+    case 3:                                      \
+      return function<3>(__VA_ARGS__);           \
+    case 4:                                      \
+      return function<4>(__VA_ARGS__);           \
+    case 5:                                      \
+      return function<5>(__VA_ARGS__);           \
+    default:                                     \
+      return function<6>(__VA_ARGS__);           \
   }
 
 namespace volumic
@@ -117,7 +117,7 @@ struct VectorOf
 #endif
 
 #if VOLUMIC_HAS_SHUFFLE
-/// out[c][r] = in[r][c] for an 8 x 8 block, by three rounds of exchanging halves.
+/** out[c][r] = in[r][c] for an 8 x 8 block, by three rounds of exchanging halves. */
 template <typename Real>
 VOLUMIC_INLINE void TransposeBlock(
   const Real* in, std::int64_t inStride, Real* out, std::int64_t outStride)
@@ -170,7 +170,7 @@ VOLUMIC_INLINE void TransposeBlock(
 }
 #endif
 
-/// One output voxel of all rows of the block: the lanes are the rows.
+/** One output voxel of all rows of the block: the lanes are the rows. */
 template <int Taps, typename Real>
 VOLUMIC_INLINE void ReduceColumn(const Real* columns, const Real* weights, Real* out)
 {
@@ -244,8 +244,8 @@ VOLUMIC_INLINE void ReduceRowsOf(const Real* rows, std::int64_t stride, const st
   const Real* weights, int taps, std::int64_t outputSize, Real* columns, Real* const* out,
   int numberOfRows)
 {
-  VOLUMIC_SWITCH_TAPS(taps, ReduceRowsOfTaps, rows, stride, first, weights, outputSize, columns,
-    out, numberOfRows)
+  VOLUMIC_SWITCH_TAPS(
+    taps, ReduceRowsOfTaps, rows, stride, first, weights, outputSize, columns, out, numberOfRows)
 }
 }
 

@@ -12,10 +12,10 @@
  */
 namespace volumic
 {
-/// Rows that are worked on together along x; the lanes of the vectors are these rows.
+/** Rows that are worked on together along x; the lanes of the vectors are these rows. */
 constexpr int RowsPerBlock = 8;
 
-/// Doubles stay doubles, every other scalar type becomes float.
+/** Doubles stay doubles, every other scalar type becomes float. */
 template <typename T>
 struct RealOf
 {
@@ -27,7 +27,7 @@ struct RealOf<double>
   using Type = double;
 };
 
-/// X-macro over the native scalar types of voxels.
+/** X-macro over the native scalar types of voxels. */
 #define VOLUMIC_FOR_EACH_SCALAR(Macro)                                                   \
   Macro(char) Macro(signed char) Macro(unsigned char) Macro(short) Macro(unsigned short) \
     Macro(int) Macro(unsigned int) Macro(long) Macro(unsigned long) Macro(long long)     \

@@ -10,6 +10,12 @@
 
 namespace volumic
 {
+namespace
+{
+/** Share of the weight that voxels with a value must have for the output voxel to have one. */
+constexpr double LeastWeight = 0.5;
+}
+
 template <typename T>
 bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
   const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
@@ -36,8 +42,9 @@ bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
     return false;
   }
   std::transform(weights.begin(), weights.end(), output, output,
-    [](Real weight, Real sum)
-    { return weight >= Real(0.5) ? sum / weight : std::numeric_limits<Real>::quiet_NaN(); });
+    [](Real weight, Real sum) {
+      return weight >= Real(LeastWeight) ? sum / weight : std::numeric_limits<Real>::quiet_NaN();
+    });
   return true;
 }
 

@@ -21,7 +21,7 @@ bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
   const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
   const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress);
 
-/// 1 for numbers, 0 for NaN.
+/** 1 for numbers, 0 for NaN. */
 template <typename Real>
 std::vector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n);
 }

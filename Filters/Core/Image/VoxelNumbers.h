@@ -9,8 +9,8 @@
 namespace volumic
 {
 /**
- * The numbers of the voxels of an image, x fastest, from 0. They are 64 bits wide: an image of
- * 1300 x 1300 x 1300 voxels has more than an int can count.
+ * The numbers of the voxels of an image (linear indices), x fastest, from 0. They are 64 bits wide:
+ * an image of 1300 x 1300 x 1300 voxels has more than an int can count.
  */
 class VoxelNumbers
 {

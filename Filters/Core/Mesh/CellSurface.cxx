@@ -18,7 +18,7 @@ using Offset = std::array<int, 3>;
 /** A face of the cell about the origin, counter-clockwise seen from outside. */
 struct Face
 {
-  Offset Neighbour; ///< Name of the cell beyond it, relative.
+  Offset Neighbour; ///< Indices of the cell beyond it, relative.
   std::vector<Offset> Corners;
 };
 
@@ -32,13 +32,13 @@ std::vector<Face> MakeFaces()
       Face face;
       face.Neighbour = { 0, 0, 0 };
       face.Neighbour[axis] = 2 * side;
-      const int turn[4][2] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
-      for (const auto& t : turn)
+      const int square[4][2] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
+      for (const auto& c : square)
       {
         Offset corner;
         corner[axis] = 2 * side;
-        corner[(axis + 1) % 3] = t[0];
-        corner[(axis + 2) % 3] = side * t[1];
+        corner[(axis + 1) % 3] = c[0];
+        corner[(axis + 2) % 3] = side * c[1];
         face.Corners.push_back(corner);
       }
       faces.push_back(face);
@@ -88,7 +88,7 @@ CellLattice::CellLattice(double edge)
 CellLattice::Cell CellLattice::CellAt(const Point& place) const
 {
   Cell best{};
-  double least = -1.;
+  double nearest = -1.;
   for (int parity : { 0, 1 })
   {
     Cell cell;
@@ -99,9 +99,9 @@ CellLattice::Cell CellLattice::CellAt(const Point& place) const
       cell[k] = Nearest(x, parity);
       squared += (x - cell[k]) * (x - cell[k]);
     }
-    if (least < 0. || squared < least)
+    if (nearest < 0. || squared < nearest)
     {
-      least = squared;
+      nearest = squared;
       best = cell;
     }
   }

@@ -11,12 +11,12 @@
 namespace volumic
 {
 /**
- * Space filled with truncated octahedra, all of one edge length (workspace). Four of them meet at
- * a corner and three at an edge, each two of those in a common face: so the boundary of any set
- * of cells is a closed manifold surface without self-intersections, whatever the set looks like.
+ * Space filled with truncated octahedra, all of one edge length (workspace). Four of them
+ * share a corner and three an edge, each two of those a face: so the boundary of any set of cells
+ * is a closed manifold surface without self-intersections, whatever the set looks like.
  *
- * A cell is named by three integers that are all even or all odd; its centre lies at sqrt 2 times
- * the edge length times the name.
+ * A cell has three indices that are all even or all odd; its centre lies at sqrt 2 times the edge
+ * length times the indices.
  */
 class CellLattice
 {

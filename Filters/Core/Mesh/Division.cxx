@@ -14,9 +14,7 @@ EdgeSlots::EdgeSlots(const SurfaceMesh& mesh) : First(mesh.Rings.size() + 1, 0)
   }
 }
 
-KeptEdges::KeptEdges(const SurfaceMesh& mesh) : Mesh(mesh), Slots(mesh), Flags(Slots.Count(), 0)
-{
-}
+KeptEdges::KeptEdges(const SurfaceMesh& mesh) : Mesh(mesh), Slots(mesh), Flags(Slots.Count(), 0) {}
 
 void KeptEdges::Keep(int u, int v)
 {
@@ -72,8 +70,8 @@ class SqrtThreeDivision
 {
 public:
   SqrtThreeDivision(SurfaceMesh& mesh, const KeptEdges* kept)
-    : Mesh(mesh), Kept(kept), OldVertices(mesh.Size()), Slots(mesh),
-      Centre(Slots.Count(), None), Middle(Slots.Count(), None)
+    : Mesh(mesh), Kept(kept), OldVertices(mesh.Size()), Slots(mesh), Centre(Slots.Count(), None),
+      Middle(Slots.Count(), None)
   {
     this->Faces.reserve(this->Centre.size() / 3);
   }
@@ -143,8 +141,7 @@ void SqrtThreeDivision::AddCentres()
   position.reserve(position.size() + this->Faces.size());
   for (const std::array<int, 3>& face : this->Faces)
   {
-    position.push_back(
-      (position[face[0]] + position[face[1]] + position[face[2]]) * (1.f / 3.f));
+    position.push_back((position[face[0]] + position[face[1]] + position[face[2]]) * (1.f / 3.f));
   }
 }
 

@@ -8,20 +8,29 @@
 
 namespace volumic
 {
+namespace
+{
+/**
+ * What the lattice is set off by, in pitches, so that rows hit no corner of a surface on round
+ * numbers: sqrt 2 - 1, (3 - sqrt 5) / 2 and sqrt 5 - 2.
+ */
+constexpr double Offset[3] = { 0.4142135623, 0.3819660113, 0.2360679775 };
+/** Rows so near to a triangle are looked at too, in pitches: for rounding. */
+constexpr double Rounding = 1e-6;
+}
+
 LatticeInside::LatticeInside(const IndexedSurface& surface, double pitch)
   : Surface(surface), Pitch(pitch)
 {
-  // Points set off by odd fractions, so that rows hit no corner of a surface on round numbers.
-  const double aside[3] = { 0.4142135623, 0.3819660113, 0.2360679775 };
   const Bounds bounds = Bounds::Of(surface);
   for (int k = 0; k < 3; ++k)
   {
-    this->Origin[k] = bounds.Low[k] - (1. + aside[k]) * pitch;
+    this->Origin[k] = bounds.Low[k] - (1. + Offset[k]) * pitch;
     this->Count[k] =
       static_cast<std::int64_t>(std::ceil((bounds.High[k] - this->Origin[k]) / pitch)) + 2;
   }
-  this->Words = (this->Count[0] + 63) / 64;
-  this->Bits.assign(static_cast<std::size_t>(2 * Kept * this->Count[1] * this->Words), 0);
+  this->Words = (this->Count[0] + WordSize - 1) / WordSize;
+  this->Bits.assign(static_cast<std::size_t>(2 * LayersKept * this->Count[1] * this->Words), 0);
   this->FindCrossings(0);
   this->FindCrossings(1);
 }
@@ -32,7 +41,7 @@ void LatticeInside::FindCrossings(int kind)
   const auto first = [&](int axis, double from)
   {
     const double place = (from - this->Coordinate(kind, axis, 0)) / this->Pitch;
-    return std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(place - 1e-6)), 0);
+    return std::max<std::int64_t>(static_cast<std::int64_t>(std::ceil(place - Rounding)), 0);
   };
   for (const Triangle& t : this->Surface.Triangles)
   {
@@ -46,11 +55,11 @@ void LatticeInside::FindCrossings(int kind)
     for (std::int64_t k = first(2, bottom); k < this->Count[2]; ++k)
     {
       const double z = this->Coordinate(kind, 2, k);
-      if (z > top + 1e-6 * this->Pitch)
+      if (z > top + Rounding * this->Pitch)
       {
         break;
       }
-      // Where the plane at z passes the triangle, with a little room for rounding.
+      // Where the plane at z cuts the triangle.
       double low = std::numeric_limits<double>::max();
       double high = -low;
       for (int c = 0; c < 3; ++c)
@@ -67,7 +76,7 @@ void LatticeInside::FindCrossings(int kind)
       for (std::int64_t j = first(1, low); j < this->Count[1]; ++j)
       {
         const double y = this->Coordinate(kind, 1, j);
-        if (y > high + 1e-6 * this->Pitch)
+        if (y > high + Rounding * this->Pitch)
         {
           break;
         }
@@ -92,17 +101,17 @@ void LatticeInside::Fill(std::int64_t k)
     std::fill_n(this->Bits.begin() + begin, this->Count[1] * this->Words, std::uint64_t(0));
     const std::vector<Crossing>& crossings = this->Crossings[kind];
     const double start = this->Coordinate(kind, 0, 0);
-    int around = 0;
+    int winding = 0;
     for (std::size_t& n = this->Next[kind];
          n < crossings.size() && crossings[n].Row < (k + 1) * this->Count[1]; ++n)
     {
-      around += crossings[n].Where.Winding;
+      winding += crossings[n].Where.Winding;
       if (n + 1 == crossings.size() || crossings[n + 1].Row != crossings[n].Row)
       {
-        around = 0;
+        winding = 0;
         continue;
       }
-      if (around < 1)
+      if (winding < 1)
       {
         continue;
       }
@@ -113,7 +122,8 @@ void LatticeInside::Fill(std::int64_t k)
       for (std::int64_t i = from; i < to; ++i)
       {
         const std::int64_t j = crossings[n].Row - k * this->Count[1];
-        this->Bits[this->PlaceOfWord(kind, j, k, i / 64)] |= std::uint64_t(1) << (i % 64);
+        this->Bits[this->PlaceOfWord(kind, j, k, i / WordSize)] |= std::uint64_t(1)
+          << (i % WordSize);
       }
     }
   }
@@ -121,7 +131,7 @@ void LatticeInside::Fill(std::int64_t k)
 
 bool LatticeInside::IsUniform(std::int64_t w, std::int64_t j, std::int64_t k) const
 {
-  // Of the 64 points of a word, and of all that their tetrahedra reach.
+  // Of the points of a word, and of all that their tetrahedra reach.
   const std::uint64_t value = this->Word(0, j, k, w);
   if (value != 0 && value != ~std::uint64_t(0))
   {

@@ -21,8 +21,8 @@ struct LatticePoint
 };
 
 /**
- * Which points of such a lattice a closed surface encloses, layer by layer: how often the surface
- * goes round a point is counted along the rows of points. All points of the outermost layers are
+ * Which points of such a lattice a closed surface encloses, layer by layer: the winding number is
+ * counted along the rows of points. All points of the outermost layers are
  * outside. The surface must outlive it; lengths are those of its points.
  */
 class LatticeInside
@@ -68,12 +68,12 @@ private:
     std::int64_t Row; ///< Of all rows of points of its kind.
     RowCrossing Where;
   };
-  static constexpr std::int64_t Kept = 3;
+  static constexpr std::int64_t LayersKept = 3;
 
   std::size_t PlaceOfWord(int kind, std::int64_t j, std::int64_t k, std::int64_t w) const
   {
     return static_cast<std::size_t>(
-      ((kind * Kept + k % Kept) * this->Count[1] + j) * this->Words + w);
+      ((kind * LayersKept + k % LayersKept) * this->Count[1] + j) * this->Words + w);
   }
   std::uint64_t Word(int kind, std::int64_t j, std::int64_t k, std::int64_t w) const
   {

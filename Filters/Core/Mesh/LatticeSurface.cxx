@@ -21,6 +21,19 @@ namespace
 {
 using Key = std::uint64_t;
 
+/** About what a crossing of a row and the surface brings about: room is made for so many. */
+constexpr std::size_t EdgesPerCrossing = 7;
+constexpr std::size_t EndsPerCrossing = 5;
+/**
+ * Corners keep this share of their edge from its ends, so that triangles don't become slivers: no
+ * edge of the result is shorter than a tenth of the pitch.
+ */
+constexpr double LeastShare = 0.15;
+/** Ends of edges under which a chunk is not worth a thread. */
+constexpr std::size_t EndGrain = 256;
+/** Of the whole work, for the progress; the rest are the distances. */
+constexpr double ShareOfCuts = 0.8;
+
 /** Cuts the tetrahedra of a lattice where a surface passes them. */
 class TetrahedraCutter
 {
@@ -28,8 +41,8 @@ public:
   TetrahedraCutter(const IndexedSurface& surface, double pitch)
     : Surface(surface), Lattice(surface, pitch)
   {
-    this->EdgeOf.reserve(7 * this->Lattice.NumberOfCrossings());
-    this->AskedOf.reserve(5 * this->Lattice.NumberOfCrossings());
+    this->EdgeOf.reserve(EdgesPerCrossing * this->Lattice.NumberOfCrossings());
+    this->EndOf.reserve(EndsPerCrossing * this->Lattice.NumberOfCrossings());
     this->Lattice.Fill(0);
   }
 
@@ -43,21 +56,22 @@ private:
   /** An edge of the lattice with ends on either side. */
   struct CutEdge
   {
-    int Ends[2]; ///< Places in Asked.
+    int From; ///< Of Ends.
+    int To;
   };
 
   void CutAbout(const LatticePoint& own);
   void CutTetrahedron(const LatticePoint (&corner)[4], unsigned inside);
   int CornerOn(const LatticePoint& p, const LatticePoint& q);
-  int Ask(const LatticePoint& p);
+  int EndAt(const LatticePoint& p);
 
   const IndexedSurface& Surface;
   LatticeInside Lattice;
   std::vector<Triangle> Triangles;
   std::vector<CutEdge> Edges;      ///< One per corner of the result.
-  std::vector<LatticePoint> Asked; ///< Whose distance from the surface is needed.
+  std::vector<LatticePoint> Ends;  ///< Of the edges: their distance from the surface is needed.
   std::unordered_map<Key, int> EdgeOf;
-  std::unordered_map<std::int64_t, int> AskedOf;
+  std::unordered_map<std::int64_t, int> EndOf;
 };
 
 void TetrahedraCutter::Cut(std::int64_t k)
@@ -179,18 +193,19 @@ int TetrahedraCutter::CornerOn(const LatticePoint& p, const LatticePoint& q)
   const auto found = this->EdgeOf.emplace(key, static_cast<int>(this->Edges.size()));
   if (found.second)
   {
-    this->Edges.push_back({ { this->Ask(from), this->Ask(to) } });
+    const int first = this->EndAt(from);
+    this->Edges.push_back({ first, this->EndAt(to) });
   }
   return found.first->second;
 }
 
-int TetrahedraCutter::Ask(const LatticePoint& p)
+int TetrahedraCutter::EndAt(const LatticePoint& p)
 {
   const auto found =
-    this->AskedOf.emplace(this->Lattice.Index(p), static_cast<int>(this->Asked.size()));
+    this->EndOf.emplace(this->Lattice.Index(p), static_cast<int>(this->Ends.size()));
   if (found.second)
   {
-    this->Asked.push_back(p);
+    this->Ends.push_back(p);
   }
   return found.first->second;
 }
@@ -198,30 +213,29 @@ int TetrahedraCutter::Ask(const LatticePoint& p)
 IndexedSurface TetrahedraCutter::Finish(Executor& executor)
 {
   const TriangleTree tree(this->Surface);
-  std::vector<double> distance(this->Asked.size());
-  std::vector<Point> place(this->Asked.size());
-  executor.For(this->Asked.size(), 256,
+  std::vector<double> distance(this->Ends.size());
+  std::vector<Point> place(this->Ends.size());
+  executor.For(this->Ends.size(), EndGrain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t n = begin; n < end; ++n)
       {
         for (int k = 0; k < 3; ++k)
         {
-          place[n][k] = this->Lattice.Coordinate(this->Asked[n].Kind, k, this->Asked[n].At[k]);
+          place[n][k] = this->Lattice.Coordinate(this->Ends[n].Kind, k, this->Ends[n].At[k]);
         }
         distance[n] = std::sqrt(tree.SquaredDistance(place[n]));
       }
     });
-  // Not so near to the ends that triangles become slivers.
-  constexpr double least = 0.15;
   IndexedSurface result;
   result.Points.reserve(this->Edges.size());
   for (const CutEdge& edge : this->Edges)
   {
-    const int a = edge.Ends[0];
-    const int b = edge.Ends[1];
+    const int a = edge.From;
+    const int b = edge.To;
     const double both = distance[a] + distance[b];
-    const double share = std::clamp(both > 0. ? distance[a] / both : 0.5, least, 1. - least);
+    const double share =
+      std::clamp(both > 0. ? distance[a] / both : 0.5, LeastShare, 1. - LeastShare);
     Point p;
     for (int k = 0; k < 3; ++k)
     {
@@ -238,15 +252,15 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int 
   Executor& executor, const std::function<bool(double share)>& goOn)
 {
   const ObliqueRotation rotation(attempt);
-  IndexedSurface turned = surface;
-  for (Point& p : turned.Points)
+  IndexedSurface rotated = surface;
+  for (Point& p : rotated.Points)
   {
     p = rotation.Apply(p);
   }
-  TetrahedraCutter cutter(turned, pitch);
+  TetrahedraCutter cutter(rotated, pitch);
   for (std::int64_t k = 0; k + 1 < cutter.NumberOfLayers(); ++k)
   {
-    if (!goOn(0.8 * static_cast<double>(k) / static_cast<double>(cutter.NumberOfLayers())))
+    if (!goOn(ShareOfCuts * static_cast<double>(k) / static_cast<double>(cutter.NumberOfLayers())))
     {
       return {};
     }

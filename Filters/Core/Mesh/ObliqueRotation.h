@@ -21,6 +21,7 @@ public:
   /** There are several; the number may be any. */
   explicit ObliqueRotation(int number)
   {
+    // Not of length 1 yet, and of no pattern.
     static constexpr double quaternions[Count][4] = { { 0.83, 0.31, 0.37, 0.29 },
       { 0.71, -0.43, 0.29, 0.48 }, { 0.57, 0.23, -0.61, 0.49 }, { 0.91, 0.17, -0.22, 0.33 },
       { 0.42, -0.51, 0.64, 0.38 } };

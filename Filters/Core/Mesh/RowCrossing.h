@@ -45,7 +45,10 @@ struct RowCrossing
   }
 
 private:
-  /** Seen along x, with y to the right: 1 or -1, by the direction of the edge, where it is above. */
+  /**
+   * Seen along x, with y to the right and z up: 1 where the edge passes over the line to the right,
+   * -1 where it does so to the left, 0 where it is not over it.
+   */
   static int Under(const Point& from, const Point& to, double y, double z)
   {
     const bool right = to[1] > y;

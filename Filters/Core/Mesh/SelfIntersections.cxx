@@ -12,42 +12,51 @@ namespace volumic
 {
 namespace
 {
-NamedTriangle RoundedTriangle(const IndexedSurface& surface, int i)
+/**
+ * Triangles nearer than this share of the mean edge, or of the largest coordinate, count as
+ * intersecting: far less than the rounding of the points to float.
+ */
+constexpr double ToleranceOfEdges = 2e-9;
+constexpr double ToleranceOfExtent = 1e-14;
+/** The tree has the points as they are, the tests have them rounded to float. */
+constexpr double RoundingOfExtent = 1e-6;
+
+MeshTriangle RoundedTriangle(const IndexedSurface& surface, int i)
 {
-  NamedTriangle triangle;
+  MeshTriangle triangle;
   for (int k = 0; k < 3; ++k)
   {
     const int corner = surface.Triangles[i][k];
     const Point& p = surface.Points[corner];
-    triangle.Name[k] = corner;
+    triangle.Vertex[k] = corner;
     triangle.Corner[k] =
       VectorD(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
   }
   return triangle;
 }
 
-/** What of a tree may meet a triangle: boxes that its own meets, and that its plane passes. */
-class MeetingBox
+/** What of a tree may intersect a triangle: boxes that overlap its own and that its plane cuts. */
+class CandidateBox
 {
 public:
-  MeetingBox(const NamedTriangle& triangle, double room)
+  CandidateBox(const MeshTriangle& triangle, double margin)
     : Normal(
         Cross(triangle.Corner[1] - triangle.Corner[0], triangle.Corner[2] - triangle.Corner[0])),
-      Origin(triangle.Corner[0]), Room(room)
+      Origin(triangle.Corner[0]), Margin(margin)
   {
     for (int k = 0; k < 3; ++k)
     {
       double VectorD::*axis = Axes[k];
       const VectorD* p = triangle.Corner;
-      this->Low[k] = std::min({ p[0].*axis, p[1].*axis, p[2].*axis }) - room;
-      this->High[k] = std::max({ p[0].*axis, p[1].*axis, p[2].*axis }) + room;
+      this->Low[k] = std::min({ p[0].*axis, p[1].*axis, p[2].*axis }) - margin;
+      this->High[k] = std::max({ p[0].*axis, p[1].*axis, p[2].*axis }) + margin;
     }
   }
 
   bool Reaches(const TriangleTree::Node& node) const
   {
     double middle = 0.;
-    double half = this->Room * Length(this->Normal);
+    double half = this->Margin * Length(this->Normal);
     for (int k = 0; k < 3; ++k)
     {
       if (node.Box.Low[k] > this->High[k] || node.Box.High[k] < this->Low[k])
@@ -56,7 +65,7 @@ public:
       }
       const double n = this->Normal.*Axes[k];
       middle += n * (0.5 * (node.Box.Low[k] + node.Box.High[k]) - this->Origin.*Axes[k]);
-      half += std::abs(n) * (0.5 * (node.Box.High[k] - node.Box.Low[k]) + this->Room);
+      half += std::abs(n) * (0.5 * (node.Box.High[k] - node.Box.Low[k]) + this->Margin);
     }
     return std::abs(middle) <= half;
   }
@@ -65,7 +74,7 @@ private:
   static constexpr double VectorD::*Axes[3] = { &VectorD::X, &VectorD::Y, &VectorD::Z };
   VectorD Normal;
   VectorD Origin;
-  double Room;
+  double Margin;
   Point Low;
   Point High;
 };
@@ -78,22 +87,22 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
   double extent = 0.;
   for (int i = 0; i < count; ++i)
   {
-    const NamedTriangle triangle = RoundedTriangle(surface, i);
+    const MeshTriangle triangle = RoundedTriangle(surface, i);
     sum += Length(triangle.Corner[1] - triangle.Corner[0]);
     for (const VectorD& p : triangle.Corner)
     {
       extent = std::max({ extent, std::abs(p.X), std::abs(p.Y), std::abs(p.Z) });
     }
   }
-  const double tolerance = 1e-9 * std::max(2. * sum / std::max(count, 1), extent * 1e-5);
-  // The tree has the points as they are, the tests have them rounded.
-  const double room = tolerance + 1e-6 * extent;
+  const double meanEdge = sum / std::max(count, 1);
+  const double tolerance = std::max(ToleranceOfEdges * meanEdge, ToleranceOfExtent * extent);
+  const double margin = tolerance + RoundingOfExtent * extent;
   const TriangleTree tree(surface);
   int found = 0;
   for (int i = 0; i < count && !(limit > 0 && found >= limit); ++i)
   {
-    const NamedTriangle triangle = RoundedTriangle(surface, i);
-    const MeetingBox box(triangle, room);
+    const MeshTriangle triangle = RoundedTriangle(surface, i);
+    const CandidateBox box(triangle, margin);
     tree.Traverse(
       [&](const TriangleTree::Node& node)
       {
@@ -101,7 +110,7 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
         {
           ++work->Boxes;
         }
-        return node.Largest > i && box.Reaches(node);
+        return node.LargestIndex > i && box.Reaches(node);
       },
       [&](int j)
       {

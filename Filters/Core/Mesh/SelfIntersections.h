@@ -17,7 +17,7 @@ struct IntersectionWork
 /**
  * Number of intersecting pairs of triangles, neighbours included, by exact tests of the points
  * rounded to float. Triangles of all sizes may be mixed: the time is that of n log n boxes, and of
- * the pairs whose boxes meet. Stops counting at `limit` (0: never).
+ * the pairs whose boxes overlap. Stops counting at `limit` (0: never).
  */
 int CountSelfIntersections(
   const IndexedSurface& surface, int limit = 0, IntersectionWork* work = nullptr);

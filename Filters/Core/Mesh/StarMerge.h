@@ -43,7 +43,8 @@ private:
   /** False where the rims touch or an edge joins them. */
   bool MeasureRims(const SurfaceMesh& mesh);
   void ChooseBridgeEdges();
-  /** The cheapest strip whose first bridge edge goes to this place of the second rim, if under best. */
+  /** The best strip that begins at this place of the second rim. @return whether it is under best.
+   */
   bool PlanFrom(int offset, float best, float& cost);
   /** A strip that goes about both rims at the same pace. @return its cost. */
   float PlanInStep(int offset);

@@ -38,8 +38,8 @@ void CheckIndices(const IndexedSurface& surface)
     {
       if (corner < 0 || corner >= n)
       {
-        RefuseSurface("has triangle ", i, " with point ", corner,
-          ", but there are ", n, " points.");
+        RefuseSurface(
+          "has triangle ", i, " with point ", corner, ", but there are ", n, " points.");
       }
       for (double x : surface.Points[corner])
       {
@@ -73,14 +73,14 @@ void CheckEdges(const IndexedSurface& surface)
     }
   }
   int open = 0;
-  int crowded = 0;
-  int twisted = 0;
+  int nonManifold = 0;
+  int misoriented = 0;
   for (const auto& edge : edges)
   {
     const int uses = edge.second.first + edge.second.second;
     open += uses == 1;
-    crowded += uses > 2;
-    twisted += uses == 2 && edge.second.first != 1;
+    nonManifold += uses > 2;
+    misoriented += uses == 2 && edge.second.first != 1;
   }
   if (open > 0)
   {
@@ -89,14 +89,14 @@ void CheckEdges(const IndexedSurface& surface)
       "where triangles have points of their own at the same places, merge these with "
       "vtkCleanPolyData.");
   }
-  if (crowded > 0)
+  if (nonManifold > 0)
   {
-    RefuseSurface("is not manifold: ", crowded,
-      " edges have more than two triangles. Clean it first.");
+    RefuseSurface(
+      "is not manifold: ", nonManifold, " edges have more than two triangles. Clean it first.");
   }
-  if (twisted > 0)
+  if (misoriented > 0)
   {
-    RefuseSurface("is not oriented: ", twisted,
+    RefuseSurface("is not oriented: ", misoriented,
       " edges have two triangles that disagree on their orientation. Orient it, for example with "
       "vtkPolyDataNormals and ConsistencyOn.");
   }
@@ -247,8 +247,8 @@ void CheckInitialSurface(const IndexedSurface& surface)
   const int pairs = CountSelfIntersections(surface, limit);
   if (pairs > 0)
   {
-    RefuseSurface("intersects itself: ", pairs >= limit ? "at least " : "",
-      pairs, " pairs of triangles meet. Repair it before it is given.");
+    RefuseSurface("intersects itself: ", pairs >= limit ? "at least " : "", pairs,
+      " pairs of triangles meet. Repair it before it is given.");
   }
   CheckNesting(surface);
 }

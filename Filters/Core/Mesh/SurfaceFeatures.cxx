@@ -13,6 +13,9 @@ namespace volumic
 {
 namespace
 {
+/** Components of no more volume than this, in their area to the power of 3/2, count as flat. */
+constexpr double FlatVolume = 1e-9;
+
 /** The axes of the entries of a symmetric tensor, in the order in which they are kept. */
 constexpr int TensorAxes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
 
@@ -74,7 +77,7 @@ ComponentFeatures Finish(const Sums& sums)
   result.Volume = sums.Volume;
   result.Genus = (2 - (sums.Vertices - sums.Triangles / 2)) / 2;
   std::array<double, 3> centre{};
-  const bool solid = std::abs(sums.Volume) > 1e-9 * std::pow(sums.Area, 1.5);
+  const bool solid = std::abs(sums.Volume) > FlatVolume * std::pow(sums.Area, 1.5);
   for (int k = 0; k < 3; ++k)
   {
     centre[k] = solid ? sums.First[k] / sums.Volume

@@ -44,8 +44,7 @@ double SurfaceArea(const SurfaceMesh& mesh, Executor& executor)
         const Vector& p = mesh.Position[v];
         for (int i = 0; i < ring.Count; ++i)
         {
-          block += Length(
-            Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
+          block += Length(Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
         }
       }
       return block;

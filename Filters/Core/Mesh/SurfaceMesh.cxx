@@ -138,8 +138,8 @@ Ring RingOf(int vertex, DirectedEdge* edges, int count)
   }
   if (count > Ring::Capacity)
   {
-    Refuse("vertex ", vertex, " of the surface has ", count, " neighbours, more than ",
-      Ring::Capacity);
+    Refuse(
+      "vertex ", vertex, " of the surface has ", count, " neighbours, more than ", Ring::Capacity);
   }
   Ring ring;
   ring.Count = count;
@@ -224,6 +224,7 @@ void SurfaceMesh::Clear()
 
 namespace
 {
+/** Two zeros between the bits of a number of 21 bits, for a Morton code. */
 std::uint64_t SpreadBits(std::uint64_t x)
 {
   x &= 0x1fffff;
@@ -251,14 +252,14 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell)
   }
   std::vector<std::pair<std::uint64_t, int>> keys;
   keys.reserve(mesh.NumberOfVertices());
-  const auto code = [cell](float x, float from)
+  const auto bits = [cell](float x, float from)
   { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
   for (int v = 0; v < mesh.Size(); ++v)
   {
     if (mesh.IsAlive(v))
     {
       const Vector& p = mesh.Position[v];
-      keys.emplace_back(code(p.X, low[0]) | code(p.Y, low[1]) << 1 | code(p.Z, low[2]) << 2, v);
+      keys.emplace_back(bits(p.X, low[0]) | bits(p.Y, low[1]) << 1 | bits(p.Z, low[2]) << 2, v);
     }
   }
   std::sort(keys.begin(), keys.end());

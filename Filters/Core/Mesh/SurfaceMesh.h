@@ -26,10 +26,10 @@ struct alignas(64) Ring
 {
   static constexpr int Capacity = 15;
 
-  int Count = 0; ///< 0 marks a place without vertex.
+  int Count = 0; ///< The valence; 0 marks an index that no vertex has.
   int Item[Capacity];
 
-  /** Place of a neighbour, -1 where it is none. */
+  /** Position of a neighbour in the ring, -1 where it is none. */
   int Find(int vertex) const
   {
     for (int i = 0; i < this->Count; ++i)
@@ -73,8 +73,8 @@ struct alignas(64) Ring
  * A closed oriented triangulated mesh, possibly of several components.
  *
  * The rings alone are the connectivity: the faces are the triangles (v, ring[i], ring[i + 1]).
- * There are no face or edge records to keep in step, and a vertex finds all it needs for the
- * forces in two cache lines. Places of removed vertices are used again, so indices are stable.
+ * There are no face or edge records to keep up to date, and a vertex finds all it needs for the
+ * forces in two cache lines. Indices are stable; those of removed vertices are used again.
  */
 class SurfaceMesh
 {
@@ -82,16 +82,19 @@ public:
   std::vector<Vector> Position;
   std::vector<Ring> Rings;
 
-  /** Places, alive or not: indices run below this. */
+  /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
   int NumberOfVertices() const { return this->Size() - static_cast<int>(this->Free.size()); }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
 
-  /** Whether two different vertices are at least four edges apart, or not connected at all. */
+  /**
+   * Whether two different vertices are far apart on the surface: at least four edges, or not
+   * connected at all.
+   */
   bool AreFarApart(int v, int w) const;
 
-  /** A place for a vertex; its ring is the caller's to fill before anything else happens. */
+  /** @return the index of a new vertex; its ring is the caller's to fill before anything else. */
   int AddVertex(const Vector& position);
   void RemoveVertex(int v);
 
@@ -129,7 +132,7 @@ public:
    */
   int Append(const IndexedSurface& surface);
 
-  /** Renumbers: place i of the result holds vertex order[i]; all alive ones must occur once. */
+  /** Renumbers: vertex i of the result is order[i] of before; all alive ones must occur once. */
   void Reorder(const std::vector<int>& order);
 
   void Clear();
@@ -138,7 +141,7 @@ private:
   std::vector<int> Free;
 };
 
-/** Alive vertices along a Z-order curve with cells of side `cell`: near in space and memory. */
+/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`. */
 std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell);
 }
 

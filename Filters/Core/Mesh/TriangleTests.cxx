@@ -9,6 +9,9 @@ namespace volumic
 {
 namespace
 {
+/** Of the normals of two triangles that are folded onto each other: 1.15 degrees from opposite. */
+constexpr double FoldedCosine = -0.9998;
+
 struct Plane
 {
   VectorD Normal; ///< Not normalised.
@@ -51,8 +54,7 @@ bool Inside(const double* p, const double* a, const double* b, const double* c)
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
 }
 
-bool MeetInPlane(
-  const VectorD& normal, const VectorD& p, const VectorD& q, const VectorD* t)
+bool IntersectInPlane(const VectorD& normal, const VectorD& p, const VectorD& q, const VectorD* t)
 {
   const double ax = std::abs(normal.X);
   const double ay = std::abs(normal.Y);
@@ -74,10 +76,10 @@ bool MeetInPlane(
 /**
  * Whether two sets of points are apart along an axis. The tests below measure distances to lines
  * and planes: they stretch a triangle that is nearly a line far beyond its tips, where the
- * three lines, each set off by the tolerance, meet. Its box bounds that.
+ * three lines, each set off by the tolerance, intersect. Its box bounds that.
  */
 bool BoxesApart(
-  const VectorD* p, int countP, const VectorD* q, int countQ, double VectorD::*axis, double room)
+  const VectorD* p, int countP, const VectorD* q, int countQ, double VectorD::*axis, double margin)
 {
   double lowP = p[0].*axis;
   double highP = lowP;
@@ -93,17 +95,17 @@ bool BoxesApart(
     lowQ = std::min(lowQ, q[i].*axis);
     highQ = std::max(highQ, q[i].*axis);
   }
-  return lowP > highQ + room || lowQ > highP + room;
+  return lowP > highQ + margin || lowQ > highP + margin;
 }
 
-bool BoxesApart(const VectorD* p, int countP, const VectorD* q, int countQ, double room)
+bool BoxesApart(const VectorD* p, int countP, const VectorD* q, int countQ, double margin)
 {
-  return BoxesApart(p, countP, q, countQ, &VectorD::X, room) ||
-    BoxesApart(p, countP, q, countQ, &VectorD::Y, room) ||
-    BoxesApart(p, countP, q, countQ, &VectorD::Z, room);
+  return BoxesApart(p, countP, q, countQ, &VectorD::X, margin) ||
+    BoxesApart(p, countP, q, countQ, &VectorD::Y, margin) ||
+    BoxesApart(p, countP, q, countQ, &VectorD::Z, margin);
 }
 
-bool SegmentMeets(
+bool SegmentIntersects(
   const VectorD& p, const VectorD& q, const VectorD* t, const Plane& plane, double tolerance)
 {
   const double thick = tolerance * plane.Size;
@@ -116,7 +118,7 @@ bool SegmentMeets(
   if (std::abs(dp) <= thick && std::abs(dq) <= thick)
   {
     const VectorD ends[2] = { p, q };
-    return !BoxesApart(ends, 2, t, 3, tolerance) && MeetInPlane(plane.Normal, p, q, t);
+    return !BoxesApart(ends, 2, t, 3, tolerance) && IntersectInPlane(plane.Normal, p, q, t);
   }
   // Where the segment passes the plane, or comes nearest to it: is that inside?
   const double share = std::min(std::max(dp / (dp - dq), 0.), 1.);
@@ -152,7 +154,7 @@ bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Pl
 }
 }
 
-bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double tolerance)
+bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tolerance)
 {
   int inF[3];
   int inG[3];
@@ -161,7 +163,7 @@ bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double t
   {
     for (int j = 0; j < 3; ++j)
     {
-      if (f.Name[i] == g.Name[j] && shared < 3)
+      if (f.Vertex[i] == g.Vertex[j] && shared < 3)
       {
         inF[shared] = i;
         inG[shared++] = j;
@@ -180,7 +182,7 @@ bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double t
   const Plane planeG = PlaneOf(g.Corner);
   if (shared == 2)
   {
-    return Dot(planeF.Normal, planeG.Normal) < -0.9998 * planeF.Size * planeG.Size;
+    return Dot(planeF.Normal, planeG.Normal) < FoldedCosine * planeF.Size * planeG.Size;
   }
   if (shared == 1)
   {
@@ -191,8 +193,8 @@ bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double t
     {
       return false;
     }
-    return SegmentMeets(endsF[0], endsF[1], g.Corner, planeG, tolerance) ||
-      SegmentMeets(endsG[0], endsG[1], f.Corner, planeF, tolerance);
+    return SegmentIntersects(endsF[0], endsF[1], g.Corner, planeG, tolerance) ||
+      SegmentIntersects(endsG[0], endsG[1], f.Corner, planeF, tolerance);
   }
   if (OnOneSide(g.Corner, 3, f.Corner[0], planeF, tolerance) ||
     OnOneSide(f.Corner, 3, g.Corner[0], planeG, tolerance))
@@ -201,8 +203,8 @@ bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double t
   }
   for (int k = 0; k < 3; ++k)
   {
-    if (SegmentMeets(f.Corner[k], f.Corner[(k + 1) % 3], g.Corner, planeG, tolerance) ||
-      SegmentMeets(g.Corner[k], g.Corner[(k + 1) % 3], f.Corner, planeF, tolerance))
+    if (SegmentIntersects(f.Corner[k], f.Corner[(k + 1) % 3], g.Corner, planeG, tolerance) ||
+      SegmentIntersects(g.Corner[k], g.Corner[(k + 1) % 3], f.Corner, planeF, tolerance))
     {
       return true;
     }

@@ -7,22 +7,22 @@
 
 namespace volumic
 {
-/** A triangle with the names of its corners, so that shared corners are recognised. */
-struct NamedTriangle
+/** A triangle with the indices of its vertices, so that shared corners are recognised. */
+struct MeshTriangle
 {
-  int Name[3];
+  int Vertex[3];
   VectorD Corner[3];
 };
 
 /**
- * Whether two triangles of one mesh meet anywhere but in the corners or the edge they share.
+ * Whether two triangles of one mesh intersect anywhere but in the corners or the edge they share.
  *
  * Coordinates must come from floats. The test errs on the safe side: triangles that come nearer
- * than about `tolerance` (a length) count as meeting, so a "no" also survives the rounding of a
- * later map to world coordinates. Two that share an edge meet when they are folded onto each other
- * to within a degree.
+ * than about `tolerance` (a length) count as intersecting, so a "no" also survives the rounding of
+ * a later map to world coordinates. Two that share an edge intersect when they are folded onto each
+ * other to within about a degree.
  */
-bool TrianglesIntersect(const NamedTriangle& f, const NamedTriangle& g, double tolerance);
+bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tolerance);
 }
 
 #endif

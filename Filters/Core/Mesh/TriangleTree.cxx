@@ -14,6 +14,7 @@ namespace volumic
 {
 namespace
 {
+/** So few triangles are not divided any further. Changes the time only. */
 constexpr int LeafSize = 4;
 
 double SquaredDistanceToBox(const Point& place, const Bounds& box)
@@ -56,9 +57,9 @@ double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
 }
 
 TriangleTree::TriangleTree(const IndexedSurface& surface)
-  : Surface(surface), Places(surface.Triangles.size())
+  : Surface(surface), Order(surface.Triangles.size())
 {
-  std::iota(this->Places.begin(), this->Places.end(), 0);
+  std::iota(this->Order.begin(), this->Order.end(), 0);
   std::vector<Point> centres;
   centres.reserve(surface.Triangles.size());
   for (const Triangle& t : surface.Triangles)
@@ -84,8 +85,8 @@ int TriangleTree::Build(int begin, int end, const std::vector<Point>& centres)
   Bounds middles;
   for (int i = begin; i < end; ++i)
   {
-    const int triangle = this->Places[i];
-    node.Largest = std::max(node.Largest, triangle);
+    const int triangle = this->Order[i];
+    node.LargestIndex = std::max(node.LargestIndex, triangle);
     middles.Add(centres[triangle]);
     for (int corner : this->Surface.Triangles[triangle])
     {
@@ -104,13 +105,13 @@ int TriangleTree::Build(int begin, int end, const std::vector<Point>& centres)
     axis = extent(k) > extent(axis) ? k : axis;
   }
   const int middle = begin + (end - begin) / 2;
-  const auto first = this->Places.begin();
+  const auto first = this->Order.begin();
   std::nth_element(first + begin, first + middle, first + end,
     [&](int a, int b)
     { return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b; });
   this->Build(begin, middle, centres);
   const int second = this->Build(middle, end, centres);
-  this->Nodes[at].Second = second;
+  this->Nodes[at].SecondChild = second;
   return at;
 }
 
@@ -123,7 +124,7 @@ double TriangleTree::SquaredDistance(const Point& place) const
     int Node;
     double Squared;
   };
-  Branch stack[MostDeep];
+  Branch stack[MaximumDepth];
   int height = 0;
   stack[height++] = { 0, 0. };
   while (height > 0)
@@ -134,10 +135,12 @@ double TriangleTree::SquaredDistance(const Point& place) const
       continue;
     }
     const Node& node = this->Nodes[branch.Node];
-    if (node.Second >= 0)
+    if (node.SecondChild >= 0)
     {
-      Branch closer{ branch.Node + 1, SquaredDistanceToBox(place, this->Nodes[branch.Node + 1].Box) };
-      Branch further{ node.Second, SquaredDistanceToBox(place, this->Nodes[node.Second].Box) };
+      Branch closer{ branch.Node + 1,
+        SquaredDistanceToBox(place, this->Nodes[branch.Node + 1].Box) };
+      Branch further{ node.SecondChild,
+        SquaredDistanceToBox(place, this->Nodes[node.SecondChild].Box) };
       if (closer.Squared > further.Squared)
       {
         std::swap(closer, further);
@@ -151,7 +154,7 @@ double TriangleTree::SquaredDistance(const Point& place) const
       VectorD t[3];
       for (int k = 0; k < 3; ++k)
       {
-        const Point& q = this->Surface.Points[this->Surface.Triangles[this->Places[i]][k]];
+        const Point& q = this->Surface.Points[this->Surface.Triangles[this->Order[i]][k]];
         t[k] = VectorD(q[0], q[1], q[2]);
       }
       nearest = std::min(nearest, SquaredDistanceToTriangle(p, t));

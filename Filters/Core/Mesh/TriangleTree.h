@@ -19,11 +19,11 @@ class TriangleTree
 public:
   struct Node
   {
-    Bounds Box;
-    int Begin; ///< Of its triangles in the order of the tree.
+    Bounds Box; ///< Of its triangles.
+    int Begin;  ///< Of its triangles in the order of the tree.
     int End;
-    int Second;  ///< Node of the second half, the first one follows its parent; -1: a leaf.
-    int Largest; ///< Of the indices of its triangles.
+    int SecondChild;  ///< Index of the node; the first child follows its parent. -1: a leaf.
+    int LargestIndex; ///< Of its triangles.
   };
 
   explicit TriangleTree(const IndexedSurface& surface);
@@ -35,7 +35,7 @@ public:
   template <typename Enter, typename Visit>
   void Traverse(Enter&& enter, Visit&& visit) const
   {
-    int stack[MostDeep];
+    int stack[MaximumDepth];
     int height = 0;
     if (!this->Nodes.empty())
     {
@@ -49,15 +49,15 @@ public:
       {
         continue;
       }
-      if (node.Second >= 0)
+      if (node.SecondChild >= 0)
       {
-        stack[height++] = node.Second;
+        stack[height++] = node.SecondChild;
         stack[height++] = at + 1;
         continue;
       }
       for (int i = node.Begin; i < node.End; ++i)
       {
-        if (!visit(this->Places[i]))
+        if (!visit(this->Order[i]))
         {
           return;
         }
@@ -69,13 +69,13 @@ public:
   double SquaredDistance(const Point& place) const;
 
 private:
-  /** The tree is balanced: this serves any number of triangles. */
-  static constexpr int MostDeep = 64;
+  /** The tree is balanced: this serves any number of triangles that an int counts. */
+  static constexpr int MaximumDepth = 64;
 
   int Build(int begin, int end, const std::vector<Point>& centres);
 
   const IndexedSurface& Surface;
-  std::vector<int> Places;
+  std::vector<int> Order; ///< The triangles, those of a node side by side.
   std::vector<Node> Nodes;
 };
 }

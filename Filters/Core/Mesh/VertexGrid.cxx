@@ -6,15 +6,21 @@
 
 namespace volumic
 {
+namespace
+{
+/** A box much larger than what the surface could fill must not cost memory without limit. */
+constexpr double MaximumNumberOfCells = 1 << 26;
+/** What cells grow by until they are few enough. */
+constexpr float CellGrowth = 1.25f;
+}
+
 void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
 {
-  // A box much larger than what the surface could fill must not cost memory without limit.
-  constexpr double mostCells = 1 << 26;
   const auto count = [&](float from, float to)
   { return std::max(1., std::ceil(static_cast<double>(to - from) / cell)); };
-  while (count(low.X, high.X) * count(low.Y, high.Y) * count(low.Z, high.Z) > mostCells)
+  while (count(low.X, high.X) * count(low.Y, high.Y) * count(low.Z, high.Z) > MaximumNumberOfCells)
   {
-    cell *= 1.25f;
+    cell *= CellGrowth;
   }
   this->Size[0] = static_cast<int>(count(low.X, high.X));
   this->Size[1] = static_cast<int>(count(low.Y, high.Y));

@@ -46,13 +46,11 @@ public:
   }
 
   /** Whether a vertex lies within `radius` of a point; `positions`: of all vertices. */
-  bool HasWithin(
-    const Vector& position, float radius, const std::vector<Vector>& positions) const
+  bool HasWithin(const Vector& position, float radius, const std::vector<Vector>& positions) const
   {
     bool found = false;
     this->Visit(position, radius,
-      [&](int w)
-      { found = found || SquaredDistance(position, positions[w]) <= radius * radius; });
+      [&](int w) { found = found || SquaredDistance(position, positions[w]) <= radius * radius; });
     return found;
   }
 

@@ -82,8 +82,7 @@ std::vector<Ray> CastRays(const SurfaceMesh& mesh, const std::vector<int>& label
   std::vector<Ray> rays;
   for (int label = 0; label < components; ++label)
   {
-    rays.push_back(
-      { first[label], PositionOf(mesh, first[label]), volumes[label].Value() < 0. });
+    rays.push_back({ first[label], PositionOf(mesh, first[label]), volumes[label].Value() < 0. });
   }
   std::sort(rays.begin(), rays.end(),
     [](const Ray& a, const Ray& b)
@@ -109,8 +108,8 @@ void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int 
     const Point c = PositionOf(mesh, third);
     const double low = std::min({ a[1], b[1], c[1] });
     const double high = std::max({ a[1], b[1], c[1] });
-    auto ray = std::lower_bound(rays.begin(), rays.end(), low,
-      [](const Ray& r, double y) { return r.Origin[1] < y; });
+    auto ray = std::lower_bound(
+      rays.begin(), rays.end(), low, [](const Ray& r, double y) { return r.Origin[1] < y; });
     for (; ray != rays.end() && ray->Origin[1] <= high; ++ray)
     {
       if (labels[ray->Vertex] == labels[v])
@@ -126,8 +125,10 @@ void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int 
   }
 }
 
-/** For each ray the labels of the components around its origin: those it crosses an odd number of
-    times. */
+/**
+ * For each ray the labels of the components around its origin: those it crosses an odd number of
+ * times.
+ */
 std::vector<std::vector<int>> ComponentsAround(const SurfaceMesh& mesh,
   const std::vector<int>& labels, const std::vector<Ray>& rays, Executor& executor)
 {
@@ -351,8 +352,8 @@ bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
   bool deleted = false;
   for (int i : order)
   {
-    const auto depth = std::count_if(around[i].begin(), around[i].end(),
-      [&isDeleted](int label) { return !isDeleted[label]; });
+    const auto depth = std::count_if(
+      around[i].begin(), around[i].end(), [&isDeleted](int label) { return !isDeleted[label]; });
     if ((depth % 2 == 1) != rays[i].IsCavity)
     {
       isDeleted[state.Component[rays[i].Vertex]] = 1;

@@ -55,7 +55,7 @@ private:
 
   std::vector<SmallComponent> Watched;
   std::vector<int> Stack;
-  DisjointSets Joined; ///< Vertices that edges join.
+  DisjointSets Joined;                                   ///< Vertices that edges join.
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.
   int Components = 0;
 };

@@ -19,7 +19,7 @@ constexpr float ReachShare = 1.1f;
 /** A new face, as floats tell most others apart from it: by a box and a plane. */
 struct NewFace
 {
-  explicit NewFace(const NamedTriangle& face)
+  explicit NewFace(const MeshTriangle& face)
     : Exact(face)
     , Place(face.Corner[0])
     , Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
@@ -37,19 +37,19 @@ struct NewFace
       std::max({ heights[0], heights[1], heights[2] }) < -room;
   }
 
-  const NamedTriangle& Exact;
+  const MeshTriangle& Exact;
   Vector Place;
   Box Bounds;
   Vector Normal; ///< Unit.
 };
 
 bool Intersect(
-  const SurfaceState& state, const NamedTriangle& one, const NamedTriangle& other)
+  const SurfaceState& state, const MeshTriangle& one, const MeshTriangle& other)
 {
-  return TrianglesIntersect(one, other, state.Sizing.Contact(one.Name[0]));
+  return TrianglesIntersect(one, other, state.Sizing.Contact(one.Vertex[0]));
 }
 
-bool IntersectEachOther(const SurfaceState& state, const std::vector<NamedTriangle>& faces)
+bool IntersectEachOther(const SurfaceState& state, const std::vector<MeshTriangle>& faces)
 {
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
@@ -84,14 +84,14 @@ bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, 
 }
 }
 
-NamedTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
+MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
 {
   return { { a, b, c },
     { VectorD(mesh.Position[a]), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
 }
 
 bool NewFacesIntersect(
-  const SurfaceState& state, const std::vector<NamedTriangle>& faces, const RemovedFaces& removed)
+  const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed)
 {
   if (IntersectEachOther(state, faces))
   {
@@ -100,14 +100,14 @@ bool NewFacesIntersect(
   std::vector<NewFace> news;
   news.reserve(faces.size());
   Box all = { Vector(faces[0].Corner[0]), Vector(faces[0].Corner[0]) };
-  for (const NamedTriangle& face : faces)
+  for (const MeshTriangle& face : faces)
   {
     news.emplace_back(face);
     all = all.With(news.back().Bounds);
   }
   // A face that intersects one of the new ones has a corner this near to the box of those.
   const Box visited =
-    all.Grown(state.Sizing.LargestClearance(faces[0].Name[0], ReachShare));
+    all.Grown(state.Sizing.LargestClearance(faces[0].Vertex[0], ReachShare));
   const SurfaceMesh& mesh = state.Mesh;
   const auto isVisited = [&](int w) { return visited.Contains(mesh.Position[w]); };
   bool intersects = false;

@@ -35,10 +35,10 @@ struct RemovedFaces
  * that the edit does not remove. Nothing is changed.
  */
 bool NewFacesIntersect(
-  const SurfaceState& state, const std::vector<NamedTriangle>& faces, const RemovedFaces& removed);
+  const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed);
 
 /** The triangle with the positions of the mesh. */
-NamedTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
+MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
 }
 
 #endif

@@ -212,8 +212,8 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
       {
         continue; // Tested from the first pair; see Tight for what that finds.
       }
-      const NamedTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
-      const NamedTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
+      const MeshTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
+      const MeshTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
       if (TrianglesIntersect(one, other, someRoom))
       {
         room = 0;

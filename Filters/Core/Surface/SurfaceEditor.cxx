@@ -108,9 +108,9 @@ bool SurfaceEditor::AddFacesAfterCollapse(
     {
       return false;
     }
-    const NamedTriangle face = { { kept, b, c },
+    const MeshTriangle face = { { kept, b, c },
       { VectorD(position), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
-    NamedTriangle old = face;
+    MeshTriangle old = face;
     old.Corner[0] = VectorD(mesh.Position[end]);
     if (!KeepsShape(old, face) || !TurnsLittle(old, face, LeastCosine(tolerance)))
     {
@@ -177,11 +177,11 @@ Edit SurfaceEditor::CollapseTo(int u, int v, const Vector& position, EditToleran
 }
 
 bool SurfaceEditor::StaysSmooth(
-  int u, int v, const NamedTriangle& first, const NamedTriangle& second) const
+  int u, int v, const MeshTriangle& first, const MeshTriangle& second) const
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  const Vector oldA = FaceNormal(mesh, u, v, first.Name[0]);
-  const Vector oldB = FaceNormal(mesh, v, u, second.Name[0]);
+  const Vector oldA = FaceNormal(mesh, u, v, first.Vertex[0]);
+  const Vector oldB = FaceNormal(mesh, v, u, second.Vertex[0]);
   const Vector newA(Normalized(AreaNormal(first)));
   const Vector newB(Normalized(AreaNormal(second)));
   const Vector mean = Normalized(oldA + oldB);
@@ -208,8 +208,8 @@ Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
   {
     return {};
   }
-  const NamedTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
-  const NamedTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
+  const MeshTriangle first = TriangleOf(mesh, flip.A, u, flip.B);
+  const MeshTriangle second = TriangleOf(mesh, flip.B, v, flip.A);
   if (!IsWellShaped(first) || !IsWellShaped(second) ||
     (smooth && !this->StaysSmooth(u, v, first, second)))
   {
@@ -275,8 +275,8 @@ Edit SurfaceEditor::Move(int v, const Vector& position, EditTolerance tolerance)
   this->Faces.clear();
   for (int i = 0; i < ring.Count; ++i)
   {
-    const NamedTriangle old = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
-    NamedTriangle face = old;
+    const MeshTriangle old = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
+    MeshTriangle face = old;
     face.Corner[0] = VectorD(position);
     // What is too long already may stay so if it gets shorter.
     const Vector& end = s.Mesh.Position[ring.Item[i]];

@@ -76,7 +76,7 @@ private:
   Edit CollapseInto(int kept, int removed, const Vector& position, EditTolerance tolerance);
   bool AddFacesAfterCollapse(
     int end, int kept, int removed, const Vector& position, EditTolerance tolerance);
-  bool StaysSmooth(int u, int v, const NamedTriangle& first, const NamedTriangle& second) const;
+  bool StaysSmooth(int u, int v, const MeshTriangle& first, const MeshTriangle& second) const;
   bool IsNearOthers(int u) const;
   /** Notes that v has changed; forces act on it again. */
   void Touch(int v);
@@ -84,7 +84,7 @@ private:
   Edit Done(std::size_t firstChange, int vertex = -1) const;
 
   SurfaceState& State;
-  std::vector<NamedTriangle> Faces; ///< New ones of the edit that is being tried.
+  std::vector<MeshTriangle> Faces; ///< New ones of the edit that is being tried.
   std::vector<int> Log;
 };
 }

@@ -82,7 +82,7 @@ public:
   }
 
   /** Adds the faces about all corners. */
-  void AddFaces(std::vector<NamedTriangle>& faces) const
+  void AddFaces(std::vector<MeshTriangle>& faces) const
   {
     const SurfaceMesh& mesh = this->State.Mesh;
     for (int n = 0; n < 6; ++n)
