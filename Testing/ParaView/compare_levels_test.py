@@ -8,7 +8,6 @@ import xml.etree.ElementTree as ElementTree
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
-import plugin_testing as testing
 import window_testing as window
 
 MACRO = os.path.join(os.path.dirname(os.path.abspath(__file__)),

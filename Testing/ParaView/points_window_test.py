@@ -27,20 +27,12 @@ REPRESENTATION = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comb
 LEFT_BALL, BETWEEN, CENTRE = (645, 463), (725, 540), (725, 463)
 
 # Runs in the window: tells each run's seeds, and between which x its surface lies.
-TELL_OF_RUNS = """
-from paraview import servermanager
-seen = []
-def watch(manager, event):
-    from paraview import simple
-    for source in simple.GetSources().values():
-        algorithm = source.GetClientSideObject()
-        if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in seen:
-            seen.append(algorithm)
-            def end(caller, event, source=source):
-                bounds = caller.GetOutputDataObject(0).GetBounds()
-                print("Run:", *source.SeedPositions, "surface:", *bounds[:2], ".", flush=True)
-            algorithm.AddObserver("EndEvent", end)
-servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+TELL_OF_RUNS = window.WATCH_FILTERS + """
+def attend(proxy, algorithm):
+    def end(caller, event):
+        bounds = caller.GetOutputDataObject(0).GetBounds()
+        print("Run:", *proxy.SeedPositions, "surface:", *bounds[:2], ".", flush=True)
+    algorithm.AddObserver("EndEvent", end)
 """
 
 

@@ -19,24 +19,15 @@ FROM_THE_FRONT = [gui.event(f"{gui.WINDOW}/cameraToolbar/actionNegativeY", "acti
                   gui.pause(1500)]
 
 # Runs in the window: tells what each run of the filter gave.
-TELL_THE_RUNS = """
-from paraview import servermanager, simple
-watched = []
-
-def watch(manager, event):
-    for proxy in simple.GetSources().values():
-        algorithm = proxy.GetClientSideObject()
-        if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in watched:
-            watched.append(algorithm)
-            def end(caller, event):
-                facts = caller.GetOutputDataObject(0).GetFieldData()
-                reason = facts.GetAbstractArray("StopReason")
-                print("Run: level", facts.GetArray("Level").GetValue(0) if reason else "none", ";",
-                      reason.GetValue(0) if reason else "error", ";",
-                      caller.GetOutputDataObject(0).GetNumberOfPolys(), flush=True)
-            algorithm.AddObserver("EndEvent", end)
-
-servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+TELL_THE_RUNS = window.WATCH_FILTERS + """
+def attend(proxy, algorithm):
+    def end(caller, event):
+        facts = caller.GetOutputDataObject(0).GetFieldData()
+        reason = facts.GetAbstractArray("StopReason")
+        print("Run: level", facts.GetArray("Level").GetValue(0) if reason else "none", ";",
+              reason.GetValue(0) if reason else "error", ";",
+              caller.GetOutputDataObject(0).GetNumberOfPolys(), flush=True)
+    algorithm.AddObserver("EndEvent", end)
 """
 
 

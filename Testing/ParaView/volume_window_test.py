@@ -26,31 +26,20 @@ ADVANCED = ("CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels",
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
 # stopped after some iterations; the end of each run is told.
-STOP_THE_FIRST_RUN = """
-from paraview import servermanager
-
-watched = []
-
-def watch(manager, event):
-    from paraview import simple
-    for filter_ in simple.GetSources().values():
-        algorithm = filter_.GetClientSideObject()
-        if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in watched:
-            watched.append(algorithm)
-            runs = []
-            def progress(caller, event):
-                if len(runs) == 1 and "iteration 7," in (caller.GetProgressText() or ""):
-                    caller.SetAbortExecute(1)
-            def end(caller, event):
-                surface = caller.GetOutputDataObject(0)
-                reason = surface.GetFieldData().GetAbstractArray("StopReason")
-                print("Run", len(runs), "ended:", reason.GetValue(0) if reason else "",
-                      "with triangles:", surface.GetNumberOfPolys(), flush=True)
-            algorithm.AddObserver("StartEvent", lambda *_: runs.append(1))
-            algorithm.AddObserver("ProgressEvent", progress)
-            algorithm.AddObserver("EndEvent", end)
-
-servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+STOP_THE_FIRST_RUN = window.WATCH_FILTERS + """
+def attend(proxy, algorithm):
+    runs = []
+    def progress(caller, event):
+        if len(runs) == 1 and "iteration 7," in (caller.GetProgressText() or ""):
+            caller.SetAbortExecute(1)
+    def end(caller, event):
+        surface = caller.GetOutputDataObject(0)
+        reason = surface.GetFieldData().GetAbstractArray("StopReason")
+        print("Run", len(runs), "ended:", reason.GetValue(0) if reason else "",
+              "with triangles:", surface.GetNumberOfPolys(), flush=True)
+    algorithm.AddObserver("StartEvent", lambda *_: runs.append(1))
+    algorithm.AddObserver("ProgressEvent", progress)
+    algorithm.AddObserver("EndEvent", end)
 """
 
 

@@ -21,6 +21,23 @@ PROPERTIES = f"{gui.PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetCon
 APPLY = gui.event(f"{gui.PANEL}/Accept", "activate")
 SHOW_ADVANCED = gui.event(f"{gui.PANEL}/SearchBox/AdvancedButton", "set_boolean", "true")
 
+# Runs in the window, before a script that defines attend(proxy, algorithm): that is called for each
+# filter that finds a surface, once, as soon as it is made, whoever makes it.
+WATCH_FILTERS = """
+from paraview import servermanager
+watched = []
+
+def watch(manager, event):
+    from paraview import simple
+    for proxy in simple.GetSources().values():
+        algorithm = proxy.GetClientSideObject()
+        if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in watched:
+            watched.append(algorithm)
+            attend(proxy, algorithm)
+
+servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+"""
+
 
 def open_menu(name):
     """Newer ParaViews fill a menu when it is opened."""

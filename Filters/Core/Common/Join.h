@@ -19,8 +19,10 @@ void WritePart(std::ostream& text, const Part& part)
 {
   if constexpr (std::is_floating_point_v<Part>)
   {
+    constexpr int fewDigits = 6;
+    constexpr int allDigits = 15; // Of any number, digits10 of a double.
     const double size = std::abs(static_cast<double>(part));
-    text.precision(size >= 1e6 && size < 1e15 ? 15 : 6);
+    text.precision(size >= 1e6 && size < 1e15 ? allDigits : fewDigits);
   }
   text << part;
 }

@@ -14,8 +14,6 @@ namespace
 {
 /** Of a smooth surface of no preferred direction: the faces of its voxels over its own area. */
 constexpr double FacesOverArea = 1.5;
-/** A patch is the surface's where it has a vertex within so many units of the level. */
-constexpr double NearUnits = 2.;
 /** A part is missed where the surface lacks more than this share of its boundary. */
 constexpr double MissedShare = 0.5;
 /** Patches that one thread looks at at a time. */

@@ -11,6 +11,9 @@
 
 namespace volumic
 {
+/** A surface has what is within so many units of the level of one of its vertices. */
+constexpr double NearUnits = 2.;
+
 /** What a surface may have lost. */
 enum class PartKind
 {
@@ -34,7 +37,7 @@ public:
     int Parts = 0; ///< Those of which the surface misses more than half of the boundary.
     double Share = 0.; ///< Area of all the boundary that is missed, over that and the surface's.
   };
-  /** What has no vertex of the surface within two units of the level. Areas: workspace. */
+  /** What has no vertex of the surface within NearUnits. Areas: workspace. */
   Missing MissedBy(const SurfaceState& state, const Field& field, Executor& executor) const;
 
 private:

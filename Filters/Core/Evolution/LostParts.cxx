@@ -21,8 +21,6 @@ namespace
  * the cover are longer.
  */
 constexpr double LongestPiece = 1.5;
-/** What has a vertex within so many units of the level is not lost. */
-constexpr double NearUnits = 2.;
 /**
  * Rows pass beside the voxels by so much, in voxels along y and z, so that hardly any hits an edge
  * or a corner of a surface on round numbers.
