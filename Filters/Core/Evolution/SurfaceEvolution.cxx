@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceEvolution.h"
 
-#include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Mesh/SurfaceCheck.h"
@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace volumic
@@ -23,14 +21,10 @@ void CheckRange(const char* name, double value, double low, double high)
 {
   if (!(value >= low && value <= high))
   {
-    throw std::invalid_argument(
-      Join(name, " is ", value, ", it must lie in [", low, ", ", high, "]."));
+    Refuse(name, " is ", value, ", it must lie in [", low, ", ", high, "].");
   }
 }
-}
 
-namespace
-{
 /** Adds the time of its life. */
 class Timer
 {
