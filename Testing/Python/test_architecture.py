@@ -112,6 +112,15 @@ class IncludesTest(unittest.TestCase):
                 if os.path.basename(included) in in_rooms and included not in known:
                     self.fail(f"{source} includes {included}: not by its path from Filters")
 
+    def test_no_part_of_the_layer_includes_the_filter_that_it_serves(self):
+        """What is below a filter's header: enumerations and settings have files of their own."""
+        runs_another_filter = {"BuildPyramid.cxx", "EdgeLevels.cxx"}  # vtkImagePyramid
+        wrong = [f"{source} includes {included}" for source in sources()
+                 if not source.startswith("vtk") and source not in runs_another_filter
+                 for included in includes_of(source)
+                 if re.match(r"vtk[A-Z]", included) and included in sources()]
+        self.assertEqual(wrong, [])
+
     def test_no_circles(self):
         known = sources()
         includes = {source: [i for i in includes_of(source) if i in known] for source in known}
