@@ -105,7 +105,8 @@ configure_vtk()
 {
   local vtk_options
   find_vtk
-  configure vtk -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF "${vtk_options[@]}" "$@"
+  # The Python scripts have the command read volumes.
+  configure vtk -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF -DVOLUMIC_BUILD_TOOL=ON "${vtk_options[@]}" "$@"
 }
 
 configure_paraview()

@@ -15,8 +15,8 @@
 #   }
 #   parse_options "$@"
 
-# parse_options WORD...: --help is for all scripts; unknown options end the script. Where take_option
-# says used=0, the options end, and this word and the rest are left in the array `arguments`.
+# parse_options WORD...: --help is for all scripts; unknown options end the script. Where
+# take_option says used=0, the options end: this word and the rest are left in the array `arguments`.
 parse_options()
 {
   local used # words of the option

@@ -53,11 +53,11 @@ void BunzipStream(
     given += out - stream.avail_out;
     if (status == BZ_OK && isStuck)
     {
-      throw Failure(given == unpacked.size()
-          ? "the packed data give more than the " + std::to_string(given) +
-            " bytes that the header tells of"
-          : "the packed data are cut off: they give " + std::to_string(given) + " of " +
-            std::to_string(unpacked.size()) + " bytes");
+      throw Failure(taken == packed.size()
+          ? "the packed data are cut off: they give " + std::to_string(given) + " of " +
+            std::to_string(unpacked.size()) + " bytes, without their end"
+          : "the packed data give more than the " + std::to_string(given) +
+            " bytes that the header tells of");
     }
     if (status != BZ_OK && status != BZ_STREAM_END)
     {

@@ -9,9 +9,9 @@
 namespace tool
 {
 /**
- * What bzip2 data unpack to, which must be `count` bytes; several streams, one behind the other, are
- * one. @throws Failure, without a name, if they are damaged, cut off or of another size, or if the
- * program was built without libbz2.
+ * What bzip2 data unpack to, which must be `count` bytes; several streams, one behind the other,
+ * are one. @throws Failure, without a name, if they are damaged, cut off or of another size, or if
+ * the program was built without libbz2.
  */
 std::string Bunzip(const std::string& packed, std::size_t count);
 }

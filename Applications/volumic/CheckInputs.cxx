@@ -113,8 +113,9 @@ std::vector<std::string> FilesOfMetaPattern(const std::string& name, const std::
     std::string digits = std::to_string(i);
     const auto width = static_cast<std::size_t>(number(3));
     digits.insert(0, width - std::min(width, digits.size()), match[2].length() > 0 ? '0' : ' ');
-    files.push_back((std::filesystem::path(name).parent_path() /
-      (match[1].str() + digits + match[4].str())).string());
+    files.push_back(
+      (std::filesystem::path(name).parent_path() / (match[1].str() + digits + match[4].str()))
+        .string());
   }
   return files;
 }

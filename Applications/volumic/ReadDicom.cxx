@@ -171,8 +171,8 @@ Slice ReadSlice(const std::string& file)
 
 void CheckFits(const Slice& slice, const Slice& first)
 {
-  const bool isSameSeries = slice.Study == first.Study &&
-    Dot(slice.Across, first.Across) > 0.999 && Dot(slice.Down, first.Down) > 0.999;
+  const bool isSameSeries = slice.Study == first.Study && Dot(slice.Across, first.Across) > 0.999 &&
+    Dot(slice.Down, first.Down) > 0.999;
   const bool isSameSize = std::equal(slice.Image->GetDimensions(), slice.Image->GetDimensions() + 2,
                             first.Image->GetDimensions()) &&
     std::abs(slice.Spacing[0] - first.Spacing[0]) < 1e-3 &&
@@ -180,8 +180,8 @@ void CheckFits(const Slice& slice, const Slice& first)
   if (!isSameSeries || !isSameSize)
   {
     throw Failure(slice.File + ": its " +
-      (isSameSize ? "study or orientation" : "size or pixel spacing") +
-      " differs from that of " + first.File + "; one series per folder is needed");
+      (isSameSize ? "study or orientation" : "size or pixel spacing") + " differs from that of " +
+      first.File + "; one series per folder is needed");
   }
 }
 

@@ -95,8 +95,7 @@ Description Describe(const std::string& plist)
 {
   Element root;
   VtkMessages ignored; // What is wrong is said in one line below.
-  ignored.Catch(
-    [&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });
+  ignored.Catch([&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });
   vtkXMLDataElement* project =
     root && std::strcmp(root->GetName(), "plist") == 0 ? root->GetNestedElement(0) : nullptr;
   if (!project)
@@ -168,8 +167,8 @@ Description ReadDescription(const std::string& name)
 vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
 {
   const Description description = ReadDescription(name);
-  auto values = vtkSmartPointer<vtkDataArray>::Take(
-    vtkDataArray::CreateDataArray(description.Type));
+  auto values =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(description.Type));
   std::uint64_t expected = static_cast<std::uint64_t>(values->GetDataTypeSize());
   for (const int size : description.Size)
   {
@@ -187,8 +186,7 @@ vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
   archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
   archive.Finish();
   ToNativeOrder(values, false);
-  vtkSmartPointer<vtkImageData> image =
-    MakeImage(description.Size, values, description.Placement);
+  vtkSmartPointer<vtkImageData> image = MakeImage(description.Size, values, description.Placement);
   if (description.IsAxial)
   {
     // The rows of axial slices are stored from back to front: a left-handed frame.

@@ -263,10 +263,7 @@ Image ReadByContent(const std::string& name)
   vtkSmartPointer<vtkImageReader2> reader;
   VtkMessages ignored; // Some of those that are asked complain of what they don't know.
   ignored.Catch(
-    [&]
-    {
-      reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str()));
-    });
+    [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str())); });
   if (!reader)
   {
     throw Failure(name + ": not a format that VTK's readers know");

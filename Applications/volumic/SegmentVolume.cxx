@@ -222,8 +222,8 @@ void WriteOutputs(const ToolOptions& options, const ReportInput& results)
 }
 
 /// Run a filter; of too little memory, whoever told of it, is said for which volume and what helps.
-FilterRun RunOnVolume(const ToolOptions& options, vtkAlgorithm* filter, const std::string& title,
-  ProgressStyle style)
+FilterRun RunOnVolume(
+  const ToolOptions& options, vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
 {
   const std::string help =
     "a coarser level (--finest 1), or the volume cropped or resampled, needs less";

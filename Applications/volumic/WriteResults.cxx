@@ -99,8 +99,8 @@ void WriteWith(vtkPolyData* surface, const std::string& name, const std::string&
   Run(writer.Get());
 }
 
-/// With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is appended
-/// for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
+/// With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is
+/// appended for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
 void WriteInline(vtkXMLWriter* writer, vtkDataObject* data, const std::string& name)
 {
   writer->SetInputData(data);

@@ -71,7 +71,8 @@ ExitCode Run(int argc, char* argv[])
     {
       throw;
     }
-    throw Failure(options.Volume + ": not enough memory to segment it: no thread can be started; "
+    throw Failure(options.Volume +
+      ": not enough memory to segment it: no thread can be started; "
       "crop it, or resample it to fewer voxels");
   }
 }

@@ -6,8 +6,8 @@
     batch.py scans --output surfaces --iso 226.5 --format stl
 
 Every volume in the folder (.vti .mha .mhd .nrrd .nhdr .nii .nii.gz .inv3) is segmented, and every
-folder in it as a DICOM series. OUTPUT then holds a surface for each, and results.csv with a line for each:
-how it ended, its iso-value, seconds, vertices, components, genus, area and volume (world units), or
+folder in it as a DICOM series. OUTPUT then holds a surface for each, and results.csv with a line
+for each: how it ended, its iso-value, seconds, vertices, components, genus, area and volume (world units), or
 the error. A volume that fails does not stop the others.
 
 Ends with 0 if all went well, 1 if some failed, 2 if the command line is wrong or there is no

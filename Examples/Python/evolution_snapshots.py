@@ -8,8 +8,8 @@
     evolution_snapshots.py scan.nii.gz evolution.vtp.series
 
 VOLUME is what read_volume.py can read. OUTPUT: an .ogv video, a folder for a PNG series, or a
-.vtp.series, which ParaView opens as surfaces in time: press Play there. The surface is kept every so
-many iterations (vtkDeformableSurface's SnapshotInterval) and as it came to rest at each level.
+.vtp.series, which ParaView opens as surfaces in time: press Play there. The surface is kept every
+so many iterations (vtkDeformableSurface's SnapshotInterval) and as it came to rest at each level.
 Pictures need a display; xvfb-run gives one.
 """
 

@@ -28,8 +28,9 @@ def find_command():
     program = shutil.which("volumic")
     if program is None:
         raise VolumeError("the command volumic, which reads volumes, is found neither beside the"
-                          " Python package volumic nor on PATH. Where Volumic was installed into a"
-                          " prefix, set PYTHONPATH=<prefix>/lib/python3/dist-packages")
+                          " Python package volumic nor on PATH. Debian's package volumic has it;"
+                          " where Volumic was installed into a prefix, set"
+                          " PYTHONPATH=<prefix>/lib/python3/dist-packages")
     return program
 
 

@@ -8,7 +8,7 @@ from folder_test_case import FolderTestCase
 
 
 class DamageTestCase(FolderTestCase):
-    """Who derives from it says how a file, by name and content, is accepted_file or refused_file."""
+    """Who derives from it has accepted_file(name, content) and refused_file(..., reason)."""
 
     def cut(self, name, content, reason, rests=(0.5, -10)):
         """The whole file is taken, but not this share, or all but so many bytes."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Documentation/architecture.md tells the folders that are there, and the rooms' includes keep to it.
+"""Documentation/architecture.md tells the folders that are there, and includes keep to its rooms.
 
 Needs no build, and no VTK.
 """
@@ -64,8 +64,8 @@ class FoldersTest(unittest.TestCase):
         self.assertEqual({name for row in rows for name in names_in(row[0])}, folders_in(CORE))
 
     def test_files_that_the_page_names_are_there(self):
-        named = re.findall(r"`((?:Applications|Filters|Plugin|Testing|CMake|Documentation)/[\w/.]+\w)`",
-                           read(PAGE))
+        folders = "|".join(folders_in(ROOT))
+        named = re.findall(rf"`((?:{folders})/[\w/.]+\w)`", read(PAGE))
         self.assertGreater(len(named), 20)
         self.assertEqual([path for path in named if not os.path.exists(os.path.join(ROOT, path))],
                          [])

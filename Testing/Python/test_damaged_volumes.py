@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Examples/Python/read_volume.py refuses what has been cut off or damaged, and names the file."""
 
+import bz2
 import gzip
 import os
 import struct
@@ -91,6 +92,16 @@ class FilesTest(DamagedTest):
         self.refused_file("a.nrrd", bomb, f"give more than the {BYTES} bytes")
         halves = gzip.compress(VOXELS.tobytes()[:99]) + gzip.compress(VOXELS.tobytes()[99:])
         read_volume(self.write_bytes("b.nrrd", header + b"\n" + halves))
+
+    def test_nrrd_of_bzip2(self):
+        header = medical_files.nrrd_header(VOXELS, SPACING, ORIGIN, np.eye(3), "bzip2", "little")
+        content = header + b"\n" + bz2.compress(VOXELS.tobytes())
+        self.cut("a.nrrd", content, "packed data are cut off", rests=(0.5, -10, -1))
+        self.flipped("a.nrrd", content, "packed data", len(header) + 1)
+        more = header + b"\n" + bz2.compress(VOXELS.tobytes() + b"more")
+        self.refused_file("a.nrrd", more, f"give more than the {BYTES} bytes")
+        halves = bz2.compress(VOXELS.tobytes()[:99]) + bz2.compress(VOXELS.tobytes()[99:])
+        self.accepted_file("b.nrrd", header + b"\n" + halves)
 
     def test_nifti(self):
         content = medical_files.nifti(VOXELS, SPACING)

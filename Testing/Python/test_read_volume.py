@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tarfile
 import unittest
+from unittest import mock
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -25,7 +26,8 @@ from folder_test_case import FolderTestCase
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
 from pipeline import SKULL
-from read_volume import read_volume
+import volume_command
+from read_volume import files_of_volume, read_volume
 from volume_image import VolumeError, direction_of, make_image, world_axes
 
 TURNED = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -179,6 +181,35 @@ class FormatsTest(ReadVolumeTest):
         self.assertNotIn("Traceback", failed.stderr)
 
 
+class CommandTest(ReadVolumeTest):
+    """Reading is left to the command `volumic`, which must be found."""
+
+    def setUp(self):
+        super().setUp()
+        volume_command.find_command.cache_clear()
+        self.addCleanup(volume_command.find_command.cache_clear)
+
+    def test_it_lies_beside_the_package(self):
+        prefix = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
+        self.assertEqual(volume_command.find_command(), os.path.join(prefix, "bin", "volumic"))
+
+    def test_it_may_be_on_the_path_instead(self):
+        with mock.patch("importlib.util.find_spec", return_value=None), \
+                mock.patch("shutil.which", return_value="/somewhere/volumic"):
+            self.assertEqual(volume_command.find_command(), "/somewhere/volumic")
+
+    def test_where_there_is_none(self):
+        with mock.patch("importlib.util.find_spec", return_value=None), \
+                mock.patch("shutil.which", return_value=None):
+            with self.assertRaisesRegex(VolumeError, "neither beside .* nor on PATH"):
+                read_volume(self.path("a.vti"))
+
+    def test_the_files_of_a_volume(self):
+        self.write_bytes("a.raw", b"")
+        header = self.write_bytes("a.nhdr", b"NRRD0004\ndata file: a.raw\n")
+        self.assertEqual(files_of_volume(header), [header, self.path("a.raw")])
+
+
 class DicomTest(ReadVolumeTest):
     def write_series(self, voxels, syntax="explicit", order=None, **changes):
         names = order or range(len(voxels))
@@ -252,7 +283,8 @@ class RefusedTest(ReadVolumeTest):
     def test_no_values(self):
         image = vtkImageData()
         image.SetDimensions(5, 4, 3)
-        self.refused(self.write(vtkXMLImageDataWriter(), "a.vti", image), "no active scalars; there are no point arrays")
+        self.refused(self.write(vtkXMLImageDataWriter(), "a.vti", image),
+                     "no active scalars; there are no point arrays")
 
     def test_contents_that_are_something_else(self):
         for suffix in ("vti", "mha", "nrrd", "nii", "nii.gz", "inv3"):
