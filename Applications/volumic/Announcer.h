@@ -12,7 +12,7 @@
 
 namespace tool
 {
-/// What is told on stderr, unless --quiet.
+/** What is told on stderr, unless --quiet. */
 class Announcer
 {
 public:

@@ -9,24 +9,24 @@
 
 namespace tool
 {
-/// A file of binary numbers, read at any place.
+/** A file of binary numbers, read at any place. */
 class BinaryFile
 {
 public:
-  /// @throws Failure if it cannot be opened.
+  /** @throws Failure if it cannot be opened. */
   explicit BinaryFile(const std::string& name);
 
   bool IsBig = false; ///< whether numbers have their most significant byte first
 
   std::uint64_t Size() const { return this->Bytes; }
 
-  /// The text of so many bytes at a place. @throws Failure if the file ends before.
+  /** The text of so many bytes at a place. @throws Failure if the file ends before. */
   std::string Text(std::uint64_t at, std::uint64_t count);
 
-  /// The unsigned number of 1 to 8 bytes at a place. @throws as Text.
+  /** The unsigned number of 1 to 8 bytes at a place. @throws as Text. */
   std::uint64_t Number(std::uint64_t at, int bytes);
 
-  /// The same of 2 or 4 bytes with a sign.
+  /** The same of 2 or 4 bytes with a sign. */
   std::int64_t Signed(std::uint64_t at, int bytes);
 
 private:
@@ -34,13 +34,13 @@ private:
   std::uint64_t Bytes = 0;
 };
 
-/// The unsigned number that these bytes are.
+/** The unsigned number that these bytes are. */
 std::uint64_t NumberOf(const std::string& bytes, bool isBig);
 
-/// The product, or the largest number where that would be more: sizes of damaged headers.
+/** The product, or the largest number where that would be more: sizes of damaged headers. */
 std::uint64_t Times(std::uint64_t a, std::uint64_t b);
 
-/// @throws Failure if there are fewer bytes than needed.
+/** @throws Failure if there are fewer bytes than needed. */
 void NeedBytes(std::uint64_t there, std::uint64_t needed);
 }
 

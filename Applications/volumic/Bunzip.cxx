@@ -14,7 +14,7 @@ namespace tool
 #ifdef VOLUMIC_HAS_BZIP2
 namespace
 {
-/// A bz_stream that is freed.
+/** A bz_stream that is freed. */
 struct Bunzipper
 {
   Bunzipper()
@@ -31,7 +31,7 @@ struct Bunzipper
   bz_stream Stream = {};
 };
 
-/// Unpack one stream: `taken` and `given` grow by its bytes.
+/** Unpack one stream: `taken` and `given` grow by its bytes. */
 void BunzipStream(
   const std::string& packed, std::size_t& taken, std::string& unpacked, std::size_t& given)
 {

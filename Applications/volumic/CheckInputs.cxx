@@ -23,7 +23,7 @@ namespace
 {
 // ---- MetaImage ----------------------------------------------------------------------------------
 
-/// Bytes of a value, by the name of its type; 0 for what is no number.
+/** Bytes of a value, by the name of its type; 0 for what is no number. */
 std::uint64_t MetaTypeBytes(const std::string& type)
 {
   static const std::map<std::string, std::uint64_t> sizes = { { "MET_CHAR", 1 }, { "MET_UCHAR", 1 },
@@ -51,7 +51,7 @@ std::uint64_t MetaValues(const std::string& name)
   return values;
 }
 
-/// Where the data of a file with a header begin: behind the line that tells where they are.
+/** Where the data of a file with a header begin: behind the line that tells where they are. */
 std::streamoff BehindMetaHeader(std::ifstream& file)
 {
   std::string line;
@@ -61,7 +61,7 @@ std::streamoff BehindMetaHeader(std::ifstream& file)
   return file.tellg();
 }
 
-/// Numbers in a text.
+/** Numbers in a text. */
 void CheckMetaText(std::ifstream& file, std::uint64_t values)
 {
   std::uint64_t there = 0;
@@ -76,7 +76,7 @@ void CheckMetaText(std::ifstream& file, std::uint64_t values)
   }
 }
 
-/// Files that hold the data together, as much each.
+/** Files that hold the data together, as much each. */
 void CheckMetaFiles(const std::vector<std::string>& files, std::uint64_t needed)
 {
   for (const std::string& file : files)
@@ -95,7 +95,7 @@ void CheckMetaFiles(const std::vector<std::string>& files, std::uint64_t needed)
   }
 }
 
-/// The files of "slice%03d.raw FIRST LAST [STEP]"; none if the pattern is another.
+/** The files of "slice%03d.raw FIRST LAST [STEP]"; none if the pattern is another. */
 std::vector<std::string> FilesOfMetaPattern(const std::string& name, const std::string& words)
 {
   static const std::regex pattern(R"((\S*)%(0?)(\d*)d(\S*) +(\d+) +(\d+)(?: +(\d+))?)");
@@ -120,7 +120,7 @@ std::vector<std::string> FilesOfMetaPattern(const std::string& name, const std::
   return files;
 }
 
-/// The files in the lines behind the header: one for each slice, or one if there is but one.
+/** The files in the lines behind the header: one for each slice, or one if there is but one. */
 void CheckMetaList(const std::string& name, std::uint64_t needed)
 {
   const std::vector<std::string> files = FilesOfVolume(name);
@@ -146,7 +146,7 @@ void CheckMetaList(const std::string& name, std::uint64_t needed)
 
 // ---- NIfTI --------------------------------------------------------------------------------------
 
-/// NIfTI in two files: the one of these that is there, for the name of either.
+/** NIfTI in two files: the one of these that is there, for the name of either. */
 std::string NiftiPart(const std::string& name, const std::string& suffix)
 {
   for (const char* end : { ".img.gz", ".hdr.gz", ".img", ".hdr" })
@@ -161,7 +161,7 @@ std::string NiftiPart(const std::string& name, const std::string& suffix)
   return name;
 }
 
-/// Types of VTK's reader: numbers of 8 to 64 bits, and colours.
+/** Types of VTK's reader: numbers of 8 to 64 bits, and colours. */
 void CheckNiftiType(std::uint64_t type)
 {
   static const std::set<std::uint64_t> known = { 2, 4, 8, 16, 32, 64, 128, 256, 512, 768, 1024,

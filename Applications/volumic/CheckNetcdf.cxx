@@ -13,7 +13,7 @@ namespace tool
 {
 namespace
 {
-/// Bytes of a value of this type.
+/** Bytes of a value of this type. */
 std::uint64_t TypeBytes(std::uint64_t type)
 {
   static const std::uint64_t sizes[] = { 0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8 };
@@ -24,7 +24,7 @@ std::uint64_t TypeBytes(std::uint64_t type)
   return sizes[type];
 }
 
-/// Reads the header from its start to its end.
+/** Reads the header from its start to its end. */
 class Header
 {
 public:
@@ -46,7 +46,7 @@ public:
   std::uint64_t Count() { return this->Next(this->Version == 5 ? 8 : 4); }
   std::uint64_t Place() { return this->Next(this->Version == 1 ? 4 : 8); }
 
-  /// Go on by so many bytes, in units of four.
+  /** Go on by so many bytes, in units of four. */
   void Skip(std::uint64_t bytes)
   {
     if (bytes > this->File.Size())
@@ -57,7 +57,7 @@ public:
   }
   void SkipName() { this->Skip(this->Count()); }
 
-  /// How many there are in the list that begins here.
+  /** How many there are in the list that begins here. */
   std::uint64_t ListCount()
   {
     this->Next(4);
@@ -74,7 +74,7 @@ public:
     }
   }
 
-  /// @throws Failure if the data of the variable that begins here go on behind the file.
+  /** @throws Failure if the data of the variable that begins here go on behind the file. */
   void CheckVariable(const std::vector<std::uint64_t>& sizes)
   {
     this->SkipName();

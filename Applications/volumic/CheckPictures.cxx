@@ -18,13 +18,13 @@ namespace tool
 {
 namespace
 {
-/// Bytes of a number in a TIFF entry of this type, as far as offsets and sizes have it.
+/** Bytes of a number in a TIFF entry of this type, as far as offsets and sizes have it. */
 int TiffTypeBytes(std::uint64_t type)
 {
   return type == 3 ? 2 : type == 4 ? 4 : type == 16 ? 8 : 0;
 }
 
-/// A TIFF file, whose entries are larger in BigTIFF.
+/** A TIFF file, whose entries are larger in BigTIFF. */
 struct TiffFile
 {
   BinaryFile File;
@@ -32,7 +32,7 @@ struct TiffFile
 
   int Wide(int narrow) const { return this->IsWide ? 2 * narrow : narrow; }
 
-  /// The numbers of the entry at this place.
+  /** The numbers of the entry at this place. */
   std::vector<std::uint64_t> Values(std::uint64_t entry)
   {
     const int bytes = TiffTypeBytes(this->File.Number(entry + 2, 2));
@@ -52,7 +52,7 @@ struct TiffFile
   }
 };
 
-/// Look whether the page's strips or tiles lie within the file; returns where the next page is.
+/** Look whether the page's strips or tiles lie within the file; returns where the next page is. */
 std::uint64_t CheckPage(TiffFile& tiff, std::uint64_t page)
 {
   const std::uint64_t entryBytes = tiff.IsWide ? 20 : 12;
@@ -109,7 +109,7 @@ void CheckTiff(const std::string& name)
   }
 }
 
-/// A chain of chunks, each with its checksum.
+/** A chain of chunks, each with its checksum. */
 void CheckPng(const std::string& name)
 {
   BinaryFile file(name);

@@ -49,7 +49,7 @@ int TypeBytes(const std::string& type)
   return found->second;
 }
 
-/// Read the head; the stream stands behind it.
+/** Read the head; the stream stands behind it. */
 Head ReadHead(std::istream& file)
 {
   Head head;
@@ -89,7 +89,7 @@ Head ReadHead(std::istream& file)
   throw Failure("the file is cut off, or no polygon file: its header does not end");
 }
 
-/// The elements behind the head, one number after the other.
+/** The elements behind the head, one number after the other. */
 class Body
 {
 public:
@@ -111,7 +111,7 @@ public:
     return this->File ? NumberOf(number, this->IsBig) : 0;
   }
 
-  /// Go behind the corners of a polygon, which must be among the points.
+  /** Go behind the corners of a polygon, which must be among the points. */
   void CheckCorners(std::uint64_t count, int bytes, std::uint64_t points)
   {
     for (std::uint64_t i = 0; this->File && i < count; ++i)

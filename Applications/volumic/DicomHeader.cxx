@@ -35,7 +35,7 @@ struct Element
   std::uint32_t Length = 0;
 };
 
-/// Reads the elements one after the other.
+/** Reads the elements one after the other. */
 class ElementStream
 {
 public:
@@ -86,7 +86,7 @@ public:
     return bytes;
   }
 
-  /// A binary number of 2 or 4 bytes.
+  /** A binary number of 2 or 4 bytes. */
   std::uint32_t Number(int bytes)
   {
     const std::string text = this->Bytes(static_cast<std::uint64_t>(bytes));
@@ -99,7 +99,7 @@ public:
     return number;
   }
 
-  /// Go behind a value; one of undefined length is a sequence of items, which may hold such.
+  /** Go behind a value; one of undefined length is a sequence of items, which may hold such. */
   void Skip(const Element& element, int depth = 0)
   {
     if (element.Length != Undefined)
@@ -132,7 +132,7 @@ private:
   std::uint64_t Size;
 };
 
-/// Text without the blanks or the zero that make its length even.
+/** Text without the blanks or the zero that make its length even. */
 std::string Text(std::string value)
 {
   const std::size_t last = value.find_last_not_of(std::string(" \0", 2));
@@ -151,7 +151,7 @@ void TakeSyntax(const std::string& syntax, ElementStream& stream)
   }
 }
 
-/// What the element is called, if vtkDICOMImageReader takes a number from its text; else null.
+/** What the element is called, if vtkDICOMImageReader takes a number from its text; else null. */
 const char* NameOfDecimal(const Element& element)
 {
   return element.Tag == Tag(0x0020, 0x0032) ? "position"
@@ -162,7 +162,7 @@ const char* NameOfDecimal(const Element& element)
                                             : nullptr;
 }
 
-/// @throws Failure if a part of the text, between backslashes, is no number.
+/** @throws Failure if a part of the text, between backslashes, is no number. */
 void CheckDecimal(const std::string& text, const char* name)
 {
   std::istringstream parts(text);
@@ -180,7 +180,7 @@ void CheckDecimal(const std::string& text, const char* name)
   }
 }
 
-/// Keep the value of the element, or go behind it.
+/** Keep the value of the element, or go behind it. */
 void Take(const Element& element, ElementStream& stream, DicomHeader& header)
 {
   std::string* text = element.Tag == Tag(0x0002, 0x0010) ? &header.Syntax
@@ -213,7 +213,11 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
   }
   else if (const char* name = NameOfDecimal(element); name && element.Length != Undefined)
   {
-    CheckDecimal(Text(stream.Bytes(element.Length)), name);
+    const std::string numbers = Text(stream.Bytes(element.Length));
+    CheckDecimal(numbers, name);
+    const bool isGiven = !numbers.empty();
+    header.HasPosition = header.HasPosition || (isGiven && element.Tag == Tag(0x0020, 0x0032));
+    header.HasOrientation = header.HasOrientation || (isGiven && element.Tag == Tag(0x0020, 0x0037));
   }
   else
   {

@@ -8,7 +8,7 @@
 
 namespace tool
 {
-/// What vtkDICOMImageReader does not tell or look at.
+/** What vtkDICOMImageReader does not tell or look at. */
 struct DicomHeader
 {
   std::string Syntax; ///< how the file is encoded, an identifier
@@ -20,18 +20,22 @@ struct DicomHeader
   int Rows = 0;
   int Columns = 0;
   int Bits = 0; ///< allocated for each sample
+  bool HasPosition = false;    ///< of its first pixel
+  bool HasOrientation = false; ///< of its rows and columns
   bool HasPixels = false;
   std::uint64_t PixelBytes = 0; ///< in the file, as far as the element says they go
 
-  /// Bytes of pixels that the sizes ask for.
+  /** Bytes of pixels that the sizes ask for. */
   std::uint64_t NeededBytes() const;
 
-  /// A directory of files, a report or another object that has no pixels by its nature.
+  /** A directory of files, a report or another object that has no pixels by its nature. */
   bool IsOtherThanImage() const;
 };
 
-/// Walk through the elements of a DICOM file (PS3.5, sections 7.1 and A.4).
-/// @throws Failure, without the name, if they do not fit together or the encoding is compressed.
+/**
+ * Walk through the elements of a DICOM file (PS3.5, sections 7.1 and A.4).
+ * @throws Failure, without the name, if they do not fit together or the encoding is compressed.
+ */
 DicomHeader ReadDicomHeader(const std::string& file);
 }
 

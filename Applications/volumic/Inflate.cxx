@@ -17,7 +17,7 @@ namespace
 {
 constexpr std::size_t Piece = 1 << 18; ///< bytes at a time
 
-/// A z_stream that is freed.
+/** A z_stream that is freed. */
 struct Inflater
 {
   Inflater()
@@ -36,7 +36,7 @@ struct Inflater
   z_stream Stream;
 };
 
-/// More to unpack, if there is any.
+/** More to unpack, if there is any. */
 void Refill(std::istream& packed, std::vector<char>& input, z_stream& stream)
 {
   if (stream.avail_in == 0)
@@ -47,7 +47,7 @@ void Refill(std::istream& packed, std::vector<char>& input, z_stream& stream)
   }
 }
 
-/// Whether a member of a gzip file begins here.
+/** Whether a member of a gzip file begins here. */
 bool IsGzip(const z_stream& stream)
 {
   return stream.avail_in > 0 && stream.next_in[0] == 0x1f &&

@@ -16,8 +16,10 @@ namespace tool
  */
 void Inflate(std::istream& packed, std::uint64_t count, char* bytes);
 
-/// The first bytes that a gzip file unpacks to, or those of a file that is not packed; `count` at
-/// most. The checksum of a packed file is looked at. @throws Failure if it is damaged or cut off.
+/**
+ * The first bytes that a gzip file unpacks to, or those of a file that is not packed; `count` at
+ * most. The checksum of a packed file is looked at. @throws Failure if it is damaged or cut off.
+ */
 std::string GzipHead(const std::string& name, std::size_t count);
 }
 

@@ -17,7 +17,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// The lines of a text header, which comes before any voxels.
+/** The lines of a text header, which comes before any voxels. */
 std::vector<std::string> HeaderLines(const std::string& name)
 {
   std::string head(1 << 20, '\0');
@@ -33,7 +33,7 @@ std::vector<std::string> HeaderLines(const std::string& name)
   return lines;
 }
 
-/// The place in the lines of "key = value" or "key: value".
+/** The place in the lines of "key = value" or "key: value". */
 std::size_t FindKey(const std::vector<std::string>& lines, const std::string& key)
 {
   const auto found = std::find_if(lines.begin(), lines.end(),
@@ -45,7 +45,9 @@ std::size_t FindKey(const std::vector<std::string>& lines, const std::string& ke
   return static_cast<std::size_t>(found - lines.begin());
 }
 
-/// The files that a text header names: one, a pattern of them, or a list in the lines that follow.
+/**
+ * The files that a text header names: one, a pattern of them, or a list in the lines that follow.
+ */
 void AddNamed(const std::string& name, const std::string& key, std::vector<std::string>& files)
 {
   const fs::path folder = fs::path(name).parent_path();
@@ -70,7 +72,7 @@ void AddNamed(const std::string& name, const std::string& key, std::vector<std::
   }
 }
 
-/// The files that a header of one of the formats in two parts tells of.
+/** The files that a header of one of the formats in two parts tells of. */
 void AddCompanions(const std::string& name, std::vector<std::string>& files)
 {
   const std::string lower = Lower(name);
@@ -109,7 +111,7 @@ void AddCompanions(const std::string& name, std::vector<std::string>& files)
   }
 }
 
-/// The slices in the folder, or all files if none is DICOM.
+/** The slices in the folder, or all files if none is DICOM. */
 std::vector<std::string> FilesOfFolder(const std::string& folder)
 {
   const std::vector<std::string> files = FilesOf(folder);

@@ -8,13 +8,17 @@
 
 namespace tool
 {
-/// All files that ReadVolume would read: those of a folder, of a pattern or of a DICOM series, and
-/// those that a header (.mhd, .nhdr, .pvti, .hdr) names. What is missing or cannot be read is left
-/// to ReadVolume.
+/**
+ * All files that ReadVolume would read: those of a folder, of a pattern or of a DICOM series, and
+ * those that a header (.mhd, .nhdr, .pvti, .hdr) names. What is missing or cannot be read is left
+ * to ReadVolume.
+ */
 std::vector<std::string> FilesOfVolume(const std::string& name);
 
-/// The value of `key` in the first lines of a text header ("ElementDataFile = a.raw", "data file:
-/// a.raw"), without blanks at its ends; empty if there is none.
+/**
+ * The value of `key` in the first lines of a text header ("ElementDataFile = a.raw", "data file:
+ * a.raw"), without blanks at its ends; empty if there is none.
+ */
 std::string HeaderValue(const std::string& name, const std::string& key);
 }
 

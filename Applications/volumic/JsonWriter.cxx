@@ -11,7 +11,7 @@ namespace tool
 {
 namespace
 {
-/// Bytes of the UTF-8 character that begins here; 0 if none does (RFC 3629).
+/** Bytes of the UTF-8 character that begins here; 0 if none does (RFC 3629). */
 std::size_t CharacterBytes(const std::string& text, std::size_t at)
 {
   const auto byte = [&](std::size_t i)
@@ -35,7 +35,7 @@ std::size_t CharacterBytes(const std::string& text, std::size_t at)
   return isRefused ? 0 : count;
 }
 
-/// Names of files may be any bytes: those that are not UTF-8 become the replacement character.
+/** Names of files may be any bytes: those that are not UTF-8 become the replacement character. */
 std::string ValidText(const std::string& text)
 {
   std::string valid;

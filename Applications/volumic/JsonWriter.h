@@ -8,7 +8,7 @@
 
 namespace tool
 {
-/// Writes JSON (RFC 8259) as it is told, one value per line.
+/** Writes JSON (RFC 8259) as it is told, one value per line. */
 class JsonWriter
 {
 public:
@@ -19,13 +19,13 @@ public:
   void BeginArray() { this->Begin('['); }
   void EndArray() { this->End(']'); }
 
-  /// The name of the value that comes next.
+  /** The name of the value that comes next. */
   void Name(const std::string& name);
 
   void Value(const std::string& text);
   void Value(const char* text) { this->Value(std::string(text)); }
   void Value(bool value);
-  /// Whole numbers without a point; null for NaN and infinities, which JSON has not.
+  /** Whole numbers without a point; null for NaN and infinities, which JSON has not. */
   void Value(double value);
   void Value(int value) { this->Value(static_cast<double>(value)); }
 
@@ -35,7 +35,7 @@ public:
     this->Name(name);
     this->Value(value);
   }
-  /// An array of numbers on one line.
+  /** An array of numbers on one line. */
   void Numbers(const std::string& name, const double* values, int count);
 
 private:

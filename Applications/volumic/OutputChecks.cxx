@@ -19,13 +19,13 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// The same for all names of a file, whatever links lead to it.
+/** The same for all names of a file, whatever links lead to it. */
 using FileId = std::pair<dev_t, ino_t>;
 
-/// Names of files by what they are.
+/** Names of files by what they are. */
 using FileNames = std::map<FileId, std::string>;
 
-/// False if there is no such file.
+/** False if there is no such file. */
 bool FindId(const fs::path& path, FileId& id)
 {
   struct stat facts
@@ -36,13 +36,13 @@ bool FindId(const fs::path& path, FileId& id)
   return isThere;
 }
 
-/// The folder of a file, or where links of the name lead to.
+/** The folder of a file, or where links of the name lead to. */
 fs::path FolderOf(const fs::path& path)
 {
   return path.parent_path().empty() ? fs::path(".") : path.parent_path();
 }
 
-/// The next folder upwards that is there: where one would be made.
+/** The next folder upwards that is there: where one would be made. */
 fs::path FolderThatIsThere(fs::path folder)
 {
   // A link to nowhere cannot be made a folder.
@@ -53,7 +53,7 @@ fs::path FolderThatIsThere(fs::path folder)
   return folder.empty() ? fs::path(".") : folder;
 }
 
-/// @throws Failure unless files can be made in the folder, which a trial alone tells.
+/** @throws Failure unless files can be made in the folder, which a trial alone tells. */
 void TryFolder(const fs::path& folder)
 {
   if (!fs::is_directory(folder))
@@ -86,7 +86,7 @@ void TryFile(const std::string& name)
   TryFolder(folder);
 }
 
-/// The folder of an output that consists of several files; empty for others.
+/** The folder of an output that consists of several files; empty for others. */
 fs::path PiecesFolder(const OutputName& output)
 {
   return output.Form == OutputName::Kind::Folder ? fs::path(output.Name)
@@ -95,7 +95,7 @@ fs::path PiecesFolder(const OutputName& output)
     : fs::path();
 }
 
-/// Whether the output may come to write a file of this name in its folder.
+/** Whether the output may come to write a file of this name in its folder. */
 bool IsPieceName(const OutputName& output, const std::string& name)
 {
   const std::string start = output.Form == OutputName::Kind::Folder
@@ -104,7 +104,7 @@ bool IsPieceName(const OutputName& output, const std::string& name)
   return name.compare(0, start.size(), start) == 0;
 }
 
-/// @throws Failure if a file that the output may come to write in its folder is one of `taken`.
+/** @throws Failure if a file that the output may come to write in its folder is one of `taken`. */
 void CheckPieces(const OutputName& output, const FileNames& taken)
 {
   const fs::path folder = PiecesFolder(output);
@@ -142,7 +142,7 @@ void TryOutput(const OutputName& output, const FileNames& inputs)
   }
 }
 
-/// A name for the place of an output that no other place has, links and dots in it or not.
+/** A name for the place of an output that no other place has, links and dots in it or not. */
 std::string PlaceOf(const OutputName& output)
 {
   std::error_code failed;
@@ -151,7 +151,7 @@ std::string PlaceOf(const OutputName& output)
   return (place.has_filename() ? place : place.parent_path()).string();
 }
 
-/// @throws Failure if both outputs would write the same file.
+/** @throws Failure if both outputs would write the same file. */
 void CheckPair(const OutputName& a, const OutputName& b)
 {
   if (IsStreamName(a.Name) || IsStreamName(b.Name))

@@ -8,7 +8,7 @@
 
 namespace tool
 {
-/// What is to be written, as the command line names it.
+/** What is to be written, as the command line names it. */
 struct OutputName
 {
   enum class Kind

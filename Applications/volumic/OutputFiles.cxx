@@ -32,7 +32,7 @@ std::string FolderOf(const std::string& name)
   return folder.empty() ? "." : folder;
 }
 
-/// An open file that closes itself.
+/** An open file that closes itself. */
 class Descriptor
 {
 public:
@@ -46,7 +46,7 @@ public:
 
   bool IsOpen() const { return this->Number >= 0; }
 
-  /// Whether all could be written.
+  /** Whether all could be written. */
   bool Write(const char* bytes, std::size_t count)
   {
     while (count > 0)
@@ -63,17 +63,17 @@ public:
     return true;
   }
 
-  /// Whether there is room for so many bytes.
+  /** Whether there is room for so many bytes. */
   bool Reserve(std::size_t count)
   {
     errno = posix_fallocate(this->Number, 0, static_cast<off_t>(count));
     return errno == 0;
   }
 
-  /// Whether the disk has it. Pipes and some network folders know no such request.
+  /** Whether the disk has it. Pipes and some network folders know no such request. */
   bool Flush() { return fsync(this->Number) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
-  /// Whether nothing was left to fail.
+  /** Whether nothing was left to fail. */
   bool Close()
   {
     const bool isClosed = this->Number < 0 || close(this->Number) == 0;
@@ -85,7 +85,7 @@ private:
   int Number;
 };
 
-/// Give `path` the owner and the permissions of the file it replaces, as far as we may.
+/** Give `path` the owner and the permissions of the file it replaces, as far as we may. */
 void InheritPermissions(const std::string& path, const std::string& old)
 {
   struct stat facts

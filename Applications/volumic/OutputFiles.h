@@ -20,17 +20,19 @@ namespace tool
 class StagedFiles
 {
 public:
-  /// @throws Failure if the folder cannot be written to.
+  /** @throws Failure if the folder cannot be written to. */
   explicit StagedFiles(const std::string& folder);
   ~StagedFiles();
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// The hidden folder, without a slash at the end.
+  /** The hidden folder, without a slash at the end. */
   const std::string& Folder() const { return this->Hidden; }
 
-  /// Have all files on the disk, then move each to its place, those in subfolders first. Files that
-  /// are replaced hand down their permissions. @throws Failure if that is not possible.
+  /**
+   * Have all files on the disk, then move each to its place, those in subfolders first. Files that
+   * are replaced hand down their permissions. @throws Failure if that is not possible.
+   */
   void Publish();
 
 private:
@@ -46,13 +48,13 @@ private:
 class OutputFile
 {
 public:
-  /// @throws Failure if the folder cannot be written to.
+  /** @throws Failure if the folder cannot be written to. */
   explicit OutputFile(const std::string& name);
 
-  /// What is to be written: it has the suffix of the name.
+  /** What is to be written: it has the suffix of the name. */
   std::string Path() const;
 
-  /// @throws Failure if the file cannot take its place.
+  /** @throws Failure if the file cannot take its place. */
   void Publish();
 
 private:
@@ -61,17 +63,19 @@ private:
   StagedFiles Staged;
 };
 
-/// The name that symbolic links at `name` lead to; the last need not exist.
+/** The name that symbolic links at `name` lead to; the last need not exist. */
 std::string FollowLinks(const std::string& name);
 
-/// Whether `name` is a device, a pipe, or one of the program's own streams.
+/** Whether `name` is a device, a pipe, or one of the program's own streams. */
 bool IsStreamName(const std::string& name);
 
-/// Make a file of these bytes. @throws Failure with the system's reason, without the name.
+/** Make a file of these bytes. @throws Failure with the system's reason, without the name. */
 void WriteBytes(const std::string& path, const char* bytes, std::size_t count);
 
-/// Look whether the disk has room for a file of so many bytes, which is left empty.
-/// @throws Failure with the system's reason, without the name.
+/**
+ * Look whether the disk has room for a file of so many bytes, which is left empty.
+ * @throws Failure with the system's reason, without the name.
+ */
 void NeedRoom(const std::string& path, std::size_t count);
 }
 

@@ -42,10 +42,10 @@ struct Slice
   vtkSmartPointer<vtkImageData> Image;
 };
 
-/// Tolerated deviation of the distance of two slices from their mean, as a share of it.
+/** Tolerated deviation of the distance of two slices from their mean, as a share of it. */
 constexpr double UnevenDistance = 0.05;
 
-/// VTK's reader keeps numbers as float: the decimal number that the file most likely has.
+/** VTK's reader keeps numbers as float: the decimal number that the file most likely has. */
 double Decimal(double number)
 {
   char buffer[32];
@@ -55,7 +55,7 @@ double Decimal(double number)
   return value;
 }
 
-/// @throws Failure if the file has not what vtkDICOMImageReader takes for granted.
+/** @throws Failure if the file has not what vtkDICOMImageReader takes for granted. */
 void CheckPixels(const DicomHeader& header)
 {
   if (!header.HasPixels)
@@ -86,7 +86,7 @@ void CheckPixels(const DicomHeader& header)
   }
 }
 
-/// The header of a slice, or of something that is no image at all.
+/** The header of a slice, or of something that is no image at all. */
 DicomHeader ReadHeader(const std::string& file)
 {
   try
@@ -104,7 +104,7 @@ DicomHeader ReadHeader(const std::string& file)
   }
 }
 
-/// @throws Failure with a list of the series unless there is one. `files` have these headers.
+/** @throws Failure with a list of the series unless there is one. `files` have these headers. */
 void CheckSingleSeries(
   const std::vector<std::string>& files, const std::vector<DicomHeader>& headers)
 {
@@ -136,6 +136,20 @@ void CheckSingleSeries(
   }
   throw Failure(NumberText(static_cast<int>(series.size())) +
     " series, one per folder is needed (" + names + ")");
+}
+
+/** @throws Failure naming the first of several slices that can't be placed among the others. */
+void CheckPlaces(const std::vector<std::string>& files, const std::vector<DicomHeader>& headers)
+{
+  for (std::size_t i = 0; headers.size() > 1 && i < headers.size(); ++i)
+  {
+    if (!headers[i].HasPosition || !headers[i].HasOrientation)
+    {
+      throw Failure(files[i] + ": lacks its " +
+        (headers[i].HasPosition ? "orientation" : "position") +
+        ": not a slice of a volume; take it out of the folder");
+    }
+  }
 }
 
 Slice ReadSlice(const std::string& file)
@@ -185,8 +199,10 @@ void CheckFits(const Slice& slice, const Slice& first)
   }
 }
 
-/// Distance of neighbouring slices, which are sorted. @throws Failure for missing, repeated and
-/// sheared ones.
+/**
+ * Distance of neighbouring slices, which are sorted. @throws Failure for missing, repeated and
+ * sheared ones.
+ */
 double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
 {
   if (slices.size() == 1)
@@ -233,7 +249,7 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
   return mean;
 }
 
-/// Copy the slices' voxels one after the other. VTK's reader turns the rows upside down.
+/** Copy the slices' voxels one after the other. VTK's reader turns the rows upside down. */
 vtkSmartPointer<vtkDataArray> StackVoxels(const std::vector<Slice>& slices, int type)
 {
   const int* size = slices[0].Image->GetDimensions();
@@ -275,6 +291,7 @@ vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
     }
   }
   CheckSingleSeries(images, headers);
+  CheckPlaces(images, headers);
 
   std::vector<Slice> slices;
   int type = 0;

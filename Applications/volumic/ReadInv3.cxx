@@ -26,7 +26,7 @@ constexpr std::uint64_t LargestPlist = 1 << 20;
 
 using Element = vtkSmartPointer<vtkXMLDataElement>;
 
-/// What the project says of its volume.
+/** What the project says of its volume. */
 struct Description
 {
   int Type = VTK_SHORT;
@@ -42,7 +42,7 @@ std::string TextOf(vtkXMLDataElement* element)
   return text ? text : "";
 }
 
-/// The value of a key of a dictionary, or null.
+/** The value of a key of a dictionary, or null. */
 vtkXMLDataElement* Find(vtkXMLDataElement* dictionary, const char* key)
 {
   for (int i = 0; dictionary && i + 1 < dictionary->GetNumberOfNestedElements(); ++i)
@@ -66,7 +66,7 @@ vtkXMLDataElement* Need(vtkXMLDataElement* dictionary, const char* key)
   return found;
 }
 
-/// The texts of an array of three.
+/** The texts of an array of three. */
 std::array<std::string, 3> ThreeOf(vtkXMLDataElement* array, const char* key)
 {
   if (array->GetNumberOfNestedElements() != 3)
@@ -129,7 +129,7 @@ Description Describe(const std::string& plist)
   return description;
 }
 
-/// Go to the file of that name.
+/** Go to the file of that name. */
 void GoTo(TarFile& archive, const std::string& name)
 {
   while (archive.Next())

@@ -41,7 +41,7 @@ std::string ReadBytes(const std::string& name)
   return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
 }
 
-/// Fields by lower-case name; `dataStart` is where the data of an attached file begin.
+/** Fields by lower-case name; `dataStart` is where the data of an attached file begin. */
 Fields ParseHeader(const std::string& content, std::size_t& dataStart)
 {
   if (content.compare(0, 7, "NRRD000") != 0)
@@ -104,7 +104,7 @@ int TypeOf(const std::string& name)
   return found->second;
 }
 
-/// What the packed data give, which is to be `count` bytes.
+/** What the packed data give, which is to be `count` bytes. */
 std::string Unzipped(const std::string& data, std::size_t count)
 {
   std::istringstream packed(data);
@@ -122,7 +122,7 @@ void SkipLines(std::string& data, int count)
   }
 }
 
-/// Fill the array with the encoded values.
+/** Fill the array with the encoded values. */
 void Decode(std::string data, const Fields& fields, vtkDataArray* values)
 {
   const std::size_t size =
@@ -167,7 +167,7 @@ void Decode(std::string data, const Fields& fields, vtkDataArray* values)
   ToNativeOrder(values, Lower(Field(fields, "endian", "little")) == "big");
 }
 
-/// "(1,0,0) (0,1,0) (0,0,1)" as vectors.
+/** "(1,0,0) (0,1,0) (0,0,1)" as vectors. */
 std::vector<Vector3> ParseVectors(const std::string& text)
 {
   std::vector<Vector3> vectors;
@@ -218,7 +218,7 @@ VolumePlacement PlacementOf(const Fields& fields)
   return placement;
 }
 
-/// The sides of the body that the axes of a `space` point to; empty for other spaces.
+/** The sides of the body that the axes of a `space` point to; empty for other spaces. */
 std::string WorldAxesOf(const std::string& space)
 {
   static const std::map<std::string, std::string> axes = { { "right-anterior-superior", "RAS" },

@@ -28,7 +28,7 @@ bool IsDigit(char c)
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/// The number that starts at `at`, without leading zeros; `at` moves behind it.
+/** The number that starts at `at`, without leading zeros; `at` moves behind it. */
 std::string TakeDigits(const std::string& text, std::size_t& at)
 {
   while (at < text.size() && text[at] == '0')
@@ -43,7 +43,7 @@ std::string TakeDigits(const std::string& text, std::size_t& at)
   return text.substr(start, at - start);
 }
 
-/// Whether a comes before b where runs of digits count as numbers.
+/** Whether a comes before b where runs of digits count as numbers. */
 bool IsBefore(const std::string& a, const std::string& b)
 {
   std::size_t i = 0;
@@ -73,7 +73,7 @@ bool IsBefore(const std::string& a, const std::string& b)
   return isEndOfA == (j == b.size()) ? a < b : isEndOfA;
 }
 
-/// The regular expression of a pattern with '*' and '%d'.
+/** The regular expression of a pattern with '*' and '%d'. */
 std::regex ExpressionOf(const std::string& pattern)
 {
   static const std::regex number("^%0?[0-9]*[diu]");
@@ -112,7 +112,7 @@ vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
   return reader->GetOutput();
 }
 
-/// For .bmp, of whose files the reader of VTK 9.6 and 9.7 gives the first one again and again.
+/** For .bmp, of whose files the reader of VTK 9.6 and 9.7 gives the first one again and again. */
 vtkSmartPointer<vtkImageData> ReadOneByOne(const std::vector<std::string>& files)
 {
   vtkNew<vtkImageAppend> stack;
@@ -126,7 +126,7 @@ vtkSmartPointer<vtkImageData> ReadOneByOne(const std::vector<std::string>& files
   return stack->GetOutput();
 }
 
-/// The reader of many files does not tell in which one it failed. @throws Failure that does.
+/** The reader of many files does not tell in which one it failed. @throws Failure that does. */
 void FindDamaged(const std::vector<std::string>& files)
 {
   for (const std::string& file : files)

@@ -43,7 +43,7 @@ vtkSmartPointer<vtkPolyData> ReadWith(const std::string& name)
   return reader->GetOutput();
 }
 
-/// STL; one that has been cut off between two triangles looks whole to VTK's reader.
+/** STL; one that has been cut off between two triangles looks whole to VTK's reader. */
 vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
 {
   const vtkSmartPointer<vtkPolyData> mesh = ReadWith<vtkSTLReader>(name);
@@ -101,7 +101,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");
 }
 
-/// The mesh, whose polygons have points that are there.
+/** The mesh, whose polygons have points that are there. */
 vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
 {
   vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
@@ -127,7 +127,7 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   return mesh;
 }
 
-/// Points, and what comes with each.
+/** Points, and what comes with each. */
 struct PointList
 {
   vtkNew<vtkPoints> Points;
@@ -135,7 +135,7 @@ struct PointList
   vtkNew<vtkDoubleArray> Radii;
 };
 
-/// The words of a line, between blanks and commas, without a comment.
+/** The words of a line, between blanks and commas, without a comment. */
 std::vector<std::string> WordsOf(std::string line)
 {
   line.resize(std::min(line.find('#'), line.size()));
@@ -149,7 +149,7 @@ std::vector<std::string> WordsOf(std::string line)
   return texts;
 }
 
-/// Whether these are names of columns, such as x, "y" or Weight: no numbers, mistyped or not.
+/** Whether these are names of columns, such as x, "y" or Weight: no numbers, mistyped or not. */
 bool IsHeading(const std::vector<std::string>& words)
 {
   const auto isName = [](const std::string& word)
@@ -162,7 +162,7 @@ bool IsHeading(const std::vector<std::string>& words)
   return std::all_of(words.begin(), words.end(), isName);
 }
 
-/// Lines of three numbers, or up to `columns`; the first that is not empty may be a heading.
+/** Lines of three numbers, or up to `columns`; the first that is not empty may be a heading. */
 void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
 {
   std::ifstream file(name);
@@ -208,7 +208,7 @@ bool IsText(const std::string& name)
   return suffix == ".txt" || suffix == ".csv" || suffix == ".xyz";
 }
 
-/// The points as vertices, without arrays.
+/** The points as vertices, without arrays. */
 vtkSmartPointer<vtkPolyData> MakeVertices(vtkPoints* points, const std::string& name)
 {
   if (!points || points->GetNumberOfPoints() == 0)

@@ -77,7 +77,7 @@ Image ReadIfItsFormat(const std::string& name)
   return ImageOf(reader, name);
 }
 
-/// MetaIO prints what it misses, and goes on: an error, unless the file is known to be whole.
+/** MetaIO prints what it misses, and goes on: an error, unless the file is known to be whole. */
 Image ReadMetaVoxels(const std::string& name, bool isWhole)
 {
   std::ostringstream printed;
@@ -102,7 +102,7 @@ Image ReadMetaVoxels(const std::string& name, bool isWhole)
   return image;
 }
 
-/// The directions of the axes that a MetaImage's header lists, axis after axis.
+/** The directions of the axes that a MetaImage's header lists, axis after axis. */
 std::array<Vector3, 3> MetaAxes(const std::string& name, const std::string& key)
 {
   std::istringstream words(HeaderValue(name, key));
@@ -117,7 +117,7 @@ std::array<Vector3, 3> MetaAxes(const std::string& name, const std::string& key)
   return axes;
 }
 
-/// MetaImage; VTK's reader drops the directions of the axes, which are in the header's text.
+/** MetaImage; VTK's reader drops the directions of the axes, which are in the header's text. */
 Image ReadMeta(const std::string& name)
 {
   const bool isWhole = CheckMeta(name);
@@ -142,7 +142,7 @@ Image ReadMeta(const std::string& name)
   return image;
 }
 
-/// Columns of the matrix, each times the spacing along its axis, and the translation.
+/** Columns of the matrix, each times the spacing along its axis, and the translation. */
 VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing)
 {
   VolumePlacement placement;
@@ -159,7 +159,7 @@ VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing)
   return placement;
 }
 
-/// NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails.
+/** NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails. */
 Image ReadNifti(const std::string& name)
 {
   vtkNew<vtkNIFTIImageReader> reader;
@@ -213,7 +213,7 @@ Image ReadMrc(const std::string& name)
 }
 
 #ifdef VOLUMIC_HAS_MINC
-/// MINC in its world coordinates, with the real values.
+/** MINC in its world coordinates, with the real values. */
 Image ReadMinc(const std::string& name)
 {
   CheckNetcdf(name);

@@ -43,7 +43,7 @@ void WriteInput(JsonWriter& json, const ReportInput& input)
   json.EndObject();
 }
 
-/// Size and shape of a surface, from its field data.
+/** Size and shape of a surface, from its field data. */
 void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface)
 {
   static const char* const facts[][2] = { { "components", "NumberOfComponents" },
@@ -64,7 +64,7 @@ void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface)
   json.Member("stop_reason", StopReason(surface));
 }
 
-/// An object per component, the one of the largest area first.
+/** An object per component, the one of the largest area first. */
 void WriteComponents(JsonWriter& json, vtkPolyData* surface)
 {
   static const char* const facts[][2] = { { "area", "ComponentArea" },
@@ -94,7 +94,7 @@ void WriteComponents(JsonWriter& json, vtkPolyData* surface)
   json.EndArray();
 }
 
-/// What a level took, by its rows.
+/** What a level took, by its rows. */
 double SecondsOf(vtkTable* history, double level)
 {
   double seconds = 0.0;
@@ -111,8 +111,10 @@ double SecondsOf(vtkTable* history, double level)
   return seconds;
 }
 
-/// The visited levels from the coarsest to the finest; the surface may have vanished at one. Their
-/// seconds add up to those of the run.
+/**
+ * The visited levels from the coarsest to the finest; the surface may have vanished at one. Their
+ * seconds add up to those of the run.
+ */
 void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* history)
 {
   std::map<double, vtkPolyData*, std::greater<double>> surfaces;

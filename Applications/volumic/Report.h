@@ -16,8 +16,10 @@ class vtkTable;
 
 namespace tool
 {
-/// All that a report tells; the names in it are those of the quickstart's report.json, and besides
-/// `finished` (false: interrupted, at the time or the iteration limit) and `properties`.
+/**
+ * All that a report tells; the names in it are those of the quickstart's report.json, and besides
+ * `finished` (false: interrupted, at the time or the iteration limit) and `properties`.
+ */
 struct ReportInput
 {
   std::string VolumeName;
@@ -29,10 +31,10 @@ struct ReportInput
   std::vector<std::string> Warnings;
 };
 
-/// Write the report as JSON. Lengths, areas and volumes are in world units.
+/** Write the report as JSON. Lengths, areas and volumes are in world units. */
 void WriteReport(std::ostream& out, const ReportInput& input);
 
-/// The `StopReason` of a surface of vtkDeformableSurface.
+/** The `StopReason` of a surface of vtkDeformableSurface. */
 std::string StopReason(vtkPolyData* surface);
 }
 

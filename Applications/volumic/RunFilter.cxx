@@ -28,7 +28,7 @@ void Interrupt(int signal)
   std::signal(signal, SIG_DFL);
 }
 
-/// Columns of the terminal behind stderr.
+/** Columns of the terminal behind stderr. */
 std::size_t TerminalWidth()
 {
   winsize size{};
@@ -36,7 +36,7 @@ std::size_t TerminalWidth()
   return isKnown ? size.ws_col : 80;
 }
 
-/// Shows the progress and hands the interruption on. Filters report at least every iteration.
+/** Shows the progress and hands the interruption on. Filters report at least every iteration. */
 class ProgressObserver : public vtkCommand
 {
 public:
@@ -63,7 +63,7 @@ public:
     }
   }
 
-  /// Clear the line.
+  /** Clear the line. */
   void Finish()
   {
     if (this->IsDrawn)

@@ -10,7 +10,7 @@ class vtkAlgorithm;
 
 namespace tool
 {
-/// How the progress is shown on stderr.
+/** How the progress is shown on stderr. */
 enum class ProgressStyle
 {
   None,
@@ -31,10 +31,10 @@ struct FilterRun
  */
 void CatchInterrupts();
 
-/// Whether there was such a signal.
+/** Whether there was such a signal. */
 bool WasInterrupted();
 
-/// Update the filter, showing its progress. @throws Failure with the errors that it reports.
+/** Update the filter, showing its progress. @throws Failure with the errors that it reports. */
 FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style);
 }
 

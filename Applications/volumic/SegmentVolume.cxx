@@ -42,13 +42,13 @@ namespace tool
 {
 namespace
 {
-/// Whether the surfaces go into one .vtm rather than into a folder.
+/** Whether the surfaces go into one .vtm rather than into a folder. */
 bool IsBlocks(const std::string& name)
 {
   return std::filesystem::path(name).extension() == ".vtm";
 }
 
-/// All that can be known to be wrong before the work begins.
+/** All that can be known to be wrong before the work begins. */
 void CheckFiles(const ToolOptions& options)
 {
   std::vector<OutputName> outputs;
@@ -123,7 +123,7 @@ void SetStart(const ToolOptions& options, vtkDeformableSurface* filter)
   }
 }
 
-/// Hand the map of edges to the filter, as a second array of the volume.
+/** Hand the map of edges to the filter, as a second array of the volume. */
 void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter)
 {
   if (options.Edges.empty())
@@ -155,13 +155,13 @@ void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSur
   }
 }
 
-/// The last block of the levels may be level -1.
+/** The last block of the levels may be level -1. */
 int LevelOf(vtkPolyData* surface)
 {
   return static_cast<int>(surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0));
 }
 
-/// Run what writes an output. The failure of one must not take the others with it.
+/** Run what writes an output. The failure of one must not take the others with it. */
 template <class Write>
 void Attempt(std::string& failures, const Write& write)
 {
@@ -175,7 +175,7 @@ void Attempt(std::string& failures, const Write& write)
   }
 }
 
-/// @throws Failure if not all could be written, with a line for each file.
+/** @throws Failure if not all could be written, with a line for each file. */
 void WriteOutputs(const ToolOptions& options, const ReportInput& results)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
@@ -221,7 +221,9 @@ void WriteOutputs(const ToolOptions& options, const ReportInput& results)
   }
 }
 
-/// Run a filter; of too little memory, whoever told of it, is said for which volume and what helps.
+/**
+ * Run a filter; of too little memory, whoever told of it, is said for which volume and what helps.
+ */
 FilterRun RunOnVolume(
   const ToolOptions& options, vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
 {
@@ -244,8 +246,10 @@ FilterRun RunOnVolume(
   }
 }
 
-/// Gives the surface's filter its levels: a pyramid that is run here, or, where the length of the
-/// edges decides on the pyramid, the volume. @return the run of the pyramid, if there was one.
+/**
+ * Gives the surface's filter its levels: a pyramid that is run here, or, where the length of the
+ * edges decides on the pyramid, the volume. @return the run of the pyramid, if there was one.
+ */
 FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImagePyramid* pyramid,
   vtkDeformableSurface* filter, ProgressStyle style)
 {

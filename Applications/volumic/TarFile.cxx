@@ -23,14 +23,14 @@ std::uint64_t FilledUp(std::uint64_t size)
   return (size + BlockSize - 1) / BlockSize * BlockSize;
 }
 
-/// The text of a field, up to its end or a zero.
+/** The text of a field, up to its end or a zero. */
 std::string FieldOf(const Block& block, std::size_t at, std::size_t length)
 {
   const char* begin = block.data() + at;
   return std::string(begin, std::find(begin, begin + length, '\0'));
 }
 
-/// An octal number, or, where it would be too long, one of the bytes behind a mark.
+/** An octal number, or, where it would be too long, one of the bytes behind a mark. */
 std::uint64_t NumberIn(const Block& block, std::size_t at, std::size_t length)
 {
   const auto first = static_cast<unsigned char>(block[at]);
@@ -54,7 +54,7 @@ std::uint64_t NumberIn(const Block& block, std::size_t at, std::size_t length)
   return number;
 }
 
-/// Whether the sum of a head's bytes is what it says, itself counted as blanks.
+/** Whether the sum of a head's bytes is what it says, itself counted as blanks. */
 bool HasItsSum(const Block& block)
 {
   std::uint64_t sum = 0;
@@ -65,7 +65,7 @@ bool HasItsSum(const Block& block)
   return NumberIn(block, 148, 8) == sum;
 }
 
-/// The value of an attribute in a table of `length key=value\n`; empty if it is not there.
+/** The value of an attribute in a table of `length key=value\n`; empty if it is not there. */
 std::string AttributeOf(const std::string& table, const std::string& key)
 {
   const std::size_t at = table.find(" " + key + "=");

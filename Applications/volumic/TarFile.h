@@ -8,28 +8,32 @@
 
 namespace tool
 {
-/// The members of a tar archive, packed by gzip or not, one after the other. Nothing is unpacked to
-/// disk. Failures are without the name of the file.
+/**
+ * The members of a tar archive, packed by gzip or not, one after the other. Nothing is unpacked to
+ * disk. Failures are without the name of the file.
+ */
 class TarFile
 {
 public:
-  /// @throws Failure if it cannot be opened.
+  /** @throws Failure if it cannot be opened. */
   explicit TarFile(const std::string& name);
   ~TarFile();
   TarFile(const TarFile&) = delete;
   TarFile& operator=(const TarFile&) = delete;
 
-  /// Go to the next regular file. @return false at the end of the archive.
-  /// @throws Failure if the archive is damaged or cut off.
+  /**
+   * Go to the next regular file. @return false at the end of the archive.
+   * @throws Failure if the archive is damaged or cut off.
+   */
   bool Next();
 
   const std::string& Name() const { return this->MemberName; } ///< without folders
   std::uint64_t Size() const { return this->MemberSize; }
 
-  /// The member's bytes, Size() of them, once. @throws as Next.
+  /** The member's bytes, Size() of them, once. @throws as Next. */
   void Read(char* bytes);
 
-  /// Read the file to its end, where the checksum of packed data stands. @throws as Next.
+  /** Read the file to its end, where the checksum of packed data stands. @throws as Next. */
   void Finish();
 
 private:

@@ -7,7 +7,7 @@
 
 namespace tool
 {
-/// Exit codes of the program; the manual page lists them.
+/** Exit codes of the program; the manual page lists them. */
 enum ExitCode
 {
   Success = 0,
@@ -16,13 +16,13 @@ enum ExitCode
   Unfinished = 3      ///< interrupted, at the time or the iteration limit; what there was is written
 };
 
-/// A file that cannot be read or written, or a volume without a surface.
+/** A file that cannot be read or written, or a volume without a surface. */
 struct Failure : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-/// A command line that makes no sense.
+/** A command line that makes no sense. */
 struct UsageError : std::runtime_error
 {
   using std::runtime_error::runtime_error;

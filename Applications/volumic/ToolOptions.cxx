@@ -14,7 +14,7 @@ namespace tool
 {
 namespace
 {
-/// An option that is not a property of a filter.
+/** An option that is not a property of a filter. */
 struct ProgramOption
 {
   std::string Option;
@@ -120,7 +120,7 @@ const std::vector<ProgramOption>& OutputOptions()
   return options;
 }
 
-/// What a name on the command line stands for: one of the two, or nothing.
+/** What a name on the command line stands for: one of the two, or nothing. */
 struct FoundOption
 {
   const ProgramOption* Program = nullptr;

@@ -14,7 +14,7 @@
 
 namespace tool
 {
-/// What the command line asks for.
+/** What the command line asks for. */
 struct ToolOptions
 {
   using Positions = std::vector<std::array<double, 3>>; ///< world coordinates
@@ -46,25 +46,25 @@ struct ToolOptions
   bool Quiet = false;
   bool Progress = false; ///< also where stderr is no terminal
 
-  /// The properties that were chosen, in the order of the command line, with their texts.
+  /** The properties that were chosen, in the order of the command line, with their texts. */
   std::vector<std::pair<const PropertyOption*, std::string>> Properties;
 
   bool HasProperty(const std::string& property) const;
 
-  /// Whether a surface is wanted, or something that tells of it.
+  /** Whether a surface is wanted, or something that tells of it. */
   bool WantsSurface() const;
 };
 
-/// @throws UsageError if the command line is not understood or lacks something.
+/** @throws UsageError if the command line is not understood or lacks something. */
 ToolOptions ParseOptions(int argc, const char* const argv[]);
 
-/// Set the chosen properties. @throws UsageError if a text is no value of its property.
+/** Set the chosen properties. @throws UsageError if a text is no value of its property. */
 void ApplyProperties(const ToolOptions& options, const FilterPair& filters);
 
-/// The text of --help; the defaults of the properties are the filters' own.
+/** The text of --help; the defaults of the properties are the filters' own. */
 void PrintHelp(std::ostream& out, const FilterPair& filters);
 
-/// A line per property: class, property, option, default; separated by tabs.
+/** A line per property: class, property, option, default; separated by tabs. */
 void PrintProperties(std::ostream& out, const FilterPair& filters);
 }
 

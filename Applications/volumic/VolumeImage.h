@@ -15,23 +15,25 @@ namespace tool
 {
 using Vector3 = std::array<double, 3>;
 
-/// Where a voxel image lies in the world.
+/** Where a voxel image lies in the world. */
 struct VolumePlacement
 {
   Vector3 Spacing = { 1.0, 1.0, 1.0 }; ///< world units
   Vector3 Origin = { 0.0, 0.0, 0.0 };  ///< the first voxel's centre, world units
-  /// The unit vectors of the index axes x, y, z in the world.
+  /** The unit vectors of the index axes x, y, z in the world. */
   std::array<Vector3, 3> Axes = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
 
-  /// Split vectors from voxel to voxel into Spacing and Axes.
+  /** Split vectors from voxel to voxel into Spacing and Axes. */
   void SetSteps(const std::array<Vector3, 3>& steps);
 };
 
-/// Give the image its place.
-/// @throws Failure if spacings are not positive or axes are not at right angles.
+/**
+ * Give the image its place.
+ * @throws Failure if spacings are not positive or axes are not at right angles.
+ */
 void PlaceImage(vtkImageData* image, const VolumePlacement& placement);
 
-/// An image of these scalars (x fastest), placed. @throws Failure as PlaceImage.
+/** An image of these scalars (x fastest), placed. @throws Failure as PlaceImage. */
 vtkSmartPointer<vtkImageData> MakeImage(
   const std::array<int, 3>& size, vtkDataArray* scalars, const VolumePlacement& placement);
 
@@ -42,13 +44,13 @@ vtkSmartPointer<vtkImageData> MakeImage(
  */
 void SetWorldAxes(vtkImageData* image, const std::string& axes);
 
-/// Turn values that are as a file has them, big-endian or not, into those of this machine.
+/** Turn values that are as a file has them, big-endian or not, into those of this machine. */
 void ToNativeOrder(vtkDataArray* values, bool isBig);
 
-/// An array of float: slope times value plus shift.
+/** An array of float: slope times value plus shift. */
 vtkSmartPointer<vtkDataArray> Rescaled(vtkDataArray* values, double slope, double shift);
 
-/// The smallest and the largest of a component, or, for -1, of the magnitude.
+/** The smallest and the largest of a component, or, for -1, of the magnitude. */
 std::array<double, 2> RangeOf(vtkDataArray* values, int component);
 
 double Dot(const Vector3& a, const Vector3& b);

@@ -18,7 +18,7 @@ namespace tool
 {
 namespace
 {
-/// "ERROR: In file, line 1\nvtkClass (0x1): the message\n\n" becomes "the message".
+/** "ERROR: In file, line 1\nvtkClass (0x1): the message\n\n" becomes "the message". */
 std::string PlainMessage(const std::string& text)
 {
   const std::size_t colon = text.find("): ");
@@ -46,7 +46,7 @@ std::string PlainMessage(const std::string& text)
   return plain;
 }
 
-/// Keep an error, but not the executive's that its algorithm failed, which has said why.
+/** Keep an error, but not the executive's that its algorithm failed, which has said why. */
 void KeepError(const std::string& text, std::vector<std::string>& errors)
 {
   const bool isEcho = text.find("returned failure for request") != std::string::npos;
@@ -77,7 +77,7 @@ public:
   VtkMessages* Messages = nullptr;
 };
 
-/// Takes what VTK prints for objects that nobody listens to, such as the parts of a reader.
+/** Takes what VTK prints for objects that nobody listens to, such as the parts of a reader. */
 class OutputCatcher : public vtkOutputWindow
 {
 public:
@@ -99,7 +99,7 @@ private:
   static std::string Plain(const char* text) { return PlainMessage(text ? text : ""); }
 };
 
-/// From here to its end, what VTK would print is among the messages.
+/** From here to its end, what VTK would print is among the messages. */
 class CaughtOutput
 {
 public:

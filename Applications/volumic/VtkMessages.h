@@ -11,24 +11,28 @@ class vtkAlgorithm;
 
 namespace tool
 {
-/// Keeps the errors and warnings of VTK objects, which would go to stderr with file and line.
+/** Keeps the errors and warnings of VTK objects, which would go to stderr with file and line. */
 class VtkMessages
 {
 public:
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
 
-  /// Listen to an algorithm and its executive. This object must outlive their runs.
+  /** Listen to an algorithm and its executive. This object must outlive their runs. */
   void ListenTo(vtkAlgorithm* algorithm);
 
-  /// Update the reader of the file. @throws Failure "NAME: cannot be read (reasons)" if it, or an
-  /// object within it, reports an error; or warns, unless its warnings are not `trusted`.
+  /**
+   * Update the reader of the file. @throws Failure "NAME: cannot be read (reasons)" if it, or an
+   * object within it, reports an error; or warns, unless its warnings are not `trusted`.
+   */
   void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true);
 
-  /// Run the action; what VTK would print meanwhile, for objects that nobody listens to, is kept.
+  /**
+   * Run the action; what VTK would print meanwhile, for objects that nobody listens to, is kept.
+   */
   void Catch(const std::function<void()>& action);
 
-  /// Each error once, with semicolons between.
+  /** Each error once, with semicolons between. */
   std::string JoinedErrors() const;
 };
 }

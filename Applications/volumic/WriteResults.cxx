@@ -45,7 +45,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// Run a writer whose input and file are set.
+/** Run a writer whose input and file are set. */
 template <class Writer>
 void Run(Writer* writer)
 {
@@ -59,14 +59,14 @@ void Run(Writer* writer)
   }
 }
 
-/// Why the file cannot be written.
+/** Why the file cannot be written. */
 std::string ReasonOf(const std::exception& error)
 {
   const bool isOfMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
   return isOfMemory ? "cannot be written (not enough memory)" : error.what();
 }
 
-/// Have `write` write to a path beside the file, which takes the file's place if all went well.
+/** Have `write` write to a path beside the file, which takes the file's place if all went well. */
 template <class Write>
 void WriteBeside(const std::string& name, const Write& write)
 {
@@ -99,8 +99,10 @@ void WriteWith(vtkPolyData* surface, const std::string& name, const std::string&
   Run(writer.Get());
 }
 
-/// With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is
-/// appended for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
+/**
+ * With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is
+ * appended for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
+ */
 void WriteInline(vtkXMLWriter* writer, vtkDataObject* data, const std::string& name)
 {
   writer->SetInputData(data);
@@ -153,21 +155,23 @@ void WritePly(vtkPolyData* surface, const std::string& name, const std::string& 
   Run(writer.Get());
 }
 
-/// What a text of the surface takes at most: numbers of six digits, and each point with a colour.
+/**
+ * What a text of the surface takes at most: numbers of six digits, and each point with a colour.
+ */
 std::size_t LargestText(vtkPolyData* surface)
 {
   return 1024 +
     static_cast<std::size_t>(100 * surface->GetNumberOfPoints() + 64 * surface->GetNumberOfPolys());
 }
 
-/// On a full disk the writer of VTK 9.6 destroys memory instead of telling.
+/** On a full disk the writer of VTK 9.6 destroys memory instead of telling. */
 void WriteInventor(vtkPolyData* surface, const std::string& name, const std::string& remark)
 {
   NeedRoom(name, LargestText(surface));
   WriteWith<vtkIVWriter>(surface, name, remark);
 }
 
-/// As WriteInventor.
+/** As WriteInventor. */
 void WriteByu(vtkPolyData* surface, const std::string& name, const std::string&)
 {
   NeedRoom(name, LargestText(surface));
@@ -177,7 +181,7 @@ void WriteByu(vtkPolyData* surface, const std::string& name, const std::string&)
   Run(writer.Get());
 }
 
-/// VTK's writer counts what it has written on the standard output, where a report may go.
+/** VTK's writer counts what it has written on the standard output, where a report may go. */
 void WriteFacet(vtkPolyData* surface, const std::string& name, const std::string& remark)
 {
   std::streambuf* output = std::cout.rdbuf(nullptr);
@@ -193,14 +197,14 @@ void WriteFacet(vtkPolyData* surface, const std::string& name, const std::string
   std::cout.rdbuf(output); // clears the errors too
 }
 
-/// A file of fixed size: a head, and the triangles.
+/** A file of fixed size: a head, and the triangles. */
 template <int Head, int Triangle>
 void CheckTriangles(const std::string& path, vtkPolyData* surface)
 {
   CheckSize(path, Head + static_cast<std::uint64_t>(Triangle) * surface->GetNumberOfPolys());
 }
 
-/// A text of a line for each point and triangle, and some more.
+/** A text of a line for each point and triangle, and some more. */
 template <int More>
 void CheckText(const std::string& path, vtkPolyData* surface)
 {
@@ -217,7 +221,7 @@ void CheckObj(const std::string& path, vtkPolyData* surface)
       1 + surface->GetNumberOfPoints() + normals + surface->GetNumberOfPolys()));
 }
 
-/// A text with two points in a line.
+/** A text with two points in a line. */
 template <int More>
 void CheckPairs(const std::string& path, vtkPolyData* surface)
 {
@@ -247,7 +251,7 @@ void CheckWrittenPly(const std::string& path, vtkPolyData*)
 struct Format
 {
   void (*Write)(vtkPolyData*, const std::string& path, const std::string& remark);
-  /// Whether the disk took it all; none where that was seen at once.
+  /** Whether the disk took it all; none where that was seen at once. */
   void (*Check)(const std::string& path, vtkPolyData*);
 };
 

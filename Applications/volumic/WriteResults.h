@@ -15,7 +15,7 @@ namespace tool
 // All write beside the file, which takes its place when it is whole (see OutputFiles.h), and throw
 // a Failure that names the file if that cannot be.
 
-/// @throws UsageError if no writer has this suffix: to call before the work begins.
+/** @throws UsageError if no writer has this suffix: to call before the work begins. */
 void CheckSurfaceName(const std::string& name);
 
 /**
@@ -25,21 +25,23 @@ void CheckSurfaceName(const std::string& name);
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const std::string& remark);
 
-/// @throws UsageError if the name of a volume to write does not end in .vti.
+/** @throws UsageError if the name of a volume to write does not end in .vti. */
 void CheckVolumeName(const std::string& name);
 
-/// Write a volume with all its arrays and field data as .vti.
+/** Write a volume with all its arrays and field data as .vti. */
 void WriteVolume(vtkImageData* volume, const std::string& name);
 
-/// Write the blocks that are not empty to one .vtm, with their files in a folder beside it.
+/** Write the blocks that are not empty to one .vtm, with their files in a folder beside it. */
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name);
 
-/// Write each block that is not empty to FOLDER/PREFIX-NUMBER.vtp, where `numbers` tells a
-/// surface's number (none: that of the block). The folder is made.
+/**
+ * Write each block that is not empty to FOLDER/PREFIX-NUMBER.vtp, where `numbers` tells a
+ * surface's number (none: that of the block). The folder is made.
+ */
 void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
   int (*numbers)(vtkPolyData*) = nullptr);
 
-/// Write a .csv with a line of column names.
+/** Write a .csv with a line of column names. */
 void WriteTable(vtkTable* table, const std::string& name);
 
 void WriteText(const std::string& text, const std::string& name);

@@ -8,8 +8,10 @@
 
 namespace volumic
 {
-/// While it lives, the program's global locale writes 1.234,5 for 1234.5. No locale of the system is
-/// needed for it.
+/**
+ * While it lives, the program's global locale writes 1.234,5 for 1234.5. No locale of the system is
+ * needed for it.
+ */
 class CommaLocale
 {
 public:

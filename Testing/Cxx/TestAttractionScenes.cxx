@@ -33,7 +33,7 @@ using namespace volumic::support;
 namespace
 {
 constexpr double Pi = 3.14159265358979;
-/// Of SceneKind::ShellWithOpening, at 64 voxels.
+/** Of SceneKind::ShellWithOpening, at 64 voxels. */
 constexpr double OuterRadius = 26.0;
 constexpr double InnerRadius = 17.5;
 
@@ -42,7 +42,7 @@ double BallVolume(double radius)
   return 4.0 / 3.0 * Pi * radius * radius * radius;
 }
 
-/// One point in the middle of the shell's opening, six about it.
+/** One point in the middle of the shell's opening, six about it. */
 vtkSmartPointer<vtkPolyData> PointsInTheOpening(const Scene& scene)
 {
   // The scene's seed lies in the middle of the wall, opposite of the opening.
@@ -109,7 +109,7 @@ double VolumeOf(vtkDeformableSurface* filter)
   return filter->GetOutput()->GetFieldData()->GetArray("Volume")->GetComponent(0, 0);
 }
 
-/// The scene with its gradient magnitude as a second array, `Edges`.
+/** The scene with its gradient magnitude as a second array, `Edges`. */
 vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
 {
   const auto image = ToImage(scene);
@@ -124,8 +124,10 @@ vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
   return image;
 }
 
-/// Half of the way from the iso-value of the middle to the brightest voxel: the surface shrinks
-/// over background and object, and only the edges can stop it.
+/**
+ * Half of the way from the iso-value of the middle to the brightest voxel: the surface shrinks
+ * over background and object, and only the edges can stop it.
+ */
 vtkSmartPointer<vtkDeformableSurface> EdgeFilterOf(vtkDataObject* input, const Scene& scene)
 {
   const double brightest = *std::max_element(scene.Values.begin(), scene.Values.end());

@@ -45,7 +45,7 @@ namespace
 constexpr int Size = 40;
 constexpr double Middle = 19.5;
 
-/// Numbers that are the same with any standard library.
+/** Numbers that are the same with any standard library. */
 class Dice
 {
 public:
@@ -54,7 +54,7 @@ public:
   {
     return low + (high - low) * (static_cast<double>(this->Engine()) / 4294967296.0);
   }
-  /// Small ones as often as large ones.
+  /** Small ones as often as large ones. */
   int Count(int low, int high)
   {
     return static_cast<int>(std::exp(this->Between(std::log(low), std::log(high))));
@@ -74,7 +74,7 @@ vtkSmartPointer<vtkPolyData> Cleaned(vtkAlgorithmOutput* polygons)
   return clean->GetOutput();
 }
 
-/// An outline with flat ends; not convex, so that its ends have slivers.
+/** An outline with flat ends; not convex, so that its ends have slivers. */
 vtkSmartPointer<vtkPolyData> Extruded(Dice& dice)
 {
   static const std::vector<std::array<double, 2>> outlines[] = {
@@ -119,7 +119,7 @@ vtkSmartPointer<vtkPolyData> Extruded(Dice& dice)
   return triangulate->GetOutput();
 }
 
-/// A bumpy ball as from a scan, with fewer triangles.
+/** A bumpy ball as from a scan, with fewer triangles. */
 vtkSmartPointer<vtkPolyData> Decimated(Dice& dice, bool quadric)
 {
   double wave[12];
@@ -228,7 +228,7 @@ vtkSmartPointer<vtkPolyData> MakeShape(const std::string& kind, Dice& dice)
   return kind == "Outlines" ? Extruded(dice) : Decimated(dice, kind == "DecimatedByQuadrics");
 }
 
-/// Turned about an oblique axis and set into the image.
+/** Turned about an oblique axis and set into the image. */
 IndexedSurface Placed(vtkPolyData* shape, Dice& dice)
 {
   const double angle = dice.Between(0.0, 1.0) < 0.3 ? 0.0 : dice.Between(0.0, 6.28);

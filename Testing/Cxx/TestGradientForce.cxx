@@ -42,7 +42,7 @@ double BestShareByIsoValue(vtkImageData* image, const Scene& scene)
   return best;
 }
 
-/// What the valleys of the potential are: where the gradient is largest.
+/** What the valleys of the potential are: where the gradient is largest. */
 vtkSmartPointer<vtkImageData> NegativeGradientMagnitude(vtkImageData* image)
 {
   vtkNew<vtkImageGradientMagnitude> gradient;

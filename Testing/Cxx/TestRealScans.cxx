@@ -52,7 +52,7 @@ std::string StopReason(vtkPolyData* surface)
     ->GetValue(0);
 }
 
-/// Every change of the Euler characteristic is explained, and all that was recovered is there.
+/** Every change of the Euler characteristic is explained, and all that was recovered is there. */
 void ExpectExplainedHistory(vtkTable* history, vtkMultiBlockDataSet* levels)
 {
   int before = 0;

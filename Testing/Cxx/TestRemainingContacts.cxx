@@ -30,7 +30,7 @@ double FieldOf(vtkPolyData* surface, const char* name)
   return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
 }
 
-/// A hollow ball of radius 18, open on one side, with a wall as thick as is said.
+/** A hollow ball of radius 18, open on one side, with a wall as thick as is said. */
 Scene HollowBall(double wall)
 {
   Scene scene = MakeScene(SceneKind::Sphere);

@@ -21,7 +21,7 @@ using namespace volumic::support;
 
 namespace
 {
-/// The levels of a scene, finest first.
+/** The levels of a scene, finest first. */
 struct Levels
 {
   std::vector<LevelGeometry> Geometry;
@@ -56,7 +56,7 @@ struct Levels
   }
 };
 
-/// Judges the surface after every tenth iteration.
+/** Judges the surface after every tenth iteration. */
 class Witness final : public Monitor
 {
 public:

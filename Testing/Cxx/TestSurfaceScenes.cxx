@@ -40,14 +40,14 @@ double FieldOf(vtkPolyData* surface, const char* name)
   return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
 }
 
-/// In the space that the constraints speak of: the world, or index coordinates.
+/** In the space that the constraints speak of: the world, or index coordinates. */
 TriangleSurface InMetric(vtkPolyData* surface, vtkImageData* image, int metric)
 {
   return metric == vtkDeformableSurface::World ? ToTriangleSurface(surface)
                                                : ToTriangleSurface(surface, image);
 }
 
-/// The invariants that hold for every surface that is handed out, of any level.
+/** The invariants that hold for every surface that is handed out, of any level. */
 void ExpectInvariants(
   vtkPolyData* surface, vtkImageData* image, int metric, const std::string& where)
 {
@@ -101,8 +101,10 @@ std::string NameOfKind(const ::testing::TestParamInfo<SceneKind>& info)
   return SceneName(info.param);
 }
 
-/// Noise of 20 % of the contrast. A wall of two voxels has a real hole in some noises (in four of
-/// eight that were tried), which the surface rightly finds; in this one it has none.
+/**
+ * Noise of 20 % of the contrast. A wall of two voxels has a real hole in some noises (in four of
+ * eight that were tried), which the surface rightly finds; in this one it has none.
+ */
 SceneOptions Noisy()
 {
   SceneOptions options;

@@ -75,7 +75,7 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
     direction = np.asarray(direction)
     values = {"series": "1.2.3", "description": "head", "samples": 1, "slope": None,
               "intercept": None, "frames": None, "kind": None,
-              "bits": 16, **changes}
+              "bits": 16, "lacks": (), **changes}
     position = np.asarray(origin) + direction[:, 2] * spacing[2] * number
     elements = [
         (0x0008, 0x0016, "UI", values["kind"]),
@@ -85,8 +85,9 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
          + element(0x0020, 0x000E, "UI", "9.9.9", syntax != "implicit")
          + struct.pack("<HHI", 0xFFFE, 0xE00D, 0) + struct.pack("<HHI", 0xFFFE, 0xE0DD, 0)),
         (0x0020, 0x000E, "UI", values["series"]),
-        (0x0020, 0x0032, "DS", decimal(position)),
-        (0x0020, 0x0037, "DS", decimal([*direction[:, 0], *direction[:, 1]])),
+        (0x0020, 0x0032, "DS", None if "position" in values["lacks"] else decimal(position)),
+        (0x0020, 0x0037, "DS", None if "orientation" in values["lacks"]
+         else decimal([*direction[:, 0], *direction[:, 1]])),
         (0x0028, 0x0002, "US", values["samples"]),
         (0x0028, 0x0008, "IS", values["frames"]),
         (0x0028, 0x0010, "US", pixels.shape[0]),

@@ -257,6 +257,14 @@ class DicomTest(ReadVolumeTest):
             self.write_bytes("IM009", file.read())
         self.refused(self.folder, "IM009 lies where .*IM000 does")
 
+    def test_slices_without_a_place(self):
+        for lacks in ("position", "orientation"):
+            with self.subTest(lacks):
+                self.write_series(some_voxels())
+                self.write_bytes("IM009", medical_files.dicom_slice(
+                    some_voxels()[0], 3, SPACING, ORIGIN, TURNED, lacks=(lacks,)))
+                self.refused(self.folder, f"IM009: lacks its {lacks}: not a slice of a volume")
+
     def test_compressed_slices(self):
         self.write_series(some_voxels(), syntax="1.2.840.10008.1.2.4.70")
         self.refused(self.folder, "transfer syntax 1.2.840.10008.1.2.4.70")
