@@ -237,15 +237,15 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   {
     Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
       constraint::RestLength * s.Delta,
-      " voxel distances: none of it is left. Start at a finer level, give a larger surface, or check that "
-      "its coordinates are in the image's unit.");
+      " voxel distances: none of it is left. Start at a finer level, give a larger surface, or "
+      "check that its coordinates are in the image's unit.");
   }
   if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Delta))
   {
     Refuse("The initial surface could not be brought to edges between ", s.Delta, " and ",
       constraint::LongestEdge * s.Delta,
-      " voxel distances without an intersection. Remesh it to such edges before it is given, or choose "
-      "another Initialization.");
+      " voxel distances without an intersection. Remesh it to such edges before it is given, or "
+      "choose another Initialization.");
   }
 }
 
