@@ -55,4 +55,7 @@ TEST(SurfaceMeasures, VolumeOfACavityIsNegative)
     elsewhere.Add(mesh, v);
   }
   EXPECT_NEAR(elsewhere.Value(), volume, 1e-9);
+  SignedVolume byFaces;
+  mesh.VisitFaces([&](int a, int b, int c) { byFaces.AddFace(mesh, a, b, c); });
+  EXPECT_NEAR(byFaces.Value(), volume, 1e-9);
 }

@@ -38,7 +38,7 @@ enum class SceneKind
                      ///< the shell) can be reached from outside; the second bounds a cavity
   ThinShellWithEightHoles, ///< a wall of two voxels with eight holes: genus 7
   FourBubbles,             ///< a ball, with four seeds in it that have to merge: genus 0
-  TorusOfTwoBubbles,       ///< a ring, with two seeds in it that have to merge at both ends: genus 1
+  TorusOfTwoBubbles,       ///< a ring, with two seeds in it that merge at both ends: genus 1
   ShadedEllipsoid          ///< object and background both shaded, so that no iso-value fits
 };
 

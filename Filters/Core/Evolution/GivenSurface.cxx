@@ -237,15 +237,15 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   {
     Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
       SizingField::RestLengthInDelta * s.Sizing.OfLevel(),
-      " voxel distances: none of it is left. Start at a finer level, give a larger surface, or check that "
-      "its coordinates are in the image's unit.");
+      " voxel distances: none of it is left. Start at a finer level, give a larger surface, or "
+      "check that its coordinates are in the image's unit.");
   }
   if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
   {
     Refuse("The initial surface could not be brought to edges between ", s.Sizing.OfLevel(), " and ",
       SizingField::LongestEdgeInDelta * s.Sizing.OfLevel(),
-      " voxel distances without an intersection. Remesh it to such edges before it is given, or choose "
-      "another Initialization.");
+      " voxel distances without an intersection. Remesh it to such edges before it is given, or "
+      "choose another Initialization.");
   }
 }
 

@@ -123,13 +123,16 @@ void Search::FindCrossings(int a, int b, int c)
       p.Z * this->Inverse[2] - Aside[1] };
     bounds.Add(corner[k]);
   }
-  const auto first = [&](int axis)
-  { return std::max(0, static_cast<int>(std::ceil(bounds.Low[axis]))); };
-  const auto last = [&](int axis)
-  { return std::min(this->Size[axis] - 1, static_cast<int>(std::floor(bounds.High[axis]))); };
-  for (int k = first(2); k <= last(2); ++k)
+  int first[3];
+  int last[3];
+  for (int axis : { 1, 2 })
   {
-    for (int j = first(1); j <= last(1); ++j)
+    first[axis] = std::max(0, static_cast<int>(std::ceil(bounds.Low[axis])));
+    last[axis] = std::min(this->Size[axis] - 1, static_cast<int>(std::floor(bounds.High[axis])));
+  }
+  for (int k = first[2]; k <= last[2]; ++k)
+  {
+    for (int j = first[1]; j <= last[1]; ++j)
     {
       const RowCrossing crossing = RowCrossing::Of(corner[0], corner[1], corner[2], j, k);
       if (crossing.Winding != 0)

@@ -129,7 +129,7 @@ Field::Cell Field::Locate(const Vector& position) const
   {
     const float scaled = x * this->Inverse[axis];
     const auto size = static_cast<float>(this->Level.Size[axis]);
-    return std::min(std::max(scaled, -Beyond), size - 1.f + Beyond);
+    return std::min(std::max(scaled, -Beyond), size + (Beyond - 1.f));
   };
   const float x = place(position.X, 0);
   const float y = place(position.Y, 1);

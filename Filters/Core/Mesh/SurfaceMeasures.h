@@ -10,8 +10,8 @@ namespace volumic
 {
 /**
  * The signed volume that a closed surface, or some components of one, encloses; negative for what
- * is inside out. It is added up vertex by vertex: of the tetrahedron that a face spans with the
- * origin, a third belongs to each of its corners.
+ * is inside out. It is added up vertex by vertex, where of the tetrahedron that a face spans with
+ * the origin a third belongs to each corner, or face by face.
  */
 class SignedVolume
 {
@@ -31,6 +31,14 @@ public:
     }
     // Six times the tetrahedra of its faces, each of which is seen from three corners.
     this->Eighteenfold += Dot(VectorD(mesh.Position[v]) - this->Origin, fan);
+  }
+
+  /** Adds a whole face, instead of the shares of its corners. */
+  void AddFace(const SurfaceMesh& mesh, int a, int b, int c)
+  {
+    this->Eighteenfold += 3. *
+      Dot(VectorD(mesh.Position[a]) - this->Origin,
+        Cross(VectorD(mesh.Position[b]) - this->Origin, VectorD(mesh.Position[c]) - this->Origin));
   }
 
   double Value() const { return this->Eighteenfold / 18.; }

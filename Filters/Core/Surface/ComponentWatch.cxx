@@ -65,20 +65,18 @@ std::vector<Ray> CastRays(const SurfaceMesh& mesh, const std::vector<int>& label
 {
   std::vector<SignedVolume> volumes(components);
   std::vector<int> first(components, -1);
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (!mesh.IsAlive(v))
+  mesh.VisitFaces(
+    [&](int a, int b, int c)
     {
-      continue;
-    }
-    const int label = labels[v];
-    if (first[label] < 0)
-    {
-      first[label] = v;
-      volumes[label] = SignedVolume(mesh.Position[v]);
-    }
-    volumes[label].Add(mesh, v);
-  }
+      // The first face of a component has its smallest vertex.
+      const int label = labels[a];
+      if (first[label] < 0)
+      {
+        first[label] = a;
+        volumes[label] = SignedVolume(mesh.Position[a]);
+      }
+      volumes[label].AddFace(mesh, a, b, c);
+    });
   std::vector<Ray> rays;
   for (int label = 0; label < components; ++label)
   {
