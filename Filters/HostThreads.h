@@ -37,7 +37,8 @@ public:
     const std::function<void(std::size_t, std::size_t)>& body) override;
 
 private:
-  void RunWithin(const std::string& backend, int numberOfThreads, const std::function<void()>& work);
+  void RunWithin(
+    const std::string& backend, int numberOfThreads, const std::function<void()>& work);
 
   int NumberOfThreads;
   std::string Backend;

@@ -146,7 +146,8 @@ PyramidLevels::PyramidLevels(
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
-    Refuse("there is no level: the input has no blocks, as after an error of Image Pyramid.", WayOut);
+    Refuse(
+      "there is no level: the input has no blocks, as after an error of Image Pyramid.", WayOut);
   }
   for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
   {
@@ -221,8 +222,8 @@ bool PyramidLevels::HoldsObject(int level, double isoValue, bool objectIsBright)
   std::vector<std::uint8_t> marks(static_cast<std::size_t>(image->GetNumberOfPoints()));
   switch (voxels->GetDataType())
   {
-    vtkTemplateMacro(MarkObject(
-      static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), valid, isoValue, objectIsBright, marks));
+    vtkTemplateMacro(MarkObject(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), valid,
+      isoValue, objectIsBright, marks));
     default:
       return true; // Load() will say what is wrong.
   }

@@ -136,8 +136,9 @@ std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
       ", too thin for triangles of this size or too near to the rest. ",
       about.Level > 0
         ? "Set Finest Level to a finer level."
-        : (about.Level == 0 ? "Set Finest Level to -1, which has smaller ones, or resample the image."
-                            : "Resample the image more finely."));
+        : (about.Level == 0
+              ? "Set Finest Level to -1, which has smaller ones, or resample the image."
+              : "Resample the image more finely."));
   }
   return "";
 }

@@ -365,8 +365,9 @@ int vtkDeformableSurface::RequestData(
     this->ForgetRun();
     volumic::InitializeOutputs(outputVector);
     this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
-                  "coarser level, or crop the image.");
+    vtkErrorMacro(
+      "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
+      "coarser level, or crop the image.");
   }
   catch (const std::exception& error)
   {

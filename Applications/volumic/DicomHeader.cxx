@@ -217,7 +217,8 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
     CheckDecimal(numbers, name);
     const bool isGiven = !numbers.empty();
     header.HasPosition = header.HasPosition || (isGiven && element.Tag == Tag(0x0020, 0x0032));
-    header.HasOrientation = header.HasOrientation || (isGiven && element.Tag == Tag(0x0020, 0x0037));
+    header.HasOrientation =
+      header.HasOrientation || (isGiven && element.Tag == Tag(0x0020, 0x0037));
   }
   else
   {

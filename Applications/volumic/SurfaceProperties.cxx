@@ -100,14 +100,14 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_SWITCH(Preview, true, "preview",
       "end at a coarse level of at most a million voxels, to try a value of --iso"),
     SURFACE_MENU(Initialization, "initialization",
-      "what to start from: an icosahedron about the image; seeds, at --seed-position and the points "
-      "of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
+      "what to start from: an icosahedron about the image; seeds, at --seed-position and the "
+      "points of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
       "icosahedron", "seeds", "iso-surface", "input-surface"),
     SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",
       "radius of the seeds in world units; 0: 1.2 times the shortest edge of the coarsest level"),
     SURFACE_MENU(Recovery, "recovery",
-      "what to find again that a coarser level has lost: nothing; parts of the object; those and the "
-      "cavities in it",
+      "what to find again that a coarser level has lost: nothing; parts of the object; those and "
+      "the cavities in it",
       "none", "objects", "objects-and-cavities"),
     SURFACE_NUMBER(MinimumPartSize, "minimum-part-size", "N",
       "voxels of the level that a part needs to be recovered"),
@@ -116,8 +116,8 @@ std::vector<PropertyOption> MakeProperties()
       "voxel",
       "background", "replicate"),
     SURFACE_MENU(Metric, "metric",
-      "which lengths are uniform where voxels are not cubes: those in which each voxel is one, or those "
-      "of the world",
+      "which lengths are uniform where voxels are not cubes: those in which each voxel is one, or "
+      "those of the world",
       "voxels", "world"),
     SURFACE_NUMBER(EdgeLength, "edge-length", "LENGTH",
       "mean edge that is wanted, in world units; 0: as --finest and --sampling-ratio have it"),

@@ -13,7 +13,7 @@ enum ExitCode
   Success = 0,
   RuntimeFailure = 1, ///< a file, the image or the filter; nothing or not everything was written
   UsageFailure = 2,   ///< the command line
-  Unfinished = 3      ///< interrupted, at the time or the iteration limit; what there was is written
+  Unfinished = 3 ///< interrupted, at the time or the iteration limit; what there was is written
 };
 
 /** A file that cannot be read or written, or a volume without a surface. */

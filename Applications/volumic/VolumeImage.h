@@ -39,8 +39,8 @@ vtkSmartPointer<vtkImageData> MakeImage(
 
 /**
  * Tell which side of the body the world axes x, y, z point to, as the field data `Axes`: three
- * letters of L R, A P, S I (left, right, anterior, posterior, superior, inferior). DICOM has "LPS", NIfTI
- * "RAS". Images of files that don't tell have none.
+ * letters of L R, A P, S I (left, right, anterior, posterior, superior, inferior). DICOM has "LPS",
+ * NIfTI "RAS". Images of files that don't tell have none.
  */
 void SetWorldAxes(vtkImageData* image, const std::string& axes);
 

@@ -35,8 +35,8 @@ void vtkSMSelectedComponentDomain::Update(vtkSMProperty*)
     vtkPVArrayInformation* array = chosen.GetNumberOfElements() < 5
       ? nullptr
       : data->GetArrayInformation(chosen.GetAsString(4), chosen.GetAsInt(3));
-    for (int i = 0; array && array->GetNumberOfComponents() > 1 && i < array->GetNumberOfComponents();
-         ++i)
+    for (int i = 0;
+         array && array->GetNumberOfComponents() > 1 && i < array->GetNumberOfComponents(); ++i)
     {
       const char* name = array->GetComponentName(i);
       names.emplace_back(name ? name : std::to_string(i));

@@ -84,8 +84,8 @@ TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
 {
   // 50 below the iso-value, with boundaries of 50 per voxel: V + e (2 |V| + 50 / 4), e = 1/2.
   const TestVolume volume = Half();
-  const std::vector<float> bent =
-    PointAttraction({ { { 20, 16, 16 }, 1., 4. } }, 1.).Bend(volume.Image, HalfOptions(50), Threads);
+  const std::vector<float> bent = PointAttraction({ { { 20, 16, 16 }, 1., 4. } }, 1.)
+                                    .Bend(volume.Image, HalfOptions(50), Threads);
   for (const std::array<int, 3>& voxel : { std::array<int, 3>{ 24, 16, 16 }, { 20, 12, 16 },
          { 20, 16, 20 } })
   {
@@ -194,8 +194,9 @@ TEST(EdgeAttraction, IsFullAtHalfTheTypicalSlopeOfTheEdges)
       { return 2 * std::min(std::max(z - 10, 0.), width); });
     volume.Image.Edges = volume.Values.data();
     const EdgeAttraction edges(volume.Image, Threads);
-    const auto at = [&edges](float cosine)
-    { return edges.Along(Vector(16, 16, 12.5f), Vector(0, std::sqrt(1 - cosine * cosine), cosine)); };
+    const auto at = [&edges](float cosine) {
+      return edges.Along(Vector(16, 16, 12.5f), Vector(0, std::sqrt(1 - cosine * cosine), cosine));
+    };
     EXPECT_FLOAT_EQ(at(1), 1) << "bounded";
     EXPECT_FLOAT_EQ(at(-1), -1);
     EXPECT_NEAR(at(0.25f), 0.5, 0.08);

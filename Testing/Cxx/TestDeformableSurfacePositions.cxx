@@ -22,8 +22,8 @@ namespace
 using Places = std::vector<std::array<double, 3>>;
 
 /**
- * Two balls of radius 7.5 about (12.5, 12.5, 12.5) and (37.5, 12.5, 12.5), spacing 1, from (100, 0, 0)
- * on.
+ * Two balls of radius 7.5 about (12.5, 12.5, 12.5) and (37.5, 12.5, 12.5), spacing 1, from (100, 0,
+ * 0) on.
  */
 vtkSmartPointer<vtkImageData> TwoBalls()
 {

@@ -260,7 +260,8 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
 TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
 {
   // A body with a groove, which the division fills, and a blade in the groove. They
-  // intersect in the middle of edges, far from all corners if the last of five divisions is the measure.
+  // intersect in the middle of edges, far from all corners if the last of five divisions is the
+  // measure.
   IndexedSurface given;
   given.Points = { { -2.1, 0, 0.6 }, { 2.1, 0, 0.6 }, { 0, -1.2, 0 }, { 0, 1.2, 0 }, { 0, 0, -0.7 },
     { 0, -0.87, 0.1 }, { 0, 0.87, 0.1 }, { 0.51, 0, 0.253 }, { -0.51, 0, 0.253 } };

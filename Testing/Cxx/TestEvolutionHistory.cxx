@@ -82,7 +82,8 @@ void ExpectExplained(const std::vector<HistoryRow>& rows)
       before + row.AddedEulerCharacteristic +
         2 * (row.Cuts - row.Merges - row.Deletions + row.DeletedGenus));
     EXPECT_EQ(row.EulerCharacteristic,
-      row.IterationEulerCharacteristic + 2 * (row.RegularisationCuts - row.RegularisationDeletions));
+      row.IterationEulerCharacteristic +
+        2 * (row.RegularisationCuts - row.RegularisationDeletions));
     const bool isFirstOfLevel = row.Iteration == 1 || rows[row.Iteration - 2].Level != row.Level;
     if (!isFirstOfLevel)
     {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What forces act on a vertex, and how strong they are: seen in the velocities after one step of rest.
+// What forces act on a vertex, and how strong they are: seen in the velocities after one step of
+// rest.
 #include "DynamicsTestTools.h"
 
 #include <gtest/gtest.h>
@@ -176,7 +177,8 @@ TEST(Forces, AreTheSameAtEveryScale)
       p += Vector(0.1f * (v % 3), 0.07f * (v % 5), -0.05f * (v % 4));
       p *= stage->State.Sizing.OfLevel();
     }
-    stage->Volume.Image.Step = { stage->State.Sizing.OfLevel(), stage->State.Sizing.OfLevel(), stage->State.Sizing.OfLevel() };
+    stage->Volume.Image.Step = { stage->State.Sizing.OfLevel(), stage->State.Sizing.OfLevel(),
+      stage->State.Sizing.OfLevel() };
     stage->UpdateShape();
     stage->Push();
   }

@@ -304,7 +304,8 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
       EXPECT_NEAR(features.Volume / wanted.Volume, 1., 0.01 * pitch * pitch);
       for (int k = 0; k < 3; ++k)
       {
-        EXPECT_NEAR(features.Components[0].Centroid[k], wanted.Components[0].Centroid[k], 0.1 * pitch)
+        EXPECT_NEAR(
+          features.Components[0].Centroid[k], wanted.Components[0].Centroid[k], 0.1 * pitch)
           << "turned back";
       }
       for (const Triangle& t : mesh.Triangles)

@@ -106,7 +106,8 @@ void ExpectSameOutputs(vtkDeformableSurface* a, vtkDeformableSurface* b)
 using Choice = std::function<void(vtkDeformableSurface*)>;
 
 /** What a run from the start gives. */
-vtkSmartPointer<vtkDeformableSurface> FromTheStart(vtkDataObject* input, const Choice& choose, int finest)
+vtkSmartPointer<vtkDeformableSurface> FromTheStart(
+  vtkDataObject* input, const Choice& choose, int finest)
 {
   auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
   filter->SetInputDataObject(input);

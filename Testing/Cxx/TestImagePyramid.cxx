@@ -227,7 +227,8 @@ TEST(ImagePyramid, ExecutesAgainWhenAPropertyChanges)
 
 TEST(ImagePyramid, CountsTheLevelsThatItWillMake)
 {
-  for (const std::array<int, 3> size : { std::array<int, 3>{ 64, 50, 40 }, { 8, 9, 200 }, { 30, 40, 1 } })
+  for (const std::array<int, 3> size :
+    { std::array<int, 3>{ 64, 50, 40 }, { 8, 9, 200 }, { 30, 40, 1 } })
   {
     for (const int levels : { 0, 2 })
     {

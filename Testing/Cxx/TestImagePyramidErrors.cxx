@@ -122,7 +122,8 @@ TEST_F(ImagePyramidErrors, NoSuchComponent)
   {
     this->Filter->SetSelectedComponent(component);
     this->ExpectError(image,
-      { "Selected Component is " + std::to_string(component), "'Colour' has 3 components", "0 to 2" });
+      { "Selected Component is " + std::to_string(component), "'Colour' has 3 components",
+        "0 to 2" });
   }
   this->Filter->SetSelectedComponent(1);
   this->ExpectError(RandomImage(20, 20, 20), { "Selected Component is 1", "1 component;" });
@@ -282,7 +283,8 @@ std::size_t AddressSpaceInUse()
   setrlimit(RLIMIT_AS, &limits);
   filter->Update();
   const bool isRight = errors.Has("memory does not suffice") && errors.Has("level 1") &&
-    filter->GetErrorCode() == vtkErrorCode::UnknownError && filter->GetOutput()->GetNumberOfBlocks() == 0;
+    filter->GetErrorCode() == vtkErrorCode::UnknownError &&
+    filter->GetOutput()->GetNumberOfBlocks() == 0;
   std::fprintf(stderr, "%s", isRight ? "refused in words" : errors.Get().c_str());
   std::_Exit(isRight ? 0 : 1);
 }

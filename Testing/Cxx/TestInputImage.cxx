@@ -146,8 +146,10 @@ TEST(InputImage, GridsOfOtherTypesAreRefusedOnceWithTheWayOut)
       }
       SCOPED_TRACE(std::string(filter->GetClassName()) + " " + grid->GetClassName());
       const std::string error = ErrorOf(filter, grid);
-      const char* type = grid->IsA("vtkMultiBlockDataSet") ? "vtkUnstructuredGrid" : grid->GetClassName();
-      EXPECT_NE(error.find(std::string("Input port 0: it is a ") + type), std::string::npos) << error;
+      const char* type =
+        grid->IsA("vtkMultiBlockDataSet") ? "vtkUnstructuredGrid" : grid->GetClassName();
+      EXPECT_NE(error.find(std::string("Input port 0: it is a ") + type), std::string::npos)
+        << error;
       EXPECT_NE(error.find("Resample To Image"), std::string::npos) << error;
     }
   }

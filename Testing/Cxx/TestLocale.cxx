@@ -114,7 +114,8 @@ TEST_P(FilterLocale, PlacesOutsideTheImage)
   seeds->SetPoints(points);
   this->Filter->SetInitializationToSeeds();
   this->Filter->SetInitialSurfaceData(seeds);
-  this->ExpectError("Seed 0 lies outside the image: 1234.5 voxel distances along axis 2, the image has 40");
+  this->ExpectError(
+    "Seed 0 lies outside the image: 1234.5 voxel distances along axis 2, the image has 40");
   this->Filter->SetAttractingPointsData(seeds);
   this->ExpectError("point 0 (20, 20, 1234.5) lies outside the image");
 }

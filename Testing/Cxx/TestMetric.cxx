@@ -254,7 +254,8 @@ TEST(EdgeLength, ThatIsNotPossibleIsRefused)
     ErrorOf(filter).find("Edge Length is 0.1, but edges of this image can have mean lengths"),
     std::string::npos);
   filter->SetEdgeLength(1000.);
-  EXPECT_NE(ErrorOf(filter).find("Give a shorter one, or allow coarser levels by Minimum Level Size"),
+  EXPECT_NE(
+    ErrorOf(filter).find("Give a shorter one, or allow coarser levels by Minimum Level Size"),
     std::string::npos);
   filter->SetEdgeLength(-2.);
   EXPECT_NE(ErrorOf(filter).find("Edge Length is -2; it must be 0 (automatic) or a length"),

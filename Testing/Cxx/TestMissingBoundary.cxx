@@ -66,7 +66,8 @@ TEST(MissingBoundary, TellsTheShareOfWhatIsTooThin)
   ASSERT_EQ(FieldOf(surface, "NumberOfComponents"), 1) << "the ball alone";
   EXPECT_EQ(FieldOf(surface, "LostParts"), 2);
   EXPECT_EQ(FieldOf(surface, "MissingParts"), 2);
-  // Faces of voxels count as two thirds of their area, which is right for all directions in the mean.
+  // Faces of voxels count as two thirds of their area, which is right for all directions in the
+  // mean.
   const double sheets = 2 * (2 * 44 * 44 + 4 * 44) / 1.5;
   const double expected = sheets / (sheets + FieldOf(surface, "Area"));
   EXPECT_NEAR(FieldOf(surface, "MissingBoundary"), expected, 1e-3);

@@ -201,7 +201,8 @@ TEST(Proximity, FindsNothingOnASmoothSphere)
   proximity.Examine(state, all, Threads);
   EXPECT_TRUE(proximity.Pairs().empty());
   EXPECT_TRUE(proximity.Intersections().empty());
-  EXPECT_EQ(std::count(state.NearOthers.AsVector().begin(), state.NearOthers.AsVector().end(), 1), 0);
+  EXPECT_EQ(
+    std::count(state.NearOthers.AsVector().begin(), state.NearOthers.AsVector().end(), 1), 0);
 }
 
 TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
@@ -380,7 +381,8 @@ TEST(Proximity, ToldRoomIsThere)
               }
               return triangle;
             };
-            ASSERT_FALSE(TrianglesIntersect(named(i), named(j), 1e-9)) << "at distance " << distance;
+            ASSERT_FALSE(TrianglesIntersect(named(i), named(j), 1e-9))
+              << "at distance " << distance;
           }
         }
       }

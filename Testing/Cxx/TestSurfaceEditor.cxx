@@ -111,7 +111,8 @@ TEST(SurfaceEditor, CollapseTurnsFacesLittle)
     Workbench bench(0.7); // Far from the longest legal edges.
     const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
     const Vector spike = middle + bench.Outward(bench.V) * height;
-    EXPECT_EQ(bench.Editor.CollapseTo(bench.V, bench.W, spike, EditTolerance::Smooth).IsDone, height < 0.5f);
+    EXPECT_EQ(bench.Editor.CollapseTo(bench.V, bench.W, spike, EditTolerance::Smooth).IsDone,
+      height < 0.5f);
     EXPECT_TRUE(bench.IsSound());
   }
 }
@@ -123,8 +124,10 @@ TEST(SurfaceEditor, CollapseMakesNoSlivers)
   const Ring& ring = bench.State.Mesh.Rings[bench.V];
   const Vector rim = (bench.At(ring.Item[2]) + bench.At(ring.Item[3])) * 0.5f;
   const Vector inward = bench.At(bench.V) - rim;
-  ASSERT_FALSE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.03f, EditTolerance::Smooth));
-  EXPECT_TRUE(bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.3f, EditTolerance::Smooth));
+  ASSERT_FALSE(
+    bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.03f, EditTolerance::Smooth));
+  EXPECT_TRUE(
+    bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.3f, EditTolerance::Smooth));
 }
 
 TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
@@ -157,7 +160,8 @@ TEST(SurfaceEditor, SmoothFlipKeepsToLegalLengths)
   Workbench fine(Fine);
   EXPECT_TRUE(fine.Editor.Flip(fine.V, fine.W, EditTolerance::Smooth));
   Workbench coarse(Coarse);
-  EXPECT_FALSE(coarse.Editor.Flip(coarse.V, coarse.W, EditTolerance::Smooth)) << "its edge would be 3.5 delta";
+  EXPECT_FALSE(coarse.Editor.Flip(coarse.V, coarse.W, EditTolerance::Smooth))
+    << "its edge would be 3.5 delta";
 }
 
 TEST(SurfaceEditor, SmoothFlipLeavesCreases)
@@ -165,7 +169,8 @@ TEST(SurfaceEditor, SmoothFlipLeavesCreases)
   Bench bench(Octahedron({ 0, 0, 0 }, 1.2, 1.2, 1.2));
   bench.State.NearOthers.Fill(0);
   EXPECT_FALSE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Smooth));
-  EXPECT_TRUE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Loose)) << "though it is possible";
+  EXPECT_TRUE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Loose))
+    << "though it is possible";
 }
 
 TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
@@ -221,12 +226,14 @@ TEST(SurfaceEditor, MoveKeepsToLegalLengthsAndTurnsFacesLittle)
   const Vector p = coarse.At(coarse.V);
   const Vector along = Normalized(p - coarse.At(coarse.W));
   EXPECT_TRUE(coarse.Editor.Move(coarse.V, p + along * 0.03f, EditTolerance::Smooth));
-  EXPECT_FALSE(coarse.Editor.Move(coarse.V, p + along * 0.8f, EditTolerance::Smooth)) << "an edge of 2.7";
+  EXPECT_FALSE(coarse.Editor.Move(coarse.V, p + along * 0.8f, EditTolerance::Smooth))
+    << "an edge of 2.7";
   for (const EditTolerance tolerance : { EditTolerance::Smooth, EditTolerance::Loose })
   {
     Workbench bench(Fine);
     const Vector spike = bench.At(bench.V) + bench.Outward(bench.V) * 1.4f;
-    EXPECT_EQ(bench.Editor.Move(bench.V, spike, tolerance).IsDone, tolerance == EditTolerance::Loose);
+    EXPECT_EQ(
+      bench.Editor.Move(bench.V, spike, tolerance).IsDone, tolerance == EditTolerance::Loose);
     EXPECT_TRUE(bench.IsSound());
   }
 }

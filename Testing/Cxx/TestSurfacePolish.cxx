@@ -62,7 +62,8 @@ Shape ShapeOf(const SurfaceState& state)
       {
         edge[k] = Length(VectorD(state.Mesh.Position[corner[(k + 1) % 3]]) -
           VectorD(state.Mesh.Position[corner[k]]));
-        shape.EdgesOutside += edge[k] < state.Sizing.OfLevel() || edge[k] > 2.5 * state.Sizing.OfLevel();
+        shape.EdgesOutside +=
+          edge[k] < state.Sizing.OfLevel() || edge[k] > 2.5 * state.Sizing.OfLevel();
       }
       shape.WorstRatio = std::min(shape.WorstRatio,
         (edge[0] + edge[1] - edge[2]) * (edge[1] + edge[2] - edge[0]) *

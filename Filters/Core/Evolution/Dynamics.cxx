@@ -93,8 +93,8 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
     // Value has the sign of the object; the potential is the image itself.
     const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
     const float weight = static_cast<float>(this->Options.GradientWeight);
-    beside -=
-      weight * Clamp(sign * Dot(sample.Gradient, n) / (FullGradient * this->TheField.TypicalSlope()));
+    beside -= weight *
+      Clamp(sign * Dot(sample.Gradient, n) / (FullGradient * this->TheField.TypicalSlope()));
     most += weight;
   }
   if (this->Edges)

@@ -11,8 +11,8 @@ namespace volumic
 {
 /**
  * Mean length of the edges of a level that rests, in delta. Found by experiment, on nine scans in
- * both metrics: from 1.5 (smooth heads) to 1.8 (skulls). SurfaceEvolution::SetMeanEdgeLength makes up
- * for the difference.
+ * both metrics: from 1.5 (smooth heads) to 1.8 (skulls). SurfaceEvolution::SetMeanEdgeLength makes
+ * up for the difference.
  */
 constexpr double MeanEdgeInDelta = 1.7;
 
@@ -34,7 +34,8 @@ struct EdgeLengthPreferences
 /**
  * For an image of which the pyramid is still to be made. delta is T^h SamplingRatio U_0; of all
  * levels h, factors T and ratios that give it, those with the least weighted sum of squares of the
- * logarithms of T and the ratio over what is preferred. T stays within what one sqrt 3 division can follow.
+ * logarithms of T and the ratio over what is preferred. T stays within what one sqrt 3 division can
+ * follow.
  *
  * @param edgeLength mean length of the edges, in the unit of `spacing`, more than 0
  * @throws std::invalid_argument naming the lengths that are possible, if this one is not.

@@ -53,7 +53,8 @@ struct SurfaceEvolution::Implementation
   {
   }
 
-  bool Ask(bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share);
+  bool Ask(
+    bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share);
   bool GoOn(Monitor::Activity doing, double share);
   Checkpoint CheckpointOf(Monitor::Activity doing, double from = 0., double to = 1.);
   bool HasIteration() const;

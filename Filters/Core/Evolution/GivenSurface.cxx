@@ -188,8 +188,8 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
   // slivers or fans deny them that, the same surface gets another mesh first.
   const SurfaceState& s = this->State;
   const EdgeLengths lengths = LengthsOf(surface);
-  if (lengths.Longest <= SizingField::LongestEdgeInDelta * s.Sizing.OfLevel() && FitsRings(surface) &&
-    !IsTooDense(surface, s.Sizing.OfLevel()))
+  if (lengths.Longest <= SizingField::LongestEdgeInDelta * s.Sizing.OfLevel() &&
+    FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel()))
   {
     this->Begin(surface);
     if (this->Iteration.Intersections().empty())
@@ -242,8 +242,8 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
   }
   if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
   {
-    Refuse("The initial surface could not be brought to edges between ", s.Sizing.OfLevel(), " and ",
-      SizingField::LongestEdgeInDelta * s.Sizing.OfLevel(),
+    Refuse("The initial surface could not be brought to edges between ", s.Sizing.OfLevel(),
+      " and ", SizingField::LongestEdgeInDelta * s.Sizing.OfLevel(),
       " voxel distances without an intersection. Remesh it to such edges before it is given, or "
       "choose another Initialization.");
   }

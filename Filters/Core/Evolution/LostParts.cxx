@@ -276,7 +276,8 @@ bool IsClearOfSurface(
     return state.Grid.HasWithin(place, radius, state.Mesh.Position);
   };
   const float reach = state.Sizing.LargestReach();
-  const float radius = static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Sizing.OfLevel();
+  const float radius =
+    static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Sizing.OfLevel();
   if (!hasWithin(lattice.Centre(cell), radius + reach))
   {
     return true;

@@ -253,7 +253,8 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   if (state.AreOpposed(v, v))
   {
     anything = true;
-    slack = std::min(slack, TestStars(state, this->Listed, star(), v, block.Intersections, block.Tight));
+    slack =
+      std::min(slack, TestStars(state, this->Listed, star(), v, block.Intersections, block.Tight));
   }
   state.Grid.Visit(p, further,
     [&](int w)

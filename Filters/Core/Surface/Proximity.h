@@ -39,8 +39,8 @@ public:
 
   /**
    * Fills Pairs, Intersections, and NearOthers and Slack of the vertices in the list. Slack is the
-   * room that their stars have: while neither of two stars has moved by half of its slack they can't
-   * intersect.
+   * room that their stars have: while neither of two stars has moved by half of its slack they
+   * can't intersect.
    */
   void Examine(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 

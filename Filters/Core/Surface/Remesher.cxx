@@ -13,7 +13,7 @@ namespace
 {
 /** Splits that may have to come before one, see SplitEdge. */
 constexpr int DeepestSplit = 4;
-/** Cosine between the normals of two stars from which on they do not face each other: 107 degrees. */
+/** Cosine between the normals of two stars that just don't face each other: 107 degrees. */
 constexpr float FacingCosine = -0.3f;
 /** Least cosine between a star's normal and the line to the other one: it lies ahead or behind. */
 constexpr float AheadCosine = 0.3f;

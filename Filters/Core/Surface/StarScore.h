@@ -13,7 +13,7 @@ namespace volumic
  */
 constexpr float ScoreMargin = 1e-4f;
 
-/** Radius ratio of a face, twice the inscribed over the circumscribed circle's: 0 to 1; -1: none. */
+/** Radius ratio of a face, twice the inscribed over the circumscribed circle's: 0 to 1, -1: none */
 float FaceScore(const Vector& a, const Vector& b, const Vector& c);
 
 /** 1 for a length that eq. (1) allows, else negative: worse than any face. */

@@ -45,7 +45,7 @@ enum RemeshFlag : std::uint8_t
 /**
  * The live surface: mesh, grid of its vertices, and what each of these knows. Its vertex properties
  * are registered once, below, and resized together. Who may change what: the mesh and its grid,
- * SurfaceEditor (Dynamics and the roll back move vertices); a property, the one that is named there.
+ * SurfaceEditor (Dynamics and the roll back move vertices); a property, who is named there.
  */
 class SurfaceState
 {
@@ -68,7 +68,8 @@ public:
   VertexProperty<float> Displacement{ this->Properties, 0.f, 0.f }; ///< Length, in this iteration.
 
   // Rest: Dynamics, the roll back, and edits, by Activate().
-  VertexProperty<std::uint8_t> Active{ this->Properties, 1, 1 }; ///< Forces act on it; 0: motionless.
+  /** Forces act on it; 0: motionless. */
+  VertexProperty<std::uint8_t> Active{ this->Properties, 1, 1 };
   /** Iterations since it has moved visibly. */
   VertexProperty<std::uint8_t> RestCount{ this->Properties, 0, 0 };
   /** Grows with each roll back, shrinks otherwise. */
