@@ -187,10 +187,10 @@ TEST(SurfaceCheck, FindsEveryBrokenInvariantOfALiveMesh)
     mesh.Position[5].Y = std::nanf("");
     EXPECT_SAYS(DescribeBrokenInvariant(mesh), "not finite");
   }
-  for (const int stranger : { -1, 0, good.Size() })
+  for (const int unknown : { -1, 0, good.Size() })
   {
     SurfaceMesh mesh = good;
-    mesh.Rings[0].Item[0] = stranger;
+    mesh.Rings[0].Item[0] = unknown;
     EXPECT_SAYS(DescribeBrokenInvariant(mesh), "which is none");
   }
   {
