@@ -3,6 +3,7 @@
 #include "KeepComponents.h"
 
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/SizingField.h"
 #include "SurfaceTransform.h"
 
 #include <algorithm>
@@ -159,7 +160,7 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
     }
   }
   const SortedPlaces sorted(places);
-  const double reach = 2.5 * surface.Delta;
+  const double reach = SizingField::LongestEdgeInDelta * surface.Delta;
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
   {
     const int host = hosts[features.ComponentOfTriangle[t]];

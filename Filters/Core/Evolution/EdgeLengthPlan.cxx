@@ -3,6 +3,7 @@
 #include "Core/Evolution/EdgeLengthPlan.h"
 
 #include "Core/Common/Refuse.h"
+#include "Core/Surface/SizingField.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,14 @@ namespace volumic
 namespace
 {
 /** Eq. (7): delta_h / U_h. */
-const double LeastRatio = std::sqrt(3.) / 2.5;
+constexpr double LeastRatio = SizingField::LeastSamplingRatio;
 constexpr double MostRatio = 1.;
 /**
  * Factors between two levels that a single division follows well: the range of the ratio spans
  * 2.5 / sqrt 3 = 1.443, so these leave no gap between the lengths of one level and the next.
  */
-const double LeastFactor = 2.5 / std::sqrt(3.) - 1e-3;
+constexpr double LeastFactor =
+  SizingField::LongestEdgeInDelta / SizingField::DivisionFactor - 1e-3;
 constexpr double MostFactor = 1.99;
 
 struct Candidate

@@ -189,7 +189,7 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
   constexpr double longestStep = 0.03;
   SurfaceState& s = this->State;
   const double unit = this->TheField->Image().Unit;
-  const float least = static_cast<float>(std::sqrt(3.) / 2.5 * unit);
+  const float least = static_cast<float>(SizingField::LeastSamplingRatio * unit);
   const float most = static_cast<float>(unit);
   Remesher remesher(s, this->TheField.get(), false);
   double first = 0.;

@@ -62,7 +62,8 @@ const char* Describe(StopReason reason)
 SurfaceEvolution::SurfaceEvolution(
   const SurfaceOptions& options, Executor& executor, Monitor& monitor)
 {
-  CheckRange("Sampling Ratio", options.SamplingRatio, std::sqrt(3.) / 2.5 - 1e-6, 1.);
+  CheckRange("Sampling Ratio", options.SamplingRatio,
+    SizingField::LeastSamplingRatio - 1e-6, 1.);
   CheckRange("Tension Weight", options.TensionWeight, 0., 1e6);
   CheckRange("Elasticity Weight", options.ElasticityWeight, 0., 1e6);
   CheckRange("Isopotential Weight", options.IsopotentialWeight, 0., 1e6);
@@ -148,7 +149,8 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
   // the mesh's, sqrt 3.
   const int divisions = static_cast<int>(
-    std::lround(std::log(coarse / self.State.Sizing.OfLevel()) / std::log(std::sqrt(3.))));
+    std::lround(std::log(coarse / self.State.Sizing.OfLevel()) /
+      std::log(SizingField::DivisionFactor)));
   // After each of these steps the surface is one to hand over.
   bool goesOn = true;
   for (int i = 0; i < divisions && goesOn; ++i)

@@ -19,6 +19,13 @@ class SizingField
 public:
   /** Factors of delta. */
   static constexpr float LongestEdgeInDelta = 2.5f;
+  /** sqrt 3: how many times shorter a division makes the edges. */
+  static constexpr double DivisionFactor = 1.7320508075688772;
+  /**
+   * Eq. (7): delta_h over U_h lies between this and 1; edges of the longest legal length are then as
+   * short as delta once a division has made them sqrt 3 times shorter.
+   */
+  static constexpr double LeastSamplingRatio = DivisionFactor / LongestEdgeInDelta;
   /** lambda of eq. (1): circumradius of the largest legal triangle. */
   static constexpr float LambdaInDelta = 1.4433757f;
   /** Two triangles of legal edges that intersect have two corners nearer than this. */
