@@ -10,7 +10,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>
 
@@ -34,13 +34,6 @@ double Work(const SurfaceEvolution& evolution)
     work += row.Vertices;
   }
   return work;
-}
-
-SurfaceOptions Half()
-{
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  return options;
 }
 
 TestVolume Noise(int n, unsigned seed)
@@ -87,7 +80,7 @@ TEST(CycleCriterion, IsNotMetByWhatGetsSomewhere)
 TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
 {
   const TestVolume volume = Noise(20, 5);
-  SurfaceOptions options = Half();
+  SurfaceOptions options = IsoHalf();
   options.Friction = 0.3;
   options.ConvergenceTolerance = 0.;
   SurfaceEvolution evolution(options, Threads, Silent);
@@ -113,7 +106,7 @@ TEST(EndlessRuns, AShellAtAReplicatedBorderCostsLittle)
 {
   const TestVolume volume = MakeVolume(24, [](double x, double y, double z)
     { return Soft(std::abs(Distance(x, y, z, 8, 10, 13) - 14.) - 2.); });
-  SurfaceOptions options = Half();
+  SurfaceOptions options = IsoHalf();
   options.BorderValue = Border::Replicate;
   SurfaceEvolution evolution(options, Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
@@ -125,7 +118,7 @@ TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
 {
   const TestVolume volume = MakeVolume(20, [](double x, double y, double z)
     { return (static_cast<int>(x / 3) + static_cast<int>(y / 3) + static_cast<int>(z / 3)) % 2; });
-  SurfaceOptions options = Half();
+  SurfaceOptions options = IsoHalf();
   options.IsoValue = 0.45;
   options.BorderValue = Border::Replicate;
   options.IsopotentialWeight = 75.;
@@ -145,7 +138,7 @@ TEST(EndlessRuns, AStrongMapOfEdgesInNoiseCostsLittle)
   volume.Image.Edges = edges.Values.data();
   for (const double weight : { 30., 1000. })
   {
-    SurfaceOptions options = Half();
+    SurfaceOptions options = IsoHalf();
     options.EdgeAttractionWeight = weight;
     SurfaceEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(volume.Image, 0);
@@ -162,7 +155,7 @@ TEST(EndlessRuns, StrongInnerForcesComeToRest)
     { return Soft(Distance(x, y, z, 14, 14, 14) - 9.); });
   for (const auto& weights : { std::pair<double, double>(0.2, 100.), { 100., 0.1 } })
   {
-    SurfaceOptions options = Half();
+    SurfaceOptions options = IsoHalf();
     options.TensionWeight = weights.first;
     options.ElasticityWeight = weights.second;
     SurfaceEvolution evolution(options, Threads, Silent);

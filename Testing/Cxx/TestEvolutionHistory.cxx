@@ -4,7 +4,7 @@
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SurfaceState.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>
 
@@ -22,13 +22,6 @@ namespace
 {
 SequentialExecutor Threads;
 Monitor Silent;
-
-SurfaceOptions Half()
-{
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  return options;
-}
 
 /** A scene as two levels, both sampled. */
 struct TwoLevels
@@ -98,7 +91,7 @@ void ExpectExplained(const std::vector<HistoryRow>& rows)
 TEST(EvolutionHistory, ExplainsTheEulerCharacteristicRowByRow)
 {
   const TwoLevels scene = SceneWithLostBalls();
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
   const std::size_t coarseRows = evolution.History().size();
@@ -130,7 +123,7 @@ TEST(EvolutionHistory, TellsOfDeletedComponents)
       return Soft(std::min({ Distance(x, y, z, 20, 20, 20) - 8., Distance(x, y, z, 6, 6, 6) - 1.,
         Distance(x, y, z, 33, 33, 33) - 1. }));
     });
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   ASSERT_EQ(
     evolution.StartSeeds(volume.Image, 0, { { 20, 20, 20 }, { 6, 6, 6 }, { 33, 33, 33 } }), 3);
   evolution.Run();
@@ -179,7 +172,7 @@ TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisation
   };
   const TwoLevels scene = SceneWithLostBalls();
   Last last;
-  SurfaceEvolution evolution(Half(), Threads, last);
+  SurfaceEvolution evolution(IsoHalf(), Threads, last);
   last.Evolution = &evolution;
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
@@ -197,7 +190,7 @@ TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisation
 TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
 {
   const TwoLevels scene = SceneWithLostBalls();
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   using std::chrono::steady_clock;
   const auto start = steady_clock::now() - std::chrono::seconds(1000);
   evolution.StartClock(start);

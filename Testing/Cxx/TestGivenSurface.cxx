@@ -7,7 +7,7 @@
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/Remesher.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>
 
@@ -22,13 +22,6 @@ namespace
 {
 SequentialExecutor Threads;
 Monitor Silent;
-
-SurfaceOptions Half()
-{
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  return options;
-}
 
 TestVolume Ball()
 {
@@ -97,27 +90,15 @@ void ExpectLegal(const IndexedSurface& surface, double delta)
   SurfaceMesh mesh;
   mesh.Append(surface);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  double shortest = 1e9;
-  double longest = 0;
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& p = surface.Points[t[k]];
-      const Point& q = surface.Points[t[(k + 1) % 3]];
-      const double length = Distance(p[0], p[1], p[2], q[0], q[1], q[2]);
-      shortest = std::min(shortest, length);
-      longest = std::max(longest, length);
-    }
-  }
-  EXPECT_GE(shortest, 0.999 * delta);
-  EXPECT_LE(longest, 2.501 * delta);
+  const std::vector<double> lengths = EdgeLengths(surface);
+  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), 0.999 * delta);
+  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2.501 * delta);
 }
 
 std::string RefusalOf(const IndexedSurface& surface)
 {
   const TestVolume volume = Ball();
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   try
   {
     evolution.StartSurface(volume.Image, 0, surface);
@@ -145,7 +126,7 @@ TEST(GivenSurface, IsLegalBeforeTheFirstIterationWhateverItsTriangles)
          Case{ "cube", Box({ 6, 6, 6 }, { 33, 33, 33 }) } })
   {
     SCOPED_TRACE(given.Name);
-    SurfaceEvolution evolution(Half(), Threads, Silent);
+    SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
     evolution.StartSurface(volume.Image, 0, given.Surface);
     const SurfaceResult start = evolution.Result();
     ExpectLegal(start, start.Delta);
@@ -168,7 +149,7 @@ TEST(GivenSurface, KeepsItsComponentsCavitiesAndTunnels)
   Append(given, Box({ 20, 20, 16 }, { 38, 38, 36 }));
   Append(given, Box({ 24, 24, 20 }, { 34, 34, 32 }), true);
   Append(given, DividedIcosahedron({ 8, 30, 30 }, 5, 0.1));
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSurface(volume.Image, 0, given);
   const SurfaceResult start = evolution.Result();
   ExpectLegal(start, start.Delta);
@@ -181,11 +162,11 @@ TEST(GivenSurface, KeepsItsComponentsCavitiesAndTunnels)
 TEST(GivenSurface, IsTakenAsItIsWhereItIsLegal)
 {
   const TestVolume volume = Ball();
-  SurfaceEvolution first(Half(), Threads, Silent);
+  SurfaceEvolution first(IsoHalf(), Threads, Silent);
   first.StartEnclosing(volume.Image, 0);
   first.Run();
   const SurfaceResult rested = first.Result();
-  SurfaceEvolution second(Half(), Threads, Silent);
+  SurfaceEvolution second(IsoHalf(), Threads, Silent);
   IndexedSurface withMore = rested;
   withMore.Points.insert(withMore.Points.begin(), { 1, 2, 3 }); // Used by no triangle.
   for (Triangle& t : withMore.Triangles)
@@ -203,7 +184,7 @@ TEST(GivenSurface, IsLegalForAnyOrderOfTriangles)
   const TestVolume volume = Ball();
   IndexedSurface given = Cylinder(13, 25.5, 40);
   std::reverse(given.Triangles.begin(), given.Triangles.end());
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSurface(volume.Image, 0, given);
   const SurfaceResult start = evolution.Result();
   ExpectLegal(start, start.Delta);
@@ -226,7 +207,7 @@ TEST(GivenSurface, CanBeCancelledWhileItIsMadeReady)
   const TestVolume volume = Ball();
   CancelAt count(1000000);
   {
-    SurfaceEvolution evolution(Half(), Threads, count);
+    SurfaceEvolution evolution(IsoHalf(), Threads, count);
     evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
   }
   const int calls = 1000000 - count.Left;
@@ -234,7 +215,7 @@ TEST(GivenSurface, CanBeCancelledWhileItIsMadeReady)
   for (int call = 0; call < calls; call += 7)
   {
     CancelAt monitor(call);
-    SurfaceEvolution evolution(Half(), Threads, monitor);
+    SurfaceEvolution evolution(IsoHalf(), Threads, monitor);
     evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
     EXPECT_EQ(monitor.Left, -1) << "not asked again";
     const SurfaceResult state = evolution.Result();

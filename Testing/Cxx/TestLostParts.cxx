@@ -5,7 +5,7 @@
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>
 
@@ -33,13 +33,6 @@ TestVolume Scene()
     });
 }
 
-SurfaceOptions Half()
-{
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  return options;
-}
-
 void Fill(SurfaceState& state)
 {
   state.Mesh = MakeSphere({ 18, 24, 24 }, 13., 1.4 * Delta);
@@ -55,7 +48,7 @@ struct KnownBall
   SurfaceState State;
 
   explicit KnownBall(TestVolume volume = Scene())
-    : Volume(std::move(volume)), Image(this->Volume.Image, Half(), Threads)
+    : Volume(std::move(volume)), Image(this->Volume.Image, IsoHalf(), Threads)
   {
     Fill(this->State);
   }
@@ -180,7 +173,7 @@ TEST(LostParts, FindsNothingWhereTheSurfaceHasAll)
 TEST(LostParts, FindsAllWithoutAnySurface)
 {
   const TestVolume volume = Scene();
-  const Field field(volume.Image, Half(), Threads);
+  const Field field(volume.Image, IsoHalf(), Threads);
   SurfaceState state;
   state.Sizing = SizingField(Delta);
   state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));

@@ -3,7 +3,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>
 
@@ -71,13 +71,6 @@ public:
   }
 };
 
-SurfaceOptions Half()
-{
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  return options;
-}
-
 TestVolume Ball(int n, double radius)
 {
   return MakeVolume(n, [n, radius](double x, double y, double z)
@@ -104,28 +97,16 @@ void ExpectSound(const SurfaceEvolution& evolution)
   SurfaceMesh mesh;
   mesh.Append(surface);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  double shortest = 1e9;
-  double longest = 0;
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& a = surface.Points[t[k]];
-      const Point& b = surface.Points[t[(k + 1) % 3]];
-      const double edge = Distance(a[0], a[1], a[2], b[0], b[1], b[2]);
-      shortest = std::min(shortest, edge);
-      longest = std::max(longest, edge);
-    }
-  }
-  EXPECT_GE(shortest, surface.Delta * (1 - 1e-5));
-  EXPECT_LE(longest, surface.Delta * 2.5 * (1 + 1e-5));
+  const std::vector<double> lengths = EdgeLengths(surface);
+  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), surface.Delta * (1 - 1e-5));
+  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), surface.Delta * 2.5 * (1 + 1e-5));
 }
 }
 
 TEST(SurfaceEvolution, ShrinksAnEnclosingSurfaceOntoABall)
 {
   const TestVolume volume = Ball(32, 10);
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   ExpectSound(evolution);
@@ -154,7 +135,7 @@ TEST(SurfaceEvolution, GrowsSeedsUntilTheyMergeIntoATorus)
       const double q = std::sqrt((x - 20) * (x - 20) + (y - 20) * (y - 20)) - 11;
       return Soft(std::sqrt(q * q + (z - 20) * (z - 20)) - 5);
     });
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, { { 9, 20, 20 }, { 31, 20, 20 } }), 2);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   ExpectSound(evolution);
@@ -173,7 +154,7 @@ TEST(SurfaceEvolution, IsSoundAfterEveryIteration)
 {
   const TestVolume volume = NoisyTorus(36);
   Inspector inspector;
-  SurfaceEvolution evolution(Half(), Threads, inspector);
+  SurfaceEvolution evolution(IsoHalf(), Threads, inspector);
   inspector.Evolution = &evolution;
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
@@ -187,8 +168,8 @@ TEST(SurfaceEvolution, GivesTheSameBitsForAnyExecutor)
 {
   const TestVolume volume = NoisyTorus(36);
   ShuffledExecutor shuffled;
-  SurfaceEvolution first(Half(), Threads, Silent);
-  SurfaceEvolution second(Half(), shuffled, Silent);
+  SurfaceEvolution first(IsoHalf(), Threads, Silent);
+  SurfaceEvolution second(IsoHalf(), shuffled, Silent);
   for (SurfaceEvolution* evolution : { &first, &second })
   {
     evolution->StartEnclosing(volume.Image, 0);
@@ -208,7 +189,7 @@ TEST(SurfaceEvolution, DividesToAFinerLevel)
     { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - 10. * n / 32.); });
   coarse.Image.Step = { 32. / n, 32. / n, 32. / n };
   coarse.Image.Unit = std::sqrt(3.);
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(coarse.Image, 1);
   evolution.Run();
   const std::size_t before = evolution.Result().Points.size();
@@ -233,7 +214,7 @@ TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
   coarse.Image.Unit = std::sqrt(3.);
   for (const bool recover : { true, false })
   {
-    SurfaceOptions options = Half();
+    SurfaceOptions options = IsoHalf();
     options.RecoverLostParts = recover;
     SurfaceEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(coarse.Image, 1);
@@ -252,7 +233,7 @@ TEST(SurfaceEvolution, RemeshesAGivenSurface)
 {
   const TestVolume volume = Ball(32, 10);
   IndexedSurface sphere = DividedIcosahedron({ 16, 16, 16 }, 11, 0.3); // Much too fine.
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSurface(volume.Image, 0, sphere);
   const std::size_t adapted = evolution.Result().Points.size();
   EXPECT_LT(adapted, sphere.Points.size() / 4);
@@ -278,7 +259,7 @@ TEST(SurfaceEvolution, TakesSurfacesWithCrowdedPoles)
     cone.Triangles.push_back({ 1, 2 + (i + 1) % sides, 2 + i });
   }
   const TestVolume volume = Ball(32, 9);
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSurface(volume.Image, 0, cone);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   ExpectSound(evolution);
@@ -289,7 +270,7 @@ TEST(SurfaceEvolution, HandsOverASoundSurfaceWhenCancelled)
 {
   const TestVolume volume = Ball(32, 10);
   CancelAfter monitor(7);
-  SurfaceEvolution evolution(Half(), Threads, monitor);
+  SurfaceEvolution evolution(IsoHalf(), Threads, monitor);
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
   EXPECT_EQ(evolution.Iterations(), 7);
@@ -299,7 +280,7 @@ TEST(SurfaceEvolution, HandsOverASoundSurfaceWhenCancelled)
 TEST(SurfaceEvolution, SaysWhenNothingIsLeft)
 {
   const TestVolume volume = MakeVolume(24, [](double, double, double) { return 0.; });
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Vanished);
   EXPECT_TRUE(evolution.Result().Points.empty());
@@ -313,7 +294,7 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
       return Soft(
         std::min(Distance(x, y, z, 9, 18, 18) - 6., Distance(x, y, z, 27, 18, 18) - 6.));
     });
-  SurfaceOptions options = Half();
+  SurfaceOptions options = IsoHalf();
   options.TopologyChanges = false;
   options.MaximumNumberOfIterations = 150;
   SurfaceEvolution evolution(options, Threads, Silent);
@@ -326,7 +307,7 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
 TEST(SurfaceEvolution, StopsAtTheIterationLimit)
 {
   const TestVolume volume = Ball(32, 10);
-  SurfaceOptions options = Half();
+  SurfaceOptions options = IsoHalf();
   options.MaximumNumberOfIterations = 3;
   SurfaceEvolution evolution(options, Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
@@ -338,7 +319,7 @@ TEST(SurfaceEvolutionInvalid, RefusesOptionsOutsideTheirRange)
 {
   const auto with = [](auto&& change)
   {
-    SurfaceOptions options = Half();
+    SurfaceOptions options = IsoHalf();
     change(options);
     SurfaceEvolution evolution(options, Threads, Silent);
   };
@@ -353,7 +334,7 @@ TEST(SurfaceEvolutionInvalid, RefusesOptionsOutsideTheirRange)
 TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
 {
   const TestVolume volume = Ball(32, 10);
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   EXPECT_THROW(
     evolution.StartSeeds(volume.Image, 0, { { 16, 16, 50 } }), std::invalid_argument);
   EXPECT_THROW(evolution.StartSeeds(volume.Image, 0, { { 1, 1, 1 } }), std::invalid_argument);
@@ -362,7 +343,7 @@ TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
 TEST(SurfaceEvolutionInvalid, RefusesSurfacesItCannotUse)
 {
   const TestVolume volume = Ball(32, 10);
-  SurfaceEvolution evolution(Half(), Threads, Silent);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   const IndexedSurface good = Icosahedron({ 16, 16, 16 }, 8);
   const auto refuses = [&](IndexedSurface surface, const char* word)
   {
