@@ -69,6 +69,10 @@ class FoldersTest(unittest.TestCase):
         self.assertGreater(len(named), 20)
         self.assertEqual([path for path in named if not os.path.exists(os.path.join(ROOT, path))],
                          [])
+        known = {name for folder in folders_in(ROOT)
+                 for _, _, names in os.walk(os.path.join(ROOT, folder)) for name in names}
+        alone = re.findall(r"`(\w+\.\w+)`", read(PAGE))
+        self.assertEqual([name for name in alone if name not in known], [])
 
     def test_classes_that_the_page_names_are_there(self):
         """A name in code that begins as those of units do is a unit, or found in a header."""
