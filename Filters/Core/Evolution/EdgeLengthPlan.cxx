@@ -22,7 +22,7 @@ constexpr double MostRatio = 1.;
  * 2.5 / sqrt 3 = 1.443, so these leave no gap between the lengths of one level and the next.
  */
 constexpr double LeastFactor =
-  SizingField::LongestEdgeInDelta / SizingField::DivisionFactor - 1e-3;
+  SizingField::LongestEdgeInDelta / SizingField::VoxelDiagonal - 1e-3;
 constexpr double MostFactor = 1.99;
 
 struct Candidate

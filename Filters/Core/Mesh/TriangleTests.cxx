@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/TriangleTests.h"
 
+#include "Core/Mesh/SurfaceMesh.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -152,6 +154,12 @@ bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Pl
   }
   return above || below;
 }
+}
+
+MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
+{
+  return { { a, b, c },
+    { VectorD(mesh.Position[a]), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
 }
 
 bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tolerance)

@@ -14,6 +14,11 @@ struct MeshTriangle
   VectorD Corner[3];
 };
 
+class SurfaceMesh;
+
+/** The triangle of three vertices, at their positions. */
+MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
+
 /**
  * Whether two triangles of one mesh intersect anywhere but in the corners or the edge they share.
  *

@@ -84,12 +84,6 @@ bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, 
 }
 }
 
-MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c)
-{
-  return { { a, b, c },
-    { VectorD(mesh.Position[a]), VectorD(mesh.Position[b]), VectorD(mesh.Position[c]) } };
-}
-
 bool NewFacesIntersect(
   const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed)
 {

@@ -36,9 +36,6 @@ struct RemovedFaces
  */
 bool NewFacesIntersect(
   const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed);
-
-/** The triangle with the positions of the mesh. */
-MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
 }
 
 #endif

@@ -3,7 +3,7 @@
 #include "Core/Surface/Proximity.h"
 
 #include "Core/Common/Box.h"
-#include "Core/Surface/NewFaces.h"
+#include "Core/Mesh/TriangleTests.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,13 +19,15 @@ class SizingField
 public:
   /** Factors of delta. */
   static constexpr float LongestEdgeInDelta = 2.5f;
-  /** sqrt 3: how many times shorter a division makes the edges. */
+  /** How many times shorter a division makes the edges, eq. (8). */
   static constexpr double DivisionFactor = 1.7320508075688772;
+  /** sqrt 3: distance of two 26-connected voxels, in the unit of the level. */
+  static constexpr double VoxelDiagonal = 1.7320508075688772;
   /**
-   * Eq. (7): delta_h over U_h lies between this and 1; edges of the longest legal length are then as
-   * short as delta once a division has made them sqrt 3 times shorter.
+   * Eq. (7): delta_h over U_h lies between this and 1, so that edges may be as short as the distance
+   * of two 6-connected voxels and as long as that of two 26-connected ones.
    */
-  static constexpr double LeastSamplingRatio = DivisionFactor / LongestEdgeInDelta;
+  static constexpr double LeastSamplingRatio = VoxelDiagonal / LongestEdgeInDelta;
   /** lambda of eq. (1): circumradius of the largest legal triangle. */
   static constexpr float LambdaInDelta = 1.4433757f;
   /** Two triangles of legal edges that intersect have two corners nearer than this. */

@@ -45,7 +45,7 @@ enum RemeshFlag : std::uint8_t
 /**
  * The live surface: mesh, grid of its vertices, and what each of these knows. Its vertex properties
  * are registered once, below, and resized together. Who may change what: the mesh and its grid,
- * SurfaceEditor (Dynamics and the roll back move vertices); a property, who is named there.
+ * SurfaceEditor (Dynamics and the roll back move vertices); a property: who is named above it.
  */
 class SurfaceState
 {
