@@ -88,6 +88,14 @@ TEST(Box, TellsWhatIsApart)
   EXPECT_TRUE(box.IsApartFrom(other));
   EXPECT_TRUE(other.IsApartFrom(box));
   EXPECT_FALSE(box.Grown(0.3f).IsApartFrom(other));
+  for (const Vector& way : { Vector(1.1f, 0, 0), Vector(0, 2.1f, 0), Vector(0, 0, 3.1f) })
+  {
+    const Box moved = { box.Low + way, box.High + way };
+    EXPECT_TRUE(box.IsApartFrom(moved));
+    EXPECT_TRUE(moved.IsApartFrom(box));
+    EXPECT_FALSE(box.Contains(moved.High));
+    EXPECT_FALSE(moved.Contains(box.Low));
+  }
   EXPECT_FALSE(box.With(other).IsApartFrom(other));
   EXPECT_TRUE(box.With(other).Contains(Vector(2, 2, 3)));
 }
