@@ -35,10 +35,12 @@ set(volumic_core_sources
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
   Surface/ComponentWatch.cxx
+  Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
+  Surface/StarImprovement.cxx
   Surface/StarScore.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
@@ -59,11 +61,13 @@ set(volumic_core_headers
   Common/Box.h
   Common/DisjointSets.h
   Common/Executor.h
+  Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
   Common/LatticeKey.h
   Common/Monitor.h
   Common/Refuse.h
+  Common/Select.h
   Common/StandardThreads.h
   Common/Vector.h
   Image/AxisOperator.h
@@ -101,6 +105,7 @@ set(volumic_core_headers
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
   Surface/ComponentWatch.h
+  Surface/EditCells.h
   Surface/FaceShape.h
   Surface/NewFaces.h
   Surface/NormalCone.h
@@ -108,6 +113,7 @@ set(volumic_core_headers
   Surface/RemainingContacts.h
   Surface/Remesher.h
   Surface/SizingField.h
+  Surface/StarImprovement.h
   Surface/StarScore.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h

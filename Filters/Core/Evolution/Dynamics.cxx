@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/Dynamics.h"
 
+#include "Core/Common/Select.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -314,7 +316,9 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active)
         p = state.Margin.Confined(p, p + move);
       }
     });
-  for (int v : active)
+  const std::vector<int> leaving = SelectOf(this->Threads, active,
+    [&state](int v) { return !state.Grid.IsInPlace(v, state.Mesh.Position[v]); });
+  for (int v : leaving)
   {
     state.Grid.Move(v, state.Mesh.Position[v]);
   }

@@ -96,7 +96,8 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   this->Cycle.Reset();
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   const bool evidence = this->Options.IsopotentialWeight > 0;
-  Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
+  Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges,
+    this->Threads);
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
   while (true)
   {
@@ -191,7 +192,7 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
   const double unit = this->TheField->Image().Unit;
   const float least = static_cast<float>(SizingField::LeastSamplingRatio * unit);
   const float most = static_cast<float>(unit);
-  Remesher remesher(s, this->TheField.get(), false);
+  Remesher remesher(s, this->TheField.get(), false, this->Threads);
   double first = 0.;
   for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0 &&
        this->GoOn(Monitor::Activity::Regularising, 0.);
@@ -219,7 +220,7 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = this->State;
   const std::vector<std::uint8_t> active = s.Active.AsVector();
-  Remesher remesher(s, this->TheField.get(), false);
+  Remesher remesher(s, this->TheField.get(), false, this->Threads);
   s.Velocity.Fill(Vector());
   HistoryRow row;
   this->ActivateAll();

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceIteration.h"
 
+#include "Core/Common/Select.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace volumic
@@ -21,6 +24,8 @@ constexpr float SlowDisplacement = 0.08f;
 constexpr int SuspiciousCollapses = 40;
 /** Iterations between two looks for components that are inside out. */
 constexpr int InsideOutPeriod = 10;
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t ActiveGrain = 2048;
 
 void SortUnique(std::vector<int>& vertices)
 {
@@ -55,14 +60,8 @@ void SurfaceIteration::Forget()
 
 void SurfaceIteration::CollectActive()
 {
-  this->Active.clear();
-  for (int v = 0; v < this->State.Mesh.Size(); ++v)
-  {
-    if (this->State.Active[v])
-    {
-      this->Active.push_back(v);
-    }
-  }
+  this->Active = SelectIndices(this->Threads, this->State.Mesh.Rings.size(),
+    [this](std::size_t v) { return this->State.Active[v] != 0; });
 }
 
 void SurfaceIteration::UpdateActive()
@@ -73,7 +72,7 @@ void SurfaceIteration::UpdateActive()
 
 void SurfaceIteration::SplitLongEdges()
 {
-  Remesher remesher(this->State, nullptr, false);
+  Remesher remesher(this->State, nullptr, false, this->Threads);
   remesher.Split(this->Active);
   this->UpdateChanged(remesher.TakeChanged());
 }
@@ -84,17 +83,33 @@ void SurfaceIteration::CollectWorking()
   SurfaceState& s = this->State;
   this->IsWorking.assign(s.Mesh.Rings.size(), 0);
   this->Working = this->Active;
-  for (int v : this->Active)
-  {
-    this->IsWorking[v] = 1;
-  }
-  for (int v : this->Active)
-  {
-    const Ring& ring = s.Mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
+  this->Threads.For(this->Active.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      this->AddUnmoved(ring.Item[i]);
-    }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->IsWorking[this->Active[i]] = 1;
+      }
+    });
+  std::vector<std::vector<int>> blocks((this->Active.size() + ActiveGrain - 1) / ActiveGrain);
+  ForBlocks(this->Threads, this->Active.size(), ActiveGrain,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Ring& ring = s.Mesh.Rings[this->Active[i]];
+        std::copy_if(ring.Item, ring.Item + ring.Count, std::back_inserter(blocks[b]),
+          [this](int w) { return !this->IsWorking[w]; });
+      }
+    });
+  std::vector<int> unmoved;
+  for (const std::vector<int>& block : blocks)
+  {
+    unmoved.insert(unmoved.end(), block.begin(), block.end());
+  }
+  for (int v : unmoved)
+  {
+    this->AddUnmoved(v);
   }
 }
 
@@ -129,29 +144,45 @@ void SurfaceIteration::CollectSuspects()
         s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
       }
     });
-  this->Suspects.clear();
-  for (int v : this->Working)
-  {
-    if (s.Drift[v] > 0.5f * s.Slack[v])
+  this->Suspects = SelectOf(
+    this->Threads, this->Working, [&s](int v) { return s.Drift[v] > 0.5f * s.Slack[v]; });
+  this->Threads.For(this->Suspects.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      s.Drift[v] = 0;
-      this->Suspects.push_back(v);
-    }
-  }
-  for (int v : this->Active)
-  {
-    s.Displacement[v] = 0;
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        s.Drift[this->Suspects[i]] = 0;
+      }
+    });
+  this->Threads.For(this->Active.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        s.Displacement[this->Active[i]] = 0;
+      }
+    });
 }
 
 void SurfaceIteration::UpdateChanged(std::vector<int> changed)
 {
-  SortUnique(changed);
-  this->State.UpdateShape(changed, this->Threads);
+  // Each once, in any order.
+  std::vector<float>& drift = this->State.Drift.AsVector();
   for (int v : changed)
   {
-    this->State.Drift[v] = SurfaceState::NotExamined; // Its star is another one.
+    drift[v] = 0;
   }
+  std::size_t count = 0;
+  for (int v : changed)
+  {
+    if (drift[v] != SurfaceState::NotExamined)
+    {
+      drift[v] = SurfaceState::NotExamined; // Its star is another one.
+      changed[count++] = v;
+    }
+  }
+  changed.resize(count);
+  this->State.UpdateShape(changed, this->Threads);
 }
 
 void SurfaceIteration::RollBackVertex(int v)
@@ -237,13 +268,15 @@ void SurfaceIteration::RestoreConstraints(Remesher& remesher)
   remesher.Collapse(this->Working);
   remesher.Flip(this->Working);
   remesher.Unstick(this->Working);
-  for (int v : this->Working)
-  {
-    if (s.RollbackCount[v] > 0)
+  this->Threads.For(this->Working.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      --s.RollbackCount[v];
-    }
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        std::uint8_t& count = s.RollbackCount[this->Working[i]];
+        count = static_cast<std::uint8_t>(count > 0 ? count - 1 : 0);
+      }
+    });
   // What was rolled back, or drawn back from a cut, may have made edges too long.
   const std::vector<int>& changed = remesher.Changed();
   this->Working.insert(this->Working.end(), changed.begin(), changed.end());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceMesh.h"
 
+#include "Core/Common/Grow.h"
 #include "Core/Common/Refuse.h"
 
 #include <algorithm>
@@ -41,24 +42,53 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   return true;
 }
 
-int SurfaceMesh::AddVertex(const Vector& position)
+int SurfaceMesh::AddVertex(const Vector& position, VertexPlaces* places)
 {
-  if (!this->Free.empty())
+  std::vector<int>& free = places ? places->Free : this->Free;
+  if (free.empty())
   {
-    const int v = this->Free.back();
-    this->Free.pop_back();
-    this->Position[v] = position;
-    return v;
+    Grow(this->Position, this->Position.size() + 1, Vector());
+    Grow(this->Rings, this->Rings.size() + 1, Ring());
+    free.push_back(this->Size() - 1);
   }
-  this->Position.push_back(position);
-  this->Rings.emplace_back();
-  return this->Size() - 1;
+  const int v = free.back();
+  free.pop_back();
+  this->Position[v] = position;
+  return v;
 }
 
-void SurfaceMesh::RemoveVertex(int v)
+void SurfaceMesh::RemoveVertex(int v, VertexPlaces* places)
 {
   this->Rings[v].Count = 0;
-  this->Free.push_back(v);
+  (places ? places->Removed : this->Free).push_back(v);
+}
+
+void SurfaceMesh::Lend(VertexPlaces& places, std::size_t n)
+{
+  const std::size_t size = this->Rings.size();
+  const std::size_t missing = n > this->Free.size() ? n - this->Free.size() : 0;
+  Grow(this->Position, size + missing, Vector());
+  Grow(this->Rings, size + missing, Ring());
+  // The last of them is taken first.
+  for (std::size_t i = missing; i > 0; --i)
+  {
+    places.Free.push_back(static_cast<int>(size + i - 1));
+  }
+  const auto first = this->Free.end() - static_cast<std::ptrdiff_t>(n - missing);
+  places.Free.insert(places.Free.end(), first, this->Free.end());
+  this->Free.erase(first, this->Free.end());
+}
+
+void SurfaceMesh::TakeBack(VertexPlaces& places)
+{
+  this->Free.insert(this->Free.end(), places.Free.begin(), places.Free.end());
+  places.Free.clear();
+}
+
+void SurfaceMesh::TakeRemoved(VertexPlaces& places)
+{
+  this->Free.insert(this->Free.end(), places.Removed.begin(), places.Removed.end());
+  places.Removed.clear();
 }
 
 int SurfaceMesh::NumberOfFaces() const

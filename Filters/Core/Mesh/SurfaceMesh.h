@@ -70,6 +70,16 @@ struct alignas(64) Ring
 };
 
 /**
+ * The places that edits take for new vertices, and those of the vertices that they remove, where
+ * edits are made side by side and must not all use the mesh's own list of free places.
+ */
+struct VertexPlaces
+{
+  std::vector<int> Free;    ///< No vertices yet; taken from the back.
+  std::vector<int> Removed; ///< Not to be taken before all the edits are done.
+};
+
+/**
  * A closed oriented triangulated mesh, possibly of several components.
  *
  * The rings alone are the connectivity: the faces are the triangles (v, ring[i], ring[i + 1]).
@@ -84,6 +94,7 @@ public:
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
+  /** Not while places are given away. */
   int NumberOfVertices() const { return this->Size() - static_cast<int>(this->Free.size()); }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
@@ -94,9 +105,21 @@ public:
    */
   bool AreFarApart(int v, int w) const;
 
-  /** @return the index of a new vertex; its ring is the caller's to fill before anything else. */
-  int AddVertex(const Vector& position);
-  void RemoveVertex(int v);
+  /**
+   * @param places where its index comes from, which must have one; null: the mesh's own, which
+   *               grows where it has none.
+   * @return the index of a new vertex; its ring is the caller's to fill before anything else.
+   */
+  int AddVertex(const Vector& position, VertexPlaces* places = nullptr);
+  /** @param places where its index goes; null: to the mesh's own. */
+  void RemoveVertex(int v, VertexPlaces* places = nullptr);
+
+  /** Gives n free places away; the mesh grows where it has too few. */
+  void Lend(VertexPlaces& places, std::size_t n);
+  /** Takes those back that have not been taken. */
+  void TakeBack(VertexPlaces& places);
+  /** Takes those of removed vertices, once nobody looks for these any more. */
+  void TakeRemoved(VertexPlaces& places);
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
   template <typename Visitor>

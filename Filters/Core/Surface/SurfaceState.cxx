@@ -11,7 +11,9 @@ void SurfaceState::Reset(const Vector& low, const Vector& high)
   this->Properties.Reset(this->Mesh.Rings.size());
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
+  this->LongestEdge = 0;
   this->Grid.Reset(low, high, this->Sizing.LargestReach());
+  this->Grid.Resize(this->Mesh.Rings.size());
   for (int v = 0; v < this->Mesh.Size(); ++v)
   {
     if (this->Mesh.IsAlive(v))
@@ -24,6 +26,18 @@ void SurfaceState::Reset(const Vector& low, const Vector& high)
     }
   }
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic();
+}
+
+void SurfaceState::Lend(VertexPlaces& places, std::size_t n)
+{
+  const std::size_t before = this->Mesh.Rings.size();
+  this->Mesh.Lend(places, n);
+  this->Properties.Resize(this->Mesh.Rings.size());
+  this->Grid.Resize(this->Mesh.Rings.size());
+  for (std::size_t v = before; v < this->Mesh.Rings.size(); ++v)
+  {
+    this->Active[v] = 0; // Until there is a vertex.
+  }
 }
 
 void SurfaceState::AddVertex(int v, int parent)
@@ -126,6 +140,7 @@ void SurfaceState::UpdateShape(int v)
     edges += star.Length[i];
     flags |= star.Length[i] > this->Sizing.LongestEdge(v, w) ? HasLongEdge : 0;
     flags |= star.Length[i] < this->Sizing.ShortestEdge(v, w) ? HasShortEdge : 0;
+    flags |= star.Length[i] > this->Sizing.LongestEdge(v, w, HugeEdge) ? HasHugeEdge : 0;
   }
   laplacian *= 1.f / static_cast<float>(star.Count);
   this->Normal[v] = star.Cone();
