@@ -96,7 +96,7 @@ void SurfaceEvolution::Implementation::LayGrid()
   const float delta = s.Sizing.Largest();
   const Vector margin(2 * delta, 2 * delta, 2 * delta);
   this->Iteration.Forget();
-  s.Reset(low - margin, high + margin);
+  s.Reset(low - margin, high + margin, this->Threads);
 }
 
 namespace

@@ -20,6 +20,8 @@ constexpr double MaximumNumberOfBricks = 1 << 24;
 constexpr double MaximumNumberOfCells = 4294967295.;
 /** What cells grow by until they are few enough. */
 constexpr float CellGrowth = 1.25f;
+/** Vertices that one thread sorts into layers at a time. */
+constexpr std::size_t InsertedBlock = 1 << 15;
 }
 
 void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
@@ -107,6 +109,40 @@ void VertexGrid::Insert(int v, const Vector& position)
     this->Resize(static_cast<std::size_t>(v) + 1);
   }
   this->Link(v, this->CellOf(position));
+}
+
+void VertexGrid::InsertAll(const std::vector<Vector>& positions,
+  const std::function<bool(int v)>& isThere, Executor& executor)
+{
+  this->Resize(positions.size());
+  // Threads link the vertices of different layers of bricks; each finds its own in their order.
+  const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
+  const std::size_t blocks = (positions.size() + InsertedBlock - 1) / InsertedBlock;
+  std::vector<std::vector<std::vector<int>>> lists(blocks);
+  ForBlocks(executor, positions.size(), InsertedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      lists[b].resize(layers);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = static_cast<int>(i);
+        if (isThere(v))
+        {
+          lists[b][static_cast<std::size_t>(this->Along(positions[i].Z, 2) >> Bits)].push_back(v);
+        }
+      }
+    });
+  ForBlocks(executor, layers, 1,
+    [&](std::size_t layer, std::size_t, std::size_t)
+    {
+      for (const auto& block : lists)
+      {
+        for (int v : block[layer])
+        {
+          this->Link(v, this->CellOf(positions[v]));
+        }
+      }
+    });
 }
 
 void VertexGrid::Remove(int v)

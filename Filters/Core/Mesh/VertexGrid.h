@@ -3,6 +3,7 @@
 #ifndef volumicVertexGrid_h
 #define volumicVertexGrid_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/Vector.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -41,6 +43,9 @@ public:
   void Resize(std::size_t n);
 
   void Insert(int v, const Vector& position);
+  /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
+  void InsertAll(const std::vector<Vector>& positions, const std::function<bool(int v)>& isThere,
+    Executor& executor);
   void Remove(int v);
   /** To be called after the vertex has moved. */
   void Move(int v, const Vector& position)

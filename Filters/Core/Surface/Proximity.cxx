@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace volumic
@@ -18,6 +19,8 @@ namespace
 constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
+/** Items of a list that one thread takes at a time. */
+constexpr std::size_t ListGrain = 4096;
 /** Room along the normals that needs no look for more along the line between the vertices. */
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
@@ -299,10 +302,18 @@ void Proximity::Examine(
   SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
   this->Listed.resize(state.Mesh.Rings.size(), 0);
-  for (int v : vertices)
+  const auto setListed = [&](std::uint8_t listed)
   {
-    this->Listed[v] = 1;
-  }
+    executor.For(vertices.size(), ListGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->Listed[vertices[i]] = listed;
+        }
+      });
+  };
+  setListed(1);
   constexpr std::size_t size = 512;
   const std::size_t blocks = (vertices.size() + size - 1) / size;
   if (this->Blocks.size() < blocks)
@@ -323,21 +334,11 @@ void Proximity::Examine(
         }
       }
     });
-  // Pairs of vertices that have not been examined anew stay.
-  std::size_t kept = 0;
-  for (const ClosePair& pair : this->AllPairs)
-  {
-    if (!this->Listed[pair.V] && state.Mesh.IsAlive(pair.V) && state.Mesh.IsAlive(pair.W))
-    {
-      this->AllPairs[kept++] = pair;
-    }
-  }
-  this->AllPairs.resize(kept);
+  this->CollectPairs(state, blocks, executor);
   this->AllIntersections.clear();
   for (std::size_t b = 0; b < blocks; ++b)
   {
     const Block& block = this->Blocks[b];
-    this->AllPairs.insert(this->AllPairs.end(), block.Pairs.begin(), block.Pairs.end());
     this->AllIntersections.insert(
       this->AllIntersections.end(), block.Intersections.begin(), block.Intersections.end());
     // A pair of faces is tested once, but all its corners must know that it has no room.
@@ -346,9 +347,40 @@ void Proximity::Examine(
       state.Slack[v] = 0;
     }
   }
-  for (int v : vertices)
+  setListed(0);
+}
+
+void Proximity::CollectPairs(const SurfaceState& state, std::size_t blocks, Executor& executor)
+{
+  // Pairs of vertices that have not been examined anew stay.
+  std::vector<std::vector<ClosePair>> lists((this->AllPairs.size() + ListGrain - 1) / ListGrain);
+  ForBlocks(executor, this->AllPairs.size(), ListGrain,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      std::copy_if(this->AllPairs.begin() + static_cast<std::ptrdiff_t>(begin),
+        this->AllPairs.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(lists[b]),
+        [&](const ClosePair& pair)
+        {
+          return !this->Listed[pair.V] && state.Mesh.IsAlive(pair.V) &&
+            state.Mesh.IsAlive(pair.W);
+        });
+    });
+  for (std::size_t b = 0; b < blocks; ++b)
   {
-    this->Listed[v] = 0;
+    lists.emplace_back();
+    lists.back().swap(this->Blocks[b].Pairs);
   }
+  std::vector<std::size_t> first(lists.size() + 1, 0);
+  for (std::size_t b = 0; b < lists.size(); ++b)
+  {
+    first[b + 1] = first[b] + lists[b].size();
+  }
+  this->AllPairs.resize(first.back());
+  ForBlocks(executor, lists.size(), 1,
+    [&](std::size_t b, std::size_t, std::size_t)
+    {
+      std::copy(lists[b].begin(), lists[b].end(),
+        this->AllPairs.begin() + static_cast<std::ptrdiff_t>(first[b]));
+    });
 }
 }

@@ -62,6 +62,8 @@ private:
     std::vector<FacePair> Intersections;
     std::vector<int> Tight; ///< Corners of faces without room.
   };
+  /** Those that are kept, then those of the blocks. */
+  void CollectPairs(const SurfaceState& state, std::size_t blocks, Executor& executor);
   void ExamineVertex(SurfaceState& state, int v, Block& block) const;
 
   std::vector<Block> Blocks;

@@ -8,22 +8,22 @@ namespace volumic
 {
 void SurfaceState::Reset(const Vector& low, const Vector& high)
 {
-  this->Properties.Reset(this->Mesh.Rings.size());
+  SequentialExecutor thread;
+  this->Reset(low, high, thread);
+}
+
+void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& executor)
+{
+  this->Properties.Reset(this->Mesh.Rings.size(), executor);
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
   this->LongestEdge = 0;
   this->Grid.Reset(low, high, this->Sizing.LargestReach());
-  this->Grid.Resize(this->Mesh.Rings.size());
+  this->Grid.InsertAll(
+    this->Mesh.Position, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   for (int v = 0; v < this->Mesh.Size(); ++v)
   {
-    if (this->Mesh.IsAlive(v))
-    {
-      this->Grid.Insert(v, this->Mesh.Position[v]);
-    }
-    else
-    {
-      this->Active[v] = 0;
-    }
+    this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
   }
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic();
 }

@@ -120,6 +120,7 @@ public:
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
   /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
+  void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
 
   /** Gives n free places away, with room for what their vertices will know. */

@@ -3,6 +3,7 @@
 #ifndef volumicVertexProperties_h
 #define volumicVertexProperties_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/Grow.h"
 
 #include <algorithm>
@@ -36,12 +37,10 @@ public:
   VertexProperties& operator=(const VertexProperties&) = delete;
 
   void Register(VertexPropertyBase& property) { this->All.push_back(&property); }
-  void Reset(std::size_t n)
+  void Reset(std::size_t n, Executor& executor)
   {
-    for (VertexPropertyBase* property : this->All)
-    {
-      property->Reset(n);
-    }
+    ForBlocks(executor, this->All.size(), 1,
+      [&](std::size_t i, std::size_t, std::size_t) { this->All[i]->Reset(n); });
   }
   void Resize(std::size_t n)
   {
