@@ -14,8 +14,6 @@ namespace
 constexpr float LookedBeyond = 1.6f;
 /** Room for rounding, in delta. */
 constexpr float Spare = 0.1f;
-/** Rounds in which what was out of its cell's region is tried again; then it has to wait. */
-constexpr int RoundsForRegion = 3;
 /** Items under which the threads are not worth waking. */
 constexpr std::size_t FewItems = 48;
 /** Items that are sorted into cells by one thread at a time. */
@@ -238,16 +236,18 @@ void EditCells::Run(const Pass& pass)
   this->AllAdded.clear();
   this->AllKept.clear();
   std::vector<int> items = pass.Items;
-  for (int round = 0; !items.empty(); ++round)
+  while (!items.empty())
   {
     this->LeftForPlaces.clear();
     this->LeftForRegion.clear();
+    const std::size_t changed = this->Log.size();
     if (!this->RunRound(items, pass))
     {
       break;
     }
     items = std::exchange(this->LeftForPlaces, {});
-    if (round + 1 < RoundsForRegion)
+    // Where nothing has changed it would be refused again.
+    if (this->Log.size() > changed)
     {
       items.insert(items.end(), this->LeftForRegion.begin(), this->LeftForRegion.end());
     }
