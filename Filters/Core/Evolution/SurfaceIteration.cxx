@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceIteration.h"
+#include "Core/Evolution/Stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +13,6 @@ namespace volumic
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
-
 /** A displacement, in delta, that uses little of a vertex's slack. */
 constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
@@ -27,24 +25,6 @@ void SortUnique(std::vector<int>& vertices)
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
-
-/** Adds the time since the last call to a phase. */
-class Stopwatch
-{
-public:
-  explicit Stopwatch(HistoryRow& row) : Row(row), Last(Clock::now()) {}
-  void Lap(Phase phase)
-  {
-    const Clock::time_point now = Clock::now();
-    this->Row.PhaseSeconds[static_cast<int>(phase)] +=
-      std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-  }
-
-private:
-  HistoryRow& Row;
-  Clock::time_point Last;
-};
 }
 
 void SurfaceIteration::Forget()
@@ -235,8 +215,11 @@ void SurfaceIteration::RestoreConstraints(Remesher& remesher)
 {
   SurfaceState& s = this->State;
   remesher.Collapse(this->Working);
+  this->Threads.EndPhase("Collapses");
   remesher.Flip(this->Working);
+  this->Threads.EndPhase("Flips");
   remesher.Unstick(this->Working);
+  this->Threads.EndPhase("Unsticking");
   for (int v : this->Working)
   {
     if (s.RollbackCount[v] > 0)
@@ -284,7 +267,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
 {
   SurfaceState& s = this->State;
   const bool evolves = mode == Mode::Evolve;
-  Stopwatch watch(row);
+  Stopwatch watch(row, this->Threads);
   s.Counts = EditCounts();
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
@@ -300,6 +283,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   watch.Lap(Phase::Forces);
 
   dynamics.Displace(s, this->Active);
+  this->Threads.EndPhase("Displacement");
   this->CollectWorking();
   s.UpdateShape(this->Working, this->Threads);
   watch.Lap(Phase::Contact);
@@ -311,6 +295,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   this->Near.Examine(s, this->Suspects, this->Threads);
   watch.Lap(Phase::Proximity);
   this->RollBack();
+  this->Threads.EndPhase("Roll back");
   if (evolves)
   {
     dynamics.Freeze(s, this->Active, this->Working);
@@ -324,6 +309,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   if (evolves)
   {
     remesher.Merge(this->Near.Pairs());
+    this->Threads.EndPhase("Merges");
   }
   watch.Lap(Phase::Topology);
   this->RestoreConstraints(remesher);
