@@ -177,6 +177,8 @@ void SurfaceSegmentation::Run()
   {
     // What the evolution refers to stays in its place.
     this->Threads.emplace(this->Settings.End.NumberOfThreads);
+    this->Measured.emplace(*this->Threads);
+    this->Threads->EndPhase("Levels");
     this->Progress.emplace(
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
     this->Progress->AfterIteration = [this](const Monitor::Status& status)
@@ -211,8 +213,13 @@ void SurfaceSegmentation::RunLevels()
 {
   if (!this->Evolution)
   {
+    Executor* threads = &*this->Threads;
+    if (this->Settings.Profile)
+    {
+      threads = &*this->Measured;
+    }
     this->Evolution =
-      std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Progress);
+      std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
     this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
   }
@@ -226,6 +233,7 @@ void SurfaceSegmentation::RunLevels()
       break;
     }
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
+    this->Threads->EndPhase("Voxels");
     if (level == this->Settings.End.FinestLevel)
     {
       this->Evolution->SetMeanEdgeLength(
@@ -269,11 +277,14 @@ bool SurfaceSegmentation::RunLevel(int level)
     description.RecoveredCavities = lost.EnclosedCavities;
   }
   const SurfaceResult surface = this->Evolution->Result();
+  this->Threads->EndPhase("Surface handed out");
   const SurfaceResult kept = KeepChosen(surface, this->Components, this->Levels.GetWorkspace());
   result.KeepsNone = kept.Points.empty() && !surface.Points.empty();
+  this->Threads->EndPhase("Components kept");
   result.Surface = MakePolyData(kept, description, this->Levels.GetWorkspace());
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
+  this->Threads->EndPhase("Output");
   // With recovery a finer level may find again what has vanished.
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||

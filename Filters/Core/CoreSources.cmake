@@ -6,6 +6,7 @@
 # (Documentation/architecture.md).
 
 set(volumic_core_sources
+  Common/MeasuredExecutor.cxx
   Common/StandardThreads.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
@@ -65,6 +66,7 @@ set(volumic_core_headers
   Common/IndexedSurface.h
   Common/Join.h
   Common/LatticeKey.h
+  Common/MeasuredExecutor.h
   Common/Monitor.h
   Common/Refuse.h
   Common/Select.h
@@ -127,6 +129,7 @@ set(volumic_core_headers
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/RestCriterion.h
+  Evolution/Stopwatch.h
   Evolution/SurfaceEvolution.h
   Evolution/SurfaceIteration.h
   Evolution/SurfaceOptions.h)

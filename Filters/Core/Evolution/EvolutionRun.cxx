@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/Stopwatch.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfacePolish.h"
 
@@ -83,6 +84,7 @@ void SurfaceEvolution::Implementation::Iterate(
   { return !evolves || this->GoOn(Monitor::Activity::Iterating, 1.); };
   this->Iteration.Run(row, dynamics, remesher, mode, this->LastIterations, goOn);
   this->FillRow(row);
+  this->Threads.EndPhase("History");
   this->SinceEvolved.Cuts += this->State.Counts.Cuts;
   this->SinceEvolved.Removed += this->State.Counts.Removed;
   row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -101,6 +103,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
   while (true)
   {
+    this->Threads.EndPhase("Rest criterion");
     if (this->Stopped)
     {
       return StopReason::Cancelled;
@@ -122,8 +125,11 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     if (this->LastIterations == 0)
     {
       row.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
-      row.PhaseSeconds[static_cast<int>(Phase::Division)] += this->Preparing;
-      this->Preparing = 0.;
+      for (const Phase phase : { Phase::Division, Phase::Recovery })
+      {
+        row.Phases[static_cast<int>(phase)] = this->Preparing.Phases[static_cast<int>(phase)];
+      }
+      this->Preparing = HistoryRow();
     }
     this->Rows.push_back(row);
     this->SinceEvolved = EditCounts();
@@ -241,10 +247,6 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     s.Active[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(active.size()) || active[v]);
     s.Velocity[v] = Vector();
   }
-  if (!this->Rows.empty())
-  {
-    this->Rows.back().PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
-  }
 }
 
 void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
@@ -257,6 +259,7 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
     this->CheckpointOf(Monitor::Activity::Regularising, PassesShare));
   polish.Run();
   this->Iteration.UpdateChanged(polish.TakeChanged());
+  this->Threads.EndPhase("Polish");
   if (s.Counts.Cuts > 0)
   {
     this->Iteration.LabelComponents();
@@ -292,6 +295,8 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->FindMissing();
     return reason;
   }
+  HistoryRow none;
+  Stopwatch watch(this->HasIteration() ? this->Rows.back() : none, this->Threads);
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   if (this->WantedMeanEdge > 0.)
   {
@@ -300,7 +305,9 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
   this->FinishRow();
+  watch.Lap(Phase::Regularisation);
   this->FindMissing();
+  watch.Lap(Phase::Recovery);
   if (this->Stopped)
   {
     return StopReason::Cancelled;

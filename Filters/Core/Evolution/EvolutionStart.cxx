@@ -63,10 +63,15 @@ void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
   s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest()));
+  this->Threads.EndPhase("Order");
   this->LayGrid();
+  this->Threads.EndPhase("Grid");
   this->SplitLongEdges();
+  this->Threads.EndPhase("Long edges");
   this->Iteration.Examine();
+  this->Threads.EndPhase("Proximity");
   this->Iteration.LabelComponents();
+  this->Threads.EndPhase("Labels");
 }
 
 void SurfaceEvolution::Implementation::SplitLongEdges()
@@ -163,7 +168,9 @@ void SurfaceEvolution::Implementation::DivideOnce()
   SurfaceState& s = this->State;
   s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest()));
   const int olds = s.Mesh.Size();
+  this->Threads.EndPhase("Order");
   const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh);
+  this->Threads.EndPhase("Division");
   this->FindIntersections();
   if (this->Iteration.Intersections().empty())
   {
@@ -222,6 +229,7 @@ void SurfaceEvolution::Implementation::Recover()
       this->Threads, this->CheckpointOf(Monitor::Activity::Recovering, from, to));
   };
   const LostPartCover objects = find(PartKind::Object, 0., objectShare);
+  this->Threads.EndPhase("Lost parts");
   this->LastLost.Found = objects.Found;
   this->LastLost.Enclosed = recovers ? objects.Covered : 0;
   this->Lost = objects.Boundary;

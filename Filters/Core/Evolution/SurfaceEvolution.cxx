@@ -5,6 +5,7 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/InitialSurface.h"
+#include "Core/Evolution/Stopwatch.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Surface/RemainingContacts.h"
 
@@ -24,22 +25,6 @@ void CheckRange(const char* name, double value, double low, double high)
     Refuse(name, " is ", value, ", it must lie in [", low, ", ", high, "].");
   }
 }
-
-/** Adds the time of its life. */
-class Timer
-{
-public:
-  explicit Timer(double& seconds) : Seconds(seconds), Start(std::chrono::steady_clock::now()) {}
-  ~Timer()
-  {
-    this->Seconds +=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
-  }
-
-private:
-  double& Seconds;
-  std::chrono::steady_clock::time_point Start;
-};
 }
 
 const char* Describe(StopReason reason)
@@ -85,11 +70,12 @@ SurfaceEvolution::~SurfaceEvolution() = default;
 void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
   self.State.Mesh.Clear();
   self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Sizing.OfLevel()));
   self.Reset();
+  watch.Lap(Phase::Division);
   self.GoOn(Monitor::Activity::Starting, 1.);
 }
 
@@ -97,7 +83,7 @@ int SurfaceEvolution::StartSeeds(
   const LevelImage& image, int level, const std::vector<Point>& centres)
 {
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
   const double delta = self.State.Sizing.OfLevel();
   const double radius = std::max(
@@ -110,6 +96,7 @@ int SurfaceEvolution::StartSeeds(
     self.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
   }
   self.Reset();
+  watch.Lap(Phase::Division);
   return static_cast<int>(places.size());
 }
 
@@ -119,9 +106,10 @@ void SurfaceEvolution::StartSurface(
   CheckInitialSurface(surface);
   CheckOverlapsImage(surface, image);
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
   self.Take(surface);
+  watch.Lap(Phase::Division);
 }
 
 StopReason SurfaceEvolution::Run()
@@ -137,7 +125,7 @@ void SurfaceEvolution::SetMeanEdgeLength(double length)
 bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   if (!self.GoOn(Monitor::Activity::Regularising, 1.))
   {
     return false;
@@ -163,11 +151,14 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     self.LayGrid();
   }
   self.SplitLongEdges();
+  watch.Lap(Phase::Division);
   if (goesOn && self.GoOn(Monitor::Activity::Dividing, 1.))
   {
     self.Recover();
   }
+  watch.Lap(Phase::Recovery);
   self.Reset();
+  watch.Lap(Phase::Division);
   self.GoOn(Monitor::Activity::Recovering, 1.);
   return true;
 }

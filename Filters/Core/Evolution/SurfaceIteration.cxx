@@ -3,9 +3,9 @@
 #include "Core/Evolution/SurfaceIteration.h"
 
 #include "Core/Common/Select.h"
+#include "Core/Evolution/Stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,6 @@ namespace volumic
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
-
 /** A displacement, in delta, that uses little of a vertex's slack. */
 constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
@@ -32,24 +30,6 @@ void SortUnique(std::vector<int>& vertices)
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
-
-/** Adds the time since the last call to a phase. */
-class Stopwatch
-{
-public:
-  explicit Stopwatch(HistoryRow& row) : Row(row), Last(Clock::now()) {}
-  void Lap(Phase phase)
-  {
-    const Clock::time_point now = Clock::now();
-    this->Row.PhaseSeconds[static_cast<int>(phase)] +=
-      std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-  }
-
-private:
-  HistoryRow& Row;
-  Clock::time_point Last;
-};
 }
 
 void SurfaceIteration::Forget()
@@ -266,8 +246,11 @@ void SurfaceIteration::RestoreConstraints(Remesher& remesher)
 {
   SurfaceState& s = this->State;
   remesher.Collapse(this->Working);
+  this->Threads.EndPhase("Collapses");
   remesher.Flip(this->Working);
+  this->Threads.EndPhase("Flips");
   remesher.Unstick(this->Working);
+  this->Threads.EndPhase("Unsticking");
   this->Threads.For(this->Working.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)
     {
@@ -317,7 +300,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
 {
   SurfaceState& s = this->State;
   const bool evolves = mode == Mode::Evolve;
-  Stopwatch watch(row);
+  Stopwatch watch(row, this->Threads);
   s.Counts = EditCounts();
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
@@ -333,6 +316,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   watch.Lap(Phase::Forces);
 
   dynamics.Displace(s, this->Active);
+  this->Threads.EndPhase("Displacement");
   this->CollectWorking();
   s.UpdateShape(this->Working, this->Threads);
   watch.Lap(Phase::Contact);
@@ -344,6 +328,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   this->Near.Examine(s, this->Suspects, this->Threads);
   watch.Lap(Phase::Proximity);
   this->RollBack();
+  this->Threads.EndPhase("Roll back");
   if (evolves)
   {
     dynamics.Freeze(s, this->Active, this->Working);
@@ -357,6 +342,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   if (evolves)
   {
     remesher.Merge(this->Near.Pairs());
+    this->Threads.EndPhase("Merges");
   }
   watch.Lap(Phase::Topology);
   this->RestoreConstraints(remesher);
