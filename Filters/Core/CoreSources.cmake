@@ -56,6 +56,7 @@ set(volumic_core_sources
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx)
 set(volumic_core_headers
+  Common/Blocks.h
   Common/Box.h
   Common/DisjointSets.h
   Common/Executor.h
