@@ -34,6 +34,7 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
@@ -101,6 +102,7 @@ set(volumic_core_headers
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
+  Surface/ComponentNesting.h
   Surface/ComponentWatch.h
   Surface/FaceShape.h
   Surface/NewFaces.h
