@@ -14,6 +14,7 @@
 #include <vtkPolyData.h>
 
 #include <cmath>
+#include <utility>
 
 namespace volumic
 {
@@ -184,7 +185,8 @@ void SurfaceSegmentation::Run()
     this->Progress->AfterIteration = [this](const Monitor::Status& status)
     {
       this->Snapshots.TakeIfDue(*this->Evolution, status.Level,
-        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found);
+        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found,
+        *this->Threads);
     };
     this->Threads->Run([this] { this->RunLevels(); });
   }
@@ -249,7 +251,7 @@ void SurfaceSegmentation::RunLevels()
       break;
     }
     this->Snapshots.TakeIfDue(
-      *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found);
+      *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
     this->GoesOn = this->RunLevel(level);
     this->Reached = level;
   }
@@ -276,12 +278,16 @@ bool SurfaceSegmentation::RunLevel(int level)
     description.LostCavities = lost.FoundCavities;
     description.RecoveredCavities = lost.EnclosedCavities;
   }
-  const SurfaceResult surface = this->Evolution->Result();
+  // Each step uses up what the one before has made.
+  SurfaceResult surface = this->Evolution->Result();
   this->Threads->EndPhase("Surface handed out");
-  const SurfaceResult kept = KeepChosen(surface, this->Components, this->Levels.GetWorkspace());
-  result.KeepsNone = kept.Points.empty() && !surface.Points.empty();
+  const bool isEmpty = surface.Points.empty();
+  SurfaceResult kept = KeepChosen(
+    std::move(surface), this->Components, this->Levels.GetWorkspace(), *this->Threads);
+  result.KeepsNone = kept.Points.empty() && !isEmpty;
   this->Threads->EndPhase("Components kept");
-  result.Surface = MakePolyData(kept, description, this->Levels.GetWorkspace());
+  result.Surface =
+    MakePolyData(std::move(kept), description, this->Levels.GetWorkspace(), *this->Threads);
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
   this->Threads->EndPhase("Output");

@@ -35,6 +35,7 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
   Surface/EditCells.cxx
   Surface/NewFaces.cxx
@@ -59,6 +60,7 @@ set(volumic_core_sources
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx)
 set(volumic_core_headers
+  Common/Blocks.h
   Common/Box.h
   Common/DisjointSets.h
   Common/Executor.h
@@ -106,6 +108,7 @@ set(volumic_core_headers
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
+  Surface/ComponentNesting.h
   Surface/ComponentWatch.h
   Surface/EditCells.h
   Surface/FaceShape.h

@@ -54,6 +54,13 @@ public:
   }
 };
 
+/** For work that is too small for threads, or has none to ask. */
+inline Executor& OnThisThread()
+{
+  static SequentialExecutor executor;
+  return executor;
+}
+
 /** Runs body(block, begin, end) over fixed blocks of [0, n): the same for any executor. */
 template <typename Body>
 void ForBlocks(Executor& executor, std::size_t n, std::size_t size, Body&& body)

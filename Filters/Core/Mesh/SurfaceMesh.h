@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceMesh_h
 #define volumicSurfaceMesh_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Vector.h"
 
@@ -125,7 +126,13 @@ public:
   template <typename Visitor>
   void VisitFaces(Visitor&& visit) const
   {
-    for (int v = 0; v < this->Size(); ++v)
+    this->VisitFaces(0, this->Rings.size(), visit);
+  }
+  /** The same for the faces whose smallest index is in a range: those of all ranges are all. */
+  template <typename Visitor>
+  void VisitFaces(std::size_t begin, std::size_t end, Visitor&& visit) const
+  {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
     {
       const Ring& ring = this->Rings[v];
       for (int i = 0; i < ring.Count; ++i)
@@ -139,13 +146,20 @@ public:
       }
     }
   }
+  /** How many these are. */
+  std::size_t CountFaces(std::size_t begin, std::size_t end) const
+  {
+    std::size_t count = 0;
+    this->VisitFaces(begin, end, [&count](int, int, int) { ++count; });
+    return count;
+  }
 
-  int NumberOfFaces() const;
+  std::int64_t NumberOfFaces(Executor& executor = OnThisThread()) const;
   /** V - E + F, counted. */
-  int CountEulerCharacteristic() const;
+  int CountEulerCharacteristic(Executor& executor = OnThisThread()) const;
 
   /** All alive vertices, in order of index. */
-  IndexedSurface ToIndexed() const;
+  IndexedSurface ToIndexed(Executor& executor = OnThisThread()) const;
 
   /**
    * Adds the components of a closed oriented manifold triangle mesh.
@@ -153,10 +167,10 @@ public:
    * @throws std::invalid_argument if it is not closed, oriented and manifold, or a vertex has
    * more neighbours than a ring holds.
    */
-  int Append(const IndexedSurface& surface);
+  int Append(const IndexedSurface& surface, Executor& executor = OnThisThread());
 
   /** Renumbers: vertex i of the result is order[i] of before; all alive ones must occur once. */
-  void Reorder(const std::vector<int>& order);
+  void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
 
@@ -165,7 +179,8 @@ private:
 };
 
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`. */
-std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell);
+std::vector<int> SpaceFillingOrder(
+  const SurfaceMesh& mesh, double cell, Executor& executor = OnThisThread());
 }
 
 #endif
