@@ -57,8 +57,11 @@ set(volumic_core_sources
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
+  Evolution/LostVoxels.cxx
+  Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
-  Evolution/SurfaceIteration.cxx)
+  Evolution/SurfaceIteration.cxx
+  Evolution/VerticesOfSlabs.cxx)
 set(volumic_core_headers
   Common/Blocks.h
   Common/Box.h
@@ -131,11 +134,14 @@ set(volumic_core_headers
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h
+  Evolution/LostVoxels.h
   Evolution/RestCriterion.h
+  Evolution/SlabSearch.h
   Evolution/Stopwatch.h
   Evolution/SurfaceEvolution.h
   Evolution/SurfaceIteration.h
-  Evolution/SurfaceOptions.h)
+  Evolution/SurfaceOptions.h
+  Evolution/VerticesOfSlabs.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
