@@ -45,6 +45,7 @@ set(volumic_core_sources
   Surface/StarImprovement.cxx
   Surface/StarFaces.cxx
   Surface/StarScore.cxx
+  Surface/StarShape.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
   Surface/SurfaceState.cxx
@@ -123,6 +124,7 @@ set(volumic_core_headers
   Surface/StarImprovement.h
   Surface/StarFaces.h
   Surface/StarScore.h
+  Surface/StarShape.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h
   Surface/SurfaceState.h

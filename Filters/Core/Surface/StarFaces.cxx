@@ -15,12 +15,11 @@ StarRim::StarRim(const SurfaceMesh& mesh, int v)
   this->Item[Ring::Capacity] = -1;
   const auto place = [&](int i) -> const Vector&
   { return mesh.Position[this->Item[i < this->Count ? i : 0]]; };
-  int i = 0;
-  for (; i < this->Count; i += Lanes::Count)
+  for (int i = 0; i < this->Count; i += Lanes::Count)
   {
     this->Rim.Set(i, Gather(place(i), place(i + 1), place(i + 2), place(i + 3)));
   }
-  this->Rim.Close(i);
+  this->Rim.Close(this->Count);
 }
 
 bool StarRim::Shares(const StarRim& other) const

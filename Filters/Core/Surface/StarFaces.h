@@ -10,35 +10,55 @@
 
 namespace volumic
 {
-/** A vector for each neighbour of a vertex, kept so that four of them are worked on at once. */
-class StarRow
+/** A number for each neighbour of a vertex, or each face, four of which are worked on at once. */
+struct StarNumbers
 {
-public:
-  VectorLanes At(int i) const ///< Those from i on.
+  Lanes At(int i) const { return Lanes::Load(this->Item + i); } ///< Those from i on.
+  void Set(int i, const Lanes& four) { four.Store(this->Item + i); }
+  float operator[](int i) const { return this->Item[i]; }
+  /** The first two follow the last once more. */
+  void Close(int count)
   {
-    return VectorLanes(
-      Lanes::Load(this->X + i), Lanes::Load(this->Y + i), Lanes::Load(this->Z + i));
+    this->Item[count] = this->Item[0];
+    this->Item[count + 1] = this->Item[1];
   }
+
+  alignas(16) float Item[Ring::Capacity + 1 + Lanes::Count];
+};
+
+/** The same for vectors. */
+struct StarVectors
+{
+  VectorLanes At(int i) const { return VectorLanes(this->X.At(i), this->Y.At(i), this->Z.At(i)); }
   void Set(int i, const VectorLanes& four)
   {
-    four.X.Store(this->X + i);
-    four.Y.Store(this->Y + i);
-    four.Z.Store(this->Z + i);
+    this->X.Set(i, four.X);
+    this->Y.Set(i, four.Y);
+    this->Z.Set(i, four.Z);
   }
   Vector operator[](int i) const { return Vector(this->X[i], this->Y[i], this->Z[i]); }
-
-  /** Sets the four from i on to the first, so that after the last one the first follows. */
-  void Close(int i)
+  void Close(int count)
   {
-    const Vector first = (*this)[0];
-    this->Set(i, AllLanes(first));
+    this->X.Close(count);
+    this->Y.Close(count);
+    this->Z.Close(count);
+  }
+  /** In their order. */
+  Vector Sum(int count) const
+  {
+    Vector sum;
+    for (int i = 0; i < count; ++i)
+    {
+      sum.X += this->X[i];
+      sum.Y += this->Y[i];
+      sum.Z += this->Z[i];
+    }
+    return sum;
   }
 
-private:
-  static constexpr int Size = Ring::Capacity + 1 + Lanes::Count;
-  alignas(16) float X[Size];
-  alignas(16) float Y[Size];
-  alignas(16) float Z[Size];
+  StarNumbers X;
+  StarNumbers Y;
+  StarNumbers Z;
 };
 
 /**
@@ -77,7 +97,7 @@ struct StarRim
   int Count;
   int Item[Ring::Capacity + 1]; ///< The neighbours; four may be read from every fourth on.
   Vector Place;
-  StarRow Rim; ///< Places of the neighbours; after the last follows the first.
+  StarVectors Rim; ///< Places of the neighbours; after the last follow the first two.
 };
 
 /** A star with what tells its faces from those of others. */
@@ -85,9 +105,9 @@ struct StarFaces : StarRim
 {
   StarFaces(const SurfaceMesh& mesh, int v);
 
-  StarRow Low; ///< Of the faces' boxes.
-  StarRow High;
-  StarRow Normal; ///< Unit, of the faces.
+  StarVectors Low; ///< Of the faces' boxes.
+  StarVectors High;
+  StarVectors Normal; ///< Unit, of the faces.
 };
 }
 
