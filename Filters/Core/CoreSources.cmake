@@ -43,7 +43,9 @@ set(volumic_core_sources
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/StarImprovement.cxx
+  Surface/StarFaces.cxx
   Surface/StarScore.cxx
+  Surface/StarShape.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
   Surface/SurfaceState.cxx
@@ -70,6 +72,7 @@ set(volumic_core_headers
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
+  Common/Lanes.h
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
@@ -122,7 +125,9 @@ set(volumic_core_headers
   Surface/Remesher.h
   Surface/SizingField.h
   Surface/StarImprovement.h
+  Surface/StarFaces.h
   Surface/StarScore.h
+  Surface/StarShape.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h
   Surface/SurfaceState.h
@@ -148,5 +153,6 @@ list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 # Results are the same bits on every processor: no product and sum is contracted into one rounding.
 set(volumic_core_options)
 if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  set(volumic_core_options "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>")
+  set(volumic_core_options "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>"
+    "$<$<COMPILE_LANGUAGE:CXX>:-fno-math-errno>")
 endif ()
