@@ -86,7 +86,7 @@ EdgeLevels::EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection,
     });
 }
 
-const float* EdgeLevels::Load(int level, const std::array<int, 3>& size, Executor& executor)
+VoxelValues EdgeLevels::Load(int level, const std::array<int, 3>& size, Executor& executor)
 {
   return PrefixErrors(Place,
     [&]

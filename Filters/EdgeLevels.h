@@ -36,7 +36,7 @@ public:
    * The voxels of the map, for LevelImage::Edges; valid until the next call.
    * @throws std::invalid_argument if the level has not the size of the voxels'.
    */
-  const float* Load(int level, const std::array<int, 3>& size, Executor& executor);
+  VoxelValues Load(int level, const std::array<int, 3>& size, Executor& executor);
 
 private:
   vtkSmartPointer<vtkMultiBlockDataSet> Blocks;

@@ -109,17 +109,6 @@ double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
 }
 
 template <typename T>
-void Convert(const T* values, double base, std::vector<float>& converted, Executor& executor)
-{
-  executor.For(converted.size(), 1 << 16,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::transform(values + begin, values + end, converted.begin() + begin,
-        [base](T value) { return static_cast<float>(static_cast<double>(value) - base); });
-    });
-}
-
-template <typename T>
 void MarkObject(const T* values, const ValidVoxels& valid, double isoValue, bool objectIsBright,
   std::vector<std::uint8_t>& marks)
 {
@@ -131,12 +120,22 @@ void MarkObject(const T* values, const ValidVoxels& valid, double isoValue, bool
   }
 }
 
-void Fill(float value, const std::vector<std::uint8_t>& valid, std::vector<float>& voxels)
+/** A copy in which voxels that are not valid have a value. */
+std::vector<float> Fill(const VoxelValues& voxels, const std::vector<std::uint8_t>& valid,
+  float value, Executor& executor)
 {
-  for (std::size_t i = 0; i < valid.size(); ++i)
-  {
-    voxels[i] = valid[i] != 0 ? voxels[i] : value;
-  }
+  std::vector<float> filled(valid.size());
+  executor.For(filled.size(), 1 << 16,
+    [&](std::size_t begin, std::size_t end)
+    {
+      voxels.Copy(static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end - begin),
+        filled.data() + begin);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        filled[i] = valid[i] != 0 ? filled[i] : value;
+      }
+    });
+  return filled;
 }
 }
 
@@ -272,31 +271,32 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
       largest, " can be used, since the surface computes in single precision. Scale the image.");
   }
 
+  this->Loaded = voxels;
+  this->Filled = std::vector<float>();
   LevelImage loaded;
   const bool isFine = voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level] &&
     FloatHolds(range[0], range[1]);
-  if (isFine && valid.Marks.empty())
+  loaded.Base = isFine ? 0.0 : base;
+  if (isFine)
   {
-    this->Converted = std::vector<float>();
     loaded.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
   }
   else
   {
-    this->Converted = std::vector<float>();
-    this->Converted.resize(static_cast<std::size_t>(image->GetNumberOfPoints()));
-    loaded.Base = isFine ? 0.0 : base;
     switch (voxels->GetDataType())
     {
-      vtkTemplateMacro(
-        Convert(
-          static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), loaded.Base, this->Converted,
-          executor));
+      vtkTemplateMacro(loaded.Values =
+          VoxelValues(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), loaded.Base));
       default:
         Refuse(name, ": ", NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
           ", which is not supported.");
     }
-    Fill(static_cast<float>(background - loaded.Base), valid.Marks, this->Converted);
-    loaded.Values = this->Converted.data();
+  }
+  if (!valid.Marks.empty())
+  {
+    this->Filled = Fill(
+      loaded.Values, valid.Marks, static_cast<float>(background - loaded.Base), executor);
+    loaded.Values = this->Filled.data();
   }
   for (int axis = 0; axis < 3; ++axis)
   {

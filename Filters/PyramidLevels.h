@@ -78,10 +78,10 @@ public:
   std::string DescribeNaNsOfLevel0() const;
 
   /**
-   * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call.
-   * Float voxels are shared, unless their differences are small beside their size; others are
-   * converted. Of what is converted `base` is subtracted first, in double: it is the Base of the
-   * result.
+   * The voxels of a level, of level 0 for level -1; they stay valid until the next call. They are
+   * shared, and read in their own type (VoxelValues), unless some of them are not valid: then they
+   * are copied. Floats are taken as they are, unless their differences are small beside their size;
+   * of all others `base` is subtracted: it is the Base of the result.
    * @param base       a value of the field that matters, such as the iso-value
    * @param background the value that voxels get which are not valid
    * @throws if the level is under MinimumSize along an axis, or has voxels that are infinite or too
@@ -98,7 +98,8 @@ private:
   std::vector<double> Units; ///< workspace
   double FactorBelowLevel0 = 1.7320508075688772;
   Workspace Space;
-  std::vector<float> Converted;
+  vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to
+  std::vector<float> Filled;            ///< or this
   bool NaNIsBackground;
   mutable std::vector<std::array<double, 2>> Ranges; ///< by level; the larger first: not known yet
 };

@@ -120,6 +120,7 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
   }
   if (this->Points)
   {
+    this->Bent = std::vector<float>(); // Not both at a time.
     this->Bent = this->Points->Bend(image, options, threads);
     image.Values = this->Bent.data();
   }

@@ -80,6 +80,8 @@ set(volumic_core_headers
   Image/ValidReduction.h
   Image/VoxelNumbers.h
   Image/VoxelParts.h
+  Image/VoxelRows.h
+  Image/VoxelValues.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h
   Mesh/Division.h
