@@ -14,7 +14,6 @@ set(volumic_core_sources
   Image/PointAttraction.cxx
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
-  Image/ThickPart.cxx
   Image/ValidReduction.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
