@@ -16,6 +16,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkSmartPointer.h>
 
 #include <cmath>
 #include <string>
@@ -78,15 +79,16 @@ EdgeLevels::EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection,
   PrefixErrors(Place,
     [&]
     {
-      this->Blocks = LevelsOfMap(blocks, selection, numberOfThreads, goOn);
-      if (this->Blocks)
+      const vtkSmartPointer<vtkMultiBlockDataSet> levels =
+        LevelsOfMap(blocks, selection, numberOfThreads, goOn);
+      if (levels)
       {
-        this->Levels = std::make_unique<PyramidLevels>(this->Blocks, selection, Metric::Voxels);
+        this->Levels = std::make_unique<PyramidLevels>(levels, selection, Metric::Voxels);
       }
     });
 }
 
-const float* EdgeLevels::Load(int level, const std::array<int, 3>& size, Executor& executor)
+VoxelValues EdgeLevels::Load(int level, const std::array<int, 3>& size, Executor& executor)
 {
   return PrefixErrors(Place,
     [&]

@@ -6,8 +6,6 @@
 #include "Core/Common/Monitor.h"
 #include "PyramidLevels.h"
 
-#include <vtkSmartPointer.h>
-
 #include <array>
 #include <memory>
 
@@ -36,11 +34,19 @@ public:
    * The voxels of the map, for LevelImage::Edges; valid until the next call.
    * @throws std::invalid_argument if the level has not the size of the voxels'.
    */
-  const float* Load(int level, const std::array<int, 3>& size, Executor& executor);
+  VoxelValues Load(int level, const std::array<int, 3>& size, Executor& executor);
+
+  /** Lets go of the voxels of coarser levels, which cannot be loaded any more. */
+  void ReleaseCoarserThan(int level)
+  {
+    if (this->Levels)
+    {
+      this->Levels->ReleaseCoarserThan(level);
+    }
+  }
 
 private:
-  vtkSmartPointer<vtkMultiBlockDataSet> Blocks;
-  std::unique_ptr<PyramidLevels> Levels;
+  std::unique_ptr<PyramidLevels> Levels; ///< null after a stop
 };
 }
 

@@ -80,10 +80,10 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   {
     for (int j = 0; j < image.Size[1]; ++j)
     {
-      const float* row =
-        image.Values + (static_cast<std::ptrdiff_t>(k) * image.Size[1] + j) * image.Size[0];
-      std::transform(row, row + image.Size[0],
-        static_cast<float*>(padded->GetScalarPointer(0, j, k)), clear);
+      auto* row = static_cast<float*>(padded->GetScalarPointer(0, j, k));
+      image.Values.Copy((static_cast<std::ptrdiff_t>(k) * image.Size[1] + j) * image.Size[0],
+        image.Size[0], row);
+      std::transform(row, row + image.Size[0], row, clear);
     }
   }
   return padded;

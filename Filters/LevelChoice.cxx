@@ -99,8 +99,7 @@ int CoarsestLevelThatHolds(
     return from;
   }
   int level = from;
-  while (level > std::max(last, 0) &&
-    !levels.Pyramid().HoldsObject(level, options.IsoValue, options.ObjectIsBright))
+  while (level > std::max(last, 0) && !levels.HoldsObject(level, options))
   {
     --level;
   }

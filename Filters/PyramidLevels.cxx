@@ -4,6 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Image/ThickPart.h"
+#include "Core/Image/VoxelNumbers.h"
 #include "ImageVoxels.h"
 #include "PrefixErrors.h"
 
@@ -108,35 +109,22 @@ double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
   return ratio;
 }
 
-template <typename T>
-void Convert(const T* values, double base, std::vector<float>& converted, Executor& executor)
+/** A copy in which voxels that are not valid have a value. */
+std::vector<float> Fill(const VoxelValues& voxels, const std::vector<std::uint8_t>& valid,
+  float value, Executor& executor)
 {
-  executor.For(converted.size(), 1 << 16,
+  std::vector<float> filled(valid.size());
+  executor.For(filled.size(), 1 << 16,
     [&](std::size_t begin, std::size_t end)
     {
-      std::transform(values + begin, values + end, converted.begin() + begin,
-        [base](T value) { return static_cast<float>(static_cast<double>(value) - base); });
+      voxels.Copy(static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end - begin),
+        filled.data() + begin);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        filled[i] = valid[i] != 0 ? filled[i] : value;
+      }
     });
-}
-
-template <typename T>
-void MarkObject(const T* values, const ValidVoxels& valid, double isoValue, bool objectIsBright,
-  std::vector<std::uint8_t>& marks)
-{
-  for (std::size_t i = 0; i < marks.size(); ++i)
-  {
-    const auto number = static_cast<double>(values[i]);
-    const bool isObject = objectIsBright ? number > isoValue : number < isoValue;
-    marks[i] = static_cast<std::uint8_t>(isObject && valid.Has(static_cast<std::int64_t>(i)));
-  }
-}
-
-void Fill(float value, const std::vector<std::uint8_t>& valid, std::vector<float>& voxels)
-{
-  for (std::size_t i = 0; i < valid.size(); ++i)
-  {
-    voxels[i] = valid[i] != 0 ? voxels[i] : value;
-  }
+  return filled;
 }
 }
 
@@ -170,11 +158,16 @@ PyramidLevels::PyramidLevels(
       CheckPlace(this->Images[0], image, h);
       CheckShrinks(this->Images.back(), image, h);
     }
-    this->Images.push_back(image);
+    this->Images.emplace_back(image);
+    const int* size = image->GetDimensions();
+    this->Sizes.push_back({ size[0], size[1], size[2] });
     this->Units.push_back(UnitInWorkspace(this->Images[0], image));
   }
-  this->Ranges.assign(this->Images.size(), { 1.0, 0.0 });
+  this->Ranges.resize(this->Images.size());
 }
+
+PyramidLevels::~PyramidLevels() = default;
+PyramidLevels::PyramidLevels(PyramidLevels&&) noexcept = default;
 
 ValidVoxels PyramidLevels::ValidAt(int level, Executor& executor) const
 {
@@ -188,19 +181,18 @@ ValidVoxels PyramidLevels::ValidAt(int level, Executor& executor) const
 
 bool PyramidLevels::HasRoom(int level) const
 {
-  const int* size = this->Images[level]->GetDimensions();
-  return *std::min_element(size, size + 3) >= MinimumSize;
+  const Size& size = this->Sizes[level];
+  return *std::min_element(size.begin(), size.end()) >= MinimumSize;
 }
 
 std::int64_t PyramidLevels::NumberOfVoxels(int level) const
 {
-  return this->Images[level]->GetNumberOfPoints();
+  return VoxelNumbers(this->Sizes[level]).Count();
 }
 
 std::array<int, 3> PyramidLevels::SizeOfLevel0() const
 {
-  const int* size = this->Images[0]->GetDimensions();
-  return { size[0], size[1], size[2] };
+  return this->Sizes[0];
 }
 
 double PyramidLevels::UnitInWorld(int level) const
@@ -215,26 +207,31 @@ double PyramidLevels::UnitOf(int level) const
 
 bool PyramidLevels::HoldsObject(int level, double isoValue, bool objectIsBright) const
 {
-  vtkImageData* image = this->Images[level];
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
   SequentialExecutor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
-  std::vector<std::uint8_t> marks(static_cast<std::size_t>(image->GetNumberOfPoints()));
+  const auto holds = [&](const auto* values)
+  {
+    return HasThickPart(
+      [&](std::int64_t voxel)
+      {
+        const auto number = static_cast<double>(values[voxel]);
+        return (objectIsBright ? number > isoValue : number < isoValue) && valid.Has(voxel);
+      },
+      this->Sizes[level], VoxelsThatHold);
+  };
   switch (voxels->GetDataType())
   {
-    vtkTemplateMacro(MarkObject(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), valid,
-      isoValue, objectIsBright, marks));
+    vtkTemplateMacro(return holds(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
     default:
       return true; // Load() will say what is wrong.
   }
-  const int* size = image->GetDimensions();
-  return HasThickPart(marks, { size[0], size[1], size[2] }, VoxelsThatHold);
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const
 {
-  std::array<double, 2>& range = this->Ranges[level];
-  if (range[0] > range[1])
+  std::optional<std::array<double, 2>>& range = this->Ranges[level];
+  if (!range)
   {
     SequentialExecutor thread;
     const ValidVoxels valid = this->ValidAt(level, thread);
@@ -244,7 +241,7 @@ std::array<double, 2> PyramidLevels::Range(int level) const
     }
     range = RangeOf(ContiguousVoxels(this->Voxels[level]), valid);
   }
-  return range;
+  return *range;
 }
 
 std::string PyramidLevels::DescribeNaNsOfLevel0() const
@@ -272,40 +269,52 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
       largest, " can be used, since the surface computes in single precision. Scale the image.");
   }
 
+  this->Loaded = voxels;
+  this->Filled = std::vector<float>();
   LevelImage loaded;
   const bool isFine = voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level] &&
     FloatHolds(range[0], range[1]);
-  if (isFine && valid.Marks.empty())
+  loaded.Base = isFine ? 0.0 : base;
+  if (isFine)
   {
-    this->Converted = std::vector<float>();
     loaded.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
   }
   else
   {
-    this->Converted = std::vector<float>();
-    this->Converted.resize(static_cast<std::size_t>(image->GetNumberOfPoints()));
-    loaded.Base = isFine ? 0.0 : base;
     switch (voxels->GetDataType())
     {
-      vtkTemplateMacro(
-        Convert(
-          static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), loaded.Base, this->Converted,
-          executor));
+      vtkTemplateMacro(loaded.Values =
+          VoxelValues(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), loaded.Base));
       default:
         Refuse(name, ": ", NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
           ", which is not supported.");
     }
-    Fill(static_cast<float>(background - loaded.Base), valid.Marks, this->Converted);
-    loaded.Values = this->Converted.data();
+  }
+  if (!valid.Marks.empty())
+  {
+    this->Filled = Fill(
+      loaded.Values, valid.Marks, static_cast<float>(background - loaded.Base), executor);
+    loaded.Values = this->Filled.data();
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    loaded.Size[axis] = image->GetDimensions()[axis];
+    loaded.Size[axis] = this->Sizes[level][axis];
     loaded.Step[axis] = this->Space.Step()[axis] *
-      static_cast<double>(this->Images[0]->GetDimensions()[axis]) / loaded.Size[axis];
+      static_cast<double>(this->Sizes[0][axis]) / loaded.Size[axis];
   }
   loaded.Unit = this->UnitOf(wanted);
   return loaded;
+}
+
+void PyramidLevels::ReleaseCoarserThan(int level)
+{
+  this->Loaded = nullptr;
+  this->Filled = std::vector<float>();
+  for (int h = std::max(level, 0) + 1; h < this->NumberOfLevels(); ++h)
+  {
+    this->Images[h] = nullptr;
+    this->Voxels[h] = nullptr;
+  }
 }
 
 vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ public:
    */
   PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric,
     bool nanIsBackground = true);
+  ~PyramidLevels();
+  PyramidLevels(PyramidLevels&&) noexcept;
 
   int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }
@@ -78,10 +81,10 @@ public:
   std::string DescribeNaNsOfLevel0() const;
 
   /**
-   * The voxels of a level, of level 0 for level -1, as float; they stay valid until the next call.
-   * Float voxels are shared, unless their differences are small beside their size; others are
-   * converted. Of what is converted `base` is subtracted first, in double: it is the Base of the
-   * result.
+   * The voxels of a level, of level 0 for level -1; they stay valid until the next call. They are
+   * shared, and read in their own type (VoxelValues), unless some of them are not valid: then they
+   * are copied. Floats are taken as they are, unless their differences are small beside their size;
+   * of all others `base` is subtracted: it is the Base of the result.
    * @param base       a value of the field that matters, such as the iso-value
    * @param background the value that voxels get which are not valid
    * @throws if the level is under MinimumSize along an axis, or has voxels that are infinite or too
@@ -89,18 +92,30 @@ public:
    */
   LevelImage Load(int level, double base, double background, Executor& executor);
 
+  /**
+   * Lets go of the voxels of the levels that are coarser: no more than sizes, units and ranges that
+   * were asked for is known of them afterwards. Of level 0 the voxels stay.
+   */
+  void ReleaseCoarserThan(int level);
+  /** Whether the voxels of a level are still there. */
+  bool HasVoxels(int level) const { return this->Voxels[level] != nullptr; }
+
 private:
+  using Size = std::array<int, 3>;
   double UnitOf(int level) const;
   ValidVoxels ValidAt(int level, Executor& executor) const;
 
-  std::vector<vtkImageData*> Images;
+  /** Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on. */
+  std::vector<vtkSmartPointer<vtkImageData>> Images; ///< null where they were let go, as Voxels
   std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
+  std::vector<Size> Sizes;
   std::vector<double> Units; ///< workspace
   double FactorBelowLevel0 = 1.7320508075688772;
   Workspace Space;
-  std::vector<float> Converted;
+  vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to
+  std::vector<float> Filled;            ///< or this
   bool NaNIsBackground;
-  mutable std::vector<std::array<double, 2>> Ranges; ///< by level; the larger first: not known yet
+  mutable std::vector<std::optional<std::array<double, 2>>> Ranges; ///< by level, once asked for
 };
 
 /** Level 0 if the blocks are the levels of a pyramid (two at least), else null. */

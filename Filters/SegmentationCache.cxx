@@ -47,23 +47,19 @@ vtkMTimeType TimeOf(vtkDataObject* data)
   }
   return time;
 }
+}
 
-/** Whether the data of an input go once they have been used; they must not stay because of us. */
-bool AreReleased(vtkAlgorithm* filter)
+bool AreReleased(vtkAlgorithm* filter, int port)
 {
-  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
   {
-    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    vtkInformation* info = filter->GetExecutive()->GetInputInformation(port, i);
+    if (info->Get(vtkDemandDrivenPipeline::RELEASE_DATA()))
     {
-      vtkInformation* info = filter->GetExecutive()->GetInputInformation(port, i);
-      if (info->Get(vtkDemandDrivenPipeline::RELEASE_DATA()))
-      {
-        return true;
-      }
+      return true;
     }
   }
   return vtkDataObject::GetGlobalReleaseDataFlag() != 0;
-}
 }
 
 SegmentationCache::SegmentationCache() = default;
@@ -87,9 +83,14 @@ SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
 void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter)
 {
   this->Drop();
-  if (filter->GetReleaseDataFlag() || AreReleased(filter))
+  bool areReleased = filter->GetReleaseDataFlag() != 0;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
-    return;
+    areReleased = areReleased || AreReleased(filter, port);
+  }
+  if (areReleased)
+  {
+    return; // They must not stay because of us.
   }
   this->Time = filter->GetMTime();
   this->InputsOfRun = InputsOf(filter);

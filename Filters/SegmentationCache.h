@@ -18,6 +18,9 @@ class vtkDataObject;
 
 namespace volumic
 {
+/** Whether the data that come to a port are released once they have been used. */
+bool AreReleased(vtkAlgorithm* filter, int port);
+
 /**
  * What a filter keeps of its last run, for one that differs from it by where it ends: the levels at
  * rest, to show any of them at once, and, where the run has ended above level 0, the run itself, to

@@ -42,10 +42,6 @@ PyramidLevels ReadVoxels(const SegmentationVolume& volume)
 SegmentationLevels::SegmentationLevels(const SegmentationVolume& volume)
   : MayHaveUnreportedNaNs(MayHaveNaNsToReport(volume)), Voxels(ReadVoxels(volume))
 {
-  for (unsigned int block = 0; block < volume.Levels->GetNumberOfBlocks(); ++block)
-  {
-    this->Images.emplace_back(volume.Levels->GetBlock(block));
-  }
 }
 
 SegmentationLevels::~SegmentationLevels() = default;
@@ -98,6 +94,17 @@ std::array<double, 2> SegmentationLevels::Range(int level) const
   return PrefixErrors(Port0, [&] { return this->Voxels.Range(level); });
 }
 
+bool SegmentationLevels::HoldsObject(int level, const SurfaceOptions& options) const
+{
+  const auto found = this->Holds.find(level);
+  if (found != this->Holds.end())
+  {
+    return found->second;
+  }
+  return this->Holds[level] =
+           this->Voxels.HoldsObject(level, options.IsoValue, options.ObjectIsBright);
+}
+
 std::string SegmentationLevels::DescribeUnreportedNaNs() const
 {
   const std::string text =
@@ -124,5 +131,14 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
     image.Values = this->Bent.data();
   }
   return image;
+}
+void SegmentationLevels::ReleaseCoarserThan(int level)
+{
+  this->Voxels.ReleaseCoarserThan(level);
+  if (this->Edges)
+  {
+    this->Edges->ReleaseCoarserThan(level);
+  }
+  this->Bent = std::vector<float>();
 }
 }

@@ -14,10 +14,8 @@
 #include "SegmentationVolume.h"
 #include "Workspace.h"
 
-#include <vtkDataObject.h>
-#include <vtkSmartPointer.h>
-
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -57,20 +55,29 @@ public:
   /** Smallest and largest voxel of a level; the first is the larger one if none is valid. */
   std::array<double, 2> Range(int level) const;
 
+  /** PyramidLevels::HoldsObject; looks once at a level, so the options must be the same always. */
+  bool HoldsObject(int level, const SurfaceOptions& options) const;
+
   /** What is to be reported of the NaN voxels of level 0; empty: nothing, or it has been. */
   std::string DescribeUnreportedNaNs() const;
 
   /** The field of a level, valid until the next call. */
   LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
 
+  /**
+   * Lets go of the voxels of coarser levels, and of what Load() gave last: what was asked of them
+   * stays known.
+   */
+  void ReleaseCoarserThan(int level);
+  bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
+
 private:
-  /** Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on. */
-  std::vector<vtkSmartPointer<vtkDataObject>> Images;
   bool MayHaveUnreportedNaNs;
   PyramidLevels Voxels;
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none
   std::vector<float> Bent;                 ///< the level's voxels as the points bend them
+  mutable std::map<int, bool> Holds;       ///< what HoldsObject() has found
 };
 }
 

@@ -197,6 +197,13 @@ void SurfaceSegmentation::Run()
   }
 }
 
+bool SurfaceSegmentation::CanServe() const
+{
+  // Those up to the level at which it rests are there.
+  const int coarsest = ChooseLevels(this->Levels, this->Settings).Coarsest;
+  return coarsest == this->Choice.Coarsest || this->Levels.HasVoxels(coarsest);
+}
+
 bool SurfaceSegmentation::CanGoOn() const
 {
   return this->GoesOn && this->Reached > 0 && !this->Evolution->IsStopped();
@@ -234,6 +241,8 @@ void SurfaceSegmentation::RunLevels()
       this->KeepStoppedSurface(level);
       break;
     }
+    // The surface leaves the level that it is on: a stop from here on is for good.
+    this->Levels.ReleaseCoarserThan(level);
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
     this->Threads->EndPhase("Voxels");
     if (level == this->Settings.End.FinestLevel)

@@ -41,6 +41,13 @@ public:
   void Renew(const SegmentationRequest& request);
 
   /**
+   * After Renew(): whether what is wanted can be reached from here. Levels that the surface has left
+   * are let go; a run that would begin at one of them must be made anew.
+   * @throws as Run().
+   */
+  bool CanServe() const;
+
+  /**
    * Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
    * it is empty where there is none yet.
    * @throws std::invalid_argument if settings and image do not fit.

@@ -297,7 +297,16 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
     this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
   }
   const volumic::SegmentationVolume volume = this->PrepareVolume(input);
-  return volume.Levels ? std::make_unique<volumic::SurfaceSegmentation>(volume, request) : nullptr;
+  if (!volume.Levels)
+  {
+    return nullptr;
+  }
+  auto run = std::make_unique<volumic::SurfaceSegmentation>(volume, request);
+  if (!volume.LevelsAreOwn && volumic::AreReleased(this, 0))
+  {
+    input->ReleaseData(); // Now: the run lets go of each level when it has left it.
+  }
+  return run;
 }
 
 //------------------------------------------------------------------------------
@@ -323,8 +332,9 @@ void vtkDeformableSurface::RunOrGoOn(
   {
     run->Renew(request);
   }
-  else
+  if (!run || !run->CanServe())
   {
+    run.reset(); // Not the levels of both at a time.
     run = this->NewRun(request, vtkDataObject::GetData(input[0]));
   }
   if (!run)

@@ -134,10 +134,16 @@
  * filter nor in its inputs, a level at which the surface has rested is shown at once, and a finer
  * one is reached from the level at which the last run has ended (FinestLevel 2, then 0). The
  * outputs are the same bits as those of a run from the start, but for the seconds in History. To go
- * on it holds the surface and the pyramid, and these only where the run has ended at level 1 or
- * above, so that no memory of level 0 is held; else no more than the surfaces of the levels. A run
- * that was cancelled or ran out of time begins anew. ForgetRun() frees all of it; nothing is kept
- * after an error, where ReleaseDataFlag is on, or where an input's data are released.
+ * on it holds the surface and the levels of the pyramid that it has not left, and these only where
+ * the run has ended at level 1 or above, so that no memory of level 0 is held; else no more than
+ * the surfaces of the levels. A run that was cancelled or ran out of time begins anew. ForgetRun()
+ * frees all of it; nothing is kept after an error, where ReleaseDataFlag is on, or where an input's
+ * data are released.
+ *
+ * @par Memory:
+ * Voxels are read in the type that they have. Levels of the pyramid go as the surface leaves them;
+ * those of a pyramid that is the input do where its data are released (ReleaseDataFlagOn() of
+ * vtkImagePyramid), else they stay with their owner.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and

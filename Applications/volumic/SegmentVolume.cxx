@@ -271,6 +271,7 @@ FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImageP
     throw Failure("interrupted before there was a surface; nothing is written");
   }
   filter->SetInputConnection(pyramid->GetOutputPort());
+  pyramid->ReleaseDataFlagOn(); // The surface lets go of each level as it leaves it.
   return run;
 }
 }

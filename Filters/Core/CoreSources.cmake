@@ -15,7 +15,6 @@ set(volumic_core_sources
   Image/PointAttraction.cxx
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
-  Image/ThickPart.cxx
   Image/ValidReduction.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
@@ -94,6 +93,8 @@ set(volumic_core_headers
   Image/ValidReduction.h
   Image/VoxelNumbers.h
   Image/VoxelParts.h
+  Image/VoxelRows.h
+  Image/VoxelValues.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h
   Mesh/Division.h

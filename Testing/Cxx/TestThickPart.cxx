@@ -31,6 +31,13 @@ std::vector<std::uint8_t> Marks(const std::function<bool(int, int, int)>& isObje
   return marks;
 }
 
+bool HasThick(
+  const std::vector<std::uint8_t>& marks, int minimum, const std::array<int, 3>& size = Size)
+{
+  return HasThickPart(
+    [&marks](std::int64_t voxel) { return marks[voxel] != 0; }, size, minimum);
+}
+
 bool IsIn(int x, int low, int high)
 {
   return x >= low && x <= high;
@@ -41,19 +48,19 @@ TEST(ThickPart, CountsTheVoxelsOfCubes)
 {
   const auto rod =
     Marks([](int i, int j, int k) { return IsIn(i, 1, 9) && IsIn(j, 3, 4) && IsIn(k, 5, 6); });
-  EXPECT_TRUE(HasThickPart(rod, Size, 36));
-  EXPECT_FALSE(HasThickPart(rod, Size, 37));
+  EXPECT_TRUE(HasThick(rod, 36));
+  EXPECT_FALSE(HasThick(rod, 37));
 }
 
 TEST(ThickPart, LeavesOutWhatIsThin)
 {
   const auto plate = Marks([](int i, int, int) { return i == 6; });
-  EXPECT_FALSE(HasThickPart(plate, Size, 1));
+  EXPECT_FALSE(HasThick(plate, 1));
   // A cube with a long wire.
   const auto wire = Marks([](int i, int j, int k)
     { return (IsIn(i, 0, 1) && IsIn(j, 0, 1) && IsIn(k, 0, 1)) || (j == 0 && k == 0); });
-  EXPECT_TRUE(HasThickPart(wire, Size, 8));
-  EXPECT_FALSE(HasThickPart(wire, Size, 9));
+  EXPECT_TRUE(HasThick(wire, 8));
+  EXPECT_FALSE(HasThick(wire, 9));
 }
 
 TEST(ThickPart, DoesNotAddUpParts)
@@ -61,8 +68,18 @@ TEST(ThickPart, DoesNotAddUpParts)
   // Two of 16 voxels; they touch at the corner of the box.
   const auto parts = Marks([](int i, int j, int k)
     { return IsIn(j, 2, 3) && IsIn(k, 2, 3) && (IsIn(i, 0, 3) || IsIn(i, 6, 9)); });
-  EXPECT_TRUE(HasThickPart(parts, Size, 16));
-  EXPECT_FALSE(HasThickPart(parts, Size, 17));
+  EXPECT_TRUE(HasThick(parts, 16));
+  EXPECT_FALSE(HasThick(parts, 17));
+}
+
+TEST(ThickPart, IsCountedAcrossItsTurns)
+{
+  // Two arms along x and what joins them, far from where the part begins: 3 x 2 x 2 x (6, 2, 6).
+  const auto bent = Marks([](int i, int j, int k)
+    { return IsIn(j, 2, 3) && (IsIn(k, 1, 2) || IsIn(k, 7, 8) || IsIn(i, 8, 9)) && i >= 4 &&
+        i <= 9 && IsIn(k, 1, 8); });
+  EXPECT_TRUE(HasThick(bent, 2 * 24 + 16));
+  EXPECT_FALSE(HasThick(bent, 2 * 24 + 17));
 }
 
 TEST(ThickPart, EndsAtTheBorderOfTheImage)
@@ -70,8 +87,8 @@ TEST(ThickPart, EndsAtTheBorderOfTheImage)
   // Rows do not go on in the next one.
   const auto ends = Marks([](int i, int j, int k)
     { return (i >= 10 && j <= 1 && k <= 1) || (i <= 1 && IsIn(j, 1, 2) && k <= 1); });
-  EXPECT_TRUE(HasThickPart(ends, Size, 8));
-  EXPECT_FALSE(HasThickPart(ends, Size, 9));
+  EXPECT_TRUE(HasThick(ends, 8));
+  EXPECT_FALSE(HasThick(ends, 9));
 }
 
 TEST(ThickPart, OfEnoughVoxelsHoldsASurfaceThatShrinksOntoIt)
@@ -93,7 +110,7 @@ TEST(ThickPart, OfEnoughVoxelsHoldsASurfaceThatShrinksOntoIt)
       {
         marks.push_back(value > 0.5f);
       }
-      if (HasThickPart(marks, volume.Image.Size, VoxelsThatHold))
+      if (HasThick(marks, VoxelsThatHold, volume.Image.Size))
       {
         SurfaceOptions options;
         options.IsoValue = 0.5;

@@ -17,7 +17,7 @@ LevelImage MapOf(const LevelImage& image)
 {
   LevelImage map = image;
   map.Values = image.Edges;
-  map.Edges = nullptr;
+  map.Edges = VoxelValues();
   map.Base = 0.; // Only differences count.
   return map;
 }
@@ -43,28 +43,32 @@ EdgeAttraction::EdgeAttraction(const LevelImage& image, Executor& executor)
   std::vector<Sums> slices(static_cast<std::size_t>(size[2]));
   const std::ptrdiff_t dy = size[0];
   const std::ptrdiff_t dz = dy * size[1];
-  executor.For(slices.size(), 1,
-    [&](std::size_t begin, std::size_t end)
+  image.Edges.Visit(
+    [&](const auto& edges)
     {
-      for (std::size_t k = std::max<std::size_t>(begin, 1);
-           k < std::min(end, slices.size() - 1); ++k)
-      {
-        Sums sums;
-        for (int j = 1; j + 1 < size[1]; ++j)
+      executor.For(slices.size(), 1,
+        [&](std::size_t begin, std::size_t end)
         {
-          const float* row = image.Edges + static_cast<std::ptrdiff_t>(k) * dz + j * dy;
-          for (int i = 1; i + 1 < size[0]; ++i)
+          for (std::size_t k = std::max<std::size_t>(begin, 1);
+               k < std::min(end, slices.size() - 1); ++k)
           {
-            const double x = (row[i + 1] - row[i - 1]) / image.Step[0];
-            const double y = (row[i + dy] - row[i - dy]) / image.Step[1];
-            const double z = (row[i + dz] - row[i - dz]) / image.Step[2];
-            const double squared = 0.25 * (x * x + y * y + z * z); // Over two steps.
-            sums.First += std::sqrt(squared);
-            sums.Second += squared;
+            Sums sums;
+            for (int j = 1; j + 1 < size[1]; ++j)
+            {
+              const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(k) * dz + j * dy;
+              for (std::ptrdiff_t i = row + 1; i + 1 < row + size[0]; ++i)
+              {
+                const double x = (edges[i + 1] - edges[i - 1]) / image.Step[0];
+                const double y = (edges[i + dy] - edges[i - dy]) / image.Step[1];
+                const double z = (edges[i + dz] - edges[i - dz]) / image.Step[2];
+                const double squared = 0.25 * (x * x + y * y + z * z); // Over two steps.
+                sums.First += std::sqrt(squared);
+                sums.Second += squared;
+              }
+            }
+            slices[k] = sums;
           }
-        }
-        slices[k] = sums;
-      }
+        });
     });
   Sums all;
   for (const Sums& sums : slices)

@@ -3,10 +3,11 @@
 #include "Core/Image/Field.h"
 
 #include "Core/Common/Refuse.h"
+#include "Core/Image/VoxelRows.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <vector>
 
 namespace volumic
@@ -18,7 +19,7 @@ constexpr std::size_t RangeBlock = 1 << 16;
 /** Blocks of them under which a chunk is not worth a thread. */
 constexpr std::size_t RangeGrain = 4;
 /** The typical slope is measured on about as many rows: enough for a mean. */
-constexpr long SlopeRows = 4096;
+constexpr std::int64_t SlopeRows = 4096;
 /**
  * As many voxels past the border everything is background or replicated (until it fades): far
  * places are taken to there, which also keeps the indices small.
@@ -52,23 +53,28 @@ void Field::MeasureRange(Executor& executor)
   const std::size_t blocks = (count + RangeBlock - 1) / RangeBlock;
   std::vector<float> lows(blocks);
   std::vector<float> highs(blocks);
-  executor.For(blocks, RangeGrain,
-    [&](std::size_t begin, std::size_t end)
+  this->Level.Values.Visit(
+    [&](const auto& voxels)
     {
-      for (std::size_t b = begin; b < end; ++b)
-      {
-        float low = std::numeric_limits<float>::max();
-        float high = std::numeric_limits<float>::lowest();
-        const std::size_t last = std::min(count, (b + 1) * RangeBlock);
-        for (std::size_t i = b * RangeBlock; i < last; ++i)
+      executor.For(blocks, RangeGrain,
+        [&](std::size_t begin, std::size_t end)
         {
-          const float x = this->Level.Values[i];
-          low = x < low ? x : low;
-          high = x > high ? x : high;
-        }
-        lows[b] = low;
-        highs[b] = high;
-      }
+          for (std::size_t b = begin; b < end; ++b)
+          {
+            // As they are stored: the values are in the same order.
+            auto low = voxels.Voxels[b * RangeBlock];
+            auto high = low;
+            const std::size_t last = std::min(count, (b + 1) * RangeBlock);
+            for (std::size_t i = b * RangeBlock; i < last; ++i)
+            {
+              const auto x = voxels.Voxels[i];
+              low = x < low ? x : low;
+              high = x > high ? x : high;
+            }
+            lows[b] = voxels.Value(low);
+            highs[b] = voxels.Value(high);
+          }
+        });
     });
   const float low = *std::min_element(lows.begin(), lows.end());
   const float high = *std::max_element(highs.begin(), highs.end());
@@ -81,19 +87,22 @@ void Field::MeasureRange(Executor& executor)
 void Field::MeasureSlope()
 {
   const auto& size = this->Level.Size;
-  const long rows = static_cast<long>(size[1]) * size[2];
+  const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
   // Odd: so the rows differ from slice to slice where a slice has an even number of them.
-  const long stride = std::max(1L, rows / SlopeRows) | 1L;
+  const std::int64_t stride = std::max<std::int64_t>(1, rows / SlopeRows) | 1;
   double sum = 0.;
-  long crossings = 0;
-  for (long row = 0; row < rows; row += stride)
+  std::int64_t crossings = 0;
+  std::vector<float> work(3 * static_cast<std::size_t>(size[0]));
+  float* values = work.data();
+  float* below = values + size[0];
+  float* behind = below + size[0];
+  for (std::int64_t row = 0; row < rows; row += stride)
   {
     const int j = static_cast<int>(row % size[1]);
     const int k = static_cast<int>(row / size[1]);
-    const float* values = this->Level.Values + this->Offset(0, j, k);
-    const float* below = j + 1 < size[1] ? values + size[0] : values;
-    const float* behind =
-      k + 1 < size[2] ? values + static_cast<std::ptrdiff_t>(size[0]) * size[1] : values;
+    this->Level.Values.Copy(this->Offset(0, j, k), size[0], values);
+    this->Level.Values.Copy(this->Offset(0, std::min(j + 1, size[1] - 1), k), size[0], below);
+    this->Level.Values.Copy(this->Offset(0, j, std::min(k + 1, size[2] - 1)), size[0], behind);
     for (int i = 0; i + 1 < size[0]; ++i)
     {
       const bool here = values[i] > this->Iso;
@@ -142,12 +151,13 @@ Field::Cell Field::Locate(const Vector& position) const
     z - static_cast<float>(k) };
 }
 
-float Field::Fetch(int i, int j, int k) const
+template <typename Voxels>
+float Field::Fetch(const Voxels& voxels, int i, int j, int k) const
 {
   const auto& size = this->Level.Size;
   if (i >= 0 && j >= 0 && k >= 0 && i < size[0] && j < size[1] && k < size[2])
   {
-    return this->Level.Values[this->Offset(i, j, k)];
+    return voxels[this->Offset(i, j, k)];
   }
   if (!this->Replicate)
   {
@@ -156,7 +166,20 @@ float Field::Fetch(int i, int j, int k) const
   i = std::min(std::max(i, 0), size[0] - 1);
   j = std::min(std::max(j, 0), size[1] - 1);
   k = std::min(std::max(k, 0), size[2] - 1);
-  return this->Level.Values[this->Offset(i, j, k)];
+  return voxels[this->Offset(i, j, k)];
+}
+
+void Field::Row(int j, int k, float* values) const
+{
+  this->Level.Values.Visit(
+    [&](const auto& voxels)
+    {
+      const std::ptrdiff_t first = this->Offset(0, j, k);
+      for (int i = 0; i < this->Level.Size[0]; ++i)
+      {
+        values[i] = this->Sign * (voxels[first + i] - this->Iso);
+      }
+    });
 }
 
 Field::Sample Field::Faded(const Vector& position, const Sample& sample) const
@@ -180,105 +203,98 @@ float Field::ValueAt(const Vector& position) const
   const Cell c = this->Locate(position);
   const auto& size = this->Level.Size;
   float row[2][2];
-  if (c.I >= 0 && c.J >= 0 && c.K >= 0 && c.I + 1 < size[0] && c.J + 1 < size[1] &&
-    c.K + 1 < size[2])
-  {
-    const float* at = this->Level.Values + this->Offset(c.I, c.J, c.K);
-    const std::ptrdiff_t dy = size[0];
-    const std::ptrdiff_t dz = static_cast<std::ptrdiff_t>(size[0]) * size[1];
-    for (int k = 0; k < 2; ++k)
+  this->Level.Values.Visit(
+    [&](const auto& voxels)
     {
-      for (int j = 0; j < 2; ++j)
+      const bool inner = c.I >= 0 && c.J >= 0 && c.K >= 0 && c.I + 1 < size[0] &&
+        c.J + 1 < size[1] && c.K + 1 < size[2];
+      const std::ptrdiff_t dy = size[0];
+      const std::ptrdiff_t dz = dy * size[1];
+      const std::ptrdiff_t first = inner ? this->Offset(c.I, c.J, c.K) : 0;
+      for (int k = 0; k < 2; ++k)
       {
-        const float* p = at + j * dy + k * dz;
-        row[k][j] = p[0] + c.X * (p[1] - p[0]);
+        for (int j = 0; j < 2; ++j)
+        {
+          const std::ptrdiff_t at = first + j * dy + k * dz;
+          const float a = inner ? voxels[at] : this->Fetch(voxels, c.I, c.J + j, c.K + k);
+          const float b = inner ? voxels[at + 1] : this->Fetch(voxels, c.I + 1, c.J + j, c.K + k);
+          row[k][j] = a + c.X * (b - a);
+        }
       }
-    }
-  }
-  else
-  {
-    for (int k = 0; k < 2; ++k)
-    {
-      for (int j = 0; j < 2; ++j)
-      {
-        const float a = this->Fetch(c.I, c.J + j, c.K + k);
-        row[k][j] = a + c.X * (this->Fetch(c.I + 1, c.J + j, c.K + k) - a);
-      }
-    }
-  }
+    });
   const float low = row[0][0] + c.Y * (row[0][1] - row[0][0]);
   const float high = row[1][0] + c.Y * (row[1][1] - row[1][0]);
   const float value = this->Sign * (low + c.Z * (high - low) - this->Iso);
   return this->Replicate ? this->Faded(position, { value, Vector() }).Value : value;
 }
 
+template <typename Voxels>
+Field::Sample Field::Interpolated(const Cell& cell, const Voxels& voxels, std::ptrdiff_t first,
+  std::ptrdiff_t row, std::ptrdiff_t slice) const
+{
+  const float x = cell.X;
+  const float y = cell.Y;
+  const float z = cell.Z;
+  // Rows at y = -1, 0, 1, 2 in the slices at z = 0 and 1; those at y = 0, 1 at z = -1 and 2.
+  const std::ptrdiff_t corner = first - 1 - row;
+  const VoxelRows near = ReadRows(
+    voxels, { corner, corner + row, corner + 2 * row, corner + 3 * row });
+  const std::ptrdiff_t next = corner + slice;
+  const VoxelRows far = ReadRows(voxels, { next, next + row, next + 2 * row, next + 3 * row });
+  const std::ptrdiff_t before = corner + row - slice;
+  const std::ptrdiff_t after = corner + row + 2 * slice;
+  const VoxelRows beside = ReadRows(voxels, { before, before + row, after, after + row });
+
+  const auto lerp = [x](const VoxelRows& v)
+  { return v.Column[1] + x * (v.Column[2] - v.Column[1]); };
+  const auto slope = [x](const VoxelRows& v)
+  { return (1 - x) * (v.Column[2] - v.Column[0]) + x * (v.Column[3] - v.Column[1]); };
+  const FourFloats values[3] = { lerp(near), lerp(far), lerp(beside) };
+  const FourFloats slopes[2] = { slope(near), slope(far) };
+  const auto between = [y](const FourFloats& v, int j) { return v[j] + y * (v[j + 1] - v[j]); };
+  const auto slopeY = [y](const FourFloats& v)
+  { return (1 - y) * (v[2] - v[0]) + y * (v[3] - v[1]); };
+  const float low = between(values[0], 1);
+  const float high = between(values[1], 1);
+  const float gx = (1 - z) * ((1 - y) * slopes[0][1] + y * slopes[0][2]) +
+    z * ((1 - y) * slopes[1][1] + y * slopes[1][2]);
+  const float gy = (1 - z) * slopeY(values[0]) + z * slopeY(values[1]);
+  const float gz =
+    (1 - z) * (high - between(values[2], 0)) + z * (between(values[2], 2) - low);
+  const float half = 0.5f * this->Sign;
+  return { this->Sign * (low + z * (high - low) - this->Iso),
+    Vector(half * gx * this->Inverse[0], half * gy * this->Inverse[1],
+      half * gz * this->Inverse[2]) };
+}
+
 Field::Sample Field::At(const Vector& position) const
 {
   const Cell c = this->Locate(position);
   const auto& size = this->Level.Size;
-  // Twelve rows of the 4 x 4 x 4 voxels around: lerp[k][j] at the place along x; slope[k][j] is
-  // the interpolated central difference along x of the four inner rows.
-  float lerp[4][4];
-  float slope[2][2];
-  const bool inner = c.I >= 1 && c.J >= 1 && c.K >= 1 && c.I + 2 < size[0] && c.J + 2 < size[1] &&
-    c.K + 2 < size[2];
-  const std::ptrdiff_t dy = size[0];
-  const std::ptrdiff_t dz = static_cast<std::ptrdiff_t>(size[0]) * size[1];
-  const float* at = inner ? this->Level.Values + this->Offset(c.I, c.J, c.K) : nullptr;
-  for (int k = 0; k < 4; ++k)
-  {
-    for (int j = 0; j < 4; ++j)
+  const Sample sample = this->Level.Values.Visit(
+    [&](const auto& voxels)
     {
-      const bool innerRow = (k == 1 || k == 2) && (j == 1 || j == 2);
-      if ((k == 0 || k == 3) && (j == 0 || j == 3))
+      if (c.I >= 1 && c.J >= 1 && c.K >= 1 && c.I + 2 < size[0] && c.J + 2 < size[1] &&
+        c.K + 2 < size[2])
       {
-        continue;
+        const std::ptrdiff_t row = size[0];
+        return this->Interpolated(c, voxels, this->Offset(c.I, c.J, c.K), row, row * size[1]);
       }
-      float v[4];
-      if (inner)
+      float around[4][4][4];
+      for (int k = 0; k < 4; ++k)
       {
-        const float* p = at + (j - 1) * dy + (k - 1) * dz;
-        v[1] = p[0];
-        v[2] = p[1];
-        if (innerRow)
+        for (int j = 0; j < 4; ++j)
         {
-          v[0] = p[-1];
-          v[3] = p[2];
+          const bool isUnused = (k == 0 || k == 3) && (j == 0 || j == 3);
+          for (int i = 0; i < 4 && !isUnused; ++i)
+          {
+            around[k][j][i] = this->Fetch(voxels, c.I + i - 1, c.J + j - 1, c.K + k - 1);
+          }
         }
       }
-      else
-      {
-        v[1] = this->Fetch(c.I, c.J + j - 1, c.K + k - 1);
-        v[2] = this->Fetch(c.I + 1, c.J + j - 1, c.K + k - 1);
-        if (innerRow)
-        {
-          v[0] = this->Fetch(c.I - 1, c.J + j - 1, c.K + k - 1);
-          v[3] = this->Fetch(c.I + 2, c.J + j - 1, c.K + k - 1);
-        }
-      }
-      lerp[k][j] = v[1] + c.X * (v[2] - v[1]);
-      if (innerRow)
-      {
-        slope[k - 1][j - 1] = (1 - c.X) * (v[2] - v[0]) + c.X * (v[3] - v[1]);
-      }
-    }
-  }
-  const float y = c.Y;
-  const float z = c.Z;
-  const auto alongY = [&](int k) { return lerp[k][1] + y * (lerp[k][2] - lerp[k][1]); };
-  const auto slopeY = [&](int k)
-  { return (1 - y) * (lerp[k][2] - lerp[k][0]) + y * (lerp[k][3] - lerp[k][1]); };
-  const float low = alongY(1);
-  const float high = alongY(2);
-  const float gx = (1 - z) * ((1 - y) * slope[0][0] + y * slope[0][1]) +
-    z * ((1 - y) * slope[1][0] + y * slope[1][1]);
-  const float gy = (1 - z) * slopeY(1) + z * slopeY(2);
-  const float gz = (1 - z) * (high - alongY(0)) + z * (alongY(3) - low);
-  const float half = 0.5f * this->Sign;
-  return this->Faded(position,
-    { this->Sign * (low + z * (high - low) - this->Iso),
-      Vector(half * gx * this->Inverse[0], half * gy * this->Inverse[1],
-        half * gz * this->Inverse[2]) });
+      return this->Interpolated(c, PlainVoxels{ &around[0][0][0] }, 1 + 4 + 16, 4, 16);
+    });
+  return this->Faded(position, sample);
 }
 
 namespace

@@ -9,6 +9,8 @@
 #include "Core/Image/ImageMargin.h"
 #include "Core/Image/LevelImage.h"
 
+#include <cstddef>
+
 namespace volumic
 {
 /**
@@ -67,6 +69,8 @@ public:
   {
     return this->Sign * (this->Level.Values[this->Offset(i, j, k)] - this->Iso);
   }
+  /** Values at the voxels of a row inside the image, all Size[0] of them: for many voxels. */
+  void Row(int j, int k, float* values) const;
 
 private:
   struct Cell
@@ -80,7 +84,13 @@ private:
       (j + static_cast<std::ptrdiff_t>(this->Level.Size[1]) * k);
   }
   Cell Locate(const Vector& position) const;
-  float Fetch(int i, int j, int k) const;
+  /** As Level.Values, also outside the image. */
+  template <typename Voxels>
+  float Fetch(const Voxels& voxels, int i, int j, int k) const;
+  /** The sample in the cell of voxels whose first one is `first`, rows and slices apart. */
+  template <typename Voxels>
+  Sample Interpolated(const Cell& cell, const Voxels& voxels, std::ptrdiff_t first,
+    std::ptrdiff_t row, std::ptrdiff_t slice) const;
   Sample Faded(const Vector& position, const Sample& sample) const;
   void MeasureRange(Executor& executor);
   void MeasureSlope();

@@ -3,6 +3,8 @@
 #ifndef volumicLevelImage_h
 #define volumicLevelImage_h
 
+#include "Core/Image/VoxelValues.h"
+
 #include <array>
 
 namespace volumic
@@ -22,7 +24,7 @@ namespace volumic
  */
 struct LevelImage
 {
-  const float* Values = nullptr;               ///< x fastest, Size[0] * Size[1] * Size[2] of them.
+  VoxelValues Values; ///< x fastest, Size[0] * Size[1] * Size[2] of them.
   /**
    * What the values of the image are more than Values, so that those keep their differences in
    * single precision where the image lies far from 0 (10^9 to 10^9 + 50).
@@ -31,7 +33,7 @@ struct LevelImage
   std::array<int, 3> Size = { 0, 0, 0 };       ///< Number of voxels along each axis.
   std::array<double, 3> Step = { 1., 1., 1. }; ///< Distance of neighbouring voxels, workspace.
   double Unit = 1.;                            ///< U_h = T^h, workspace (U_0 = 1).
-  const float* Edges = nullptr; ///< May be null: a map of edges at the same voxels.
+  VoxelValues Edges; ///< There may be none: a map of edges at the same voxels.
 };
 }
 

@@ -67,7 +67,8 @@ std::vector<float> PointAttraction::Bend(
   const LevelImage& image, const FieldOptions& options, Executor& executor) const
 {
   const std::size_t slice = static_cast<std::size_t>(image.Size[0]) * image.Size[1];
-  std::vector<float> bent(image.Values, image.Values + slice * image.Size[2]);
+  std::vector<float> bent(slice * image.Size[2]);
+  image.Values.Copy(0, static_cast<std::ptrdiff_t>(bent.size()), bent.data());
   const Field field(image, options, executor);
   const float contrast = ContrastShare * field.TypicalSlope() * static_cast<float>(image.Unit);
   const float sign = options.ObjectIsBright ? 1.f : -1.f;

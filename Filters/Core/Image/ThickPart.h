@@ -3,7 +3,11 @@
 #ifndef volumicThickPart_h
 #define volumicThickPart_h
 
+#include "Core/Image/VoxelNumbers.h"
+
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,11 +22,122 @@ namespace volumic
 constexpr int VoxelsThatHold = 36;
 
 /**
- * Whether the marked voxels (x fastest, not 0) have a part that consists of cubes of 2 x 2 x 2 of
- * them, joined by faces, and has at least so many voxels. Thinner parts don't count.
+ * Looks for parts of an object that consist of cubes of 2 x 2 x 2 of its voxels, joined by faces:
+ * each part in turn, as far as needed, so that the work space is that of the few voxels wanted.
  */
-bool HasThickPart(
-  const std::vector<std::uint8_t>& marks, const std::array<int, 3>& size, int minimum);
+template <typename IsObject>
+class ThickParts
+{
+public:
+  ThickParts(const IsObject& isObject, const std::array<int, 3>& size)
+    : Object(isObject), Size(size), Numbers(size)
+  {
+    for (int c = 0; c < 8; ++c)
+    {
+      this->Corners[c] = this->Numbers.Of(c & 1, c >> 1 & 1, c >> 2);
+    }
+  }
+
+  /** Whether one has so many voxels. */
+  bool HaveOneOf(int minimum)
+  {
+    for (int k = 0; k + 1 < this->Size[2]; ++k)
+    {
+      for (int j = 0; j + 1 < this->Size[1]; ++j)
+      {
+        for (int i = 0; i + 1 < this->Size[0]; ++i)
+        {
+          const std::int64_t first = this->Numbers.Of(i, j, k);
+          if (this->IsCube(first) && this->StartsPartOf(first, minimum))
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+private:
+  bool IsCube(std::int64_t first) const
+  {
+    return std::all_of(this->Corners.begin(), this->Corners.end(),
+      [&](std::int64_t corner) { return this->Object(first + corner); });
+  }
+
+  /** Whether the voxel lies in a cube. */
+  bool IsThick(const std::array<int, 3>& place) const
+  {
+    for (int c = 0; c < 8; ++c)
+    {
+      const int i = place[0] - (c & 1);
+      const int j = place[1] - (c >> 1 & 1);
+      const int k = place[2] - (c >> 2);
+      if (i >= 0 && j >= 0 && k >= 0 && i + 1 < this->Size[0] && j + 1 < this->Size[1] &&
+        k + 1 < this->Size[2] && this->IsCube(this->Numbers.Of(i, j, k)))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /**
+   * Whether the part of a voxel has so many. Only asked of what may be the first voxel of its part:
+   * where there is one before it, the part has been looked at, and has fewer.
+   */
+  bool StartsPartOf(std::int64_t first, int minimum)
+  {
+    this->Part.assign(1, first);
+    for (std::size_t n = 0; n < this->Part.size(); ++n)
+    {
+      if (this->Part.size() >= static_cast<std::size_t>(minimum))
+      {
+        return true;
+      }
+      const std::array<int, 3> place = this->Numbers.PlaceOf(this->Part[n]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (int side : { -1, 1 })
+        {
+          std::array<int, 3> next = place;
+          next[axis] += side;
+          if (next[axis] < 0 || next[axis] >= this->Size[axis] || !this->IsThick(next))
+          {
+            continue;
+          }
+          const std::int64_t other = this->Part[n] + side * this->Numbers.Stride(axis);
+          if (other < first)
+          {
+            return false;
+          }
+          if (std::find(this->Part.begin(), this->Part.end(), other) == this->Part.end())
+          {
+            this->Part.push_back(other);
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  const IsObject& Object;
+  std::array<int, 3> Size;
+  VoxelNumbers Numbers;
+  std::array<std::int64_t, 8> Corners;
+  std::vector<std::int64_t> Part;
+};
+
+/**
+ * Whether the voxels for which isObject(number) holds (VoxelNumbers.h) have a part that consists of
+ * cubes of 2 x 2 x 2 of them, joined by faces, and has at least so many voxels. Thinner parts don't
+ * count.
+ */
+template <typename IsObject>
+bool HasThickPart(const IsObject& isObject, const std::array<int, 3>& size, int minimum)
+{
+  return ThickParts<IsObject>(isObject, size).HaveOneOf(minimum);
+}
 }
 
 #endif

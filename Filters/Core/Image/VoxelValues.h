@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicVoxelValues_h
+#define volumicVoxelValues_h
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace volumic
+{
+/** Voxels of float, read as they are. */
+struct PlainVoxels
+{
+  using Stored = float;
+  const float* Voxels;
+
+  float Value(float stored) const { return stored; }
+  float operator[](std::ptrdiff_t i) const { return this->Voxels[i]; }
+};
+
+/** Voxels less a base: the difference in double, rounded to float. */
+template <typename T>
+struct WideVoxels
+{
+  using Stored = T;
+  const T* Voxels;
+  double Base;
+
+  float Value(T stored) const
+  {
+    return static_cast<float>(static_cast<double>(stored) - this->Base);
+  }
+  float operator[](std::ptrdiff_t i) const { return this->Value(this->Voxels[i]); }
+};
+
+/**
+ * The same bits without doubles, for integers of at most 16 bits and a base that is a float: such
+ * an integer is a float too, and floats are subtracted exactly and rounded once. (The way through
+ * double rounds twice, but the first time either to nothing or away from what lies halfway between
+ * two floats: that needs bits further down than a base of 24 bits has.)
+ */
+template <typename T>
+struct NarrowVoxels
+{
+  static_assert(std::is_integral_v<T> && sizeof(T) <= 2, "not every such number is a float");
+  using Stored = T;
+  const T* Voxels;
+  float Base;
+
+  float Value(T stored) const { return static_cast<float>(stored) - this->Base; }
+  float operator[](std::ptrdiff_t i) const { return this->Value(this->Voxels[i]); }
+};
+
+/**
+ * The voxels of a level in the type that their image has, so that none of them is copied: what is
+ * read is float(double(voxel) - base), for all native types; or a float voxel as it is. x fastest;
+ * not owned.
+ */
+class VoxelValues
+{
+public:
+  VoxelValues() = default;
+
+  /** As they are; null: no voxels. Meant to convert: a level is often made of floats at hand. */
+  VoxelValues(const float* voxels) : Voxels(voxels) {}
+
+  /** Less a base. */
+  template <typename T>
+  VoxelValues(const T* voxels, double base)
+    : Voxels(voxels), Base(base), Held(TypeOf<T>()), IsPlain(false)
+    , IsNarrow(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
+  {
+  }
+
+  explicit operator bool() const { return this->Voxels != nullptr; }
+
+  /**
+   * Calls visit(voxels) with a PlainVoxels, NarrowVoxels or WideVoxels: voxels[i] is the value of
+   * the i-th. To be called once per sample or loop, as it looks up the type.
+   */
+  template <typename Visitor>
+  std::invoke_result_t<Visitor, PlainVoxels> Visit(Visitor&& visit) const
+  {
+    if (this->IsPlain)
+    {
+      return visit(PlainVoxels{ static_cast<const float*>(this->Voxels) });
+    }
+    switch (this->Held)
+    {
+      case Type::SignedChar:
+        return this->VisitNarrow<std::int8_t>(visit);
+      case Type::UnsignedChar:
+        return this->VisitNarrow<std::uint8_t>(visit);
+      case Type::Short:
+        return this->VisitNarrow<std::int16_t>(visit);
+      case Type::UnsignedShort:
+        return this->VisitNarrow<std::uint16_t>(visit);
+      case Type::Int:
+        return this->VisitWide<std::int32_t>(visit);
+      case Type::UnsignedInt:
+        return this->VisitWide<std::uint32_t>(visit);
+      case Type::Long:
+        return this->VisitWide<std::int64_t>(visit);
+      case Type::UnsignedLong:
+        return this->VisitWide<std::uint64_t>(visit);
+      case Type::Double:
+        return this->VisitWide<double>(visit);
+      default:
+        return this->VisitWide<float>(visit);
+    }
+  }
+
+  /** One value, where few are wanted. */
+  float operator[](std::ptrdiff_t i) const
+  {
+    return this->Visit([i](const auto& voxels) { return voxels[i]; });
+  }
+
+  /** Values [first, first + count). */
+  void Copy(std::ptrdiff_t first, std::ptrdiff_t count, float* values) const
+  {
+    this->Visit(
+      [=](const auto& voxels)
+      {
+        for (std::ptrdiff_t i = 0; i < count; ++i)
+        {
+          values[i] = voxels[first + i];
+        }
+      });
+  }
+
+private:
+  /** By size and sign: char, long and long long are what they are on the platform. */
+  enum class Type : std::uint8_t
+  {
+    SignedChar,
+    UnsignedChar,
+    Short,
+    UnsignedShort,
+    Int,
+    UnsignedInt,
+    Long,
+    UnsignedLong,
+    Float,
+    Double
+  };
+
+  template <typename T>
+  static constexpr Type TypeOf()
+  {
+    if constexpr (std::is_floating_point_v<T>)
+    {
+      return sizeof(T) == sizeof(float) ? Type::Float : Type::Double;
+    }
+    else
+    {
+      constexpr Type types[4][2] = { { Type::UnsignedChar, Type::SignedChar },
+        { Type::UnsignedShort, Type::Short }, { Type::UnsignedInt, Type::Int },
+        { Type::UnsignedLong, Type::Long } };
+      constexpr int size = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
+      return types[size][std::is_signed_v<T> ? 1 : 0];
+    }
+  }
+
+  template <typename T, typename Visitor>
+  std::invoke_result_t<Visitor, PlainVoxels> VisitNarrow(Visitor&& visit) const
+  {
+    if (this->IsNarrow)
+    {
+      return visit(
+        NarrowVoxels<T>{ static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
+    }
+    return this->VisitWide<T>(visit);
+  }
+  template <typename T, typename Visitor>
+  std::invoke_result_t<Visitor, PlainVoxels> VisitWide(Visitor&& visit) const
+  {
+    return visit(WideVoxels<T>{ static_cast<const T*>(this->Voxels), this->Base });
+  }
+
+  const void* Voxels = nullptr;
+  double Base = 0.;
+  Type Held = Type::Float;
+  bool IsPlain = true;
+  bool IsNarrow = false; ///< See NarrowVoxels.
+};
+}
+
+#endif
