@@ -11,7 +11,7 @@ namespace volumic
 {
 namespace
 {
-constexpr std::size_t BlockSize = 1024;
+constexpr std::size_t BlockSize = 256;
 /** Distance, in delta, over which the isopotential force grows to its bound. */
 constexpr float ForceRange = 0.75f;
 /** A vertex has moved visibly when it is this far from its anchor along its normal, in delta. */
@@ -330,10 +330,7 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active)
     });
   const std::vector<int> leaving = SelectOf(this->Threads, active,
     [&state](int v) { return !state.Grid.IsInPlace(v, state.Mesh.Position[v]); });
-  for (int v : leaving)
-  {
-    state.Grid.Move(v, state.Mesh.Position[v]);
-  }
+  state.Grid.MoveAll(leaving, state.Mesh.Position, this->Threads);
 }
 
 void Dynamics::Freeze(
@@ -385,9 +382,13 @@ void Dynamics::Freeze(
         }
       }
     });
-  for (int v : active)
-  {
-    this->HasMoved[v] = 0;
-  }
+  this->Threads.For(active.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->HasMoved[active[i]] = 0;
+      }
+    });
 }
 }

@@ -46,6 +46,9 @@ public:
   /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
   void InsertAll(const std::vector<Vector>& positions, const std::function<bool(int v)>& isThere,
     Executor& executor);
+  /** Move() for each of them. */
+  void MoveAll(
+    const std::vector<int>& vertices, const std::vector<Vector>& positions, Executor& executor);
   void Remove(int v);
   /** To be called after the vertex has moved. */
   void Move(int v, const Vector& position)
@@ -150,6 +153,12 @@ private:
     const std::size_t row =
       static_cast<std::size_t>(this->Along(p.Z, 2)) * this->Size[1] + this->Along(p.Y, 1);
     return static_cast<std::uint32_t>(row * this->Size[0] + this->Along(p.X, 0));
+  }
+  /** The layer of bricks that a cell lies in. */
+  std::size_t LayerOf(std::uint32_t cell) const
+  {
+    return static_cast<std::size_t>(cell / (static_cast<std::uint32_t>(this->Size[0]) *
+             static_cast<std::uint32_t>(this->Size[1]))) >> Bits;
   }
   /** The first vertex of a cell, in a brick that is made where there is none. */
   int& HeadOf(std::uint32_t cell);

@@ -8,6 +8,12 @@
 
 namespace volumic
 {
+namespace
+{
+/** Vertices that one thread looks at at a time: 20 microseconds. */
+constexpr std::size_t ShapeGrain = 128;
+}
+
 void SurfaceState::Reset(const Vector& low, const Vector& high)
 {
   SequentialExecutor thread;
@@ -27,7 +33,7 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   {
     this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
   }
-  this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic();
+  this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
 }
 
 void SurfaceState::Lend(VertexPlaces& places, std::size_t n)
@@ -62,6 +68,7 @@ void SurfaceState::UpdateShape(int v)
   StarVectors pull;
   unsigned tooLong = 0;
   unsigned tooShort = 0;
+  unsigned huge = 0;
   for (int i = 0; i < star.Count; i += Lanes::Count)
   {
     const auto ofEdges = [&](auto&& of)
@@ -81,6 +88,7 @@ void SurfaceState::UpdateShape(int v)
       i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
     tooLong |= LessBits(longest, length) << i;
     tooShort |= LessBits(length, shortest) << i;
+    huge |= LessBits(longest * Lanes(HugeEdge), length) << i;
   }
   float edges = 0;
   for (int i = 0; i < star.Count; ++i)
@@ -90,6 +98,7 @@ void SurfaceState::UpdateShape(int v)
   std::uint8_t flags = 0;
   flags |= tooLong & star.All() ? HasLongEdge : 0;
   flags |= tooShort & star.All() ? HasShortEdge : 0;
+  flags |= huge & star.All() ? HasHugeEdge : 0;
   flags |= star.IsDelaunay() ? 0 : IsNotDelaunay;
   this->Normal[v] = star.Cone();
   this->Laplacian[v] = star.Edge.Sum(star.Count) * (1.f / static_cast<float>(star.Count));
@@ -100,7 +109,7 @@ void SurfaceState::UpdateShape(int v)
 
 void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& executor)
 {
-  executor.For(vertices.size(), 512,
+  executor.For(vertices.size(), ShapeGrain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
