@@ -27,7 +27,7 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   {
     this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
   }
-  this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic();
+  this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
 }
 
 void SurfaceState::Lend(VertexPlaces& places, std::size_t n)
