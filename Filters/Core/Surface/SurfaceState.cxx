@@ -92,7 +92,9 @@ void SurfaceState::UpdateShape(int v)
   flags |= tooShort & star.All() ? HasShortEdge : 0;
   flags |= star.IsDelaunay() ? 0 : IsNotDelaunay;
   this->Normal[v] = star.Cone();
-  this->Laplacian[v] = star.Edge.Sum(star.Count) * (1.f / static_cast<float>(star.Count));
+  const float share = 1.f / static_cast<float>(star.Count);
+  this->Laplacian[v] = star.Edge.Sum(star.Count) * share;
+  this->Laplacian[v].Padding = share;
   this->SpringPull[v] = pull.Sum(star.Count);
   this->EdgeLengthSum[v] = edges;
   this->RemeshFlags[v] = flags;
