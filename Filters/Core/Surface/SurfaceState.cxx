@@ -61,6 +61,7 @@ void SurfaceState::UpdateShape(int v)
   const StarShape star(this->Mesh, v);
   StarVectors pull;
   unsigned tooLong = 0;
+  unsigned huge = 0;
   unsigned tooShort = 0;
   for (int i = 0; i < star.Count; i += Lanes::Count)
   {
@@ -76,10 +77,13 @@ void SurfaceState::UpdateShape(int v)
     const Lanes length = star.Length.At(i);
     const Lanes rest = ofEdges([&](int w) { return this->Sizing.RestLength(v, w); });
     const Lanes longest = ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w); });
+    const Lanes hugest =
+      ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w, HugeEdge); });
     const Lanes shortest = ofEdges([&](int w) { return this->Sizing.ShortestEdge(v, w); });
     pull.Set(
       i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
     tooLong |= LessBits(longest, length) << i;
+    huge |= LessBits(hugest, length) << i;
     tooShort |= LessBits(length, shortest) << i;
   }
   float edges = 0;
@@ -89,6 +93,7 @@ void SurfaceState::UpdateShape(int v)
   }
   std::uint8_t flags = 0;
   flags |= tooLong & star.All() ? HasLongEdge : 0;
+  flags |= huge & star.All() ? HasHugeEdge : 0;
   flags |= tooShort & star.All() ? HasShortEdge : 0;
   flags |= star.IsDelaunay() ? 0 : IsNotDelaunay;
   this->Normal[v] = star.Cone();
