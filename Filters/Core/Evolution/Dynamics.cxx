@@ -115,8 +115,8 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   Vector tension = state.Laplacian[v];
   for (int i = 0; i < ring.Count; ++i)
   {
-    const int w = ring.Item[i];
-    tension -= state.Laplacian[w] * (1.f / static_cast<float>(state.Mesh.Rings[w].Count));
+    const Vector& pull = state.Laplacian[ring.Item[i]];
+    tension -= pull * pull.Padding;
   }
   const float inverse = 1.f / delta;
   Vector force = n * along +
@@ -182,7 +182,8 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
         const int v = vertices[i];
         const float longest = LongestRelaxation * state.Sizing.At(v);
         const Vector n = state.Normal[v].Axis();
-        const Vector pull = state.Laplacian[v];
+        Vector pull = state.Laplacian[v];
+        pull.Padding = 0;
         Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
         if (snap && this->Options.SnapToIsoValue)
         {

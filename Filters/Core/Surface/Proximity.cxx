@@ -230,7 +230,7 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
   const FirstPair pair(state, listed, v, second.Centre);
   const float someRoom = SomeRoom * state.Sizing.At(v);
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
-  const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
+  std::optional<FacesBeside> besideSecond; // Few need it.
   float room = someRoom;
   for (int i = 0; i < first.Count; ++i)
   {
@@ -240,7 +240,11 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
     for (; near != 0; near &= near - 1)
     {
       const int j = LowestBit(near);
-      if (besideSecond.Of(j) >> i & 1)
+      if (!besideSecond)
+      {
+        besideSecond.emplace(second, first, FloatRounding * someRoom);
+      }
+      if (besideSecond->Of(j) >> i & 1)
       {
         continue;
       }
