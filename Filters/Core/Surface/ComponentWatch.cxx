@@ -22,7 +22,7 @@ constexpr int TinySize = 24;
 constexpr int VanishedSize = 5;
 
 /** Vertices that one thread joins at a time. */
-constexpr std::size_t JoinedBlock = 16384;
+constexpr std::size_t JoinedBlock = 4096;
 /** Vertices under which a chunk is not worth a thread. */
 constexpr std::size_t Grain = 4096;
 

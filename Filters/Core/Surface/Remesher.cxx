@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/Remesher.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Common/Select.h"
 #include "Core/Mesh/EdgeCollapse.h"
 #include "Core/Mesh/EdgeFlip.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace volumic
 {
@@ -33,6 +35,27 @@ constexpr std::size_t PlacesForSplits = 16;
 constexpr std::size_t PlacesForMerges = 64;
 /** Of a few cuts, three each. */
 constexpr std::size_t PlacesForCuts = 24;
+
+/** Pairs that one thread sorts at a time. */
+constexpr std::size_t SortedBlock = 2048;
+
+/** Nearest first, then by index. */
+struct NearPair
+{
+  float Squared;
+  int V; ///< The smaller one.
+  int W;
+
+  bool operator<(const NearPair& other) const
+  {
+    return std::tie(this->Squared, this->V, this->W) <
+      std::tie(other.Squared, other.V, other.W);
+  }
+  bool operator==(const NearPair& other) const
+  {
+    return this->V == other.V && this->W == other.W;
+  }
+};
 }
 
 std::vector<int> Remesher::Flagged(const std::vector<int>& vertices, RemeshFlag flag) const
@@ -229,7 +252,7 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
 {
   const SurfaceState& s = this->State;
   std::vector<int> near;
-  SelectValues(
+  Select(
     this->Threads, pairs.size(), near,
     [&](std::size_t i)
     {
@@ -239,23 +262,19 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
         SquaredDistance(s.Mesh.Position[pair.V], s.Mesh.Position[pair.W]) < clearance * clearance;
     },
     [](std::size_t i) { return static_cast<int>(i); });
-  std::vector<Proximity::ClosePair> sorted(near.size());
-  for (std::size_t i = 0; i < near.size(); ++i)
-  {
-    const Proximity::ClosePair& pair = pairs[near[i]];
-    sorted[i] = { std::min(pair.V, pair.W), std::max(pair.V, pair.W),
-      SquaredDistance(s.Mesh.Position[pair.V], s.Mesh.Position[pair.W]) };
-  }
-  const auto isBefore = [](const Proximity::ClosePair& a, const Proximity::ClosePair& b)
-  {
-    return a.Squared != b.Squared ? a.Squared < b.Squared
-                                  : (a.V != b.V ? a.V < b.V : a.W < b.W);
-  };
-  std::sort(sorted.begin(), sorted.end(), isBefore);
-  sorted.erase(std::unique(sorted.begin(), sorted.end(),
-                 [](const Proximity::ClosePair& a, const Proximity::ClosePair& b)
-                 { return a.V == b.V && a.W == b.W; }),
-    sorted.end());
+  std::vector<NearPair> sorted(near.size());
+  this->Threads.For(near.size(), SortedBlock,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Proximity::ClosePair& pair = pairs[near[i]];
+        sorted[i] = { SquaredDistance(s.Mesh.Position[pair.V], s.Mesh.Position[pair.W]),
+          std::min(pair.V, pair.W), std::max(pair.V, pair.W) };
+      }
+    });
+  SortInBlocks(this->Threads, sorted, SortedBlock);
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
 
   EditCells::Pass pass;
   pass.Items.resize(sorted.size());
