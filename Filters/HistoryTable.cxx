@@ -8,20 +8,30 @@
 #include <vtkTable.h>
 
 #include <cstddef>
-#include <utility>
+#include <string>
+#include <vector>
 
 namespace volumic
 {
 namespace
 {
-constexpr std::pair<Phase, const char*> PhaseColumns[] = {
-  { Phase::Forces, "ForcesSeconds" },
-  { Phase::Contact, "ContactSeconds" },
-  { Phase::Proximity, "ProximitySeconds" },
-  { Phase::Verification, "VerificationSeconds" },
-  { Phase::Remeshing, "RemeshingSeconds" },
-  { Phase::Topology, "TopologySeconds" },
-  { Phase::Division, "DivisionSeconds" },
+/** What one column of seconds is the sum of. */
+struct PhaseColumn
+{
+  const char* Name;
+  std::vector<Phase> Phases;
+};
+
+const PhaseColumn PhaseColumns[] = {
+  { "Forces", { Phase::Forces } },
+  { "Contact", { Phase::Contact } },
+  { "Proximity", { Phase::Proximity } },
+  { "Verification", { Phase::Verification } },
+  { "Remeshing", { Phase::Remeshing } },
+  { "Topology", { Phase::Topology } },
+  { "Division", { Phase::Division, Phase::Recovery, Phase::Regularisation } },
+  { "Recovery", { Phase::Recovery } },
+  { "Regularisation", { Phase::Regularisation } },
 };
 
 template <typename Array, typename Get>
@@ -36,6 +46,24 @@ void AddColumn(
     column->SetValue(static_cast<vtkIdType>(r), get(rows[r]));
   }
   table->AddColumn(column);
+}
+
+void AddPhases(vtkTable* table, const std::vector<HistoryRow>& rows, const char* ending,
+  double PhaseTime::*seconds)
+{
+  for (const PhaseColumn& column : PhaseColumns)
+  {
+    AddColumn<vtkDoubleArray>(table, (std::string(column.Name) + ending).c_str(), rows,
+      [&](const HistoryRow& row)
+      {
+        double sum = 0.0;
+        for (const Phase phase : column.Phases)
+        {
+          sum += row.Phases[static_cast<std::size_t>(phase)].*seconds;
+        }
+        return sum;
+      });
+  }
 }
 }
 
@@ -87,12 +115,8 @@ vtkSmartPointer<vtkTable> MakeHistory(
     table, "SecondsAfter", rows, [](const Row& r) { return r.SecondsAfter; });
   if (withPhases)
   {
-    for (const auto& [phase, name] : PhaseColumns)
-    {
-      const auto index = static_cast<std::size_t>(phase);
-      AddColumn<vtkDoubleArray>(
-        table, name, rows, [index](const Row& r) { return r.PhaseSeconds[index]; });
-    }
+    AddPhases(table, rows, "Seconds", &PhaseTime::Seconds);
+    AddPhases(table, rows, "SerialSeconds", &PhaseTime::Serial);
   }
   return table;
 }

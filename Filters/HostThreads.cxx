@@ -19,6 +19,9 @@ namespace
 {
 constexpr const char* StandardBackend = "STDThread";
 
+/** See HostThreads::UseInstead. */
+Executor* theInstead = nullptr;
+
 /** More threads than processors gain nothing, and TBB complains. */
 int LimitToProcessors(int numberOfThreads)
 {
@@ -78,8 +81,15 @@ private:
 }
 
 HostThreads::HostThreads(int numberOfThreads)
-  : NumberOfThreads(LimitToProcessors(numberOfThreads)), Backend(ChooseBackend(numberOfThreads))
+  : NumberOfThreads(LimitToProcessors(numberOfThreads))
+  , Backend(ChooseBackend(numberOfThreads))
+  , Instead(theInstead)
 {
+}
+
+void HostThreads::UseInstead(Executor* executor)
+{
+  theInstead = executor;
 }
 
 void HostThreads::RunWithin(
@@ -107,7 +117,7 @@ void HostThreads::RunWithin(
 
 void HostThreads::Run(const std::function<void()>& work)
 {
-  if (this->NumberOfThreads == 1)
+  if (this->NumberOfThreads == 1 && !this->Instead)
   {
     work();
     return;
@@ -126,6 +136,11 @@ void HostThreads::Run(const std::function<void()>& work)
     }
     this->Running = false;
   };
+  if (this->Instead)
+  {
+    run();
+    return;
+  }
   if (this->Backend != StandardBackend)
   {
     this->RunWithin(this->Backend, this->NumberOfThreads, run);
@@ -146,6 +161,11 @@ void HostThreads::For(
   {
     return;
   }
+  if (this->Running && this->Instead)
+  {
+    this->Instead->For(n, grain, body);
+    return;
+  }
   if (!this->Running || n <= grain)
   {
     body(0, n);
@@ -159,5 +179,13 @@ void HostThreads::For(
   Body guarded(body);
   vtkSMPTools::For(0, static_cast<vtkIdType>(n), static_cast<vtkIdType>(grain), guarded);
   guarded.Rethrow();
+}
+
+void HostThreads::EndPhase(const char* name)
+{
+  if (this->Instead)
+  {
+    this->Instead->EndPhase(name);
+  }
 }
 }

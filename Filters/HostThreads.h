@@ -4,6 +4,7 @@
 #define volumicHostThreads_h
 
 #include "Core/Common/Executor.h"
+#include "vtkFiltersVolumicModule.h" // for the export macro
 
 #include <functional>
 #include <memory>
@@ -20,11 +21,17 @@ namespace volumic
  * Instead of VTK's backend STDThread, which ends the program where the system denies it a thread,
  * our own StandardThreads serve; VTK itself is sequential meanwhile.
  */
-class HostThreads final : public Executor
+class VTKFILTERSVOLUMIC_EXPORT HostThreads final : public Executor
 {
 public:
   /** @param numberOfThreads 0 = all that the host has; never more than there are processors. */
   explicit HostThreads(int numberOfThreads);
+
+  /**
+   * For measurements and tests: what is made from now on hands all that Run() does to this executor
+   * instead of the host's threads; null, as at first: to these. Not while a filter runs.
+   */
+  static void UseInstead(Executor* executor);
 
   /**
    * Runs `work`, within which For() may be called; choosing a backend has its price, which is paid
@@ -35,6 +42,7 @@ public:
   /** @see Executor. Outside Run() everything is done on the calling thread. */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
+  void EndPhase(const char* name) override;
 
 private:
   void RunWithin(
@@ -43,6 +51,7 @@ private:
   int NumberOfThreads;
   std::string Backend;
   std::unique_ptr<Executor> Own; ///< instead of the backend, within Run()
+  Executor* Instead; ///< null: none
   bool Running = false;
 };
 }

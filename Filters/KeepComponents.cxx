@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KeepComponents.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "SurfaceTransform.h"
@@ -10,11 +11,15 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace volumic
 {
 namespace
 {
+/** Triangles that one thread looks at at a time. */
+constexpr std::size_t BlockSize = 16384;
+
 /**
  * Places sorted along y, so that what is near a triangle or a vertex is found without a search of
  * all.
@@ -80,26 +85,40 @@ bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
  * not count.
  */
 std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
-  const IndexedSurface& surface, const SurfaceFeatures& features)
+  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {
   const SortedPlaces sorted(places);
-  std::vector<std::vector<int>> pierced(places.size());
-  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
-  {
-    const Triangle& triangle = surface.Triangles[t];
-    const Point& a = surface.Points[triangle[0]];
-    const Point& b = surface.Points[triangle[1]];
-    const Point& c = surface.Points[triangle[2]];
-    const int component = features.ComponentOfTriangle[t];
-    const auto y = std::minmax({ a[1], b[1], c[1] });
-    sorted.Visit(y.first, y.second,
-      [&](std::size_t i)
+  const std::size_t n = surface.Triangles.size();
+  // Places and components, by blocks of triangles.
+  std::vector<std::vector<std::pair<std::size_t, int>>> blocks((n + BlockSize - 1) / BlockSize);
+  ForBlocks(executor, n, BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
       {
-        if ((own.empty() || own[i] != component) && Pierces(places[i], a, b, c))
-        {
-          pierced[i].push_back(component);
-        }
-      });
+        const Triangle& triangle = surface.Triangles[t];
+        const Point& a = surface.Points[triangle[0]];
+        const Point& b = surface.Points[triangle[1]];
+        const Point& c = surface.Points[triangle[2]];
+        const int component = features.ComponentOfTriangle[t];
+        const auto y = std::minmax({ a[1], b[1], c[1] });
+        sorted.Visit(y.first, y.second,
+          [&](std::size_t i)
+          {
+            if ((own.empty() || own[i] != component) && Pierces(places[i], a, b, c))
+            {
+              blocks[block].emplace_back(i, component);
+            }
+          });
+      }
+    });
+  std::vector<std::vector<int>> pierced(places.size());
+  for (const auto& block : blocks)
+  {
+    for (const auto& found : block)
+    {
+      pierced[found.first].push_back(found.second);
+    }
   }
   std::vector<int> innermost(places.size(), -1);
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -122,7 +141,8 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
 }
 
 /** The component that each belongs to: itself, or, for a cavity, the one about it (-1: none). */
-std::vector<int> HostsOf(const IndexedSurface& surface, const SurfaceFeatures& features)
+std::vector<int> HostsOf(
+  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {
   const int n = static_cast<int>(features.Components.size());
   std::vector<int> hosts(static_cast<std::size_t>(n));
@@ -140,7 +160,7 @@ std::vector<int> HostsOf(const IndexedSurface& surface, const SurfaceFeatures& f
     }
     isDone[component] = true;
   }
-  const std::vector<int> about = InnermostAbout(places, cavities, surface, features);
+  const std::vector<int> about = InnermostAbout(places, cavities, surface, features, executor);
   for (std::size_t i = 0; i < cavities.size(); ++i)
   {
     const bool isSolid = about[i] >= 0 && features.Components[about[i]].Volume > 0;
@@ -150,9 +170,10 @@ std::vector<int> HostsOf(const IndexedSurface& surface, const SurfaceFeatures& f
 }
 
 void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
-  const std::vector<Point>& places, const std::vector<int>& hosts, std::vector<bool>& isKept)
+  const std::vector<Point>& places, const std::vector<int>& hosts, std::vector<bool>& isKept,
+  Executor& executor)
 {
-  for (const int component : InnermostAbout(places, {}, surface, features))
+  for (const int component : InnermostAbout(places, {}, surface, features, executor))
   {
     if (component >= 0 && features.Components[component].Volume > 0)
     {
@@ -161,24 +182,34 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
   }
   const SortedPlaces sorted(places);
   const double reach = SizingField::LongestEdgeInDelta * surface.Delta;
-  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
-  {
-    const int host = hosts[features.ComponentOfTriangle[t]];
-    for (const int corner : surface.Triangles[t])
+  const std::size_t n = surface.Triangles.size();
+  std::vector<std::vector<int>> touching((n + BlockSize - 1) / BlockSize);
+  ForBlocks(executor, n, BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
     {
-      const Point& p = surface.Points[corner];
-      sorted.Visit(p[1] - reach, p[1] + reach,
-        [&](std::size_t i)
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const int host = hosts[features.ComponentOfTriangle[t]];
+        for (const int corner : surface.Triangles[t])
         {
-          const double x = p[0] - places[i][0];
-          const double y = p[1] - places[i][1];
-          const double z = p[2] - places[i][2];
-          if (host >= 0 && x * x + y * y + z * z <= reach * reach)
-          {
-            isKept[host] = true;
-          }
-        });
-    }
+          const Point& p = surface.Points[corner];
+          sorted.Visit(p[1] - reach, p[1] + reach,
+            [&](std::size_t i)
+            {
+              const double x = p[0] - places[i][0];
+              const double y = p[1] - places[i][1];
+              const double z = p[2] - places[i][2];
+              if (host >= 0 && x * x + y * y + z * z <= reach * reach)
+              {
+                touching[block].push_back(host);
+              }
+            });
+        }
+      }
+    });
+  for (const int host : Joined(executor, touching))
+  {
+    isKept[host] = true;
   }
 }
 
@@ -229,17 +260,18 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
 }
 }
 
-SurfaceResult KeepChosen(
-  const SurfaceResult& surface, const ComponentChoice& choice, const Workspace& space)
+SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
+  const Workspace& space, Executor& executor)
 {
   if (choice.Mode == KeepComponentsType::AllComponents)
   {
     return surface;
   }
-  const SurfaceFeatures features = ComputeFeatures(surface);
-  const SurfaceFeatures inWorld = ComputeFeatures(ToWorld(surface, space));
+  const SurfaceFeatures features = ComputeFeatures(surface, executor);
+  const SurfaceFeatures inWorld =
+    ComputeFeatures(ToWorld(surface, space, executor), executor);
   const std::size_t n = features.Components.size();
-  const std::vector<int> hosts = HostsOf(surface, features);
+  const std::vector<int> hosts = HostsOf(surface, features, executor);
   // Components are numbered by their areas, which differ in the world where voxels are no cubes.
   std::vector<int> worldIndex(n, -1);
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
@@ -265,7 +297,7 @@ SurfaceResult KeepChosen(
   }
   if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
   {
-    MarkTouching(surface, features, choice.Places, hosts, isKept);
+    MarkTouching(surface, features, choice.Places, hosts, isKept, executor);
   }
   for (std::size_t c = 0; c < n; ++c)
   {

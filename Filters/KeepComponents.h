@@ -3,6 +3,7 @@
 #ifndef volumicKeepComponents_h
 #define volumicKeepComponents_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "SegmentationSettings.h"
 #include "Workspace.h"
@@ -23,10 +24,11 @@ struct ComponentChoice
  * The part of a closed surface that is chosen. A cavity (negative volume) belongs to the component
  * that encloses it most closely, and is kept with it. A component touches a place if it is the
  * innermost that encloses it, and no cavity, or if a vertex of it or of its cavities is not farther
- * than 2.5 delta. Cost: O(n log n) of triangles and places.
+ * than 2.5 delta. Cost: O(n log n) of triangles and places; where all are kept and the surface is
+ * given up, none.
  */
-SurfaceResult KeepChosen(
-  const SurfaceResult& surface, const ComponentChoice& choice, const Workspace& space);
+SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
+  const Workspace& space, Executor& executor = OnThisThread());
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -22,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -56,79 +58,132 @@ void AddComponentField(
   polyData->GetFieldData()->AddArray(array);
 }
 
+/** Calls body(begin, end) on ranges of n items, several of them at once. */
+template <typename Body>
+void ForRanges(Executor& executor, std::size_t n, const Body& body)
+{
+  constexpr std::size_t size = 16384;
+  ForBlocks(executor, n, size,
+    [&body](std::size_t, std::size_t begin, std::size_t end) { body(begin, end); });
+}
+
+template <typename T>
+void Free(std::vector<T>& values)
+{
+  std::vector<T>().swap(values);
+}
+
 /** The same value for all triangles of a component, so that filters of cells can choose by it. */
 template <typename Array, typename Get>
-void AddComponentOfCells(
-  vtkPolyData* polyData, const char* name, const SurfaceFeatures& features, const Get& get)
+void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceFeatures& features,
+  Executor& executor, const Get& get)
 {
+  using Value = typename Array::ValueType;
   vtkNew<Array> array;
   array->SetName(name);
   array->SetNumberOfTuples(static_cast<vtkIdType>(features.ComponentOfTriangle.size()));
-  for (std::size_t t = 0; t < features.ComponentOfTriangle.size(); ++t)
-  {
-    array->SetValue(static_cast<vtkIdType>(t),
-      static_cast<typename Array::ValueType>(
-        get(features.Components[features.ComponentOfTriangle[t]])));
-  }
+  Value* values = array->GetPointer(0);
+  ForRanges(executor, features.ComponentOfTriangle.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const int component = features.ComponentOfTriangle[t];
+        values[t] = static_cast<Value>(get(features.Components[component], component));
+      }
+    });
   polyData->GetCellData()->AddArray(array);
 }
 
 /** The size that 98 % of the residuals don't exceed; 0 for none. */
-double ResidualQuantile(const std::vector<float>& residuals)
+double ResidualQuantile(std::vector<float> residuals)
 {
   if (residuals.empty())
   {
     return 0.0;
   }
-  std::vector<float> sizes(residuals.size());
-  std::transform(residuals.begin(), residuals.end(), sizes.begin(),
-    [](float residual) { return std::abs(residual); });
-  const auto last = static_cast<double>(sizes.size() - 1);
-  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * last);
-  std::nth_element(sizes.begin(), place, sizes.end());
+  for (float& residual : residuals)
+  {
+    residual = std::abs(residual);
+  }
+  const auto last = static_cast<double>(residuals.size() - 1);
+  const auto place = residuals.begin() + static_cast<std::ptrdiff_t>(0.98 * last);
+  std::nth_element(residuals.begin(), place, residuals.end());
   return *place;
 }
 
-void SetGeometry(vtkPolyData* polyData, const IndexedSurface& world)
+void TakePoints(vtkPolyData* polyData, std::vector<Point>& places, Executor& executor)
 {
-  const auto numberOfPoints = static_cast<vtkIdType>(world.Points.size());
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(numberOfPoints);
-  for (vtkIdType p = 0; p < numberOfPoints; ++p)
-  {
-    points->SetPoint(p, world.Points[p].data());
-  }
-  vtkNew<vtkCellArray> triangles;
-  triangles->AllocateExact(static_cast<vtkIdType>(world.Triangles.size()),
-    3 * static_cast<vtkIdType>(world.Triangles.size()));
-  for (const Triangle& triangle : world.Triangles)
-  {
-    triangles->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
-  }
+  points->SetNumberOfPoints(static_cast<vtkIdType>(places.size()));
+  double* to = vtkDoubleArray::SafeDownCast(points->GetData())->GetPointer(0);
+  ForRanges(executor, places.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        std::copy(places[p].begin(), places[p].end(), to + 3 * p);
+      }
+    });
   polyData->SetPoints(points);
+  Free(places);
+}
+
+void TakeTriangles(vtkPolyData* polyData, std::vector<Triangle>& corners, Executor& executor)
+{
+  // As VTK itself keeps them: what reads arrays of a file by their type finds the same.
+  vtkNew<vtkIdTypeArray> offsets;
+  offsets->SetNumberOfTuples(static_cast<vtkIdType>(corners.size()) + 1);
+  vtkNew<vtkIdTypeArray> connectivity;
+  connectivity->SetNumberOfTuples(3 * static_cast<vtkIdType>(corners.size()));
+  vtkIdType* first = offsets->GetPointer(0);
+  vtkIdType* to = connectivity->GetPointer(0);
+  ForRanges(executor, corners.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        first[t] = static_cast<vtkIdType>(3 * t);
+        std::copy(corners[t].begin(), corners[t].end(), to + 3 * t);
+      }
+    });
+  first[corners.size()] = static_cast<vtkIdType>(3 * corners.size());
+  Free(corners);
+  vtkNew<vtkCellArray> triangles;
+  triangles->SetData(offsets, connectivity);
   polyData->SetPolys(triangles);
 }
 
-void SetPointArrays(vtkPolyData* polyData, const SurfaceResult& surface, const Workspace& space)
+/** Takes what the surface knows of its points, but for the residuals. */
+void TakePointArrays(
+  vtkPolyData* polyData, SurfaceResult& surface, const Workspace& space, Executor& executor)
 {
-  const auto numberOfPoints = static_cast<vtkIdType>(surface.Points.size());
+  const std::size_t n = surface.Normals.size();
+  const auto numberOfPoints = static_cast<vtkIdType>(n);
   vtkNew<vtkFloatArray> normals;
   normals->SetName("Normals");
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(numberOfPoints);
+  float* to = normals->GetPointer(0);
+  ForRanges(executor, n,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        const std::array<float, 3> normal = space.NormalToWorld(surface.Normals[p]);
+        std::copy(normal.begin(), normal.end(), to + 3 * p);
+      }
+    });
+  Free(surface.Normals);
   vtkNew<vtkFloatArray> residual;
   residual->SetName("Residual");
   residual->SetNumberOfTuples(numberOfPoints);
+  std::copy(surface.Residual.begin(), surface.Residual.end(), residual->GetPointer(0));
   vtkNew<vtkUnsignedCharArray> motionless;
   motionless->SetName("Motionless");
   motionless->SetNumberOfTuples(numberOfPoints);
-  for (vtkIdType p = 0; p < numberOfPoints; ++p)
-  {
-    normals->SetTypedTuple(p, space.NormalToWorld(surface.Normals[p]).data());
-    residual->SetValue(p, surface.Residual[p]);
-    motionless->SetValue(p, surface.Motionless[p]);
-  }
+  std::copy(surface.Motionless.begin(), surface.Motionless.end(), motionless->GetPointer(0));
   polyData->GetPointData()->SetNormals(normals);
   polyData->GetPointData()->AddArray(residual);
   polyData->GetPointData()->AddArray(motionless);
@@ -144,21 +199,17 @@ void SetPointArrays(vtkPolyData* polyData, const SurfaceResult& surface, const W
   polyData->GetPointData()->AddArray(contact);
 }
 
-void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features)
+void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executor& executor)
 {
-  vtkNew<vtkIntArray> component;
-  component->SetName("Component");
-  component->SetNumberOfTuples(static_cast<vtkIdType>(features.ComponentOfTriangle.size()));
-  std::copy(features.ComponentOfTriangle.begin(), features.ComponentOfTriangle.end(),
-    component->GetPointer(0));
-  polyData->GetCellData()->AddArray(component);
   using Component = ComponentFeatures;
-  AddComponentOfCells<vtkFloatArray>(
-    polyData, "ComponentArea", features, [](const Component& c) { return c.Area; });
-  AddComponentOfCells<vtkFloatArray>(
-    polyData, "ComponentVolume", features, [](const Component& c) { return c.Volume; });
   AddComponentOfCells<vtkIntArray>(
-    polyData, "ComponentGenus", features, [](const Component& c) { return c.Genus; });
+    polyData, "Component", features, executor, [](const Component&, int c) { return c; });
+  AddComponentOfCells<vtkFloatArray>(
+    polyData, "ComponentArea", features, executor, [](const Component& c, int) { return c.Area; });
+  AddComponentOfCells<vtkFloatArray>(
+    polyData, "ComponentVolume", features, executor, [](const Component& c, int) { return c.Volume; });
+  AddComponentOfCells<vtkIntArray>(
+    polyData, "ComponentGenus", features, executor, [](const Component& c, int) { return c.Genus; });
 
   AddField<vtkIntArray>(
     polyData, "NumberOfComponents", static_cast<int>(features.Components.size()));
@@ -180,13 +231,17 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features)
 
 }
 
-vtkSmartPointer<vtkPolyData> MakePolyData(
-  const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space)
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
+  const SurfaceDescription& description, const Workspace& space, Executor& executor)
 {
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
-  const IndexedSurface world = ToWorld(surface, space);
-  SetGeometry(polyData, world);
-  SetPointArrays(polyData, surface, space);
+  IndexedSurface& shape = surface;
+  shape = ToWorld(std::move(shape), space, executor);
+  const SurfaceFeatures features = ComputeFeatures(shape, executor);
+  const auto numberOfPoints = static_cast<std::ptrdiff_t>(shape.Points.size());
+  TakePoints(polyData, shape.Points, executor);
+  TakeTriangles(polyData, shape.Triangles, executor);
+  TakePointArrays(polyData, surface, space, executor);
   AddField<vtkIntArray>(polyData, "Level", description.Level);
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
   AddField<vtkDoubleArray>(polyData, "Unit", description.Unit);
@@ -195,10 +250,11 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
     polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
   auto* contact =
     vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
+  const unsigned char* contacts = contact->GetPointer(0);
   AddField<vtkIntArray>(polyData, "ContactVertices",
-    static_cast<int>(
-      std::count(contact->GetPointer(0), contact->GetPointer(surface.Points.size()), 1)));
-  AddField<vtkDoubleArray>(polyData, "ResidualQuantile", ResidualQuantile(surface.Residual));
+    static_cast<int>(std::count(contacts, contacts + numberOfPoints, 1)));
+  AddField<vtkDoubleArray>(
+    polyData, "ResidualQuantile", ResidualQuantile(std::move(surface.Residual)));
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
   AddField<vtkIntArray>(polyData, "MissingParts", description.MissingParts);
@@ -213,7 +269,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(
   {
     AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
   }
-  SetFeatures(polyData, ComputeFeatures(world));
+  SetFeatures(polyData, features, executor);
   return polyData;
 }
 

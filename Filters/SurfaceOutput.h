@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceOutput_h
 #define volumicSurfaceOutput_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Workspace.h"
 
@@ -30,9 +31,13 @@ struct SurfaceDescription
   int RecoveredCavities = 0;
 };
 
-/** The surface in world coordinates with all arrays that vtkDeformableSurface documents. */
-vtkSmartPointer<vtkPolyData> MakePolyData(
-  const SurfaceResult& surface, const SurfaceDescription& description, const Workspace& space);
+/**
+ * The surface in world coordinates with all arrays that vtkDeformableSurface documents. Where it is
+ * given up, each of its arrays is freed once it is in VTK's.
+ */
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
+  const SurfaceDescription& description, const Workspace& space,
+  Executor& executor = OnThisThread());
 
 /** In the place of the one that it has; what it was copied from keeps its own. */
 void SetStopReason(vtkPolyData* surface, const std::string& reason);

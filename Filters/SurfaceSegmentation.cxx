@@ -14,6 +14,7 @@
 #include <vtkPolyData.h>
 
 #include <cmath>
+#include <utility>
 
 namespace volumic
 {
@@ -177,12 +178,15 @@ void SurfaceSegmentation::Run()
   {
     // What the evolution refers to stays in its place.
     this->Threads.emplace(this->Settings.End.NumberOfThreads);
+    this->Measured.emplace(*this->Threads);
+    this->Threads->EndPhase("Levels");
     this->Progress.emplace(
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
     this->Progress->AfterIteration = [this](const Monitor::Status& status)
     {
       this->Snapshots.TakeIfDue(*this->Evolution, status.Level,
-        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found);
+        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found,
+        *this->Threads);
     };
     this->Threads->Run([this] { this->RunLevels(); });
   }
@@ -218,8 +222,13 @@ void SurfaceSegmentation::RunLevels()
 {
   if (!this->Evolution)
   {
+    Executor* threads = &*this->Threads;
+    if (this->Settings.Profile)
+    {
+      threads = &*this->Measured;
+    }
     this->Evolution =
-      std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Progress);
+      std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
     this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
   }
@@ -235,6 +244,7 @@ void SurfaceSegmentation::RunLevels()
     // The surface leaves the level that it is on: a stop from here on is for good.
     this->Levels.ReleaseCoarserThan(level);
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
+    this->Threads->EndPhase("Voxels");
     if (level == this->Settings.End.FinestLevel)
     {
       this->Evolution->SetMeanEdgeLength(
@@ -250,7 +260,7 @@ void SurfaceSegmentation::RunLevels()
       break;
     }
     this->Snapshots.TakeIfDue(
-      *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found);
+      *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
     this->GoesOn = this->RunLevel(level);
     this->Reached = level;
   }
@@ -277,12 +287,19 @@ bool SurfaceSegmentation::RunLevel(int level)
     description.LostCavities = lost.FoundCavities;
     description.RecoveredCavities = lost.EnclosedCavities;
   }
-  const SurfaceResult surface = this->Evolution->Result();
-  const SurfaceResult kept = KeepChosen(surface, this->Components, this->Levels.GetWorkspace());
-  result.KeepsNone = kept.Points.empty() && !surface.Points.empty();
-  result.Surface = MakePolyData(kept, description, this->Levels.GetWorkspace());
+  // Each step uses up what the one before has made.
+  SurfaceResult surface = this->Evolution->Result();
+  this->Threads->EndPhase("Surface handed out");
+  const bool isEmpty = surface.Points.empty();
+  SurfaceResult kept = KeepChosen(
+    std::move(surface), this->Components, this->Levels.GetWorkspace(), *this->Threads);
+  result.KeepsNone = kept.Points.empty() && !isEmpty;
+  this->Threads->EndPhase("Components kept");
+  result.Surface =
+    MakePolyData(std::move(kept), description, this->Levels.GetWorkspace(), *this->Threads);
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
+  this->Threads->EndPhase("Output");
   // With recovery a finer level may find again what has vanished.
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||

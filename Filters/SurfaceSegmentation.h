@@ -4,6 +4,7 @@
 #define volumicSurfaceSegmentation_h
 
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/MeasuredExecutor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/LevelImage.h"
 #include "HostThreads.h"
@@ -80,6 +81,7 @@ private:
   SurfaceSnapshots Snapshots;
   SegmentationResults Found;
   std::optional<HostThreads> Threads;
+  std::optional<MeasuredExecutor> Measured; ///< The same, for Profile.
   std::optional<ProgressMonitor> Progress;
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests

@@ -7,6 +7,8 @@
 
 #include <vtkPolyData.h>
 
+#include <utility>
+
 namespace volumic
 {
 SurfaceSnapshots::SurfaceSnapshots(int interval, const Workspace& space)
@@ -16,13 +18,13 @@ SurfaceSnapshots::SurfaceSnapshots(int interval, const Workspace& space)
 
 void SurfaceSnapshots::TakeIfDue(
   const SurfaceEvolution& evolution, int level, double unit, int iteration,
-  SegmentationResults& results) const
+  SegmentationResults& results, Executor& threads) const
 {
   if (this->Interval == 0 || iteration % this->Interval != 0)
   {
     return;
   }
-  const SurfaceResult surface = evolution.Result();
+  SurfaceResult surface = evolution.Result();
   if (surface.Points.empty())
   {
     return;
@@ -33,6 +35,6 @@ void SurfaceSnapshots::TakeIfDue(
   description.Iterations = iteration;
   description.TotalIterations = static_cast<int>(evolution.History().size());
   results.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
-    MakePolyData(surface, description, this->Space));
+    MakePolyData(std::move(surface), description, this->Space, threads));
 }
 }

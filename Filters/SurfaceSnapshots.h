@@ -29,7 +29,7 @@ public:
    * @param iteration of this level, 0 at its start
    */
   void TakeIfDue(const SurfaceEvolution& evolution, int level, double unit, int iteration,
-    SegmentationResults& results) const;
+    SegmentationResults& results, Executor& threads) const;
 
 private:
   int Interval;

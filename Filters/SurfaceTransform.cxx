@@ -2,47 +2,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTransform.h"
 
-#include <algorithm>
-#include <iterator>
+#include <cstddef>
 #include <utility>
 
 namespace volumic
 {
 namespace
 {
+/** Points and triangles that one thread transforms at a time. */
+constexpr std::size_t BlockSize = 16384;
+
 template <typename Map>
-IndexedSurface Transform(const IndexedSurface& surface, bool isMirror, const Map& map)
+void Transform(IndexedSurface& surface, bool isMirror, const Map& map, Executor& executor)
 {
-  IndexedSurface transformed;
-  transformed.Points.reserve(surface.Points.size());
-  std::transform(surface.Points.begin(), surface.Points.end(),
-    std::back_inserter(transformed.Points), map);
-  transformed.Triangles = surface.Triangles;
+  ForBlocks(executor, surface.Points.size(), BlockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        surface.Points[p] = map(surface.Points[p]);
+      }
+    });
   if (isMirror)
   {
-    FlipOrientation(transformed);
-  }
-  return transformed;
-}
-}
-
-void FlipOrientation(IndexedSurface& surface)
-{
-  for (Triangle& triangle : surface.Triangles)
-  {
-    std::swap(triangle[1], triangle[2]);
+    FlipOrientation(surface, executor);
   }
 }
-
-IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space)
-{
-  return Transform(
-    surface, space.IsMirrored(), [&space](const Point& place) { return space.ToWorld(place); });
 }
 
-IndexedSurface ToWorkspace(const IndexedSurface& surface, const Workspace& space)
+void FlipOrientation(IndexedSurface& surface, Executor& executor)
 {
-  return Transform(
-    surface, space.IsMirrored(), [&space](const Point& place) { return space.ToWorkspace(place); });
+  ForBlocks(executor, surface.Triangles.size(), BlockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        std::swap(surface.Triangles[t][1], surface.Triangles[t][2]);
+      }
+    });
+}
+
+IndexedSurface ToWorld(IndexedSurface surface, const Workspace& space, Executor& executor)
+{
+  Transform(
+    surface, space.IsMirrored(), [&space](const Point& place) { return space.ToWorld(place); },
+    executor);
+  return surface;
+}
+
+IndexedSurface ToWorkspace(IndexedSurface surface, const Workspace& space, Executor& executor)
+{
+  Transform(
+    surface, space.IsMirrored(), [&space](const Point& place) { return space.ToWorkspace(place); },
+    executor);
+  return surface;
 }
 }

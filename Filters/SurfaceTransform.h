@@ -3,19 +3,22 @@
 #ifndef volumicSurfaceTransform_h
 #define volumicSurfaceTransform_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Workspace.h"
 
 namespace volumic
 {
 /** Makes outward what was inward. */
-void FlipOrientation(IndexedSurface& surface);
+void FlipOrientation(IndexedSurface& surface, Executor& executor = OnThisThread());
 
-/** The surface in world coordinates, outward oriented there, too. */
-IndexedSurface ToWorld(const IndexedSurface& surface, const Workspace& space);
+/** The surface in world coordinates, outward oriented there, too; in its place if it is given up. */
+IndexedSurface ToWorld(
+  IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
 
-/** The surface in the workspace, outward oriented there, too. */
-IndexedSurface ToWorkspace(const IndexedSurface& surface, const Workspace& space);
+/** The surface in the workspace, outward oriented there, too; in its place if it is given up. */
+IndexedSurface ToWorkspace(
+  IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
 }
 
 #endif

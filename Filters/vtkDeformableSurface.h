@@ -93,7 +93,11 @@
  * `Merges` - `Deletions` + `DeletedGenus`). With Profile, also what `Seconds` is made of:
  * `ForcesSeconds`, `ContactSeconds`, `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`,
  * `TopologySeconds`; and `DivisionSeconds`, not in `Seconds`: what happens between two iterations
- * (regularisation at the end of a level, in the level's last row).
+ * (regularisation at the end of a level, in the level's last row), of which `RecoverySeconds` and
+ * `RegularisationSeconds` are parts. What one thread worked alone in each of these, whatever the
+ * number of threads, is in `ForcesSerialSeconds`, `ContactSerialSeconds`, `ProximitySerialSeconds`,
+ * `VerificationSerialSeconds`, `RemeshingSerialSeconds`, `TopologySerialSeconds`,
+ * `DivisionSerialSeconds`, `RecoverySerialSeconds` and `RegularisationSerialSeconds`.
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever

@@ -6,6 +6,7 @@
 # (Documentation/architecture.md).
 
 set(volumic_core_sources
+  Common/MeasuredExecutor.cxx
   Common/StandardThreads.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
@@ -33,12 +34,17 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
+  Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
+  Surface/StarImprovement.cxx
+  Surface/StarFaces.cxx
   Surface/StarScore.cxx
+  Surface/StarShape.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
   Surface/SurfaceState.cxx
@@ -52,17 +58,25 @@ set(volumic_core_sources
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
+  Evolution/LostVoxels.cxx
+  Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
-  Evolution/SurfaceIteration.cxx)
+  Evolution/SurfaceIteration.cxx
+  Evolution/VerticesOfSlabs.cxx)
 set(volumic_core_headers
+  Common/Blocks.h
   Common/Box.h
   Common/DisjointSets.h
   Common/Executor.h
+  Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
+  Common/Lanes.h
   Common/LatticeKey.h
+  Common/MeasuredExecutor.h
   Common/Monitor.h
   Common/Refuse.h
+  Common/Select.h
   Common/StandardThreads.h
   Common/Vector.h
   Image/AxisOperator.h
@@ -101,7 +115,9 @@ set(volumic_core_headers
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
+  Surface/ComponentNesting.h
   Surface/ComponentWatch.h
+  Surface/EditCells.h
   Surface/FaceShape.h
   Surface/NewFaces.h
   Surface/NormalCone.h
@@ -109,7 +125,10 @@ set(volumic_core_headers
   Surface/RemainingContacts.h
   Surface/Remesher.h
   Surface/SizingField.h
+  Surface/StarImprovement.h
+  Surface/StarFaces.h
   Surface/StarScore.h
+  Surface/StarShape.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h
   Surface/SurfaceState.h
@@ -121,15 +140,20 @@ set(volumic_core_headers
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h
+  Evolution/LostVoxels.h
   Evolution/RestCriterion.h
+  Evolution/SlabSearch.h
+  Evolution/Stopwatch.h
   Evolution/SurfaceEvolution.h
   Evolution/SurfaceIteration.h
-  Evolution/SurfaceOptions.h)
+  Evolution/SurfaceOptions.h
+  Evolution/VerticesOfSlabs.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Results are the same bits on every processor: no product and sum is contracted into one rounding.
 set(volumic_core_options)
 if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  set(volumic_core_options "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>")
+  set(volumic_core_options "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>"
+    "$<$<COMPILE_LANGUAGE:CXX>:-fno-math-errno>")
 endif ()

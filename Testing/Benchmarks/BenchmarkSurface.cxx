@@ -8,6 +8,8 @@
  *     BenchmarkSurface --volume FILE.vti --iso VALUE [--runs LIST] [--slow] [--no-recovery]
  *                      [--repetitions N] [--profile] [--csv FILE.csv] [--output FILE.vtp]
  *     BenchmarkSurface --volume FILE.vti --iso VALUE --growth [--sizes LIST | --max-size N]
+ *     BenchmarkSurface --volume FILE.vti --iso VALUE --threads 1,2 | --model | --memory
+ *                      [--sizes LIST] [--csv FILE.csv]
  *     BenchmarkSurface --help
  *
  * Peers: FlyingEdges; its largest component smoothed; that decimated, or remeshed by CGAL, to our
@@ -27,8 +29,10 @@
 #include "SurfaceBenchmarkOptions.h"
 #include "SurfaceBenchmarkVolume.h"
 #include "SurfaceGrowth.h"
+#include "SurfaceModel.h"
 #include "SurfacePeers.h"
 #include "SurfaceRuns.h"
+#include "SurfaceScaling.h"
 #include "SurfaceTables.h"
 #include "SurfaceTargets.h"
 
@@ -49,7 +53,9 @@ int RunHere(const SurfaceBenchmarkOptions& options)
   EndWithParent();
   try
   {
-    MeasureSurfaceRun(options).Write(std::cout);
+    const RunFigures figures =
+      options.WriteVolume.empty() ? MeasureSurfaceRun(options) : WriteVolume(options);
+    figures.Write(std::cout);
     return 0;
   }
   catch (const std::exception& error)
@@ -265,7 +271,19 @@ int Main(int argc, char** argv)
     return RunHere(options);
   }
   Introduce(options);
-  return options.Growth ? (MeasureGrowth(options) ? 0 : 1) : RunSideBySide(options);
+  if (options.Growth)
+  {
+    return MeasureGrowth(options) ? 0 : 1;
+  }
+  if (options.Model)
+  {
+    return MeasureModel(options) ? 0 : 1;
+  }
+  if (!options.Threads.empty())
+  {
+    return MeasureThreads(options) ? 0 : 1;
+  }
+  return options.Peaks ? (MeasurePeaks(options) ? 0 : 1) : RunSideBySide(options);
 }
 
 } // namespace

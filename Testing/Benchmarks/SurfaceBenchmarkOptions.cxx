@@ -101,9 +101,19 @@ void Check(const SurfaceBenchmarkOptions& options)
   {
     CheckRun("--run", options.Run);
   }
-  if (options.Growth && (!options.Runs.empty() || options.Slow || options.NoRecovery))
+  const int modes = options.Growth + options.Model + !options.Threads.empty() + options.Peaks;
+  if (options.Growth && std::count(options.Sizes.begin(), options.Sizes.end(), 0) > 0)
   {
-    throw UsageError("--growth runs us-1 only: it goes without --runs, --slow and --no-recovery");
+    throw UsageError("--growth has no size 0");
+  }
+  if (modes > 1)
+  {
+    throw UsageError("--growth, --model, --threads and --memory each go alone");
+  }
+  if (modes > 0 && (!options.Runs.empty() || options.Slow || options.NoRecovery))
+  {
+    throw UsageError("--growth, --model, --threads and --memory run us-N only: they go without "
+                     "--runs, --slow and --no-recovery");
   }
 }
 
@@ -121,6 +131,8 @@ struct OptionTable
     this->Flags["--no-recovery"] = [&o]() { o.NoRecovery = true; };
     this->Flags["--profile"] = [&o]() { o.Profile = true; };
     this->Flags["--growth"] = [&o]() { o.Growth = true; };
+    this->Flags["--model"] = [&o]() { o.Model = true; };
+    this->Flags["--memory"] = [&o]() { o.Peaks = true; };
     this->Flags["--no-judge"] = [&o]() { o.Judge = false; };
 
     this->Values["--metric"] = [&o](const std::string& text)
@@ -136,6 +148,7 @@ struct OptionTable
     this->Text("--csv", o.Csv);
     this->Text("--output", o.Output);
     this->Text("--run", o.Run);
+    this->Text("--write-volume", o.WriteVolume);
     this->Number("--iso", o.IsoValue);
     this->Number("--delta", o.Delta);
     this->Number("--edge-length", o.EdgeLength);
@@ -153,7 +166,14 @@ struct OptionTable
       o.Sizes.clear();
       for (const std::string& size : ToList("--sizes", text))
       {
-        o.Sizes.push_back(ToCount("--sizes", size, 16, 1024));
+        o.Sizes.push_back(size == "0" ? 0 : ToCount("--sizes", size, 16, 1024));
+      }
+    };
+    this->Values["--threads"] = [&o](const std::string& text)
+    {
+      for (const std::string& number : ToList("--threads", text))
+      {
+        o.Threads.push_back(ToCount("--threads", number, 1, 999));
       }
     };
     this->Values["--max-size"] = [&o](const std::string& text)
@@ -187,7 +207,6 @@ private:
 SurfaceBenchmarkOptions ParseSurfaceOptions(int argc, char** argv)
 {
   SurfaceBenchmarkOptions options;
-  options.Sizes = DefaultSizes;
   const OptionTable table(options);
   for (int i = 1; i < argc; ++i)
   {
@@ -209,6 +228,16 @@ SurfaceBenchmarkOptions ParseSurfaceOptions(int argc, char** argv)
     value->second(argv[i]);
   }
   Check(options);
+  if (options.Sizes.empty())
+  {
+    options.Sizes = options.Growth ? DefaultSizes
+      : options.Peaks              ? std::vector<int>{ 512, 1024 }
+                                   : std::vector<int>{ 0 };
+  }
+  if (options.Repetitions == 0)
+  {
+    options.Repetitions = options.Threads.empty() ? 1 : 5;
+  }
   return options;
 }
 
@@ -252,6 +281,10 @@ std::vector<std::string> ArgumentsOfRun(const SurfaceBenchmarkOptions& options)
   {
     arguments.push_back("--profile");
   }
+  if (options.Model)
+  {
+    arguments.push_back("--model");
+  }
   if (!options.Output.empty())
   {
     add("--output", options.Output);
@@ -259,6 +292,10 @@ std::vector<std::string> ArgumentsOfRun(const SurfaceBenchmarkOptions& options)
   if (options.ResampleTo > 0)
   {
     add("--resample", std::to_string(options.ResampleTo));
+  }
+  if (!options.WriteVolume.empty())
+  {
+    add("--write-volume", options.WriteVolume);
   }
   if (options.Vertices > 0)
   {
@@ -274,6 +311,22 @@ std::vector<std::string> ArgumentsOfRun(const SurfaceBenchmarkOptions& options)
   addNumber("--edge-length", options.EdgeLength);
   addNumber("--radius", options.Radius);
   return arguments;
+}
+
+SurfaceBenchmarkOptions OursAt(
+  const SurfaceBenchmarkOptions& options, const std::string& run, int size)
+{
+  SurfaceBenchmarkOptions one = options;
+  one.Run = run;
+  one.ResampleTo = size;
+  one.Judge = false;
+  one.Output.clear();
+  return one;
+}
+
+std::string NameOfSize(int size)
+{
+  return size > 0 ? std::to_string(size) + "^3" : "as it is";
 }
 
 std::string SurfaceUsage()
@@ -305,7 +358,8 @@ Runs
   text << R"(      us-N        with N threads
   --slow                those marked slow too
   --no-recovery         us-paper too
-  --repetitions N       of each run; the one of median processor time is told (default 1)
+  --repetitions N       of each run; the one of median processor time is told (default 1, of
+                        --threads 5)
   --metric NAME         voxels or world (default): which lengths are uniform where voxels are no
                         cubes, for us and for the peers that aim at well-shaped triangles
   --initialization N    0 enclosing icosahedron (default), 1 seeds, 2 iso-surface of the coarsest
@@ -315,20 +369,29 @@ Runs
   --edge-length X       mean edge, voxels, and
   --vertices N          number of vertices that the peers aim at; default: those of us-1
 
-How cost grows
-  --growth              us-1 on the volume resampled to about the voxels of 64^3 ... 512^3, the same
-                        factor along all axes, with fitted exponents, instead of all other runs
-  --sizes LIST          these sizes instead, or
-  --max-size N          those up to N
+Instead of all other runs, one of these
+  --growth              how cost grows: us-1 on the volume resampled to about the voxels of 64^3 ...
+                        512^3, the same factor along all axes, with fitted exponents
+  --threads LIST        what threads gain: us-N for each N by turns, as 1,2; medians of the seconds
+                        and of their ratios in a round, 5 rounds or --repetitions
+  --model               what more threads than there are would gain: us-1, whose parallel work is
+                        measured chunk by chunk and scheduled on 2 to 64 threads, by phase
+  --memory              what memory us-1 takes, resampled to 512^3 and 1024^3 voxels in a file, so
+                        that only the image and the run are in the process
+  --sizes LIST          for these four, the volume at other sizes; 0: as it is, which --threads and
+                        --model take without this
+  --max-size N          for --growth: its sizes up to N
 
 Output
   --profile             also seconds by phase and level of us-1
   --csv FILE.csv        a row per run; also FILE-levels.csv (quality and phases by level) and
-                        FILE-targets.csv. With --growth: a row per size, and FILE-exponents.csv
+                        FILE-targets.csv. With --growth: a row per size, and FILE-exponents.csv;
+                        with --threads a row per run, with --model one per size and phase, with
+                        --memory one per size, and FILE-targets.csv
   --output FILE.vtp     the surface of us-1
 
-Internal, of the processes that this program starts: --run NAME, --resample N, --no-judge, --delta,
---radius.
+Internal, of the processes that this program starts: --run NAME, --resample N, --write-volume FILE,
+--no-judge, --delta, --radius.
 
 Peers get the volume with a voxel of air around it; loading it is not measured, the pyramid is.
 Seconds are those of the clock and of the processor, memory is the resident memory of the whole

@@ -43,14 +43,18 @@ struct SurfaceBenchmarkOptions
   std::vector<std::string> Runs; ///< empty: all that are found but the slow ones
   bool Slow = false;
   bool NoRecovery = false;
-  int Repetitions = 1;
+  int Repetitions = 0; ///< 0, in the command line only: 5 with Threads, else 1
   LengthMetric Metric = LengthMetric::World; ///< in which surfaces are made
   int Initialization = 0; ///< vtkDeformableSurface::InitializationType
   int CoarsestLevel = -1; ///< -1: the coarsest where there is still something of the object
 
   // Cost growth instead of the table of runs.
   bool Growth = false;
-  std::vector<int> Sizes; ///< n: as many voxels as n^3 has
+  // Or one of these.
+  bool Model = false;       ///< also of one run
+  std::vector<int> Threads; ///< empty: not measured
+  bool Peaks = false;       ///< the memory that a volume takes
+  std::vector<int> Sizes; ///< of all four; n: as many voxels as n^3 has; 0: the volume as it is
 
   // What is written.
   bool Profile = false;
@@ -61,6 +65,7 @@ struct SurfaceBenchmarkOptions
   // For one run, in a process of its own.
   std::string Run;
   int ResampleTo = 0; ///< n as in Sizes; 0: the volume as it is
+  std::string WriteVolume; ///< instead of the run, to this .vti
   bool Judge = true;
   double Delta = 0.0;      ///< by which edges are judged, voxels; 0: not judged
   double EdgeLength = 0.0; ///< for peers that are told how fine to be: the mean, voxels
@@ -74,6 +79,13 @@ SurfaceBenchmarkOptions ParseSurfaceOptions(int argc, char** argv);
 
 /** The command line that makes one run in a process of its own, with the settings of `options`. */
 std::vector<std::string> ArgumentsOfRun(const SurfaceBenchmarkOptions& options);
+
+/** A run of ours on the volume at a size, of which nothing is judged or written. */
+SurfaceBenchmarkOptions OursAt(
+  const SurfaceBenchmarkOptions& options, const std::string& run, int size);
+
+/** Of options.Sizes, for people. */
+std::string NameOfSize(int size);
 
 /** What --help prints. */
 std::string SurfaceUsage();

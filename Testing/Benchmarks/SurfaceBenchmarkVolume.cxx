@@ -10,6 +10,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkXMLImageDataReader.h>
+#include <vtkXMLImageDataWriter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,26 @@ BenchmarkedVolume LoadVolume(const SurfaceBenchmarkOptions& options)
     volume.Image = Resampled(volume.Image, options.ResampleTo);
   }
   return volume;
+}
+
+RunFigures WriteVolume(const SurfaceBenchmarkOptions& options)
+{
+  const BenchmarkedVolume volume = LoadVolume(options);
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->SetInputData(volume.Image);
+  writer->SetFileName(options.WriteVolume.c_str());
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  if (!writer->Write() || writer->GetErrorCode() != 0)
+  {
+    throw std::runtime_error(options.WriteVolume + ": can't be written");
+  }
+  RunFigures figures;
+  figures.Set("IsoValue", volume.IsoValue);
+  figures.Set("BytesOfVoxel", volume.Image->GetScalarSize());
+  return figures;
 }
 
 vtkSmartPointer<vtkImageData> Resampled(vtkImageData* image, int size)

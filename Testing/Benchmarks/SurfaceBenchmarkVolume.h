@@ -6,6 +6,7 @@
 #ifndef volumicSurfaceBenchmarkVolume_h
 #define volumicSurfaceBenchmarkVolume_h
 
+#include "RunFigures.h"
 #include "SurfaceBenchmarkOptions.h"
 #include "TriangleSurface.h"
 
@@ -29,6 +30,10 @@ struct BenchmarkedVolume
 /** Reads or makes the volume that the options name, resampled if they say so. Throws
     std::runtime_error with what is wrong with the file or the scene. */
 BenchmarkedVolume LoadVolume(const SurfaceBenchmarkOptions& options);
+
+/** Writes it to options.WriteVolume, uncompressed, so that to read it takes no more memory than it
+    has. IsoValue, and BytesOfVoxel. Throws the same. */
+RunFigures WriteVolume(const SurfaceBenchmarkOptions& options);
 
 /** Scaled by one factor along all axes (linear interpolation; voxels at the border stay there) so
     that the number of voxels is about size^3. */

@@ -184,12 +184,8 @@ bool MeasureGrowth(const SurfaceBenchmarkOptions& options)
   for (const int size : options.Sizes)
   {
     std::fprintf(stderr, "%d^3\n", size);
-    SurfaceBenchmarkOptions one = options;
-    one.Run = "us-1";
-    one.ResampleTo = size;
-    one.Judge = false;
+    SurfaceBenchmarkOptions one = OursAt(options, "us-1", size);
     one.Profile = true;
-    one.Output.clear();
     RunFigures figures = RunAsChild(ArgumentsOfRun(one));
     if (const std::string failure = figures.GetText("Failure"); !failure.empty())
     {

@@ -3,6 +3,11 @@
 
 #include "SurfaceRuns.h"
 
+#include "SurfaceModel.h"
+#include "SurfaceTables.h"
+#include "WorkModel.h"
+
+#include "HostThreads.h"
 #include "SupportVtkConversions.h"
 
 #include <vtkDeformableSurface.h>
@@ -58,13 +63,24 @@ std::vector<std::string> PhaseColumns(vtkTable* history)
   return names;
 }
 
+/** Whether it is no part of another one. */
+bool AddsUp(const std::string& phase)
+{
+  return phase.find("Serial") == std::string::npos &&
+    std::find(PartsBetweenIterations.begin(), PartsBetweenIterations.end(), phase) ==
+    PartsBetweenIterations.end();
+}
+
 void SetEfforts(vtkTable* history, int numberOfLevels, RunFigures& figures)
 {
   const std::vector<std::string> phases = PhaseColumns(history);
   std::string phaseNames;
   for (const std::string& phase : phases)
   {
-    phaseNames += (phaseNames.empty() ? "" : ",") + phase;
+    if (AddsUp(phase))
+    {
+      phaseNames += (phaseNames.empty() ? "" : ",") + phase;
+    }
   }
   figures.SetText("Phases", phaseNames);
   double vertexIterations = 0.0;
@@ -180,16 +196,26 @@ RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOp
   RunFigures figures;
   figures.Set("CoarsestLevel", coarsest);
   double pyramidSeconds = 0.0;
+  WorkModel model;
+  HostThreads::UseInstead(options.Model ? &model : nullptr);
   MeasureCost(
     [&]()
     {
       const auto begin = std::chrono::steady_clock::now();
+      model.Start();
       pyramid->Update();
+      model.EndPhase("Pyramid");
       pyramidSeconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       deformable->Update();
+      model.EndPhase("Output");
     },
     figures);
+  HostThreads::UseInstead(nullptr);
+  if (options.Model)
+  {
+    SetModel(model, figures);
+  }
   vtkPolyData* finest = deformable->GetOutput();
   if (finest->GetNumberOfPoints() == 0)
   {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <sstream>
 
 namespace volumic
@@ -97,6 +98,22 @@ std::vector<Figure> Joined(const std::vector<Figure>& a, const std::vector<Figur
 int LevelsOf(const RunFigures& ours)
 {
   return ours.Has("Levels") ? static_cast<int>(ours.Get("Levels")) : 0;
+}
+
+double SumOverLevels(const RunFigures& ours, const std::string& name)
+{
+  double sum = 0.0;
+  for (int h = 0; h < LevelsOf(ours); ++h)
+  {
+    sum += ours.Get(RunFigures::Indexed("level", h, name));
+  }
+  return sum;
+}
+
+/** Forces of ForcesSeconds. */
+std::string WithoutSeconds(const std::string& phase)
+{
+  return phase.substr(0, phase.size() - std::string("Seconds").size());
 }
 
 } // namespace
@@ -242,8 +259,13 @@ TextRows LevelRows(const RunFigures& ours)
   {
     names.push_back(figure.Name);
   }
-  const std::vector<std::string> phases = PhasesOf(ours);
+  std::vector<std::string> phases = PhasesOf(ours);
+  if (!phases.empty())
+  {
+    phases.insert(phases.end(), PartsBetweenIterations.begin(), PartsBetweenIterations.end());
+  }
   names.insert(names.end(), phases.begin(), phases.end());
+  std::transform(phases.begin(), phases.end(), std::back_inserter(names), SerialOf);
   TextRows rows(1, { "Level" });
   rows[0].insert(rows[0].end(), names.begin(), names.end());
   for (int h = 0; h < LevelsOf(ours); ++h)
@@ -270,51 +292,66 @@ std::vector<std::string> PhasesOf(const RunFigures& ours)
   return names;
 }
 
+std::string SerialOf(const std::string& phase)
+{
+  return WithoutSeconds(phase) + "SerialSeconds";
+}
+
 void PrintProfile(const RunFigures& ours)
 {
   const double all = ours.Get("WallSeconds");
-  TextRows rows(1, { "phase", "level", "seconds", "share", "us / vertex, iteration" });
-  const auto add =
-    [&](const std::string& phase, const std::string& level, double seconds, double vertexIterations)
+  TextRows rows(1, { "phase", "level", "seconds", "share", "serial", "us / vertex, iteration" });
+  const auto add = [&](const std::string& phase, const std::string& level, double seconds,
+                     const std::string& serial, double vertexIterations)
   {
     rows.push_back({ phase, level, ShortText(seconds), ShortText(100.0 * seconds / all) + " %",
-      vertexIterations > 0.0 ? ShortText(1e6 * seconds / vertexIterations) : "-" });
+      serial, vertexIterations > 0.0 ? ShortText(1e6 * seconds / vertexIterations) : "-" });
+  };
+  const auto addLevel = [&](int h, const std::string& phase, const std::string& what)
+  {
+    const auto get = [&](const std::string& name)
+    { return ours.Get(RunFigures::Indexed("level", h, name)); };
+    add(what + WithoutSeconds(phase), std::to_string(h), get(phase),
+      ShortText(get(SerialOf(phase))), get("VertexIterations"));
   };
   const std::vector<std::string> phases = PhasesOf(ours);
-  std::vector<double> sums(phases.size() + 1, 0.0);
-  double insideIterations = 0.0, betweenIterations = 0.0;
+  double insideIterations = 0.0, betweenIterations = 0.0, restOfAll = 0.0;
   for (int h = LevelsOf(ours) - 1; h >= 0; --h)
   {
     const auto get = [&](const std::string& name)
     { return ours.Get(RunFigures::Indexed("level", h, name)); };
     double rest = get("Seconds");
     insideIterations += rest;
-    for (std::size_t p = 0; p < phases.size(); ++p)
+    for (const std::string& phase : phases)
     {
-      const std::string shortName = phases[p].substr(0, phases[p].size() - 7); // without Seconds
-      add(shortName, std::to_string(h), get(phases[p]), get("VertexIterations"));
-      sums[p] += get(phases[p]);
-      if (phases[p] == BetweenIterations)
-      {
-        betweenIterations += get(phases[p]);
-      }
-      else
-      {
-        rest -= get(phases[p]);
-      }
+      addLevel(h, phase, "");
+      const bool isBetween = phase == BetweenIterations;
+      betweenIterations += isBetween ? get(phase) : 0.0;
+      rest -= isBetween ? 0.0 : get(phase);
     }
-    add("rest of the iterations", std::to_string(h), rest, get("VertexIterations"));
-    sums.back() += rest;
+    for (const char* part : PartsBetweenIterations)
+    {
+      addLevel(h, part, "  of this ");
+    }
+    add("rest of the iterations", std::to_string(h), rest, "", get("VertexIterations"));
+    restOfAll += rest;
   }
-  for (std::size_t p = 0; p < phases.size(); ++p)
+  const double vertexIterations = ours.Get("VertexIterations");
+  for (const std::string& phase : phases)
   {
-    add(phases[p].substr(0, phases[p].size() - 7), "all", sums[p], ours.Get("VertexIterations"));
+    add(WithoutSeconds(phase), "all", SumOverLevels(ours, phase),
+      ShortText(SumOverLevels(ours, SerialOf(phase))), vertexIterations);
   }
-  add("rest of the iterations", "all", sums.back(), ours.Get("VertexIterations"));
+  for (const std::string part : PartsBetweenIterations)
+  {
+    add("  of this " + WithoutSeconds(part), "all", SumOverLevels(ours, part),
+      ShortText(SumOverLevels(ours, SerialOf(part))), vertexIterations);
+  }
+  add("rest of the iterations", "all", restOfAll, "", vertexIterations);
   const double pyramid = ours.Get("PyramidSeconds");
-  add("pyramid", "all", pyramid, ours.Get("VertexIterations"));
-  add("start, recovery, output", "all", all - pyramid - insideIterations - betweenIterations,
-    ours.Get("VertexIterations"));
+  add("pyramid", "all", pyramid, "", vertexIterations);
+  add("voxels, output", "all", all - pyramid - insideIterations - betweenIterations, "",
+    vertexIterations);
   PrintTable(rows);
 }
 

@@ -8,6 +8,7 @@
 
 #include "RunFigures.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,15 @@ void PrintProfile(const RunFigures& ours);
 /** The phase that the seconds of iterations do not include. */
 constexpr const char* BetweenIterations = "DivisionSeconds";
 
-/** Names of the phases' figures, none without a profile. */
+/** Names of the phases' figures that add up, none without a profile. */
 std::vector<std::string> PhasesOf(const RunFigures& ours);
+
+/** Those that are parts of BetweenIterations. */
+constexpr std::array<const char*, 2> PartsBetweenIterations = { "RecoverySeconds",
+  "RegularisationSeconds" };
+
+/** The figure of a phase that tells what one thread did alone. */
+std::string SerialOf(const std::string& phase);
 
 } // namespace bench
 } // namespace volumic

@@ -16,18 +16,12 @@ namespace
 
 const double Unknown = std::numeric_limits<double>::quiet_NaN();
 
-enum class Bound
-{
-  AtMost,
-  AtLeast
-};
-
 class TargetTable
 {
 public:
   explicit TargetTable(const std::vector<SurfaceRunResult>& runs) : Runs(runs) {}
 
-  TextRows Rows{ { "target", "what", "figure", "limit", "verdict" } };
+  TextRows Rows{ TargetHeading() };
 
   double Get(const char* run, const char* figure) const
   {
@@ -42,10 +36,7 @@ public:
 
   void Add(const char* name, const std::string& what, double figure, Bound bound, double limit)
   {
-    const bool reached = bound == Bound::AtMost ? figure <= limit : figure >= limit;
-    this->Rows.push_back(
-      { name, what, ShortText(figure), (bound == Bound::AtMost ? "<= " : ">= ") + ShortText(limit),
-        std::isnan(figure) ? "not run" : (reached ? "reached" : "missed") });
+    this->Rows.push_back(TargetRow(name, what, figure, bound, limit));
   }
 
   /** The worst of a figure, or of a sum of figures, over the levels of us-1. */
@@ -112,12 +103,26 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
+std::vector<std::string> TargetHeading()
+{
+  return { "target", "what", "figure", "limit", "verdict" };
+}
+
+std::vector<std::string> TargetRow(
+  const std::string& name, const std::string& what, double figure, Bound bound, double limit)
+{
+  const bool isReached = bound == Bound::AtMost ? figure <= limit : figure >= limit;
+  return { name, what, ShortText(figure),
+    (bound == Bound::AtMost ? "<= " : ">= ") + ShortText(limit),
+    std::isnan(figure) ? "not run" : (isReached ? "reached" : "missed") };
+}
+
 TextRows TargetRows(const std::vector<SurfaceRunResult>& runs)
 {
   TargetTable table(runs);
   const char* seconds = "ProcessorSeconds";
   table.Add("S1", "us-1 / remeshed, processor seconds", table.Ratio(seconds, "us-1", "remeshed"),
-    Bound::AtMost, 1.0);
+    Bound::AtMost, 0.5);
   table.Add("S2", "us-1 / mesher, processor seconds", table.Ratio(seconds, "us-1", "mesher"),
     Bound::AtMost, 0.6);
   table.Add("S3", "us-1 / levelset, processor seconds", table.Ratio(seconds, "us-1", "levelset"),
@@ -131,8 +136,9 @@ TextRows TargetRows(const std::vector<SurfaceRunResult>& runs)
     0.5);
   table.Add("S5", "  and of enclosed volume, %",
     100.0 * std::fabs(table.Ratio("Volume", "us-1", "us-flat") - 1.0), Bound::AtMost, 0.5);
-  table.Add(
-    "S6", "us-1 / us-2, seconds", table.Ratio("WallSeconds", "us-1", "us-2"), Bound::AtLeast, 1.5);
+  // Of single runs; the target is one of medians, see MeasureThreads.
+  table.Add("S6", "us-1 / us-2, seconds", table.Ratio("WallSeconds", "us-1", "us-2"),
+    Bound::AtLeast, table.Get("us-1", "Voxels") > LargeVolume ? 1.85 : 1.75);
   table.Add("S7", "us-1 / remeshed, MB at the peak",
     table.Ratio("PeakMegabytes", "us-1", "remeshed"), Bound::AtMost, 0.6);
 

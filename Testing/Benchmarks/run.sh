@@ -26,9 +26,14 @@ The surface:
   --no-recovery        also without Recovery
   --growth             also how cost grows, on the volume resampled to 64^3 ... 512^3 voxels
   --max-size N         of these, those up to N^3
+  --threads            also what a second thread gains, as it is and resampled to 512^3 voxels:
+                       medians of 5 rounds, or of --repetitions
+  --model              also what 2 to 64 threads would gain, by a model, on the same two
+  --memory             also what memory it takes, resampled to 512^3 and 1024^3 voxels
   --help               this text
 Tables are printed; all figures are left in build/benchmarks: every repetition of the pyramid in
-*.json, the surface in surface-NAME*.csv and surface-NAME.vtp, its growth in growth-NAME*.csv.
+*.json, the surface in surface-NAME*.csv and surface-NAME.vtp, the others in growth-NAME*.csv,
+threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv.
 USAGE
 }
 
@@ -40,6 +45,7 @@ volume=
 iso=
 all_scans=
 growth=
+scaling=()
 surface_options=()
 growth_options=()
 packages=("${tool_packages[@]}" libbenchmark-dev libcgal-dev)
@@ -52,6 +58,7 @@ take_option()
     --slow | --no-recovery) surface_options+=("$1") ;;
     --all-scans) all_scans=yes ;;
     --growth) growth=yes ;;
+    --threads | --model | --memory) scaling+=("${1#--}") ;;
     --volume)
       need_value "a value" "$@"
       volume=$2
@@ -113,10 +120,21 @@ measure_surface()
   "$program" --volume "$2" --iso "$3" --repetitions "${repetitions:-1}" --profile \
     --csv "$results/surface-$1.csv" --output "$results/surface-$1.vtp" "${surface_options[@]}" \
     || failed=yes
-  [ -n "$growth" ] || return 0
-  say ""
-  "$program" --volume "$2" --iso "$3" --growth --csv "$results/growth-$1.csv" \
-    "${growth_options[@]}" || failed=yes
+  if [ -n "$growth" ]; then
+    say ""
+    "$program" --volume "$2" --iso "$3" --growth --csv "$results/growth-$1.csv" \
+      "${growth_options[@]}" || failed=yes
+  fi
+  local what options
+  for what in "${scaling[@]}"; do
+    case $what in
+      threads) options=(--threads 1,2 --sizes 0,512 --repetitions "${repetitions:-5}") ;;
+      model) options=(--model --sizes 0,512) ;;
+      memory) options=(--memory) ;;
+    esac
+    say ""
+    "$program" --volume "$2" --iso "$3" "${options[@]}" --csv "$results/$what-$1.csv" || failed=yes
+  done
 }
 
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u

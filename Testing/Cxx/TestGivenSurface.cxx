@@ -55,7 +55,7 @@ IndexedSurface Cylinder(double radius, double height, int sides)
   return surface;
 }
 
-IndexedSurface Box(const Point& low, const Point& high)
+IndexedSurface Cuboid(const Point& low, const Point& high)
 {
   IndexedSurface box;
   for (int i = 0; i < 8; ++i)
@@ -122,8 +122,8 @@ TEST(GivenSurface, IsLegalBeforeTheFirstIterationWhateverItsTriangles)
   for (const Case& given : { Case{ "coarse cylinder", Cylinder(13, 25.5, 12) },
          Case{ "cylinder of 42 points", Cylinder(14, 30, 21) },
          Case{ "fans of 300", Cylinder(12, 20, 300) }, Case{ "prism", Cylinder(15, 8, 3) },
-         Case{ "flat box", Box({ 4, 4, 17 }, { 35, 35, 22 }) },
-         Case{ "cube", Box({ 6, 6, 6 }, { 33, 33, 33 }) } })
+         Case{ "flat box", Cuboid({ 4, 4, 17 }, { 35, 35, 22 }) },
+         Case{ "cube", Cuboid({ 6, 6, 6 }, { 33, 33, 33 }) } })
   {
     SCOPED_TRACE(given.Name);
     SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
@@ -146,8 +146,8 @@ TEST(GivenSurface, KeepsItsComponentsCavitiesAndTunnels)
   // A torus, a thick-walled box, both of large triangles, and a ball of many small ones.
   const TestVolume volume = Ball();
   IndexedSurface given = MakeTorus({ 12, 12, 8 }, 7, 3, 9, 6);
-  Append(given, Box({ 20, 20, 16 }, { 38, 38, 36 }));
-  Append(given, Box({ 24, 24, 20 }, { 34, 34, 32 }), true);
+  Append(given, Cuboid({ 20, 20, 16 }, { 38, 38, 36 }));
+  Append(given, Cuboid({ 24, 24, 20 }, { 34, 34, 32 }), true);
   Append(given, DividedIcosahedron({ 8, 30, 30 }, 5, 0.1));
   SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSurface(volume.Image, 0, given);
@@ -237,8 +237,8 @@ TEST(GivenSurfaceInvalid, RefusesWrongUnitsAndNamesBothSizes)
 
 TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
 {
-  EXPECT_EQ(RefusalOf(Box({ 10, 10, 19.5 }, { 30, 30, 20.9 })), "accepted");
-  const std::string text = RefusalOf(Box({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
+  EXPECT_EQ(RefusalOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 20.9 })), "accepted");
+  const std::string text = RefusalOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
   EXPECT_NE(text.find("too thin for this level"), std::string::npos) << text;
   EXPECT_NE(text.find("finer level"), std::string::npos) << text;
 }
@@ -252,17 +252,17 @@ TEST(GivenSurfaceInvalid, RefusesWhatVanishesWithinATriangleOrTwo)
 
 TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
 {
-  const IndexedSurface box = Box({ 5, 5, 5 }, { 35, 35, 35 });
-  const IndexedSurface inner = Box({ 12, 12, 12 }, { 28, 28, 28 });
+  const IndexedSurface box = Cuboid({ 5, 5, 5 }, { 35, 35, 35 });
+  const IndexedSurface inner = Cuboid({ 12, 12, 12 }, { 28, 28, 28 });
   IndexedSurface twice = box;
   Append(twice, inner);
   EXPECT_NE(RefusalOf(twice).find("1 of its 2 components face the wrong way"), std::string::npos);
-  IndexedSurface beside = Box({ 5, 5, 5 }, { 20, 35, 35 });
-  Append(beside, Box({ 25, 5, 5 }, { 35, 35, 35 }), true);
+  IndexedSurface beside = Cuboid({ 5, 5, 5 }, { 20, 35, 35 });
+  Append(beside, Cuboid({ 25, 5, 5 }, { 35, 35, 35 }), true);
   EXPECT_NE(RefusalOf(beside).find("face the wrong way"), std::string::npos);
   IndexedSurface hollow = box;
   Append(hollow, inner, true);
-  Append(hollow, Box({ 16, 16, 16 }, { 24, 24, 24 }));
+  Append(hollow, Cuboid({ 16, 16, 16 }, { 24, 24, 24 }));
   EXPECT_EQ(RefusalOf(hollow), "accepted") << "a cavity, and a body in it";
 }
 
@@ -331,7 +331,7 @@ TEST(Remesher, SplitsLongEdgesBetweenFullRings)
     all.push_back(v);
   }
   state.UpdateShape(all, Threads);
-  Remesher(state, nullptr, false).Split(all);
+  Remesher(state, nullptr, false, Threads).Split(all);
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
   EXPECT_GT(state.Counts.Splits, 1);
   for (int v = 0; v < state.Mesh.Size(); ++v)

@@ -43,7 +43,7 @@ struct Scene : Bench
   }
   int Merges(const std::vector<Proximity::ClosePair>& pairs, bool topologyChanges = true)
   {
-    Remesher(this->State, this->TheField.get(), topologyChanges).Merge(pairs);
+    Remesher(this->State, this->TheField.get(), topologyChanges, Threads).Merge(pairs);
     EXPECT_TRUE(this->IsSound());
     EXPECT_EQ(this->State.Counts.Merges * 2 + this->State.EulerCharacteristic, this->Chi);
     return this->State.Counts.Merges;

@@ -4,6 +4,7 @@
 #include "Core/Mesh/TriangleTests.h"
 #include "Core/Surface/NewFaces.h"
 #include "Core/Surface/Proximity.h"
+#include "Core/Common/StandardThreads.h"
 #include "CoreTestTools.h"
 
 #include <gtest/gtest.h>
@@ -190,6 +191,48 @@ TEST(VertexGrid, CostsNoMemoryWithoutLimit)
   int found = 0;
   grid.Visit(Vector(9e3f, 1, 1), 1.f, [&](int) { ++found; });
   EXPECT_EQ(found, 1);
+}
+
+TEST(VertexGrid, TakesMemoryOnlyWhereVerticesAre)
+{
+  const SurfaceMesh mesh = MakeSphere({ 60, 60, 60 }, 50, 2);
+  VertexGrid grid;
+  grid.Reset(Vector(0, 0, 0), Vector(120, 120, 120), 0.5f); // 30^3 bricks.
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    grid.Insert(v, mesh.Position[v]);
+  }
+  // A sphere of 12.5 bricks' radius passes through some four bricks for each of its own area.
+  EXPECT_GT(grid.NumberOfBricks(), 1000u);
+  EXPECT_LT(grid.NumberOfBricks(), 6000u);
+}
+
+TEST(VertexGrid, IsTheSameWhenFilledAtOnce)
+{
+  const SurfaceMesh mesh = MakeSphere({ 20, 20, 20 }, 15, 0.7);
+  const auto isThere = [](int v) { return v % 5 != 2; };
+  VertexGrid one;
+  one.Reset(Vector(3, 3, 3), Vector(40, 40, 33), 1.3f);
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (isThere(v))
+    {
+      one.Insert(v, mesh.Position[v]);
+    }
+  }
+  VertexGrid other;
+  other.Reset(Vector(3, 3, 3), Vector(40, 40, 33), 1.3f);
+  StandardThreads threads(3);
+  other.InsertAll(mesh.Position, isThere, threads);
+  // In the same order, too: what is found first may be decided by it.
+  const auto visited = [](const VertexGrid& grid)
+  {
+    std::vector<int> found;
+    grid.VisitBox(Vector(-9, -9, -9), Vector(50, 50, 50), [&](int w) { found.push_back(w); });
+    return found;
+  };
+  EXPECT_GT(visited(one).size(), 1000u);
+  EXPECT_EQ(visited(one), visited(other));
 }
 
 TEST(Proximity, FindsNothingOnASmoothSphere)

@@ -12,6 +12,7 @@ namespace
 {
 struct TwoProperties
 {
+  SequentialExecutor Thread;
   VertexProperties All;
   VertexProperty<int> Inherited{ this->All, 1 };
   VertexProperty<float> Own{ this->All, 2.f, 3.f };
@@ -21,10 +22,10 @@ struct TwoProperties
 TEST(VertexProperties, AreResetTogether)
 {
   TwoProperties p;
-  p.All.Reset(3);
+  p.All.Reset(3, p.Thread);
   p.Inherited[1] = 7;
   p.Own[2] = 7.f;
-  p.All.Reset(4);
+  p.All.Reset(4, p.Thread);
   ASSERT_EQ(p.Inherited.Size(), 4u);
   ASSERT_EQ(p.Own.Size(), 4u);
   for (int v = 0; v < 4; ++v)
@@ -37,7 +38,7 @@ TEST(VertexProperties, AreResetTogether)
 TEST(VertexProperties, GrowTogether)
 {
   TwoProperties p;
-  p.All.Reset(3);
+  p.All.Reset(3, p.Thread);
   p.Inherited[1] = 7;
   p.Own[1] = 7.f;
   p.All.Add(3, 1);
@@ -50,7 +51,7 @@ TEST(VertexProperties, GrowTogether)
 TEST(VertexProperties, TakeNewVerticesInPlacesOfRemovedOnes)
 {
   TwoProperties p;
-  p.All.Reset(3);
+  p.All.Reset(3, p.Thread);
   p.Inherited[0] = 5;
   p.Inherited[2] = 7;
   p.Own[2] = 7.f;
@@ -63,7 +64,7 @@ TEST(VertexProperties, TakeNewVerticesInPlacesOfRemovedOnes)
 TEST(VertexProperties, AreFilled)
 {
   TwoProperties p;
-  p.All.Reset(2);
+  p.All.Reset(2, p.Thread);
   p.Own.Fill(4.f);
   EXPECT_EQ(p.Own.AsVector(), (std::vector<float>{ 4.f, 4.f }));
   p.Own.Assign({ 5.f, 6.f });

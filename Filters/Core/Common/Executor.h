@@ -28,6 +28,16 @@ public:
   /** `grain`: number of items under which a chunk is not worth a thread. */
   virtual void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) = 0;
+
+  /** Seconds of the clock within For() so far, where they are measured (MeasuredExecutor); else 0.
+   */
+  virtual double SecondsInside() const { return 0.; }
+
+  /**
+   * Says that all that was done since the last call, on the calling thread and within For(), was
+   * the named phase of the work: for executors that keep books. The name must outlive them.
+   */
+  virtual void EndPhase(const char* name) { static_cast<void>(name); }
 };
 
 /** The default: everything on the calling thread, in order. */
@@ -43,6 +53,13 @@ public:
     }
   }
 };
+
+/** For work that is too small for threads, or has none to ask. */
+inline Executor& OnThisThread()
+{
+  static SequentialExecutor executor;
+  return executor;
+}
 
 /** Runs body(block, begin, end) over fixed blocks of [0, n): the same for any executor. */
 template <typename Body>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/Dynamics.h"
 
+#include "Core/Common/Select.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -221,35 +223,47 @@ bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
 
 void Dynamics::ApplyContacts(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
 {
-  this->Contacts.clear();
-  for (std::size_t begin = 0; begin < pairs.size();)
-  {
-    std::size_t end = begin + 1;
-    while (end < pairs.size() && pairs[end].V == pairs[begin].V)
+  // The pairs of a vertex follow each other.
+  const std::vector<int> first = SelectIndices(this->Threads, pairs.size(),
+    [&](std::size_t i)
     {
-      ++end;
-    }
-    if (state.Mesh.IsAlive(pairs[begin].V) && state.Active[pairs[begin].V])
+      const int v = pairs[i].V;
+      return (i == 0 || pairs[i - 1].V != v) && state.Mesh.IsAlive(v) && state.Active[v] != 0;
+    });
+  this->Contacts.resize(first.size());
+  this->Threads.For(first.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
     {
-      this->Contacts.push_back({ begin, end, Vector() });
-    }
-    begin = end;
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const auto from = static_cast<std::size_t>(first[i]);
+        std::size_t to = from + 1;
+        while (to < pairs.size() && pairs[to].V == pairs[from].V)
+        {
+          ++to;
+        }
+        this->Contacts[i] = { pairs[from].V, from, to, Vector() };
+      }
+    });
   for (int sweep = 0; sweep < ContactSweeps; ++sweep)
   {
     this->Threads.For(this->Contacts.size(), 256,
-      [&](std::size_t first, std::size_t last)
+      [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t i = first; i < last; ++i)
+        for (std::size_t i = begin; i < end; ++i)
         {
           ContactsOfVertex& contacts = this->Contacts[i];
           contacts.Correction = this->CorrectionOf(state, pairs, contacts, sweep == 0);
         }
       });
-    for (const ContactsOfVertex& contacts : this->Contacts)
-    {
-      state.Velocity[pairs[contacts.Begin].V] -= contacts.Correction;
-    }
+    this->Threads.For(this->Contacts.size(), BlockSize,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          state.Velocity[this->Contacts[i].Vertex] -= this->Contacts[i].Correction;
+        }
+      });
   }
 }
 
@@ -257,7 +271,7 @@ Vector Dynamics::CorrectionOf(const SurfaceState& state,
   const std::vector<Proximity::ClosePair>& pairs, const ContactsOfVertex& contacts,
   bool separates) const
 {
-  const int v = pairs[contacts.Begin].V;
+  const int v = contacts.Vertex;
   Vector sum;
   int count = 0;
   for (std::size_t i = contacts.Begin; i < contacts.End; ++i)
@@ -314,7 +328,9 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active)
         p = state.Margin.Confined(p, p + move);
       }
     });
-  for (int v : active)
+  const std::vector<int> leaving = SelectOf(this->Threads, active,
+    [&state](int v) { return !state.Grid.IsInPlace(v, state.Mesh.Position[v]); });
+  for (int v : leaving)
   {
     state.Grid.Move(v, state.Mesh.Position[v]);
   }

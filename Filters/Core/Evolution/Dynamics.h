@@ -88,6 +88,7 @@ private:
   /** The close pairs of a vertex, and what of its velocity they forbid. */
   struct ContactsOfVertex
   {
+    int Vertex;
     std::size_t Begin; ///< Of the pairs.
     std::size_t End;
     Vector Correction;

@@ -39,7 +39,7 @@ struct SurfaceEvolution::Implementation
   RestCriterion Rest;
   CycleCriterion Cycle;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
-  double Preparing = 0.; ///< Seconds of start or division before the first iteration of a level.
+  HistoryRow Preparing; ///< Phases before the first iteration of a level: start or division.
   std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< Of all laps since the last level.
   bool Stopped = false;     ///< By the monitor.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/Stopwatch.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfacePolish.h"
 
@@ -83,6 +84,7 @@ void SurfaceEvolution::Implementation::Iterate(
   { return !evolves || this->GoOn(Monitor::Activity::Iterating, 1.); };
   this->Iteration.Run(row, dynamics, remesher, mode, this->LastIterations, goOn);
   this->FillRow(row);
+  this->Threads.EndPhase("History");
   this->SinceEvolved.Cuts += this->State.Counts.Cuts;
   this->SinceEvolved.Removed += this->State.Counts.Removed;
   row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -96,10 +98,12 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   this->Cycle.Reset();
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   const bool evidence = this->Options.IsopotentialWeight > 0;
-  Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges);
+  Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges,
+    this->Threads);
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
   while (true)
   {
+    this->Threads.EndPhase("Rest criterion");
     if (this->Stopped)
     {
       return StopReason::Cancelled;
@@ -121,8 +125,11 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     if (this->LastIterations == 0)
     {
       row.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
-      row.PhaseSeconds[static_cast<int>(Phase::Division)] += this->Preparing;
-      this->Preparing = 0.;
+      for (const Phase phase : { Phase::Division, Phase::Recovery })
+      {
+        row.Phases[static_cast<int>(phase)] = this->Preparing.Phases[static_cast<int>(phase)];
+      }
+      this->Preparing = HistoryRow();
     }
     this->Rows.push_back(row);
     this->SinceEvolved = EditCounts();
@@ -191,7 +198,7 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
   const double unit = this->TheField->Image().Unit;
   const float least = static_cast<float>(SizingField::LeastSamplingRatio * unit);
   const float most = static_cast<float>(unit);
-  Remesher remesher(s, this->TheField.get(), false);
+  Remesher remesher(s, this->TheField.get(), false, this->Threads);
   double first = 0.;
   for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0 &&
        this->GoOn(Monitor::Activity::Regularising, 0.);
@@ -219,7 +226,7 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = this->State;
   const std::vector<std::uint8_t> active = s.Active.AsVector();
-  Remesher remesher(s, this->TheField.get(), false);
+  Remesher remesher(s, this->TheField.get(), false, this->Threads);
   s.Velocity.Fill(Vector());
   HistoryRow row;
   this->ActivateAll();
@@ -240,10 +247,6 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     s.Active[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(active.size()) || active[v]);
     s.Velocity[v] = Vector();
   }
-  if (!this->Rows.empty())
-  {
-    this->Rows.back().PhaseSeconds[static_cast<int>(Phase::Division)] += row.Seconds;
-  }
 }
 
 void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
@@ -256,6 +259,7 @@ void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
     this->CheckpointOf(Monitor::Activity::Regularising, PassesShare));
   polish.Run();
   this->Iteration.UpdateChanged(polish.TakeChanged());
+  this->Threads.EndPhase("Polish");
   if (s.Counts.Cuts > 0)
   {
     this->Iteration.LabelComponents();
@@ -291,6 +295,8 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->FindMissing();
     return reason;
   }
+  HistoryRow none;
+  Stopwatch watch(this->HasIteration() ? this->Rows.back() : none, this->Threads);
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   if (this->WantedMeanEdge > 0.)
   {
@@ -299,7 +305,9 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
   this->FinishRow();
+  watch.Lap(Phase::Regularisation);
   this->FindMissing();
+  watch.Lap(Phase::Recovery);
   if (this->Stopped)
   {
     return StopReason::Cancelled;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/InitialSurface.h"
@@ -9,44 +10,66 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 namespace volumic
 {
 namespace
 {
-float LongestEdge(const SurfaceMesh& mesh)
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexBlock = 8192;
+
+/**
+ * Calls visit(v, w, squared length) for each edge whose smaller end is in a block; blocks may be
+ * visited side by side.
+ */
+template <typename Visit>
+void VisitEdges(const SurfaceMesh& mesh, std::size_t begin, std::size_t end, const Visit& visit)
 {
-  float longest = 0;
-  mesh.VisitFaces(
-    [&](int a, int b, int c)
+  for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+  {
+    const Ring& ring = mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
     {
-      for (const auto& edge : { std::make_pair(a, b), std::make_pair(b, c), std::make_pair(c, a) })
+      const int w = ring.Item[i];
+      if (v < w)
       {
-        longest = std::max(
-          longest, SquaredDistance(mesh.Position[edge.first], mesh.Position[edge.second]));
+        visit(v, w, SquaredDistance(mesh.Position[v], mesh.Position[w]));
       }
+    }
+  }
+}
+
+float LongestEdge(const SurfaceMesh& mesh, Executor& executor)
+{
+  std::vector<float> longest((mesh.Rings.size() + VertexBlock - 1) / VertexBlock, 0.f);
+  ForBlocks(executor, mesh.Rings.size(), VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      VisitEdges(mesh, begin, end, [&](int, int, float squared)
+        { longest[block] = std::max(longest[block], squared); });
     });
-  return std::sqrt(longest);
+  float most = 0.f;
+  for (const float ofBlock : longest)
+  {
+    most = std::max(most, ofBlock);
+  }
+  return std::sqrt(most);
 }
 
 /** Whether an edge is longer than this share of the longest that eq. (1) allows. */
-bool HasEdgeOver(const SurfaceState& state, float share)
+bool HasEdgeOver(const SurfaceState& state, float share, Executor& executor)
 {
   const SurfaceMesh& mesh = state.Mesh;
-  bool found = false;
-  mesh.VisitFaces(
-    [&](int a, int b, int c)
-    {
-      for (const auto& edge : { std::make_pair(a, b), std::make_pair(b, c), std::make_pair(c, a) })
-      {
-        found = found ||
-          std::sqrt(SquaredDistance(mesh.Position[edge.first], mesh.Position[edge.second])) >
-            state.Sizing.LongestEdge(edge.first, edge.second, share);
-      }
-    });
-  return found;
+  return CountInBlocks(executor, mesh.Rings.size(), VertexBlock,
+           [&](std::size_t begin, std::size_t end)
+           {
+             std::size_t count = 0;
+             VisitEdges(mesh, begin, end, [&](int v, int w, float squared)
+               { count += std::sqrt(squared) > state.Sizing.LongestEdge(v, w, share); });
+             return count;
+           }) > 0;
 }
 }
 
@@ -62,11 +85,17 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
-  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest()));
+  s.Mesh.Reorder(
+    SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
+  this->Threads.EndPhase("Order");
   this->LayGrid();
+  this->Threads.EndPhase("Grid");
   this->SplitLongEdges();
+  this->Threads.EndPhase("Long edges");
   this->Iteration.Examine();
+  this->Threads.EndPhase("Proximity");
   this->Iteration.LabelComponents();
+  this->Threads.EndPhase("Labels");
 }
 
 void SurfaceEvolution::Implementation::SplitLongEdges()
@@ -74,9 +103,9 @@ void SurfaceEvolution::Implementation::SplitLongEdges()
   // Verification relies on it that no edge is longer than the constraints allow.
   this->Iteration.UpdateActive();
   this->Iteration.SplitLongEdges();
-  if (HasEdgeOver(this->State, 1.0001f))
+  if (HasEdgeOver(this->State, 1.0001f, this->Threads))
   {
-    this->TakeRemeshed(this->State.Mesh.ToIndexed()); // Full rings all about it: not seen yet.
+    this->TakeRemeshed(this->State.Mesh.ToIndexed(this->Threads)); // Full rings all about it: not seen yet.
   }
 }
 
@@ -88,15 +117,27 @@ void SurfaceEvolution::Implementation::LayGrid()
   Vector high(static_cast<float>(image.Size[0] * image.Step[0]),
     static_cast<float>(image.Size[1] * image.Step[1]),
     static_cast<float>(image.Size[2] * image.Step[2]));
-  for (const Vector& p : s.Mesh.Position)
+  const std::size_t blocks = (s.Mesh.Position.size() + VertexBlock - 1) / VertexBlock;
+  std::vector<Vector> lows(blocks, low);
+  std::vector<Vector> highs(blocks, high);
+  ForBlocks(this->Threads, s.Mesh.Position.size(), VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        lows[block] = Minimum(lows[block], s.Mesh.Position[v]);
+        highs[block] = Maximum(highs[block], s.Mesh.Position[v]);
+      }
+    });
+  for (std::size_t block = 0; block < blocks; ++block)
   {
-    low = Minimum(low, p);
-    high = Maximum(high, p);
+    low = Minimum(low, lows[block]);
+    high = Maximum(high, highs[block]);
   }
   const float delta = s.Sizing.Largest();
   const Vector margin(2 * delta, 2 * delta, 2 * delta);
   this->Iteration.Forget();
-  s.Reset(low - margin, high + margin);
+  s.Reset(low - margin, high + margin, this->Threads);
 }
 
 namespace
@@ -151,7 +192,7 @@ void SurfaceEvolution::Implementation::FindIntersections()
   // A division leaves some edges longer than verification may rely on; it looks further for them.
   SurfaceState& s = this->State;
   const SizingField sizing = s.Sizing;
-  s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh));
+  s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh, this->Threads));
   this->LayGrid();
   this->Iteration.UpdateActive();
   this->Iteration.Examine();
@@ -161,9 +202,12 @@ void SurfaceEvolution::Implementation::FindIntersections()
 void SurfaceEvolution::Implementation::DivideOnce()
 {
   SurfaceState& s = this->State;
-  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest()));
+  s.Mesh.Reorder(
+    SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   const int olds = s.Mesh.Size();
-  const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh);
+  this->Threads.EndPhase("Order");
+  const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh, nullptr, this->Threads);
+  this->Threads.EndPhase("Division");
   this->FindIntersections();
   if (this->Iteration.Intersections().empty())
   {
@@ -172,7 +216,7 @@ void SurfaceEvolution::Implementation::DivideOnce()
   // The division flips edges of the old surface; in narrow places these may pass through each
   // other. Such edges are kept, then more and more about them, and all of them at last, which
   // leaves the old surface, with more vertices.
-  const SurfaceMesh old = Undivided(s.Mesh, olds);
+  const SurfaceMesh old = Undivided(s.Mesh, olds, this->Threads);
   KeptEdges kept(old);
   constexpr int rounds = 6;
   for (int round = 0; round < rounds && !this->Iteration.Intersections().empty(); ++round)
@@ -188,21 +232,26 @@ void SurfaceEvolution::Implementation::DivideOnce()
     }
     kept.MakeRoom();
     s.Mesh = old;
-    volumic::Divide(s.Mesh, &kept);
+    volumic::Divide(s.Mesh, &kept, this->Threads);
     this->FindIntersections();
   }
   if (!this->Iteration.Intersections().empty())
   {
-    this->TakeRemeshed(old.ToIndexed()); // The old surface intersects itself: not seen yet.
+    this->TakeRemeshed(old.ToIndexed(this->Threads)); // The old surface intersects itself: not seen yet.
   }
 }
 
 void SurfaceEvolution::Implementation::ActivateAll()
 {
-  for (int v = 0; v < this->State.Mesh.Size(); ++v)
-  {
-    this->State.Active[v] = this->State.Mesh.IsAlive(v);
-  }
+  SurfaceState& s = this->State;
+  ForBlocks(this->Threads, s.Mesh.Rings.size(), VertexBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        s.Active[v] = s.Mesh.IsAlive(static_cast<int>(v));
+      }
+    });
 }
 
 void SurfaceEvolution::Implementation::Recover()
@@ -222,6 +271,7 @@ void SurfaceEvolution::Implementation::Recover()
       this->Threads, this->CheckpointOf(Monitor::Activity::Recovering, from, to));
   };
   const LostPartCover objects = find(PartKind::Object, 0., objectShare);
+  this->Threads.EndPhase("Lost parts");
   this->LastLost.Found = objects.Found;
   this->LastLost.Enclosed = recovers ? objects.Covered : 0;
   this->Lost = objects.Boundary;
@@ -241,11 +291,11 @@ void SurfaceEvolution::Implementation::Recover()
   }
   if (this->LastLost.Enclosed > 0)
   {
-    this->State.Mesh.Append(objects.Surface);
+    this->State.Mesh.Append(objects.Surface, this->Threads);
   }
   if (this->LastLost.EnclosedCavities > 0)
   {
-    this->State.Mesh.Append(cavities.Surface);
+    this->State.Mesh.Append(cavities.Surface, this->Threads);
   }
 }
 }

@@ -253,7 +253,7 @@ void SurfaceEvolution::Implementation::Adapt()
 {
   // The verified displacements and edits of an iteration, until the lengths are legal.
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  Remesher remesher(this->State, this->TheField.get(), false);
+  Remesher remesher(this->State, this->TheField.get(), false, this->Threads);
   for (int round = 0; round < MaximumNumberOfRounds &&
        this->GoOn(Monitor::Activity::Starting,
          ShareOfRemeshing + (1. - ShareOfRemeshing) * round / MaximumNumberOfRounds);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostBoundary.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
+#include <array>
 #include <cstddef>
 #include <numeric>
 
@@ -20,36 +22,55 @@ constexpr double MissedShare = 0.5;
 constexpr std::size_t PatchBlock = 256;
 }
 
-void LostBoundary::Add(
-  const std::vector<std::int64_t>& part, const Field& field, PartKind kind)
+namespace
+{
+/** Area of the faces that a voxel of a part has towards the other side. */
+double BoundaryOf(const std::array<int, 3>& place, const Field& field, bool isObject)
 {
   const LevelImage& image = field.Image();
-  const VoxelNumbers numbers(image.Size);
-  const bool isObject = kind == PartKind::Object;
-  for (const std::int64_t voxel : part)
+  double area = 0.;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const std::array<int, 3> place = numbers.PlaceOf(voxel);
-    double area = 0.;
-    for (int axis = 0; axis < 3; ++axis)
+    const double face = image.Step[(axis + 1) % 3] * image.Step[(axis + 2) % 3];
+    for (const int side : { -1, 1 })
     {
-      const double face = image.Step[(axis + 1) % 3] * image.Step[(axis + 2) % 3];
-      for (const int side : { -1, 1 })
-      {
-        std::array<int, 3> next = place;
-        next[axis] += side;
-        const bool isOutside = next[axis] < 0 || next[axis] >= image.Size[axis];
-        const bool isOther =
-          isOutside ? isObject : (field.Voxel(next[0], next[1], next[2]) > 0) != isObject;
-        area += isOther ? face : 0.;
-      }
-    }
-    if (area > 0.)
-    {
-      this->Patches.push_back(
-        { voxel, static_cast<float>(area), this->Parts });
+      std::array<int, 3> next = place;
+      next[axis] += side;
+      const bool isOutside = next[axis] < 0 || next[axis] >= image.Size[axis];
+      const bool isOther =
+        isOutside ? isObject : (field.Voxel(next[0], next[1], next[2]) > 0) != isObject;
+      area += isOther ? face : 0.;
     }
   }
-  ++this->Parts;
+  return area;
+}
+}
+
+void LostBoundary::Add(
+  const LostVoxels& lost, const Field& field, PartKind kind, Executor& executor)
+{
+  const VoxelNumbers numbers(field.Image().Size);
+  std::vector<std::vector<Patch>> slabs(lost.Slabs().size());
+  ForBlocks(executor, slabs.size(), 1,
+    [&](std::size_t slab, std::size_t, std::size_t)
+    {
+      for (const VoxelRun& run : lost.Slabs()[slab])
+      {
+        std::array<int, 3> place = numbers.PlaceOf(run.First);
+        for (int i = 0; i < run.Length; ++i, ++place[0])
+        {
+          const double area = BoundaryOf(place, field, kind == PartKind::Object);
+          if (area > 0.)
+          {
+            slabs[slab].push_back(
+              { run.First + i, static_cast<float>(area), this->Parts + run.Part });
+          }
+        }
+      }
+    });
+  const std::vector<Patch> added = Joined(executor, slabs);
+  this->Patches.insert(this->Patches.end(), added.begin(), added.end());
+  this->Parts += lost.NumberOfParts();
 }
 
 void LostBoundary::Add(const LostBoundary& other)

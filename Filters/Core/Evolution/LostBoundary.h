@@ -3,6 +3,8 @@
 #ifndef volumicLostBoundary_h
 #define volumicLostBoundary_h
 
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/Field.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -11,16 +13,6 @@
 
 namespace volumic
 {
-/** A surface has what is within so many units of the level of one of its vertices. */
-constexpr double NearUnits = 2.;
-
-/** What a surface may have lost. */
-enum class PartKind
-{
-  Object, ///< Object outside the surface.
-  Cavity  ///< Background inside the surface.
-};
-
 /**
  * The boundary of the parts that a surface has lost, kept from when they were found, so that it can
  * be told later what of it the surface still misses. Costs nothing for voxels that were not lost.
@@ -28,8 +20,8 @@ enum class PartKind
 class LostBoundary
 {
 public:
-  /** Takes the boundary of a part: the faces of its voxels towards the other side. */
-  void Add(const std::vector<std::int64_t>& part, const Field& field, PartKind kind);
+  /** Takes the boundary of lost parts: the faces of their voxels towards the other side. */
+  void Add(const LostVoxels& lost, const Field& field, PartKind kind, Executor& executor);
   void Add(const LostBoundary& other);
 
   struct Missing

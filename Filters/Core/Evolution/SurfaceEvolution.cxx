@@ -2,21 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceEvolution.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/InitialSurface.h"
+#include "Core/Evolution/Stopwatch.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Surface/RemainingContacts.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace volumic
 {
 namespace
 {
+/** Vertices that one thread hands out at a time. */
+constexpr std::size_t ResultBlock = 4096;
+
 void CheckRange(const char* name, double value, double low, double high)
 {
   if (!(value >= low && value <= high))
@@ -24,22 +30,6 @@ void CheckRange(const char* name, double value, double low, double high)
     Refuse(name, " is ", value, ", it must lie in [", low, ", ", high, "].");
   }
 }
-
-/** Adds the time of its life. */
-class Timer
-{
-public:
-  explicit Timer(double& seconds) : Seconds(seconds), Start(std::chrono::steady_clock::now()) {}
-  ~Timer()
-  {
-    this->Seconds +=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
-  }
-
-private:
-  double& Seconds;
-  std::chrono::steady_clock::time_point Start;
-};
 }
 
 const char* Describe(StopReason reason)
@@ -85,11 +75,12 @@ SurfaceEvolution::~SurfaceEvolution() = default;
 void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
   self.State.Mesh.Clear();
   self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Sizing.OfLevel()));
   self.Reset();
+  watch.Lap(Phase::Division);
   self.GoOn(Monitor::Activity::Starting, 1.);
 }
 
@@ -97,7 +88,7 @@ int SurfaceEvolution::StartSeeds(
   const LevelImage& image, int level, const std::vector<Point>& centres)
 {
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
   const double delta = self.State.Sizing.OfLevel();
   const double radius = std::max(
@@ -110,6 +101,7 @@ int SurfaceEvolution::StartSeeds(
     self.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
   }
   self.Reset();
+  watch.Lap(Phase::Division);
   return static_cast<int>(places.size());
 }
 
@@ -119,9 +111,10 @@ void SurfaceEvolution::StartSurface(
   CheckInitialSurface(surface);
   CheckOverlapsImage(surface, image);
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
   self.Take(surface);
+  watch.Lap(Phase::Division);
 }
 
 StopReason SurfaceEvolution::Run()
@@ -137,7 +130,7 @@ void SurfaceEvolution::SetMeanEdgeLength(double length)
 bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  const Timer timer(self.Preparing);
+  Stopwatch watch(self.Preparing, self.Threads);
   if (!self.GoOn(Monitor::Activity::Regularising, 1.))
   {
     return false;
@@ -163,11 +156,14 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     self.LayGrid();
   }
   self.SplitLongEdges();
+  watch.Lap(Phase::Division);
   if (goesOn && self.GoOn(Monitor::Activity::Dividing, 1.))
   {
     self.Recover();
   }
+  watch.Lap(Phase::Recovery);
   self.Reset();
+  watch.Lap(Phase::Division);
   self.GoOn(Monitor::Activity::Recovering, 1.);
   return true;
 }
@@ -175,29 +171,50 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 SurfaceResult SurfaceEvolution::Result() const
 {
   const SurfaceState& s = this->Self->State;
+  const Field& field = *this->Self->TheField;
+  Executor& threads = this->Self->Threads;
   SurfaceResult result;
-  static_cast<IndexedSurface&>(result) = s.Mesh.ToIndexed();
   result.Delta = s.Sizing.OfLevel();
+  if (s.Mesh.NumberOfVertices() == 0)
+  {
+    return result;
+  }
+  RemainingContacts contacts = FindRemainingContacts(s, field, threads);
+  static_cast<IndexedSurface&>(result) = s.Mesh.ToIndexed(threads);
   const float sign = this->Self->Options.ObjectIsBright ? 1.f : -1.f;
-  std::vector<int> index(static_cast<std::size_t>(s.Mesh.Size()), -1); // As ToIndexed numbers them.
-  int points = 0;
-  RemainingContacts contacts;
-  if (s.Mesh.NumberOfVertices() > 0)
-  {
-    contacts = FindRemainingContacts(s, *this->Self->TheField, this->Self->Threads);
-  }
-  for (int v = 0; v < s.Mesh.Size(); ++v)
-  {
-    if (s.Mesh.IsAlive(v))
+  const std::size_t n = s.Mesh.Rings.size();
+  const std::vector<std::size_t> first = FirstOfBlocks(threads, n, ResultBlock,
+    [&s](std::size_t begin, std::size_t end)
     {
-      const NormalCone& n = s.Normal[v];
-      result.Normals.push_back({ n.X, n.Y, n.Z });
-      result.Residual.push_back(sign * this->Self->TheField->ValueAt(s.Mesh.Position[v]));
-      result.Motionless.push_back(!s.Active[v]);
-      result.Held.push_back(contacts.Held[v]);
-      index[v] = points++;
-    }
-  }
+      std::size_t count = 0;
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        count += s.Mesh.IsAlive(static_cast<int>(v));
+      }
+      return count;
+    });
+  result.Normals.resize(first.back());
+  result.Residual.resize(first.back());
+  result.Motionless.resize(first.back());
+  result.Held.resize(first.back());
+  std::vector<int> index(n, -1); // As ToIndexed numbers them.
+  ForBlocks(threads, n, ResultBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      std::size_t point = first[block];
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (s.Mesh.IsAlive(static_cast<int>(v)))
+        {
+          const NormalCone& normal = s.Normal[v];
+          result.Normals[point] = { normal.X, normal.Y, normal.Z };
+          result.Residual[point] = sign * field.ValueAt(s.Mesh.Position[v]);
+          result.Motionless[point] = !s.Active[v];
+          result.Held[point] = contacts.Held[v];
+          index[v] = static_cast<int>(point++);
+        }
+      }
+    });
   result.Contacts = std::move(contacts.Pairs);
   for (std::array<int, 2>& pair : result.Contacts)
   {

@@ -28,7 +28,7 @@ enum class StopReason
 /** As in the output's field data: converged, limit cycle, iteration limit, cancelled, vanished. */
 const char* Describe(StopReason reason);
 
-/** Parts of an iteration, in the order of HistoryRow::PhaseSeconds. */
+/** Parts of an iteration, and of what lies between two, in the order of HistoryRow::Phases. */
 enum class Phase
 {
   Forces,
@@ -37,8 +37,17 @@ enum class Phase
   Verification,
   Remeshing,
   Topology,
-  Division, ///< Division, start, recovery of lost parts, final regularisation.
+  Division, ///< Division, start.
+  Recovery, ///< Of lost parts.
+  Regularisation, ///< The final one.
   Count
+};
+
+/** Seconds of the clock. */
+struct PhaseTime
+{
+  double Seconds = 0.;
+  double Serial = 0.; ///< Of these outside Executor::For(); all where that is not measured.
 };
 
 /**
@@ -87,7 +96,7 @@ struct HistoryRow
   int RegularisationDeletions = 0;
   double SecondsBefore = 0.; ///< Between the row before, or the start of the clock, and this one.
   double SecondsAfter = 0.;  ///< After the last iteration of a level, until EndLevel().
-  std::array<double, static_cast<int>(Phase::Count)> PhaseSeconds{};
+  std::array<PhaseTime, static_cast<int>(Phase::Count)> Phases{};
 };
 
 /** The surface as handed out: compact, workspace coordinates. */

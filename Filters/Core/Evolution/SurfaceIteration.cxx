@@ -2,49 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceIteration.h"
 
+#include "Core/Common/Select.h"
+#include "Core/Evolution/Stopwatch.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace volumic
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
-
 /** A displacement, in delta, that uses little of a vertex's slack. */
 constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
 constexpr int SuspiciousCollapses = 40;
 /** Iterations between two looks for components that are inside out. */
 constexpr int InsideOutPeriod = 10;
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t ActiveGrain = 2048;
 
 void SortUnique(std::vector<int>& vertices)
 {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
-
-/** Adds the time since the last call to a phase. */
-class Stopwatch
-{
-public:
-  explicit Stopwatch(HistoryRow& row) : Row(row), Last(Clock::now()) {}
-  void Lap(Phase phase)
-  {
-    const Clock::time_point now = Clock::now();
-    this->Row.PhaseSeconds[static_cast<int>(phase)] +=
-      std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-  }
-
-private:
-  HistoryRow& Row;
-  Clock::time_point Last;
-};
 }
 
 void SurfaceIteration::Forget()
@@ -55,14 +40,8 @@ void SurfaceIteration::Forget()
 
 void SurfaceIteration::CollectActive()
 {
-  this->Active.clear();
-  for (int v = 0; v < this->State.Mesh.Size(); ++v)
-  {
-    if (this->State.Active[v])
-    {
-      this->Active.push_back(v);
-    }
-  }
+  this->Active = SelectIndices(this->Threads, this->State.Mesh.Rings.size(),
+    [this](std::size_t v) { return this->State.Active[v] != 0; });
 }
 
 void SurfaceIteration::UpdateActive()
@@ -73,7 +52,7 @@ void SurfaceIteration::UpdateActive()
 
 void SurfaceIteration::SplitLongEdges()
 {
-  Remesher remesher(this->State, nullptr, false);
+  Remesher remesher(this->State, nullptr, false, this->Threads);
   remesher.Split(this->Active);
   this->UpdateChanged(remesher.TakeChanged());
 }
@@ -84,17 +63,33 @@ void SurfaceIteration::CollectWorking()
   SurfaceState& s = this->State;
   this->IsWorking.assign(s.Mesh.Rings.size(), 0);
   this->Working = this->Active;
-  for (int v : this->Active)
-  {
-    this->IsWorking[v] = 1;
-  }
-  for (int v : this->Active)
-  {
-    const Ring& ring = s.Mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
+  this->Threads.For(this->Active.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      this->AddUnmoved(ring.Item[i]);
-    }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->IsWorking[this->Active[i]] = 1;
+      }
+    });
+  std::vector<std::vector<int>> blocks((this->Active.size() + ActiveGrain - 1) / ActiveGrain);
+  ForBlocks(this->Threads, this->Active.size(), ActiveGrain,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Ring& ring = s.Mesh.Rings[this->Active[i]];
+        std::copy_if(ring.Item, ring.Item + ring.Count, std::back_inserter(blocks[b]),
+          [this](int w) { return !this->IsWorking[w]; });
+      }
+    });
+  std::vector<int> unmoved;
+  for (const std::vector<int>& block : blocks)
+  {
+    unmoved.insert(unmoved.end(), block.begin(), block.end());
+  }
+  for (int v : unmoved)
+  {
+    this->AddUnmoved(v);
   }
 }
 
@@ -129,29 +124,45 @@ void SurfaceIteration::CollectSuspects()
         s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
       }
     });
-  this->Suspects.clear();
-  for (int v : this->Working)
-  {
-    if (s.Drift[v] > 0.5f * s.Slack[v])
+  this->Suspects = SelectOf(
+    this->Threads, this->Working, [&s](int v) { return s.Drift[v] > 0.5f * s.Slack[v]; });
+  this->Threads.For(this->Suspects.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      s.Drift[v] = 0;
-      this->Suspects.push_back(v);
-    }
-  }
-  for (int v : this->Active)
-  {
-    s.Displacement[v] = 0;
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        s.Drift[this->Suspects[i]] = 0;
+      }
+    });
+  this->Threads.For(this->Active.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        s.Displacement[this->Active[i]] = 0;
+      }
+    });
 }
 
 void SurfaceIteration::UpdateChanged(std::vector<int> changed)
 {
-  SortUnique(changed);
-  this->State.UpdateShape(changed, this->Threads);
+  // Each once, in any order.
+  std::vector<float>& drift = this->State.Drift.AsVector();
   for (int v : changed)
   {
-    this->State.Drift[v] = SurfaceState::NotExamined; // Its star is another one.
+    drift[v] = 0;
   }
+  std::size_t count = 0;
+  for (int v : changed)
+  {
+    if (drift[v] != SurfaceState::NotExamined)
+    {
+      drift[v] = SurfaceState::NotExamined; // Its star is another one.
+      changed[count++] = v;
+    }
+  }
+  changed.resize(count);
+  this->State.UpdateShape(changed, this->Threads);
 }
 
 void SurfaceIteration::RollBackVertex(int v)
@@ -235,15 +246,20 @@ void SurfaceIteration::RestoreConstraints(Remesher& remesher)
 {
   SurfaceState& s = this->State;
   remesher.Collapse(this->Working);
+  this->Threads.EndPhase("Collapses");
   remesher.Flip(this->Working);
+  this->Threads.EndPhase("Flips");
   remesher.Unstick(this->Working);
-  for (int v : this->Working)
-  {
-    if (s.RollbackCount[v] > 0)
+  this->Threads.EndPhase("Unsticking");
+  this->Threads.For(this->Working.size(), ActiveGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      --s.RollbackCount[v];
-    }
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        std::uint8_t& count = s.RollbackCount[this->Working[i]];
+        count = static_cast<std::uint8_t>(count > 0 ? count - 1 : 0);
+      }
+    });
   // What was rolled back, or drawn back from a cut, may have made edges too long.
   const std::vector<int>& changed = remesher.Changed();
   this->Working.insert(this->Working.end(), changed.begin(), changed.end());
@@ -284,7 +300,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
 {
   SurfaceState& s = this->State;
   const bool evolves = mode == Mode::Evolve;
-  Stopwatch watch(row);
+  Stopwatch watch(row, this->Threads);
   s.Counts = EditCounts();
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
@@ -300,6 +316,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   watch.Lap(Phase::Forces);
 
   dynamics.Displace(s, this->Active);
+  this->Threads.EndPhase("Displacement");
   this->CollectWorking();
   s.UpdateShape(this->Working, this->Threads);
   watch.Lap(Phase::Contact);
@@ -311,6 +328,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   this->Near.Examine(s, this->Suspects, this->Threads);
   watch.Lap(Phase::Proximity);
   this->RollBack();
+  this->Threads.EndPhase("Roll back");
   if (evolves)
   {
     dynamics.Freeze(s, this->Active, this->Working);
@@ -324,6 +342,7 @@ void SurfaceIteration::Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesh
   if (evolves)
   {
     remesher.Merge(this->Near.Pairs());
+    this->Threads.EndPhase("Merges");
   }
   watch.Lap(Phase::Topology);
   this->RestoreConstraints(remesher);

@@ -2,16 +2,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/Division.h"
 
+#include "Core/Common/Blocks.h"
+
 #include <utility>
 
 namespace volumic
 {
-EdgeSlots::EdgeSlots(const SurfaceMesh& mesh) : First(mesh.Rings.size() + 1, 0)
+namespace
 {
-  for (int v = 0; v < mesh.Size(); ++v)
+/** Vertices, faces or edges that one thread looks at at a time. */
+constexpr std::size_t BlockSize = 8192;
+}
+
+EdgeSlots::EdgeSlots(const SurfaceMesh& mesh, Executor& executor) : First(mesh.Rings.size() + 1, 0)
+{
+  const auto sumOf = [&mesh](std::size_t begin, std::size_t end)
   {
-    this->First[v + 1] = this->First[v] + mesh.Rings[v].Count;
-  }
+    std::size_t sum = 0;
+    for (std::size_t v = begin; v < end; ++v)
+    {
+      sum += static_cast<std::size_t>(mesh.Rings[v].Count);
+    }
+    return sum;
+  };
+  const std::size_t n = mesh.Rings.size();
+  const std::vector<std::size_t> before = FirstOfBlocks(executor, n, BlockSize, sumOf);
+  ForBlocks(executor, n, BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      std::size_t next = before[block];
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        next += static_cast<std::size_t>(mesh.Rings[v].Count);
+        this->First[v + 1] = next;
+      }
+    });
 }
 
 KeptEdges::KeptEdges(const SurfaceMesh& mesh) : Mesh(mesh), Slots(mesh), Flags(Slots.Count(), 0) {}
@@ -39,6 +64,10 @@ void KeptEdges::MakeRoom()
     for (int v = 0; v < this->Mesh.Size(); ++v)
     {
       const int count = this->Mesh.Rings[v].Count;
+      if (count + count / 2 <= Ring::Capacity)
+      {
+        continue; // Runs have edges between them that are not kept.
+      }
       int runs = 0;
       for (int i = 0; i < count; ++i)
       {
@@ -69,11 +98,10 @@ void Append(Ring& ring, int vertex)
 class SqrtThreeDivision
 {
 public:
-  SqrtThreeDivision(SurfaceMesh& mesh, const KeptEdges* kept)
-    : Mesh(mesh), Kept(kept), OldVertices(mesh.Size()), Slots(mesh), Centre(Slots.Count(), None),
-      Middle(Slots.Count(), None)
+  SqrtThreeDivision(SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
+    : Mesh(mesh), Kept(kept), Threads(executor), Olds(mesh.Rings.size()), Slots(mesh, executor),
+      Centre(Slots.Count(), None), Middle(kept ? Slots.Count() : 0, None)
   {
-    this->Faces.reserve(this->Centre.size() / 3);
   }
 
   std::vector<std::array<int, 3>> Run()
@@ -81,100 +109,135 @@ public:
     this->AddCentres();
     this->AddMiddles();
     this->Mesh.Rings.resize(this->Mesh.Position.size());
-    for (std::size_t f = 0; f < this->Faces.size(); ++f)
+    const auto forAll = [this](std::size_t n, void (SqrtThreeDivision::*join)(std::size_t))
     {
-      this->JoinCentre(f);
-    }
-    for (std::size_t e = 0; e < this->HalvedEdges.size(); ++e)
-    {
-      this->JoinMiddle(e);
-    }
-    for (int v = 0; v < this->OldVertices; ++v)
-    {
-      this->JoinOld(v);
-    }
+      ForBlocks(this->Threads, n, BlockSize,
+        [&](std::size_t, std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            (this->*join)(i);
+          }
+        });
+    };
+    forAll(this->Faces.size(), &SqrtThreeDivision::JoinCentre);
+    forAll(this->HalvedEdges.size(), &SqrtThreeDivision::JoinMiddle);
+    forAll(this->Olds, &SqrtThreeDivision::JoinOld);
     return std::move(this->Faces);
   }
 
 private:
-  int Slot(int v, int neighbour) const
+  std::size_t Slot(int v, int neighbour) const
   {
     return this->Slots.At(v, this->Mesh.Rings[v].Find(neighbour));
   }
+  int MiddleAt(std::size_t slot) const { return this->Kept ? this->Middle[slot] : None; }
+  /** Calls visit(v, place in its ring) for the kept edges whose smaller end is in a range. */
+  template <typename Visit>
+  void VisitKept(std::size_t begin, std::size_t end, Visit&& visit) const;
 
   void AddCentres();
   void AddMiddles();
   void JoinCentre(std::size_t face);
   void JoinMiddle(std::size_t edge);
-  void JoinOld(int v);
+  void JoinOld(std::size_t vertex);
 
   SurfaceMesh& Mesh;
   const KeptEdges* Kept;
-  const int OldVertices;
+  Executor& Threads;
+  const std::size_t Olds;
   EdgeSlots Slots;
   std::vector<int> Centre; ///< New vertex of the face (v, ring[i], ring[i + 1]).
-  std::vector<int> Middle; ///< New vertex of the edge; None: it is flipped.
+  std::vector<int> Middle; ///< New vertex of the edge; None: it is flipped. Empty: all are.
   std::vector<std::array<int, 3>> Faces;
   std::vector<std::array<int, 2>> HalvedEdges;
 };
 
 void SqrtThreeDivision::AddCentres()
 {
-  for (int v = 0; v < this->OldVertices; ++v)
-  {
-    const Ring& ring = this->Mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
+  const std::vector<std::size_t> first = FirstOfBlocks(this->Threads, this->Olds, BlockSize,
+    [this](std::size_t begin, std::size_t end) { return this->Mesh.CountFaces(begin, end); });
+  this->Faces.resize(first.back());
+  std::vector<Vector>& position = this->Mesh.Position;
+  position.resize(this->Olds + this->Faces.size());
+  ForBlocks(this->Threads, this->Olds, BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
     {
-      const int b = ring.Item[i];
-      const int c = ring.Next(i);
-      if (v < b && v < c)
+      std::size_t next = first[block];
+      this->Mesh.VisitFaces(begin, end,
+        [&](int a, int b, int c)
+        {
+          const std::size_t number = this->Olds + next;
+          this->Faces[next++] = { a, b, c };
+          for (const std::size_t slot : { this->Slot(a, b), this->Slot(b, c), this->Slot(c, a) })
+          {
+            this->Centre[slot] = static_cast<int>(number);
+          }
+          position[number] = (position[a] + position[b] + position[c]) * (1.f / 3.f);
+        });
+    });
+}
+
+template <typename Visit>
+void SqrtThreeDivision::VisitKept(std::size_t begin, std::size_t end, Visit&& visit) const
+{
+  for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+  {
+    for (int i = 0; i < this->Mesh.Rings[v].Count; ++i)
+    {
+      if (v < this->Mesh.Rings[v].Item[i] && this->Kept->Has(v, i))
       {
-        const int number = this->OldVertices + static_cast<int>(this->Faces.size());
-        this->Faces.push_back({ v, b, c });
-        this->Centre[this->Slots.At(v, i)] = number;
-        this->Centre[this->Slot(b, c)] = number;
-        this->Centre[this->Slot(c, v)] = number;
+        visit(v, i);
       }
     }
-  }
-  std::vector<Vector>& position = this->Mesh.Position;
-  position.reserve(position.size() + this->Faces.size());
-  for (const std::array<int, 3>& face : this->Faces)
-  {
-    position.push_back((position[face[0]] + position[face[1]] + position[face[2]]) * (1.f / 3.f));
   }
 }
 
 void SqrtThreeDivision::AddMiddles()
 {
-  for (int v = 0; this->Kept && v < this->OldVertices; ++v)
+  if (!this->Kept)
   {
-    const Ring& ring = this->Mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      const int w = ring.Item[i];
-      if (v < w && this->Kept->Has(v, i))
-      {
-        const int number = static_cast<int>(this->Mesh.Position.size());
-        this->HalvedEdges.push_back({ v, w });
-        this->Mesh.Position.push_back((this->Mesh.Position[v] + this->Mesh.Position[w]) * 0.5f);
-        this->Middle[this->Slots.At(v, i)] = this->Middle[this->Slot(w, v)] = number;
-      }
-    }
+    return;
   }
+  const std::vector<std::size_t> first = FirstOfBlocks(this->Threads, this->Olds, BlockSize,
+    [this](std::size_t begin, std::size_t end)
+    {
+      std::size_t count = 0;
+      this->VisitKept(begin, end, [&count](int, int) { ++count; });
+      return count;
+    });
+  this->HalvedEdges.resize(first.back());
+  std::vector<Vector>& position = this->Mesh.Position;
+  const std::size_t before = position.size();
+  position.resize(before + this->HalvedEdges.size());
+  ForBlocks(this->Threads, this->Olds, BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      std::size_t next = first[block];
+      this->VisitKept(begin, end,
+        [&](int v, int i)
+        {
+          const int w = this->Mesh.Rings[v].Item[i];
+          const std::size_t number = before + next;
+          this->HalvedEdges[next++] = { v, w };
+          position[number] = (position[v] + position[w]) * 0.5f;
+          this->Middle[this->Slots.At(v, i)] = static_cast<int>(number);
+          this->Middle[this->Slot(w, v)] = static_cast<int>(number);
+        });
+    });
 }
 
 void SqrtThreeDivision::JoinCentre(std::size_t face)
 {
   // Corner, then what lies across the edge to the next corner.
-  Ring& ring = this->Mesh.Rings[this->OldVertices + face];
+  Ring& ring = this->Mesh.Rings[this->Olds + face];
   for (int k = 0; k < 3; ++k)
   {
     const int a = this->Faces[face][k];
     const int b = this->Faces[face][(k + 1) % 3];
     const int c = this->Faces[face][(k + 2) % 3];
-    const int middle = this->Middle[this->Slot(a, b)];
-    const bool isCutOff = middle != None && this->Middle[this->Slot(a, c)] != None;
+    const int middle = this->MiddleAt(this->Slot(a, b));
+    const bool isCutOff = middle != None && this->MiddleAt(this->Slot(a, c)) != None;
     Append(ring, isCutOff ? None : a);
     Append(ring, middle != None ? middle : this->Centre[this->Slot(b, a)]);
   }
@@ -186,7 +249,7 @@ void SqrtThreeDivision::JoinMiddle(std::size_t edge)
   const int v = this->HalvedEdges[edge][1];
   const int left = this->Mesh.Rings[u].After(v);
   const int right = this->Mesh.Rings[u].Before(v);
-  Ring& ring = this->Mesh.Rings[this->OldVertices + this->Faces.size() + edge];
+  Ring& ring = this->Mesh.Rings[this->Olds + this->Faces.size() + edge];
   Append(ring, u);
   Append(ring, this->Middle[this->Slot(u, right)]);
   Append(ring, this->Centre[this->Slot(v, u)]);
@@ -197,15 +260,16 @@ void SqrtThreeDivision::JoinMiddle(std::size_t edge)
   Append(ring, this->Middle[this->Slot(u, left)]);
 }
 
-void SqrtThreeDivision::JoinOld(int v)
+void SqrtThreeDivision::JoinOld(std::size_t vertex)
 {
+  const int v = static_cast<int>(vertex);
   Ring ring;
   const int count = this->Mesh.Rings[v].Count;
   for (int i = 0; i < count; ++i)
   {
-    const int middle = this->Middle[this->Slots.At(v, i)];
+    const int middle = this->MiddleAt(this->Slots.At(v, i));
     const bool isCutOff =
-      middle != None && this->Middle[this->Slots.At(v, i + 1 < count ? i + 1 : 0)] != None;
+      middle != None && this->MiddleAt(this->Slots.At(v, i + 1 < count ? i + 1 : 0)) != None;
     Append(ring, middle);
     Append(ring, isCutOff ? None : this->Centre[this->Slots.At(v, i)]);
   }
@@ -213,26 +277,32 @@ void SqrtThreeDivision::JoinOld(int v)
 }
 }
 
-std::vector<std::array<int, 3>> Divide(SurfaceMesh& mesh, const KeptEdges* kept)
+std::vector<std::array<int, 3>> Divide(
+  SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
 {
-  return SqrtThreeDivision(mesh, kept).Run();
+  return SqrtThreeDivision(mesh, kept, executor).Run();
 }
 
-SurfaceMesh Undivided(const SurfaceMesh& mesh, int numberOfVertices)
+SurfaceMesh Undivided(const SurfaceMesh& mesh, int numberOfVertices, Executor& executor)
 {
   SurfaceMesh old;
   old.Position.assign(mesh.Position.begin(), mesh.Position.begin() + numberOfVertices);
   old.Rings.resize(numberOfVertices);
-  for (int v = 0; v < numberOfVertices; ++v)
-  {
-    // The edge between the centres of two faces at v was flipped from v and the other vertex there.
-    const Ring& ring = mesh.Rings[v];
-    old.Rings[v].Count = ring.Count;
-    for (int i = 0; i < ring.Count; ++i)
+  ForBlocks(executor, old.Rings.size(), BlockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      old.Rings[v].Item[i] = mesh.Rings[ring.Item[i]].After(ring.Previous(i));
-    }
-  }
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        // The edge between the centres of two faces at v was flipped from v and the other vertex
+        // there.
+        const Ring& ring = mesh.Rings[v];
+        old.Rings[v].Count = ring.Count;
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          old.Rings[v].Item[i] = mesh.Rings[ring.Item[i]].After(ring.Previous(i));
+        }
+      }
+    });
   return old;
 }
 }

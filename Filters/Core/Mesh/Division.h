@@ -3,6 +3,7 @@
 #ifndef volumicDivision_h
 #define volumicDivision_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
 #include <array>
@@ -16,14 +17,17 @@ namespace volumic
 class EdgeSlots
 {
 public:
-  explicit EdgeSlots(const SurfaceMesh& mesh);
+  explicit EdgeSlots(const SurfaceMesh& mesh, Executor& executor = OnThisThread());
 
   /** Of the edge from v to its neighbour i, and of the face between that neighbour and the next. */
-  int At(int v, int i) const { return this->First[v] + i; }
-  std::size_t Count() const { return static_cast<std::size_t>(this->First.back()); }
+  std::size_t At(int v, int i) const
+  {
+    return this->First[static_cast<std::size_t>(v)] + static_cast<std::size_t>(i);
+  }
+  std::size_t Count() const { return this->First.back(); }
 
 private:
-  std::vector<int> First;
+  std::vector<std::size_t> First; ///< Six for each vertex are more than an int counts.
 };
 
 /** Edges of a mesh that a division is to leave where they are. The mesh must stay as it is. */
@@ -67,10 +71,12 @@ private:
  * @return the old faces: the centre of face i is the vertex with i plus the number of old ones.
  * The middles of edges come last. `mesh` must have no free places, `kept` be of a copy of it.
  */
-std::vector<std::array<int, 3>> Divide(SurfaceMesh& mesh, const KeptEdges* kept = nullptr);
+std::vector<std::array<int, 3>> Divide(SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
+  Executor& executor = OnThisThread());
 
 /** What Divide(mesh) has made the mesh from; that had so many vertices. */
-SurfaceMesh Undivided(const SurfaceMesh& mesh, int numberOfVertices);
+SurfaceMesh Undivided(
+  const SurfaceMesh& mesh, int numberOfVertices, Executor& executor = OnThisThread());
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace volumic
 {
@@ -19,29 +20,54 @@ constexpr double FlatVolume = 1e-9;
 /** The axes of the entries of a symmetric tensor, in the order in which they are kept. */
 constexpr int TensorAxes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
 
-/** Sums over the tetrahedra that the triangles span with a reference point of the component. */
-struct Sums
+/** Points or triangles that one thread looks at at a time. */
+constexpr std::size_t BlockSize = 8192;
+/** Triangles whose terms are kept until they are added up. */
+constexpr std::size_t BatchSize = 16 * BlockSize;
+
+/** What a triangle adds: it spans a tetrahedron with a reference point of the component. */
+struct Terms
 {
-  Point Reference = { 0., 0., 0. };
   double Area = 0.;
   double Volume = 0.;
   std::array<double, 3> AreaMoment{};
   std::array<double, 3> First{};
   std::array<double, 6> Second{}; ///< By TensorAxes.
-  int Vertices = 0;
-  int Triangles = 0;
 };
 
-void AddTriangle(Sums& sums, const Point& pa, const Point& pb, const Point& pc)
+struct Sums : Terms
+{
+  Point Reference = { 0., 0., 0. };
+  int Vertices = 0;
+  int Triangles = 0;
+
+  void Add(const Terms& terms)
+  {
+    this->Area += terms.Area;
+    this->Volume += terms.Volume;
+    for (int k = 0; k < 3; ++k)
+    {
+      this->AreaMoment[k] += terms.AreaMoment[k];
+      this->First[k] += terms.First[k];
+    }
+    for (int k = 0; k < 6; ++k)
+    {
+      this->Second[k] += terms.Second[k];
+    }
+    ++this->Triangles;
+  }
+};
+
+Terms TermsOf(const Point& reference, const Point& pa, const Point& pb, const Point& pc)
 {
   std::array<double, 3> a;
   std::array<double, 3> b;
   std::array<double, 3> c;
   for (int k = 0; k < 3; ++k)
   {
-    a[k] = pa[k] - sums.Reference[k];
-    b[k] = pb[k] - sums.Reference[k];
-    c[k] = pc[k] - sums.Reference[k];
+    a[k] = pa[k] - reference[k];
+    b[k] = pb[k] - reference[k];
+    c[k] = pc[k] - reference[k];
   }
   const std::array<double, 3> u = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
   const std::array<double, 3> v = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
@@ -50,12 +76,13 @@ void AddTriangle(Sums& sums, const Point& pa, const Point& pb, const Point& pc)
   const double area = 0.5 * std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   // Six times the volume of the tetrahedron: a . (b x c) = a . n.
   const double det = a[0] * n[0] + a[1] * n[1] + a[2] * n[2];
-  sums.Area += area;
-  sums.Volume += det / 6.;
+  Terms terms;
+  terms.Area = area;
+  terms.Volume = det / 6.;
   for (int k = 0; k < 3; ++k)
   {
-    sums.AreaMoment[k] += area * (a[k] + b[k] + c[k]) / 3.;
-    sums.First[k] += det * (a[k] + b[k] + c[k]) / 24.;
+    terms.AreaMoment[k] = area * (a[k] + b[k] + c[k]) / 3.;
+    terms.First[k] = det * (a[k] + b[k] + c[k]) / 24.;
   }
   for (int k = 0; k < 6; ++k)
   {
@@ -63,9 +90,9 @@ void AddTriangle(Sums& sums, const Point& pa, const Point& pb, const Point& pc)
     const int j = TensorAxes[k][1];
     const double si = a[i] + b[i] + c[i];
     const double sj = a[j] + b[j] + c[j];
-    sums.Second[k] += det * (si * sj + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]) / 120.;
+    terms.Second[k] = det * (si * sj + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]) / 120.;
   }
-  ++sums.Triangles;
+  return terms;
 }
 
 ComponentFeatures Finish(const Sums& sums)
@@ -96,40 +123,118 @@ ComponentFeatures Finish(const Sums& sums)
     -second[3], -second[4], -second[5] };
   return result;
 }
+
+constexpr int NoComponent = -1;
+
+/** The components of a surface, numbered in the order of their first triangles. */
+class Components
+{
+public:
+  Components(const IndexedSurface& surface, Executor& executor);
+
+  std::vector<int> OfTriangle;
+  std::vector<int> FirstTriangle; ///< Of each component.
+  std::vector<int> Vertices;      ///< Their number.
+
+private:
+  void FindRoots(const IndexedSurface& surface, Executor& executor);
+  void Number(const IndexedSurface& surface, Executor& executor);
+
+  std::vector<int> Root; ///< Of a point's component, the smallest point in it.
+};
+
+Components::Components(const IndexedSurface& surface, Executor& executor)
+{
+  this->FindRoots(surface, executor);
+  this->Number(surface, executor);
 }
 
-SurfaceFeatures ComputeFeatures(const IndexedSurface& surface)
+void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
 {
   DisjointSets joined(surface.Points.size());
   for (const Triangle& t : surface.Triangles)
   {
-    joined.Join(t[0], t[1]);
-    joined.Join(t[1], t[2]);
+    joined.Join(joined.Join(t[0], t[1]), t[2]);
   }
-  std::vector<int> number(surface.Points.size(), -1);
-  std::vector<Sums> sums;
-  std::vector<int> component(surface.Triangles.size());
+  this->Root.resize(surface.Points.size());
+  ForBlocks(executor, this->Root.size(), BlockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        this->Root[p] = joined.FindRoot(static_cast<int>(p));
+      }
+    });
+}
+
+void Components::Number(const IndexedSurface& surface, Executor& executor)
+{
+  // By the place of the root: its number.
+  std::vector<int> number(this->Root.size(), NoComponent);
   for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
   {
-    const Triangle& t = surface.Triangles[i];
-    int& c = number[joined.Find(t[0])];
-    if (c < 0)
+    int& c = number[this->Root[surface.Triangles[i][0]]];
+    if (c == NoComponent)
     {
-      c = static_cast<int>(sums.size());
-      sums.emplace_back();
-      sums.back().Reference = surface.Points[t[0]];
+      c = static_cast<int>(this->FirstTriangle.size());
+      this->FirstTriangle.push_back(static_cast<int>(i));
     }
-    component[i] = c;
-    AddTriangle(sums[c], surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]]);
   }
-  for (std::size_t v = 0; v < surface.Points.size(); ++v)
+  this->OfTriangle.resize(surface.Triangles.size());
+  ForBlocks(executor, this->OfTriangle.size(), BlockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->OfTriangle[i] = number[this->Root[surface.Triangles[i][0]]];
+      }
+    });
+  this->Vertices.assign(this->FirstTriangle.size(), 0);
+  for (const int root : this->Root)
   {
-    const int c = number[joined.Find(static_cast<int>(v))];
-    if (c >= 0)
+    if (number[root] != NoComponent)
     {
-      ++sums[c].Vertices;
+      ++this->Vertices[number[root]];
     }
   }
+}
+
+std::vector<Sums> SumsOf(
+  const IndexedSurface& surface, const Components& components, Executor& executor)
+{
+  std::vector<Sums> sums(components.FirstTriangle.size());
+  for (std::size_t c = 0; c < sums.size(); ++c)
+  {
+    sums[c].Reference = surface.Points[surface.Triangles[components.FirstTriangle[c]][0]];
+    sums[c].Vertices = components.Vertices[c];
+  }
+  std::vector<Terms> terms(std::min(surface.Triangles.size(), BatchSize));
+  for (std::size_t first = 0; first < surface.Triangles.size(); first += BatchSize)
+  {
+    const std::size_t count = std::min(BatchSize, surface.Triangles.size() - first);
+    ForBlocks(executor, count, BlockSize,
+      [&](std::size_t, std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Triangle& t = surface.Triangles[first + i];
+          terms[i] = TermsOf(sums[components.OfTriangle[first + i]].Reference,
+            surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]]);
+        }
+      });
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      sums[components.OfTriangle[first + i]].Add(terms[i]);
+    }
+  }
+  return sums;
+}
+}
+
+SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executor)
+{
+  Components components(surface, executor);
+  const std::vector<Sums> sums = SumsOf(surface, components, executor);
   std::vector<int> order(sums.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(
@@ -146,11 +251,15 @@ SurfaceFeatures ComputeFeatures(const IndexedSurface& surface)
     result.Genus += features.Genus;
     result.Components.push_back(features);
   }
-  result.ComponentOfTriangle.resize(component.size());
-  for (std::size_t i = 0; i < component.size(); ++i)
-  {
-    result.ComponentOfTriangle[i] = rank[component[i]];
-  }
+  result.ComponentOfTriangle = std::move(components.OfTriangle);
+  ForBlocks(executor, result.ComponentOfTriangle.size(), BlockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        result.ComponentOfTriangle[i] = rank[result.ComponentOfTriangle[i]];
+      }
+    });
   return result;
 }
 }

@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceFeatures_h
 #define volumicSurfaceFeatures_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 
 #include <array>
@@ -38,9 +39,11 @@ struct SurfaceFeatures
  * Inertia is the tensor of the enclosed solid of density 1 about its centroid: the diagonal holds
  * the moments of inertia (xx = integral of y^2 + z^2), the rest the products with the sign of the
  * tensor (xy = - integral of x y). For a cavity it carries the sign of the volume.
- * Sums run over triangles in order, so results do not depend on threads.
+ * Sums run over triangles in order, so results do not depend on threads: these find out what is
+ * added up.
  */
-SurfaceFeatures ComputeFeatures(const IndexedSurface& surface);
+SurfaceFeatures ComputeFeatures(
+  const IndexedSurface& surface, Executor& executor = OnThisThread());
 }
 
 #endif

@@ -41,6 +41,9 @@ public:
         Cross(VectorD(mesh.Position[b]) - this->Origin, VectorD(mesh.Position[c]) - this->Origin));
   }
 
+  /** Adds what another one of the same origin has added up. */
+  void Add(const SignedVolume& other) { this->Eighteenfold += other.Eighteenfold; }
+
   double Value() const { return this->Eighteenfold / 18.; }
 
 private:

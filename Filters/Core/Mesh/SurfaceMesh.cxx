@@ -2,16 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceMesh.h"
 
+#include "Core/Common/Blocks.h"
+#include "Core/Common/Box.h"
+#include "Core/Common/Grow.h"
 #include "Core/Common/Refuse.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 namespace volumic
 {
+namespace
+{
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexBlock = 8192;
+}
+
 bool SurfaceMesh::AreFarApart(int v, int w) const
 {
   const Ring& first = this->Rings[v];
@@ -41,59 +51,125 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   return true;
 }
 
-int SurfaceMesh::AddVertex(const Vector& position)
+int SurfaceMesh::AddVertex(const Vector& position, VertexPlaces* places)
 {
-  if (!this->Free.empty())
+  std::vector<int>& free = places ? places->Free : this->Free;
+  if (free.empty())
   {
-    const int v = this->Free.back();
-    this->Free.pop_back();
-    this->Position[v] = position;
-    return v;
+    Grow(this->Position, this->Position.size() + 1, Vector());
+    Grow(this->Rings, this->Rings.size() + 1, Ring());
+    free.push_back(this->Size() - 1);
   }
-  this->Position.push_back(position);
-  this->Rings.emplace_back();
-  return this->Size() - 1;
+  const int v = free.back();
+  free.pop_back();
+  this->Position[v] = position;
+  return v;
 }
 
-void SurfaceMesh::RemoveVertex(int v)
+void SurfaceMesh::RemoveVertex(int v, VertexPlaces* places)
 {
   this->Rings[v].Count = 0;
-  this->Free.push_back(v);
+  (places ? places->Removed : this->Free).push_back(v);
 }
 
-int SurfaceMesh::NumberOfFaces() const
+void SurfaceMesh::Lend(VertexPlaces& places, std::size_t n)
 {
-  std::int64_t ends = 0;
-  for (const Ring& ring : this->Rings)
+  const std::size_t size = this->Rings.size();
+  const std::size_t missing = n > this->Free.size() ? n - this->Free.size() : 0;
+  Grow(this->Position, size + missing, Vector());
+  Grow(this->Rings, size + missing, Ring());
+  // The last of them is taken first.
+  for (std::size_t i = missing; i > 0; --i)
   {
-    ends += ring.Count;
+    places.Free.push_back(static_cast<int>(size + i - 1));
   }
-  return static_cast<int>(ends / 3);
+  const auto first = this->Free.end() - static_cast<std::ptrdiff_t>(n - missing);
+  places.Free.insert(places.Free.end(), first, this->Free.end());
+  this->Free.erase(first, this->Free.end());
 }
 
-int SurfaceMesh::CountEulerCharacteristic() const
+void SurfaceMesh::TakeBack(VertexPlaces& places)
+{
+  this->Free.insert(this->Free.end(), places.Free.begin(), places.Free.end());
+  places.Free.clear();
+}
+
+void SurfaceMesh::TakeRemoved(VertexPlaces& places)
+{
+  this->Free.insert(this->Free.end(), places.Removed.begin(), places.Removed.end());
+  places.Removed.clear();
+}
+
+std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const
+{
+  const std::size_t ends = CountInBlocks(executor, this->Rings.size(), VertexBlock,
+    [this](std::size_t begin, std::size_t end)
+    {
+      std::size_t count = 0;
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        count += static_cast<std::size_t>(this->Rings[v].Count);
+      }
+      return count;
+    });
+  return static_cast<std::int64_t>(ends / 3);
+}
+
+int SurfaceMesh::CountEulerCharacteristic(Executor& executor) const
 {
   // Every face has three half edges, every edge two: V - E + F = V - F / 2.
-  return this->NumberOfVertices() - this->NumberOfFaces() / 2;
+  return static_cast<int>(this->NumberOfVertices() - this->NumberOfFaces(executor) / 2);
 }
 
-IndexedSurface SurfaceMesh::ToIndexed() const
+namespace
+{
+/** For each block of vertices the number of alive ones before it, and that of all. */
+std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
+{
+  return FirstOfBlocks(executor, mesh.Rings.size(), VertexBlock,
+    [&mesh](std::size_t begin, std::size_t end)
+    {
+      std::size_t count = 0;
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        count += mesh.IsAlive(static_cast<int>(v));
+      }
+      return count;
+    });
+}
+}
+
+IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
 {
   IndexedSurface surface;
   std::vector<int> place(this->Rings.size(), -1);
-  surface.Points.reserve(this->NumberOfVertices());
-  for (int v = 0; v < this->Size(); ++v)
-  {
-    if (this->IsAlive(v))
+  const std::vector<std::size_t> firstPoint = FirstAlive(*this, executor);
+  surface.Points.resize(firstPoint.back());
+  ForBlocks(executor, this->Rings.size(), VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
     {
-      place[v] = static_cast<int>(surface.Points.size());
-      const Vector& p = this->Position[v];
-      surface.Points.push_back({ p.X, p.Y, p.Z });
-    }
-  }
-  surface.Triangles.reserve(this->NumberOfFaces());
-  this->VisitFaces([&](int a, int b, int c)
-    { surface.Triangles.push_back({ place[a], place[b], place[c] }); });
+      std::size_t next = firstPoint[block];
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (this->IsAlive(static_cast<int>(v)))
+        {
+          place[v] = static_cast<int>(next);
+          const Vector& p = this->Position[v];
+          surface.Points[next++] = { p.X, p.Y, p.Z };
+        }
+      }
+    });
+  const std::vector<std::size_t> firstFace =
+    FirstOfBlocks(executor, this->Rings.size(), VertexBlock,
+      [this](std::size_t begin, std::size_t end) { return this->CountFaces(begin, end); });
+  surface.Triangles.resize(firstFace.back());
+  ForBlocks(executor, this->Rings.size(), VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      std::size_t next = firstFace[block];
+      this->VisitFaces(begin, end, [&](int a, int b, int c)
+        { surface.Triangles[next++] = { place[a], place[b], place[c] }; });
+    });
   return surface;
 }
 
@@ -166,51 +242,84 @@ Ring RingOf(int vertex, DirectedEdge* edges, int count)
 }
 }
 
-int SurfaceMesh::Append(const IndexedSurface& surface)
+int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 {
-  const int n = static_cast<int>(surface.Points.size());
+  const std::size_t n = surface.Points.size();
   OppositeEdges opposite(surface);
-  std::vector<Ring> rings(n); // Nothing is added before all is found to be sound.
-  for (int v = 0; v < n; ++v)
-  {
-    const int start = opposite.Start[v];
-    rings[v] = RingOf(v, opposite.Edges.data() + start, opposite.Start[v + 1] - start);
-  }
   const int first = this->Size();
-  for (int v = 0; v < n; ++v)
+  std::vector<Ring> rings(n); // Nothing is added before all is found to be sound.
+  const auto find = [&](std::size_t begin, std::size_t end)
   {
-    for (int i = 0; i < rings[v].Count; ++i)
+    for (std::size_t v = begin; v < end; ++v)
     {
-      rings[v].Item[i] += first;
+      const int start = opposite.Start[v];
+      rings[v] = RingOf(
+        static_cast<int>(v), opposite.Edges.data() + start, opposite.Start[v + 1] - start);
+      for (int i = 0; i < rings[v].Count; ++i)
+      {
+        rings[v].Item[i] += first;
+      }
     }
-    const Point& p = surface.Points[v];
-    this->Position.emplace_back(
-      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-    this->Rings.push_back(rings[v]);
+  };
+  std::vector<std::exception_ptr> faults((n + VertexBlock - 1) / VertexBlock);
+  ForBlocks(executor, n, VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      try
+      {
+        find(begin, end);
+      }
+      catch (...)
+      {
+        faults[block] = std::current_exception();
+      }
+    });
+  for (const std::exception_ptr& fault : faults)
+  {
+    if (fault)
+    {
+      std::rethrow_exception(fault); // The first one, whichever was found first.
+    }
   }
+  this->Position.resize(this->Position.size() + n);
+  for (std::size_t v = 0; v < n; ++v)
+  {
+    const Point& p = surface.Points[v];
+    this->Position[static_cast<std::size_t>(first) + v] = Vector(
+      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+  }
+  this->Rings.insert(this->Rings.end(), rings.begin(), rings.end());
   return first;
 }
 
-void SurfaceMesh::Reorder(const std::vector<int>& order)
+void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
   std::vector<int> place(this->Rings.size(), -1);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    place[order[i]] = static_cast<int>(i);
-  }
   std::vector<Vector> position(order.size());
   std::vector<Ring> rings(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    position[i] = this->Position[order[i]];
-    const Ring& from = this->Rings[order[i]];
-    rings[i].Count = from.Count;
-    for (int k = 0; k < from.Count; ++k)
+  ForBlocks(executor, order.size(), VertexBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      rings[i].Item[k] = place[from.Item[k]];
-    }
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        place[order[i]] = static_cast<int>(i);
+        position[i] = this->Position[order[i]];
+      }
+    });
   this->Position.swap(position);
+  ForBlocks(executor, order.size(), VertexBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Ring& from = this->Rings[order[i]];
+        rings[i].Count = from.Count;
+        for (int k = 0; k < from.Count; ++k)
+        {
+          rings[i].Item[k] = place[from.Item[k]];
+        }
+      }
+    });
   this->Rings.swap(rings);
   this->Free.clear();
 }
@@ -237,38 +346,55 @@ std::uint64_t SpreadBits(std::uint64_t x)
 }
 }
 
-std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell)
+std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executor& executor)
 {
-  float low[3] = { std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
-    std::numeric_limits<float>::max() };
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (mesh.IsAlive(v))
+  const std::size_t n = mesh.Rings.size();
+  constexpr float most = std::numeric_limits<float>::max();
+  std::vector<Vector> lows((n + VertexBlock - 1) / VertexBlock, Vector(most, most, most));
+  ForBlocks(executor, n, VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
     {
-      low[0] = std::min(low[0], mesh.Position[v].X);
-      low[1] = std::min(low[1], mesh.Position[v].Y);
-      low[2] = std::min(low[2], mesh.Position[v].Z);
-    }
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (mesh.IsAlive(static_cast<int>(v)))
+        {
+          lows[block] = Minimum(lows[block], mesh.Position[v]);
+        }
+      }
+    });
+  Vector low(most, most, most);
+  for (const Vector& ofBlock : lows)
+  {
+    low = Minimum(low, ofBlock);
   }
-  std::vector<std::pair<std::uint64_t, int>> keys;
-  keys.reserve(mesh.NumberOfVertices());
   const auto bits = [cell](float x, float from)
   { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (mesh.IsAlive(v))
+  const std::vector<std::size_t> first = FirstAlive(mesh, executor);
+  std::vector<std::pair<std::uint64_t, int>> keys(first.back());
+  ForBlocks(executor, n, VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
     {
-      const Vector& p = mesh.Position[v];
-      keys.emplace_back(bits(p.X, low[0]) | bits(p.Y, low[1]) << 1 | bits(p.Z, low[2]) << 2, v);
-    }
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<int> order;
-  order.reserve(keys.size());
-  for (const auto& key : keys)
-  {
-    order.push_back(key.second);
-  }
+      std::size_t next = first[block];
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (mesh.IsAlive(static_cast<int>(v)))
+        {
+          const Vector& p = mesh.Position[v];
+          keys[next++] = { bits(p.X, low.X) | bits(p.Y, low.Y) << 1 | bits(p.Z, low.Z) << 2,
+            static_cast<int>(v) };
+        }
+      }
+    });
+  SortInBlocks(executor, keys);
+  std::vector<int> order(keys.size());
+  ForBlocks(executor, keys.size(), VertexBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        order[i] = keys[i].second;
+      }
+    });
   return order;
 }
 }

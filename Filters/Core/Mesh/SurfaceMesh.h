@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceMesh_h
 #define volumicSurfaceMesh_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Vector.h"
 
@@ -70,6 +71,16 @@ struct alignas(64) Ring
 };
 
 /**
+ * The places that edits take for new vertices, and those of the vertices that they remove, where
+ * edits are made side by side and must not all use the mesh's own list of free places.
+ */
+struct VertexPlaces
+{
+  std::vector<int> Free;    ///< No vertices yet; taken from the back.
+  std::vector<int> Removed; ///< Not to be taken before all the edits are done.
+};
+
+/**
  * A closed oriented triangulated mesh, possibly of several components.
  *
  * The rings alone are the connectivity: the faces are the triangles (v, ring[i], ring[i + 1]).
@@ -84,6 +95,7 @@ public:
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
+  /** Not while places are given away. */
   int NumberOfVertices() const { return this->Size() - static_cast<int>(this->Free.size()); }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
@@ -94,15 +106,33 @@ public:
    */
   bool AreFarApart(int v, int w) const;
 
-  /** @return the index of a new vertex; its ring is the caller's to fill before anything else. */
-  int AddVertex(const Vector& position);
-  void RemoveVertex(int v);
+  /**
+   * @param places where its index comes from, which must have one; null: the mesh's own, which
+   *               grows where it has none.
+   * @return the index of a new vertex; its ring is the caller's to fill before anything else.
+   */
+  int AddVertex(const Vector& position, VertexPlaces* places = nullptr);
+  /** @param places where its index goes; null: to the mesh's own. */
+  void RemoveVertex(int v, VertexPlaces* places = nullptr);
+
+  /** Gives n free places away; the mesh grows where it has too few. */
+  void Lend(VertexPlaces& places, std::size_t n);
+  /** Takes those back that have not been taken. */
+  void TakeBack(VertexPlaces& places);
+  /** Takes those of removed vertices, once nobody looks for these any more. */
+  void TakeRemoved(VertexPlaces& places);
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
   template <typename Visitor>
   void VisitFaces(Visitor&& visit) const
   {
-    for (int v = 0; v < this->Size(); ++v)
+    this->VisitFaces(0, this->Rings.size(), visit);
+  }
+  /** The same for the faces whose smallest index is in a range: those of all ranges are all. */
+  template <typename Visitor>
+  void VisitFaces(std::size_t begin, std::size_t end, Visitor&& visit) const
+  {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
     {
       const Ring& ring = this->Rings[v];
       for (int i = 0; i < ring.Count; ++i)
@@ -116,13 +146,20 @@ public:
       }
     }
   }
+  /** How many these are. */
+  std::size_t CountFaces(std::size_t begin, std::size_t end) const
+  {
+    std::size_t count = 0;
+    this->VisitFaces(begin, end, [&count](int, int, int) { ++count; });
+    return count;
+  }
 
-  int NumberOfFaces() const;
+  std::int64_t NumberOfFaces(Executor& executor = OnThisThread()) const;
   /** V - E + F, counted. */
-  int CountEulerCharacteristic() const;
+  int CountEulerCharacteristic(Executor& executor = OnThisThread()) const;
 
   /** All alive vertices, in order of index. */
-  IndexedSurface ToIndexed() const;
+  IndexedSurface ToIndexed(Executor& executor = OnThisThread()) const;
 
   /**
    * Adds the components of a closed oriented manifold triangle mesh.
@@ -130,10 +167,10 @@ public:
    * @throws std::invalid_argument if it is not closed, oriented and manifold, or a vertex has
    * more neighbours than a ring holds.
    */
-  int Append(const IndexedSurface& surface);
+  int Append(const IndexedSurface& surface, Executor& executor = OnThisThread());
 
   /** Renumbers: vertex i of the result is order[i] of before; all alive ones must occur once. */
-  void Reorder(const std::vector<int>& order);
+  void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
 
@@ -142,7 +179,8 @@ private:
 };
 
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`. */
-std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell);
+std::vector<int> SpaceFillingOrder(
+  const SurfaceMesh& mesh, double cell, Executor& executor = OnThisThread());
 }
 
 #endif

@@ -2,56 +2,157 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/VertexGrid.h"
 
+#include "Core/Common/Grow.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace volumic
 {
 namespace
 {
-/** A box much larger than what the surface could fill must not cost memory without limit. */
-constexpr double MaximumNumberOfCells = 1 << 26;
+/**
+ * A box much larger than what the surface could fill must not cost memory without limit: places for
+ * bricks take 8 bytes each. So many do for 2048 cells along each axis, and numbers of 32 bits for
+ * 1625 of them: images of 2500^3 voxels. Beyond that cells grow.
+ */
+constexpr double MaximumNumberOfBricks = 1 << 24;
+constexpr double MaximumNumberOfCells = 4294967295.;
 /** What cells grow by until they are few enough. */
 constexpr float CellGrowth = 1.25f;
+/** Vertices that one thread sorts into layers at a time. */
+constexpr std::size_t InsertedBlock = 1 << 15;
 }
 
 void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
 {
   const auto count = [&](float from, float to)
   { return std::max(1., std::ceil(static_cast<double>(to - from) / cell)); };
-  while (count(low.X, high.X) * count(low.Y, high.Y) * count(low.Z, high.Z) > MaximumNumberOfCells)
+  const auto bricks = [](double cells) { return std::ceil(cells / (Mask + 1)); };
+  double size[3];
+  const auto isTooFine = [&]
+  {
+    size[0] = count(low.X, high.X);
+    size[1] = count(low.Y, high.Y);
+    size[2] = count(low.Z, high.Z);
+    return size[0] * size[1] * size[2] >= MaximumNumberOfCells ||
+      bricks(size[0]) * bricks(size[1]) * bricks(size[2]) > MaximumNumberOfBricks;
+  };
+  while (isTooFine())
   {
     cell *= CellGrowth;
   }
-  this->Size[0] = static_cast<int>(count(low.X, high.X));
-  this->Size[1] = static_cast<int>(count(low.Y, high.Y));
-  this->Size[2] = static_cast<int>(count(low.Z, high.Z));
+  std::copy(size, size + 3, this->Size);
   this->Low[0] = low.X;
   this->Low[1] = low.Y;
   this->Low[2] = low.Z;
   this->Inverse = 1.f / cell;
-  this->Head.assign(static_cast<std::size_t>(this->Size[0]) * this->Size[1] * this->Size[2], -1);
+  this->BricksAlong[0] = static_cast<int>(bricks(size[0]));
+  this->BricksAlong[1] = static_cast<int>(bricks(size[1]));
+  const auto places =
+    static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
+  this->Made.clear();
+  this->Bricks = std::make_unique<std::atomic<Brick*>[]>(places); // All null.
   this->Next.clear();
   this->Cell.clear();
 }
 
+void VertexGrid::Resize(std::size_t n)
+{
+  Grow(this->Cell, n, NoCell);
+  Grow(this->Next, n, -1);
+}
+
+VertexGrid::Brick* VertexGrid::MakeBrick(std::size_t number)
+{
+  const std::lock_guard<std::mutex> lock(this->Making);
+  Brick* brick = this->Bricks[number].load(std::memory_order_relaxed);
+  if (!brick)
+  {
+    this->Made.push_back(std::make_unique<Brick>());
+    brick = this->Made.back().get();
+    brick->fill(-1);
+    this->Bricks[number].store(brick, std::memory_order_release);
+  }
+  return brick;
+}
+
+int& VertexGrid::HeadOf(std::uint32_t cell)
+{
+  const auto sizeX = static_cast<std::uint32_t>(this->Size[0]);
+  const auto sizeY = static_cast<std::uint32_t>(this->Size[1]);
+  const std::uint32_t row = cell / sizeX;
+  const int x = static_cast<int>(cell % sizeX);
+  const int y = static_cast<int>(row % sizeY);
+  const int z = static_cast<int>(row / sizeY);
+  const std::size_t number = this->NumberOfBrick(x, y, z);
+  Brick* brick = this->Bricks[number].load(std::memory_order_acquire);
+  if (!brick)
+  {
+    brick = this->MakeBrick(number);
+  }
+  return (*brick)[PlaceInBrick(x, y, z)];
+}
+
+void VertexGrid::Link(int v, std::uint32_t cell)
+{
+  int& head = this->HeadOf(cell);
+  this->Cell[v] = cell;
+  this->Next[v] = head;
+  head = v;
+}
+
 void VertexGrid::Insert(int v, const Vector& position)
 {
-  if (v >= static_cast<int>(this->Cell.size()))
+  if (static_cast<std::size_t>(v) >= this->Cell.size())
   {
-    this->Cell.resize(v + 1, -1);
-    this->Next.resize(v + 1, -1);
+    this->Resize(static_cast<std::size_t>(v) + 1);
   }
   this->Link(v, this->CellOf(position));
 }
 
+void VertexGrid::InsertAll(const std::vector<Vector>& positions,
+  const std::function<bool(int v)>& isThere, Executor& executor)
+{
+  this->Resize(positions.size());
+  // Threads link the vertices of different layers of bricks; each finds its own in their order.
+  const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
+  const std::size_t blocks = (positions.size() + InsertedBlock - 1) / InsertedBlock;
+  std::vector<std::vector<std::vector<int>>> lists(blocks);
+  ForBlocks(executor, positions.size(), InsertedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      lists[b].resize(layers);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = static_cast<int>(i);
+        if (isThere(v))
+        {
+          lists[b][static_cast<std::size_t>(this->Along(positions[i].Z, 2) >> Bits)].push_back(v);
+        }
+      }
+    });
+  ForBlocks(executor, layers, 1,
+    [&](std::size_t layer, std::size_t, std::size_t)
+    {
+      for (const auto& block : lists)
+      {
+        for (int v : block[layer])
+        {
+          this->Link(v, this->CellOf(positions[v]));
+        }
+      }
+    });
+}
+
 void VertexGrid::Remove(int v)
 {
-  int* link = &this->Head[this->Cell[v]];
+  int* link = &this->HeadOf(this->Cell[v]);
   while (*link != v)
   {
     link = &this->Next[*link];
   }
   *link = this->Next[v];
-  this->Cell[v] = -1;
+  this->Cell[v] = NoCell;
 }
 }

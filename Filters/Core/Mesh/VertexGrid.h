@@ -3,20 +3,35 @@
 #ifndef volumicVertexGrid_h
 #define volumicVertexGrid_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/Vector.h"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace volumic
 {
 /**
- * Dense grid of cells with a chain of vertices in each: the one proximity structure that
- * contacts, merges and verification share. Finding all pairs within a radius is O(n).
+ * Grid of cells with a chain of vertices in each: the one proximity structure that contacts, merges
+ * and verification share. Finding all pairs within a radius is O(n).
+ *
+ * Cells are kept in bricks of 8 x 8 x 8, which there are only where vertices have been: memory goes
+ * with the surface, not with the box.
  *
  * It is kept up to date vertex by vertex, at the cost of a comparison for one that stays in its
  * cell, so work follows the active part of the surface instead of its whole. Vertices numbered
  * along a space-filling curve make the chains run through memory nearly in order.
  * Positions beyond the grid belong to the cells of its border. Lengths: workspace.
+ *
+ * Threads may insert, remove and move vertices at the same time if no two of them touch, or visit,
+ * what another one changes: the same cell of the grid. There must be room for the vertices then.
  */
 class VertexGrid
 {
@@ -24,17 +39,28 @@ public:
   /** Empties it and lays cells of side `cell` over the box. */
   void Reset(const Vector& low, const Vector& high, float cell);
 
+  /** Makes room for vertices of indices below n. */
+  void Resize(std::size_t n);
+
   void Insert(int v, const Vector& position);
+  /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
+  void InsertAll(const std::vector<Vector>& positions, const std::function<bool(int v)>& isThere,
+    Executor& executor);
   void Remove(int v);
   /** To be called after the vertex has moved. */
   void Move(int v, const Vector& position)
   {
-    const int cell = this->CellOf(position);
+    const std::uint32_t cell = this->CellOf(position);
     if (cell != this->Cell[v])
     {
       this->Remove(v);
       this->Link(v, cell);
     }
+  }
+  /** Whether Move() has nothing to do. */
+  bool IsInPlace(int v, const Vector& position) const
+  {
+    return this->CellOf(position) == this->Cell[v];
   }
 
   /** Calls visit(w) for a superset of the vertices within `radius` of a point. */
@@ -68,41 +94,75 @@ public:
     {
       for (int y = y0; y <= y1; ++y)
       {
-        const int row = (z * this->Size[1] + y) * this->Size[0];
-        for (int x = x0; x <= x1; ++x)
+        for (int x = x0; x <= x1;)
         {
-          for (int w = this->Head[row + x]; w >= 0; w = this->Next[w])
+          // The part of the row that lies in one brick.
+          const int end = std::min(x1, x | Mask);
+          const Brick* brick = this->BrickAt(x, y, z);
+          if (!brick)
           {
-            visit(w);
+            x = end + 1;
+            continue;
+          }
+          const int* heads = brick->data() + PlaceInBrick(0, y, z);
+          for (; x <= end; ++x)
+          {
+            for (int w = heads[x & Mask]; w >= 0; w = this->Next[w])
+            {
+              visit(w);
+            }
           }
         }
       }
     }
   }
 
+  /** Bricks that there are, for tests of what it costs. */
+  std::size_t NumberOfBricks() const { return this->Made.size(); }
+
 private:
+  static constexpr int Bits = 3; ///< Of a coordinate within a brick.
+  static constexpr int Mask = (1 << Bits) - 1;
+  using Brick = std::array<int, std::size_t(1) << (3 * Bits)>; ///< First vertex of each cell, or -1.
+  static constexpr std::uint32_t NoCell = 0xffffffff;
+
+  static std::size_t PlaceInBrick(int x, int y, int z)
+  {
+    return static_cast<std::size_t>((((z & Mask) << Bits) + (y & Mask)) << Bits) + (x & Mask);
+  }
+  std::size_t NumberOfBrick(int x, int y, int z) const
+  {
+    return (static_cast<std::size_t>(z >> Bits) * this->BricksAlong[1] + (y >> Bits)) *
+      this->BricksAlong[0] + (x >> Bits);
+  }
+  const Brick* BrickAt(int x, int y, int z) const
+  {
+    return this->Bricks[this->NumberOfBrick(x, y, z)].load(std::memory_order_acquire);
+  }
   int Along(float x, int axis) const
   {
     const float place = (x - this->Low[axis]) * this->Inverse;
     const int last = this->Size[axis] - 1;
     return place <= 0 ? 0 : (place >= static_cast<float>(last) ? last : static_cast<int>(place));
   }
-  int CellOf(const Vector& p) const
+  std::uint32_t CellOf(const Vector& p) const
   {
-    return (this->Along(p.Z, 2) * this->Size[1] + this->Along(p.Y, 1)) * this->Size[0] +
-      this->Along(p.X, 0);
+    const std::size_t row =
+      static_cast<std::size_t>(this->Along(p.Z, 2)) * this->Size[1] + this->Along(p.Y, 1);
+    return static_cast<std::uint32_t>(row * this->Size[0] + this->Along(p.X, 0));
   }
-  void Link(int v, int cell)
-  {
-    this->Cell[v] = cell;
-    this->Next[v] = this->Head[cell];
-    this->Head[cell] = v;
-  }
+  /** The first vertex of a cell, in a brick that is made where there is none. */
+  int& HeadOf(std::uint32_t cell);
+  Brick* MakeBrick(std::size_t number);
+  void Link(int v, std::uint32_t cell);
 
-  std::vector<int> Head;
+  std::unique_ptr<std::atomic<Brick*>[]> Bricks; ///< Null where no vertex has been.
+  std::vector<std::unique_ptr<Brick>> Made;
+  std::mutex Making; ///< Held while a brick is made.
   std::vector<int> Next;
-  std::vector<int> Cell;
+  std::vector<std::uint32_t> Cell;
   int Size[3] = { 1, 1, 1 };
+  int BricksAlong[2] = { 1, 1 };
   float Low[3] = { 0, 0, 0 };
   float Inverse = 1;
 };

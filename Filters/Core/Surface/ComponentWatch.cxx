@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ComponentWatch.h"
 
-#include "Core/Mesh/RowCrossing.h"
+#include "Core/Common/Blocks.h"
 #include "Core/Mesh/SurfaceMeasures.h"
+#include "Core/Surface/ComponentNesting.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
-#include <numeric>
 
 namespace volumic
 {
@@ -20,34 +21,52 @@ constexpr int TinySize = 24;
 /** Up to this many they have vanished. */
 constexpr int VanishedSize = 5;
 
-/** Vertices that one thread joins, or looks for crossings at, at a time. */
+/** Vertices that one thread joins at a time. */
 constexpr std::size_t JoinedBlock = 16384;
-constexpr std::size_t CrossedBlock = 8192;
 /** Vertices under which a chunk is not worth a thread. */
 constexpr std::size_t Grain = 4096;
 
-/** What DeleteDegenerate has seen of a component, in the place of its label. */
+/** In the place of a label: of a place without a vertex, and of what DeleteDegenerate has seen. */
+constexpr int NoComponent = -1;
 constexpr int Seen = -2;
 
-/** From a vertex of a component along x. */
-struct Ray
+/** Of a root, while the others of its component still bear its index; no index, no NoComponent. */
+constexpr int MarkOfRoot(int label)
 {
-  int Vertex;
-  Point Origin;
-  bool IsCavity; ///< The component's volume is negative.
-};
+  return -2 - label;
+}
 
-/** A ray that a face of another component crosses. */
-struct Crossing
+/** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
+void LabelOthers(SurfaceState& state, int begin, int end, std::vector<std::atomic<int>>& sizes)
 {
-  int Ray;
-  int Component;
-};
-
-Point PositionOf(const SurfaceMesh& mesh, int v)
-{
-  const Vector& p = mesh.Position[v];
-  return { p.X, p.Y, p.Z };
+  // Mostly neighbours follow each other: they are added up before the others are told.
+  int label = 0;
+  int count = 0;
+  const auto add = [&]
+  {
+    if (count > 0)
+    {
+      sizes[label].fetch_add(count, std::memory_order_relaxed);
+    }
+  };
+  for (int v = begin; v < end; ++v)
+  {
+    const int root = state.Component[v];
+    if (root < 0)
+    {
+      continue;
+    }
+    const int own = MarkOfRoot(state.Component[root]); // Its own inverse.
+    if (own != label)
+    {
+      add();
+      label = own;
+      count = 0;
+    }
+    state.Component[v] = own;
+    ++count;
+  }
+  add();
 }
 
 bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
@@ -60,146 +79,52 @@ bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
   return volume.Value() > 0;
 }
 
-/** A ray from the first vertex of each component, by Y. `labels`: of the vertices. */
-std::vector<Ray> CastRays(const SurfaceMesh& mesh, const std::vector<int>& labels, int components)
-{
-  std::vector<SignedVolume> volumes(components);
-  std::vector<int> first(components, -1);
-  mesh.VisitFaces(
-    [&](int a, int b, int c)
-    {
-      // The first face of a component has its smallest vertex.
-      const int label = labels[a];
-      if (first[label] < 0)
-      {
-        first[label] = a;
-        volumes[label] = SignedVolume(mesh.Position[a]);
-      }
-      volumes[label].AddFace(mesh, a, b, c);
-    });
-  std::vector<Ray> rays;
-  for (int label = 0; label < components; ++label)
-  {
-    rays.push_back({ first[label], PositionOf(mesh, first[label]), volumes[label].Value() < 0. });
-  }
-  std::sort(rays.begin(), rays.end(),
-    [](const Ray& a, const Ray& b)
-    { return a.Origin[1] != b.Origin[1] ? a.Origin[1] < b.Origin[1] : a.Vertex < b.Vertex; });
-  return rays;
-}
-
-/** Finds the crossings with the faces that have v as their smallest vertex. */
-void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int v,
-  const std::vector<Ray>& rays, std::vector<Crossing>& crossings)
-{
-  const Ring& ring = mesh.Rings[v];
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    const int second = ring.Item[i];
-    const int third = ring.Next(i);
-    if (second < v || third < v)
-    {
-      continue;
-    }
-    const Point a = PositionOf(mesh, v);
-    const Point b = PositionOf(mesh, second);
-    const Point c = PositionOf(mesh, third);
-    const double low = std::min({ a[1], b[1], c[1] });
-    const double high = std::max({ a[1], b[1], c[1] });
-    auto ray = std::lower_bound(
-      rays.begin(), rays.end(), low, [](const Ray& r, double y) { return r.Origin[1] < y; });
-    for (; ray != rays.end() && ray->Origin[1] <= high; ++ray)
-    {
-      if (labels[ray->Vertex] == labels[v])
-      {
-        continue;
-      }
-      const RowCrossing crossing = RowCrossing::Of(a, b, c, ray->Origin[1], ray->Origin[2]);
-      if (crossing.Winding != 0 && crossing.X > ray->Origin[0])
-      {
-        crossings.push_back({ static_cast<int>(ray - rays.begin()), labels[v] });
-      }
-    }
-  }
-}
-
-/**
- * For each ray the labels of the components around its origin: those it crosses an odd number of
- * times.
- */
-std::vector<std::vector<int>> ComponentsAround(const SurfaceMesh& mesh,
-  const std::vector<int>& labels, const std::vector<Ray>& rays, Executor& executor)
-{
-  const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<Crossing>> crossings((n + CrossedBlock - 1) / CrossedBlock);
-  ForBlocks(executor, n, CrossedBlock,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        FindCrossings(mesh, labels, v, rays, crossings[b]);
-      }
-    });
-  std::vector<std::vector<int>> around(rays.size());
-  for (const std::vector<Crossing>& block : crossings)
-  {
-    for (const Crossing& crossing : block)
-    {
-      around[crossing.Ray].push_back(crossing.Component);
-    }
-  }
-  for (std::vector<int>& crossed : around)
-  {
-    std::sort(crossed.begin(), crossed.end());
-    std::vector<int> odd;
-    for (int label : crossed)
-    {
-      if (!odd.empty() && odd.back() == label)
-      {
-        odd.pop_back();
-      }
-      else
-      {
-        odd.push_back(label);
-      }
-    }
-    crossed.swap(odd);
-  }
-  return around;
-}
 }
 
 void ComponentWatch::Label(SurfaceState& state, Executor& executor)
 {
+  const std::size_t n = state.Mesh.Rings.size();
   this->JoinVertices(state.Mesh, executor);
-  executor.For(state.Mesh.Rings.size(), Grain,
+  // Roots first: they are the smallest of their component, and numbered in their order.
+  const std::vector<std::size_t> first = FirstOfBlocks(executor, n, JoinedBlock,
     [&](std::size_t begin, std::size_t end)
     {
+      std::size_t roots = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        state.Component[v] = this->Joined.FindRoot(v);
+        state.Component[v] = state.Mesh.IsAlive(v) ? this->Joined.FindRoot(v) : NoComponent;
+        roots += state.Component[v] == v;
+      }
+      return roots;
+    });
+  this->Roots.resize(first.back());
+  ForBlocks(executor, n, JoinedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      std::size_t label = first[b];
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (state.Component[v] == v)
+        {
+          state.Component[v] = MarkOfRoot(static_cast<int>(label));
+          this->Roots[label++] = v;
+        }
       }
     });
-  std::vector<int> sizes;
-  for (int v = 0; v < state.Mesh.Size(); ++v)
+  std::vector<std::atomic<int>> sizes(this->Roots.size());
+  for (std::atomic<int>& size : sizes)
   {
-    if (!state.Mesh.IsAlive(v))
-    {
-      state.Component[v] = -1;
-      continue;
-    }
-    // Roots are the smallest of their component, so they bear their label already.
-    const int root = state.Component[v];
-    const int label = root == v ? static_cast<int>(sizes.size()) : state.Component[root];
-    if (root == v)
-    {
-      sizes.push_back(0);
-    }
-    state.Component[v] = label;
-    ++sizes[label];
+    size.store(1, std::memory_order_relaxed); // The root.
   }
-  this->Components = static_cast<int>(sizes.size());
-  this->WatchSmallOnes(state, sizes);
+  ForBlocks(executor, n, JoinedBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    { LabelOthers(state, static_cast<int>(begin), static_cast<int>(end), sizes); });
+  for (std::size_t label = 0; label < this->Roots.size(); ++label)
+  {
+    state.Component[this->Roots[label]] = static_cast<int>(label);
+  }
+  this->Components = static_cast<int>(this->Roots.size());
+  this->WatchSmallOnes(state, std::vector<int>(sizes.begin(), sizes.end()), executor);
 }
 
 void ComponentWatch::JoinVertices(const SurfaceMesh& mesh, Executor& executor)
@@ -231,6 +156,18 @@ void ComponentWatch::JoinVertices(const SurfaceMesh& mesh, Executor& executor)
         }
       }
     });
+  // Of the many edges between the same two sets one is enough.
+  ForBlocks(executor, this->Borders.size(), 1,
+    [this](std::size_t b, std::size_t, std::size_t)
+    {
+      std::vector<std::pair<int, int>>& border = this->Borders[b];
+      for (auto& edge : border)
+      {
+        edge = { this->Joined.FindRoot(edge.first), this->Joined.FindRoot(edge.second) };
+      }
+      std::sort(border.begin(), border.end());
+      border.erase(std::unique(border.begin(), border.end()), border.end());
+    });
   for (const auto& border : this->Borders)
   {
     for (const auto& edge : border)
@@ -240,7 +177,8 @@ void ComponentWatch::JoinVertices(const SurfaceMesh& mesh, Executor& executor)
   }
 }
 
-void ComponentWatch::WatchSmallOnes(const SurfaceState& state, const std::vector<int>& sizes)
+void ComponentWatch::WatchSmallOnes(
+  const SurfaceState& state, const std::vector<int>& sizes, Executor& executor)
 {
   this->Watched.clear();
   std::vector<int> place(sizes.size(), -1); // Among those that are watched, by label.
@@ -257,18 +195,35 @@ void ComponentWatch::WatchSmallOnes(const SurfaceState& state, const std::vector
   {
     return;
   }
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    const int label = state.Component[v];
-    if (label >= 0 && place[label] >= 0)
+  const std::size_t n = state.Mesh.Rings.size();
+  std::vector<std::vector<int>> watched((n + JoinedBlock - 1) / JoinedBlock);
+  ForBlocks(executor, n, JoinedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      this->Watched[place[label]].Vertices.push_back(v);
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        const int label = state.Component[v];
+        if (label >= 0 && place[label] >= 0)
+        {
+          watched[b].push_back(v);
+        }
+      }
+    });
+  for (const std::vector<int>& ofBlock : watched)
+  {
+    for (const int v : ofBlock)
+    {
+      this->Watched[place[state.Component[v]]].Vertices.push_back(v);
     }
   }
-  for (SmallComponent& small : this->Watched)
-  {
-    small.IsPositive = IsVolumePositive(state.Mesh, small.Vertices);
-  }
+  executor.For(this->Watched.size(), Grain / SmallSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->Watched[i].IsPositive = IsVolumePositive(state.Mesh, this->Watched[i].Vertices);
+      }
+    });
 }
 
 bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& small)
@@ -338,31 +293,16 @@ bool ComponentWatch::DeleteDegenerate(SurfaceState& state)
 bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
   this->Label(state, executor);
-  const std::vector<Ray> rays = CastRays(state.Mesh, state.Component.AsVector(), this->Components);
-  const std::vector<std::vector<int>> around =
-    ComponentsAround(state.Mesh, state.Component.AsVector(), rays, executor);
-  // From outside in: what is deleted encloses nothing any more.
-  std::vector<int> order(rays.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-    [&around](int a, int b) { return around[a].size() < around[b].size(); });
-  std::vector<char> isDeleted(rays.size(), 0); // By label.
-  bool deleted = false;
-  for (int i : order)
+  const std::vector<int> insideOut =
+    FindInsideOut(state.Mesh, state.Component.AsVector(), this->Roots, executor);
+  for (const int root : insideOut)
   {
-    const auto depth = std::count_if(
-      around[i].begin(), around[i].end(), [&isDeleted](int label) { return !isDeleted[label]; });
-    if ((depth % 2 == 1) != rays[i].IsCavity)
-    {
-      isDeleted[state.Component[rays[i].Vertex]] = 1;
-      state.RemoveComponent(rays[i].Vertex);
-      deleted = true;
-    }
+    state.RemoveComponent(root);
   }
-  if (deleted)
+  if (!insideOut.empty())
   {
     this->Label(state, executor);
   }
-  return deleted;
+  return !insideOut.empty();
 }
 }

@@ -49,7 +49,8 @@ private:
   };
 
   void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
-  void WatchSmallOnes(const SurfaceState& state, const std::vector<int>& sizes);
+  void WatchSmallOnes(
+    const SurfaceState& state, const std::vector<int>& sizes, Executor& executor);
   /** Finds the vertices that the component has now, in Stack. @return false if it has none. */
   bool FindVertices(SurfaceState& state, const SmallComponent& small);
 
@@ -57,6 +58,7 @@ private:
   std::vector<int> Stack;
   DisjointSets Joined;                                   ///< Vertices that edges join.
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.
+  std::vector<int> Roots; ///< The smallest vertex of each label, when last labelled.
   int Components = 0;
 };
 }

@@ -3,6 +3,7 @@
 #ifndef volumicNormalCone_h
 #define volumicNormalCone_h
 
+#include "Core/Common/Lanes.h"
 #include "Core/Common/Vector.h"
 
 #include <algorithm>
@@ -47,6 +48,24 @@ inline bool AreOpposed(const NormalCone& n, const NormalCone& m)
     return true;
   }
   return n.X * m.X + n.Y * m.Y + n.Z * m.Z < cosine150 * cosine + sine150 * sine;
+}
+
+/** The same of one and four others, a bit each. */
+inline unsigned OpposedBits(const NormalCone& n, const NormalCone& a, const NormalCone& b,
+  const NormalCone& c, const NormalCone& d)
+{
+  constexpr float cosine150 = -0.8660254f;
+  constexpr float sine150 = 0.5f;
+  const Lanes cv(n.Cosine);
+  const Lanes sv(std::sqrt(std::max(0.f, 1 - n.Cosine * n.Cosine)));
+  Lanes cw;
+  const VectorLanes axis = Gather(&a.X, &b.X, &c.X, &d.X, cw);
+  const Lanes zero(0.f);
+  const Lanes sw = SquareRoot(Maximum(zero, Lanes(1.f) - cw * cw));
+  const Lanes cosine = cv * cw - sv * sw;
+  const Lanes sine = sv * cw + cv * sw;
+  return LessBits(cosine, Lanes(cosine150)) | LessBits(Minimum(cv, cw), zero) |
+    LessBits(Dot(AllLanes(n.Axis()), axis), Lanes(cosine150) * cosine + Lanes(sine150) * sine);
 }
 }
 

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/Proximity.h"
 
-#include "Core/Common/Box.h"
 #include "Core/Mesh/TriangleTests.h"
+#include "Core/Surface/StarFaces.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace volumic
@@ -18,6 +19,8 @@ namespace
 constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
+/** Items of a list that one thread takes at a time. */
+constexpr std::size_t ListGrain = 4096;
 /** Room along the normals that needs no look for more along the line between the vertices. */
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
@@ -35,100 +38,128 @@ constexpr float RoundedReach = 0.999f;
 /** By what a room in floats must be more than the same in doubles. */
 constexpr float FloatRounding = 1.2f;
 
-/** Room between the stars of v and w along a unit direction, v's side below; negative: none. */
-float RoomAlong(const SurfaceMesh& mesh, int v, int w, const Vector& direction)
+/** Room between two stars along a unit direction, the first below; negative: none. */
+float RoomAlong(const StarRim& first, const StarRim& second, const Vector& direction)
 {
-  float highest = Dot(direction, mesh.Position[v]);
-  for (int i = 0; i < mesh.Rings[v].Count; ++i)
+  const VectorLanes along = AllLanes(direction);
+  Lanes highest(Dot(direction, first.Place));
+  for (int i = 0; i < first.Count; i += Lanes::Count)
   {
-    highest = std::max(highest, Dot(direction, mesh.Position[mesh.Rings[v].Item[i]]));
+    highest = Maximum(highest, Dot(along, first.Rim.At(i)));
   }
-  float lowest = Dot(direction, mesh.Position[w]);
-  for (int i = 0; i < mesh.Rings[w].Count && lowest > highest; ++i)
+  Lanes lowest(Dot(direction, second.Place));
+  for (int i = 0; i < second.Count; i += Lanes::Count)
   {
-    lowest = std::min(lowest, Dot(direction, mesh.Position[mesh.Rings[w].Item[i]]));
+    lowest = Minimum(lowest, Dot(along, second.Rim.At(i)));
   }
-  return lowest - highest;
+  return LeastOf(lowest) - GreatestOf(highest);
 }
 
-float RoomBetween(const SurfaceState& state, int v, int w)
+float RoomBetween(const SurfaceState& state, const StarRim& first, const StarRim& second)
 {
-  const Vector across = state.Mesh.Position[w] - state.Mesh.Position[v];
-  Vector direction = state.Normal[v].Axis() - state.Normal[w].Axis();
+  if (first.Shares(second))
+  {
+    return 0;
+  }
+  const Vector across = second.Place - first.Place;
+  Vector direction = state.Normal[first.Centre].Axis() - state.Normal[second.Centre].Axis();
   if (Dot(direction, across) < 0)
   {
     direction = -direction;
   }
-  const float room = RoomAlong(state.Mesh, v, w, Normalized(direction));
-  return room > EnoughRoom * state.Sizing.At(v)
+  const float room = RoomAlong(first, second, Normalized(direction));
+  return room > EnoughRoom * state.Sizing.At(first.Centre)
     ? room
-    : std::max(room, RoomAlong(state.Mesh, v, w, Normalized(across)));
+    : std::max(room, RoomAlong(first, second, Normalized(across)));
 }
 
-/** A vertex and the faces about it. */
-struct Star
+/** Where the vertices of one star lie, seen from the faces of another, as bits of its faces. */
+class FacesBeside
 {
-  Star(const SurfaceMesh& mesh, int v)
-    : Centre(v)
-    , Neighbours(mesh.Rings[v])
-    , Place(mesh.Position[v])
+public:
+  /** @param from the star whose planes tell @param other the one whose faces are told apart */
+  FacesBeside(const StarFaces& from, const StarFaces& other, float room)
+    : From(from)
+    , Other(other)
+    , Room(room)
+    , WithCentre(other.Matching(from.Centre))
   {
-    for (int i = 0; i < this->Neighbours.Count; ++i)
+    for (int i = 0; i < from.Count; ++i)
     {
-      this->Rim[i] = mesh.Position[this->Neighbours.Item[i]];
+      this->With[i] = other.Matching(from.Item[i]);
     }
-    for (int i = 0; i < this->Neighbours.Count; ++i)
-    {
-      const Vector& a = this->Rim[i];
-      const Vector& b = this->Rim[this->After(i)];
-      this->Bounds[i] = Box::Of(this->Place, a, b);
-      this->Normal[i] = Normalized(Cross(a - this->Place, b - this->Place));
-    }
-  }
-  int After(int i) const { return i + 1 < this->Neighbours.Count ? i + 1 : 0; }
-  std::array<int, 3> Face(int i) const
-  {
-    return { this->Centre, this->Neighbours.Item[i], this->Neighbours.Next(i) };
   }
 
-  int Centre;
-  const Ring& Neighbours;
-  Vector Place;
-  Vector Rim[Ring::Capacity];
-  Box Bounds[Ring::Capacity];    ///< Of the faces.
-  Vector Normal[Ring::Capacity]; ///< Unit, of the faces.
+  /**
+   * The faces of the other star which, less a corner that they share with face i, lie on one side
+   * of its plane, by more than the room; or, if they share an edge with it, are far from folded
+   * onto it. They do not intersect it.
+   */
+  unsigned Of(int i) const
+  {
+    const int after = this->From.After(i);
+    const Vector normal = this->From.Normal[i];
+    const unsigned shared = this->WithCentre | this->With[i] | this->With[after];
+    const int centre = this->Other.Centre;
+    const bool hasCentre = centre == this->From.Centre || centre == this->From.Item[i] ||
+      centre == this->From.Item[after];
+    const float height = Dot(normal, this->Other.Place - this->From.Place);
+    unsigned above = shared;
+    unsigned below = shared;
+    const VectorLanes normals = AllLanes(normal);
+    const VectorLanes place = AllLanes(this->From.Place);
+    for (int k = 0; k < this->Other.Count; k += Lanes::Count)
+    {
+      const Lanes heights = Dot(normals, this->Other.Rim.At(k) - place);
+      above |= LessBits(Lanes(this->Room), heights) << k;
+      below |= LessBits(heights, Lanes(-this->Room)) << k;
+    }
+    unsigned beside = 0;
+    beside |= hasCentre || height > this->Room ? this->OfBothEnds(above) : 0;
+    beside |= hasCentre || height < -this->Room ? this->OfBothEnds(below) : 0;
+    // Those that share an edge, or all corners.
+    unsigned edges = this->OfBothEnds(shared);
+    edges |= hasCentre ? shared | this->Other.Following(shared) : 0;
+    beside &= ~edges;
+    for (; edges != 0; edges &= edges - 1)
+    {
+      const int j = LowestBit(edges);
+      beside |= Dot(normal, this->Other.Normal[j]) > Unfolded ? 1u << j : 0;
+    }
+    return beside;
+  }
+
+private:
+  unsigned OfBothEnds(unsigned bits) const
+  {
+    bits &= this->Other.All();
+    return bits & this->Other.Following(bits);
+  }
+
+  const StarFaces& From;
+  const StarFaces& Other;
+  float Room;
+  unsigned WithCentre;           ///< Neighbours in the other star that are the centre of this one.
+  unsigned With[Ring::Capacity]; ///< The same for the neighbours of this one.
 };
 
-/**
- * Whether face j of `other`, less a corner that it shares with face i of `star`, lies on one side
- * of the plane of face i, by more than `room`; or, if they share an edge, whether the two are far
- * from folded onto each other. Then they do not intersect.
- */
-bool IsBesidePlane(const Star& star, int i, const Star& other, int j, float room)
+/** The faces of a star whose boxes come as near to that of face i of another as a margin. */
+unsigned FacesNear(const StarFaces& from, int i, const StarFaces& other, float margin)
 {
-  const int a = star.Centre;
-  const int b = star.Neighbours.Item[i];
-  const int c = star.Neighbours.Item[star.After(i)];
-  const int name[3] = { other.Centre, other.Neighbours.Item[j],
-    other.Neighbours.Item[other.After(j)] };
-  const Vector* place[3] = { &other.Place, &other.Rim[j], &other.Rim[other.After(j)] };
-  bool above = true;
-  bool below = true;
-  int shared = 0;
-  for (int k = 0; k < 3; ++k)
+  const VectorLanes by(margin, margin, margin);
+  const VectorLanes low = AllLanes(from.Low[i]) - by;
+  const VectorLanes high = AllLanes(from.High[i]) + by;
+  unsigned apart = 0;
+  for (int k = 0; k < other.Count; k += Lanes::Count)
   {
-    if (name[k] == a || name[k] == b || name[k] == c)
-    {
-      ++shared;
-    }
-    else
-    {
-      const float height = Dot(star.Normal[i], *place[k] - star.Place);
-      above = above && height > room;
-      below = below && height < -room;
-    }
+    const VectorLanes otherLow = other.Low.At(k);
+    const VectorLanes otherHigh = other.High.At(k);
+    apart |= (LessBits(otherHigh.X, low.X) | LessBits(high.X, otherLow.X) |
+               LessBits(otherHigh.Y, low.Y) | LessBits(high.Y, otherLow.Y) |
+               LessBits(otherHigh.Z, low.Z) | LessBits(high.Z, otherLow.Z))
+      << k;
   }
-  return shared < 2 ? above || below : Dot(star.Normal[i], other.Normal[j]) > Unfolded;
+  return ~apart & other.All();
 }
 
 bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
@@ -187,22 +218,24 @@ private:
 
 /** Adds the faces that intersect. @return the room that the rest has for certain. */
 float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed,
-  const Star& first, int w, std::vector<Proximity::FacePair>& intersections,
-  std::vector<int>& tight)
+  const StarFaces& first, const StarFaces& second,
+  std::vector<Proximity::FacePair>& intersections, std::vector<int>& tight)
 {
   const int v = first.Centre;
-  const Star second(state.Mesh, w);
-  const FirstPair pair(state, listed, v, w);
+  const FirstPair pair(state, listed, v, second.Centre);
   const float someRoom = SomeRoom * state.Sizing.At(v);
-  const float beside = FloatRounding * someRoom;
+  const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
+  const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
   float room = someRoom;
-  for (int i = 0; i < first.Neighbours.Count; ++i)
+  for (int i = 0; i < first.Count; ++i)
   {
-    const Box bounds = first.Bounds[i].Grown(room);
-    for (int j = v == w ? i + 1 : 0; j < second.Neighbours.Count; ++j)
+    unsigned near = FacesNear(first, i, second, room);
+    near &= v == second.Centre ? ~0u << i << 1 : ~0u; // Its own pairs once.
+    near = near != 0 ? near & ~besideFirst.Of(i) : 0;
+    for (; near != 0; near &= near - 1)
     {
-      if (bounds.IsApartFrom(second.Bounds[j]) || IsBesidePlane(first, i, second, j, beside) ||
-        IsBesidePlane(second, j, first, i, beside))
+      const int j = LowestBit(near);
+      if (besideSecond.Of(j) >> i & 1)
       {
         continue;
       }
@@ -230,6 +263,36 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
 }
 }
 
+void Proximity::FindNear(
+  const SurfaceState& state, const Vector& p, float radius, int v, Block& block) const
+{
+  std::vector<int>& visited = block.Visited;
+  visited.clear();
+  state.Grid.Visit(p, radius, [&](int w) { visited.push_back(w); });
+  visited.resize((visited.size() + Lanes::Count - 1) / Lanes::Count * Lanes::Count, v);
+  block.Near.clear();
+  const std::vector<Vector>& place = state.Mesh.Position;
+  const VectorLanes from = AllLanes(p);
+  const Lanes most(radius * radius);
+  for (std::size_t i = 0; i < visited.size(); i += Lanes::Count)
+  {
+    const int* w = visited.data() + i;
+    const Lanes squared =
+      SquaredLength(Gather(place[w[0]], place[w[1]], place[w[2]], place[w[3]]) - from);
+    unsigned within = ~LessBits(most, squared) & 15u;
+    float distance[Lanes::Count];
+    squared.Store(distance);
+    for (; within != 0; within &= within - 1)
+    {
+      const int k = LowestBit(within);
+      if (w[k] != v)
+      {
+        block.Near.push_back({ v, w[k], distance[k] });
+      }
+    }
+  }
+}
+
 void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
 {
   const SurfaceMesh& mesh = state.Mesh;
@@ -239,8 +302,8 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   const float further = reach + (state.IsSlow[v] ? FurtherReach * delta : 0.f);
   const float near = PairReach * delta;
   const float least = ReachSlack * delta;
-  std::optional<Star> own; // Few vertices need it, those that do need it often.
-  const auto star = [&]() -> const Star&
+  std::optional<StarFaces> own; // Few vertices need it, those that do need it often.
+  const auto star = [&]() -> const StarFaces&
   {
     if (!own)
     {
@@ -254,20 +317,25 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   {
     anything = true;
     slack =
-      std::min(slack, TestStars(state, this->Listed, star(), v, block.Intersections, block.Tight));
+      std::min(slack,
+        TestStars(state, this->Listed, star(), star(), block.Intersections, block.Tight));
   }
-  state.Grid.Visit(p, further,
-    [&](int w)
+  this->FindNear(state, p, further, v, block);
+  for (std::size_t i = 0; i < block.Near.size(); i += Lanes::Count)
+  {
+    const auto cone = [&](std::size_t k) -> const NormalCone&
+    { return state.Normal[block.Near[std::min(k, block.Near.size() - 1)].W]; };
+    unsigned opposed = OpposedBits(
+      state.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
+    opposed &= (1u << std::min<std::size_t>(block.Near.size() - i, Lanes::Count)) - 1;
+    for (; opposed != 0; opposed &= opposed - 1)
     {
-      const float squared = SquaredDistance(p, mesh.Position[w]);
-      if (squared > further * further || w == v || !state.AreOpposed(v, w))
-      {
-        return;
-      }
+      const int w = block.Near[i + LowestBit(opposed)].W;
+      const float squared = block.Near[i + LowestBit(opposed)].Squared;
       if (squared > reach * reach)
       {
         slack = std::min(slack, std::sqrt(squared) - reach + least);
-        return;
+        continue;
       }
       slack = std::min(
         slack, std::max(least, std::sqrt(squared) - state.Sizing.Clearance(v, w)));
@@ -276,7 +344,9 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
       {
         block.Pairs.push_back({ v, w, squared });
       }
-      const float room = RoomBetween(state, v, w);
+      const StarFaces& first = star();
+      const StarFaces second(mesh, w);
+      const float room = RoomBetween(state, first, second);
       if (room >= LeastRoom * delta)
       {
         slack = std::min(slack, room);
@@ -284,13 +354,14 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
       else if (v < w || !this->Listed[w])
       {
         slack = std::min(
-          slack, TestStars(state, this->Listed, star(), w, block.Intersections, block.Tight));
+          slack, TestStars(state, this->Listed, first, second, block.Intersections, block.Tight));
       }
       else
       {
         slack = std::min(slack, SomeRoom * delta);
       }
-    });
+    }
+  }
   state.NearOthers[v] = anything;
   state.Slack[v] = slack;
 }
@@ -299,10 +370,18 @@ void Proximity::Examine(
   SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
   this->Listed.resize(state.Mesh.Rings.size(), 0);
-  for (int v : vertices)
+  const auto setListed = [&](std::uint8_t listed)
   {
-    this->Listed[v] = 1;
-  }
+    executor.For(vertices.size(), ListGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->Listed[vertices[i]] = listed;
+        }
+      });
+  };
+  setListed(1);
   constexpr std::size_t size = 512;
   const std::size_t blocks = (vertices.size() + size - 1) / size;
   if (this->Blocks.size() < blocks)
@@ -323,21 +402,11 @@ void Proximity::Examine(
         }
       }
     });
-  // Pairs of vertices that have not been examined anew stay.
-  std::size_t kept = 0;
-  for (const ClosePair& pair : this->AllPairs)
-  {
-    if (!this->Listed[pair.V] && state.Mesh.IsAlive(pair.V) && state.Mesh.IsAlive(pair.W))
-    {
-      this->AllPairs[kept++] = pair;
-    }
-  }
-  this->AllPairs.resize(kept);
+  this->CollectPairs(state, blocks, executor);
   this->AllIntersections.clear();
   for (std::size_t b = 0; b < blocks; ++b)
   {
     const Block& block = this->Blocks[b];
-    this->AllPairs.insert(this->AllPairs.end(), block.Pairs.begin(), block.Pairs.end());
     this->AllIntersections.insert(
       this->AllIntersections.end(), block.Intersections.begin(), block.Intersections.end());
     // A pair of faces is tested once, but all its corners must know that it has no room.
@@ -346,9 +415,40 @@ void Proximity::Examine(
       state.Slack[v] = 0;
     }
   }
-  for (int v : vertices)
+  setListed(0);
+}
+
+void Proximity::CollectPairs(const SurfaceState& state, std::size_t blocks, Executor& executor)
+{
+  // Pairs of vertices that have not been examined anew stay.
+  std::vector<std::vector<ClosePair>> lists((this->AllPairs.size() + ListGrain - 1) / ListGrain);
+  ForBlocks(executor, this->AllPairs.size(), ListGrain,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      std::copy_if(this->AllPairs.begin() + static_cast<std::ptrdiff_t>(begin),
+        this->AllPairs.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(lists[b]),
+        [&](const ClosePair& pair)
+        {
+          return !this->Listed[pair.V] && state.Mesh.IsAlive(pair.V) &&
+            state.Mesh.IsAlive(pair.W);
+        });
+    });
+  for (std::size_t b = 0; b < blocks; ++b)
   {
-    this->Listed[v] = 0;
+    lists.emplace_back();
+    lists.back().swap(this->Blocks[b].Pairs);
   }
+  std::vector<std::size_t> first(lists.size() + 1, 0);
+  for (std::size_t b = 0; b < lists.size(); ++b)
+  {
+    first[b + 1] = first[b] + lists[b].size();
+  }
+  this->AllPairs.resize(first.back());
+  ForBlocks(executor, lists.size(), 1,
+    [&](std::size_t b, std::size_t, std::size_t)
+    {
+      std::copy(lists[b].begin(), lists[b].end(),
+        this->AllPairs.begin() + static_cast<std::ptrdiff_t>(first[b]));
+    });
 }
 }

@@ -60,8 +60,15 @@ private:
   {
     std::vector<ClosePair> Pairs;
     std::vector<FacePair> Intersections;
-    std::vector<int> Tight; ///< Corners of faces without room.
+    std::vector<int> Tight;   ///< Corners of faces without room.
+    std::vector<int> Visited; ///< Vertices in the cells about one.
+    std::vector<ClosePair> Near;
   };
+  /** Those that are kept, then those of the blocks. */
+  void CollectPairs(const SurfaceState& state, std::size_t blocks, Executor& executor);
+  /** Fills Near with the pairs of a vertex within a radius. */
+  void FindNear(
+    const SurfaceState& state, const Vector& p, float radius, int v, Block& block) const;
   void ExamineVertex(SurfaceState& state, int v, Block& block) const;
 
   std::vector<Block> Blocks;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/RemainingContacts.h"
 
+#include "Core/Common/Blocks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -73,12 +75,9 @@ RemainingContacts FindRemainingContacts(
             FarFromIso * state.Sizing.At(v) * field.SlopeOf(sample);
         }
       }
+      std::sort(blocks[b].begin(), blocks[b].end());
     });
-  for (const auto& block : blocks)
-  {
-    contacts.Pairs.insert(contacts.Pairs.end(), block.begin(), block.end());
-  }
-  std::sort(contacts.Pairs.begin(), contacts.Pairs.end());
+  contacts.Pairs = Joined(executor, blocks); // Sorted, as blocks are.
   return contacts;
 }
 }

@@ -4,8 +4,8 @@
 #define volumicRemesher_h
 
 #include "Core/Image/Field.h"
+#include "Core/Surface/EditCells.h"
 #include "Core/Surface/Proximity.h"
-#include "Core/Surface/SurfaceEditor.h"
 
 #include <vector>
 
@@ -14,16 +14,17 @@ namespace volumic
 /**
  * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts, the
  * paper's changes of topology, with the rules of Documentation/differences.md (Constraints,
- * Changes of topology). Edits are applied one after another in a fixed order; what may be edited
- * has been found in parallel before.
+ * Changes of topology). Each operation is a pass of EditCells over the vertices that it concerns:
+ * on all threads, in an order that does not depend on them.
  */
 class Remesher
 {
 public:
   /** `field` null: no image evidence is asked for. */
-  Remesher(SurfaceState& state, const Field* field, bool topologyChanges)
+  Remesher(SurfaceState& state, const Field* field, bool topologyChanges, Executor& threads)
     : State(state)
-    , Editor(state)
+    , Threads(threads)
+    , Cells(state, threads)
     , TheField(field)
     , TopologyChanges(topologyChanges)
   {
@@ -49,21 +50,29 @@ public:
   void Unstick(const std::vector<int>& vertices);
 
   /** Changed vertices of all edits since the last call, in order; some may be named often. */
-  std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
-  const std::vector<int>& Changed() const { return this->Editor.Changed(); }
+  std::vector<int> TakeChanged() { return this->Cells.TakeChanged(); }
+  const std::vector<int>& Changed() const { return this->Cells.Changed(); }
 
 private:
-  bool SplitEdge(int u, int v, std::vector<int>& added, int depth);
+  // Called side by side: they must change nothing but the surface, by the editor.
+  bool SplitEdge(SurfaceEditor& editor, int u, int v, std::vector<int>& added, int depth) const;
+  void SplitAt(SurfaceEditor& editor, int v, std::vector<int>& added) const;
   bool IsMergeWanted(int u, int v) const;
-  bool FlipBetween(int u, int v);
-  void CollapseAt(int v);
+  bool FlipBetween(SurfaceEditor& editor, int u, int v) const;
+  void MergeOrFlip(SurfaceEditor& editor, int u, int v, std::vector<int>& strip) const;
+  void CollapseAt(SurfaceEditor& editor, int v) const;
+  void FlipAt(SurfaceEditor& editor, int v) const;
+  void UnstickAt(SurfaceEditor& editor, int v) const;
+
+  /** The vertices that are alive and have the flag. */
+  std::vector<int> Flagged(const std::vector<int>& vertices, RemeshFlag flag) const;
+  float LongestEdgeAt(const std::vector<int>& vertices) const;
 
   SurfaceState& State;
-  SurfaceEditor Editor;
+  Executor& Threads;
+  EditCells Cells;
   const Field* TheField;
   bool TopologyChanges;
-  std::vector<Proximity::ClosePair> Sorted;
-  std::vector<int> Strip; ///< Corners of that of the last merge.
 };
 }
 

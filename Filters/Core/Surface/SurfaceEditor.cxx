@@ -58,6 +58,38 @@ std::vector<int> SurfaceEditor::TakeChanged()
   return std::exchange(this->Log, {});
 }
 
+bool SurfaceEditor::MayEdit(std::initializer_list<int> vertices)
+{
+  if (!this->Share)
+  {
+    return true;
+  }
+  for (int v : vertices)
+  {
+    if (!this->Share->Region.Contains(this->State.Mesh.Position[v]))
+    {
+      this->Share->WasOutOfRegion = true;
+      return false;
+    }
+  }
+  return true;
+}
+
+bool SurfaceEditor::HasPlaces(std::size_t n)
+{
+  const bool has = !this->Share || this->Share->Places.Free.size() >= n;
+  if (!has)
+  {
+    this->Share->LackedPlaces = true;
+  }
+  return has;
+}
+
+void SurfaceEditor::AddToEulerCharacteristic(int change)
+{
+  (this->Share ? this->Share->EulerCharacteristic : this->State.EulerCharacteristic) += change;
+}
+
 bool SurfaceEditor::IsNearOthers(int u) const
 {
   const Ring& ring = this->State.Mesh.Rings[u];
@@ -73,18 +105,19 @@ Edit SurfaceEditor::Split(int u, int v)
 {
   SurfaceState& s = this->State;
   const EdgeSplit split{ u, v };
-  if (!split.IsLegal(s.Mesh))
+  if (!this->MayEdit({ u }) || !split.IsLegal(s.Mesh) || !this->HasPlaces(1))
   {
     return {};
   }
   const std::size_t first = this->Log.size();
-  const int m = split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f);
+  const int m =
+    split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Places());
   s.AddVertex(m, u);
   s.Velocity[m] = (s.Velocity[u] + s.Velocity[v]) * 0.5f;
   s.PreviousPosition[m] = (s.PreviousPosition[u] + s.PreviousPosition[v]) * 0.5f;
   s.NearOthers[m] = s.NearOthers[u] | s.NearOthers[v];
   s.FieldValue[m] = 0.5f * (s.FieldValue[u] + s.FieldValue[v]);
-  ++s.Counts.Splits;
+  ++this->Counts().Splits;
   this->TouchStar(m);
   return this->Done(first, m);
 }
@@ -139,11 +172,11 @@ Edit SurfaceEditor::CollapseInto(
   }
   const std::size_t first = this->Log.size();
   s.RemoveVertex(removed);
-  EdgeCollapse{ kept, removed }.Apply(s.Mesh);
+  EdgeCollapse{ kept, removed }.Apply(s.Mesh, this->Places());
   s.Velocity[kept] = (s.Velocity[kept] + s.Velocity[removed]) * 0.5f;
   s.NearOthers[kept] |= s.NearOthers[removed];
   s.MoveTo(kept, position);
-  ++s.Counts.Collapses;
+  ++this->Counts().Collapses;
   this->TouchStar(kept);
   return this->Done(first);
 }
@@ -151,7 +184,7 @@ Edit SurfaceEditor::CollapseInto(
 Edit SurfaceEditor::Collapse(int u, int v, EditTolerance tolerance)
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  if (!EdgeCollapse{ u, v }.IsLegal(mesh))
+  if (!this->MayEdit({ u, v }) || !EdgeCollapse{ u, v }.IsLegal(mesh))
   {
     return {};
   }
@@ -171,7 +204,7 @@ Edit SurfaceEditor::Collapse(int u, int v, EditTolerance tolerance)
 
 Edit SurfaceEditor::CollapseTo(int u, int v, const Vector& position, EditTolerance tolerance)
 {
-  return EdgeCollapse{ u, v }.IsLegal(this->State.Mesh)
+  return this->MayEdit({ u, v }) && EdgeCollapse{ u, v }.IsLegal(this->State.Mesh)
     ? this->CollapseInto(u, v, position, tolerance)
     : Edit();
 }
@@ -196,7 +229,7 @@ Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
   SurfaceState& s = this->State;
   const SurfaceMesh& mesh = s.Mesh;
   const EdgeFlip flip = EdgeFlip::Of(mesh, u, v);
-  if (!flip.IsLegal(mesh))
+  if (!this->MayEdit({ u }) || !flip.IsLegal(mesh))
   {
     return {};
   }
@@ -226,7 +259,7 @@ Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
   }
   const std::size_t firstChange = this->Log.size();
   flip.Apply(s.Mesh);
-  ++s.Counts.Flips;
+  ++this->Counts().Flips;
   for (int w : { u, v, flip.A, flip.B })
   {
     this->Log.push_back(w);
@@ -242,7 +275,7 @@ Edit SurfaceEditor::Remove(int v)
 {
   SurfaceState& s = this->State;
   const VertexRemoval removal{ v };
-  if (!removal.IsLegal(s.Mesh))
+  if (!this->MayEdit({ v }) || !removal.IsLegal(s.Mesh))
   {
     return {};
   }
@@ -255,8 +288,8 @@ Edit SurfaceEditor::Remove(int v)
   }
   const std::size_t first = this->Log.size();
   s.RemoveVertex(v);
-  removal.Apply(s.Mesh);
-  ++s.Counts.Collapses;
+  removal.Apply(s.Mesh, this->Places());
+  ++this->Counts().Collapses;
   for (int i = 0; i < 3; ++i)
   {
     this->Touch(ring.Item[i]);
@@ -267,7 +300,7 @@ Edit SurfaceEditor::Remove(int v)
 Edit SurfaceEditor::Move(int v, const Vector& position, EditTolerance tolerance)
 {
   SurfaceState& s = this->State;
-  if (!s.Margin.Allows(s.Mesh.Position[v], position))
+  if (!this->MayEdit({ v }) || !s.Margin.Allows(s.Mesh.Position[v], position))
   {
     return {};
   }

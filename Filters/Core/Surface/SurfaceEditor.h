@@ -3,9 +3,11 @@
 #ifndef volumicSurfaceEditor_h
 #define volumicSurfaceEditor_h
 
+#include "Core/Common/Box.h"
 #include "Core/Surface/NewFaces.h"
 #include "Core/Surface/SurfaceState.h"
 
+#include <initializer_list>
 #include <vector>
 
 namespace volumic
@@ -34,17 +36,30 @@ struct Edit
   explicit operator bool() const { return this->IsDone; }
 };
 
+/** What an editor has to itself where others are at work beside it, see EditCells. */
+struct EditShare
+{
+  Box Region;          ///< The vertices whose stars are edited lie in it; others are refused.
+  VertexPlaces Places; ///< For new vertices; edits that find too few are refused.
+  EditCounts Counts;
+  int EulerCharacteristic = 0;   ///< What its edits have added to that of the surface.
+  bool WasOutOfRegion = false; ///< Something was refused for the region's sake; set, never cleared.
+  bool LackedPlaces = false;     ///< The same for places.
+};
+
 /**
  * Verified edits of the live surface: each checks the mesh (manifold), the constraints (lengths,
  * normals that turn little) and, near anything that is not smooth surface, that no faces will
  * intersect; only then it edits and keeps grid, properties, chi and counts in step.
- * Sequential, in the order called.
+ * Sequential, in the order called; others may edit elsewhere at the same time, see EditShare.
  */
 class SurfaceEditor
 {
 public:
-  explicit SurfaceEditor(SurfaceState& state)
+  /** @param share null: nobody else edits; counts go to the state, places come from the mesh. */
+  explicit SurfaceEditor(SurfaceState& state, EditShare* share = nullptr)
     : State(state)
+    , Share(share)
   {
   }
 
@@ -82,8 +97,15 @@ private:
   void Touch(int v);
   void TouchStar(int v);
   Edit Done(std::size_t firstChange, int vertex = -1) const;
+  /** Whether the stars of these vertices may be edited. */
+  bool MayEdit(std::initializer_list<int> vertices);
+  bool HasPlaces(std::size_t n);
+  VertexPlaces* Places() { return this->Share ? &this->Share->Places : nullptr; }
+  EditCounts& Counts() { return this->Share ? this->Share->Counts : this->State.Counts; }
+  void AddToEulerCharacteristic(int change);
 
   SurfaceState& State;
+  EditShare* Share;
   std::vector<MeshTriangle> Faces; ///< New ones of the edit that is being tried.
   std::vector<int> Log;
 };

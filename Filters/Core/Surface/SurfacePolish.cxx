@@ -2,294 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfacePolish.h"
 
-#include "Core/Mesh/EdgeCollapse.h"
+#include "Core/Common/Select.h"
+#include "Core/Surface/StarImprovement.h"
 #include "Core/Surface/StarScore.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace volumic
 {
 namespace
 {
-/** Stars whose worst face has this radius ratio are left as they are. */
-constexpr float Good = 0.82f;
-/** Faces worse than this are worth an edge that is short, though legal. */
-constexpr float Bad = 0.55f;
-/** So long may that be, in delta. */
-constexpr float ShortEdge = 1.5f;
-/** What an edit must gain, so that none is undone by the next. */
-constexpr float Gain = 0.01f;
 constexpr int Rounds = 8;
 constexpr int SeparatingRounds = 4;
-/** Stars between two looks whether to go on: about ten milliseconds where all need an edit. */
-constexpr std::size_t StarsAtATime = 512;
-/** Way off the isopotential, in delta, that a slide may add. */
-constexpr float Stray = 0.02f;
-/** Longest step onto the isopotential, in delta. */
-constexpr float LongestSnap = 0.15f;
-/** Longest step that separates two vertices, in delta. */
-constexpr float LongestPush = 0.25f;
-/** Least push that is worth a step, of ScoreMargin delta. */
-constexpr float LeastPush = 1e-3f;
-}
-
-Vector SurfacePolish::Snapped(int v, const Vector& position) const
-{
-  if (!this->SnapTo)
-  {
-    return position;
-  }
-  const Vector n = this->State.Normal[v].Axis();
-  const float longest = LongestSnap * this->State.Sizing.At(v);
-  return position + n * this->SnapTo->StepToIso(this->SnapTo->At(position), n, longest);
-}
-
-bool SurfacePolish::Strays(int v, const Vector& position) const
-{
-  if (!this->SnapTo)
-  {
-    return false;
-  }
-  const float old = std::abs(this->SnapTo->ValueAt(this->State.Mesh.Position[v]));
-  const Field::Sample sample = this->SnapTo->At(position);
-  return std::abs(sample.Value) >
-    old + Stray * this->State.Sizing.At(v) * this->SnapTo->SlopeOf(sample);
-}
-
-bool SurfacePolish::CollapseEdge(int u, int v, float before)
-{
-  SurfaceState& s = this->State;
-  const SurfaceMesh& mesh = s.Mesh;
-  const EdgeCollapse collapse{ u, v };
-  if (!collapse.IsLegal(mesh))
-  {
-    const int c = this->MayCut && before < 0 ? collapse.ThirdCommonNeighbour(mesh) : -1;
-    return c >= 0 && this->Editor.Cut(u, v, c).IsDone;
-  }
-  // Along the edge, and between it and the middle of the new star.
-  const Vector p = mesh.Position[u];
-  const Vector q = mesh.Position[v];
-  Vector sum;
-  int count = 0;
-  for (int end : { u, v })
-  {
-    const Ring& ring = mesh.Rings[end];
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      if (ring.Item[i] != u && ring.Item[i] != v)
-      {
-        sum += mesh.Position[ring.Item[i]];
-        ++count;
-      }
-    }
-  }
-  const Vector middle = sum * (1.f / static_cast<float>(count));
-  this->Candidates.clear();
-  for (float along : { 0.5f, 0.f, 1.f, 0.25f, 0.75f })
-  {
-    for (float inward : { 0.f, 0.5f, 1.f })
-    {
-      const Vector x = p + (q - p) * along;
-      const Vector place = this->Snapped(u, x + (middle - x) * inward);
-      const float score = CollapseScore(this->State, u, v, place);
-      if (score > before + Gain)
-      {
-        this->Candidates.push_back({ score, place });
-      }
-    }
-  }
-  std::stable_sort(this->Candidates.begin(), this->Candidates.end(),
-    [](const Candidate& a, const Candidate& b) { return a.Score > b.Score; });
-  for (const Candidate& candidate : this->Candidates)
-  {
-    if (this->Editor.CollapseTo(u, v, candidate.Position, EditTolerance::Loose))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool SurfacePolish::CollapseEdges(int v)
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const Ring ring = mesh.Rings[v];
-  const float star = StarScore(this->State, v, mesh.Position[v]);
-  const float share = star < Bad ? ShortEdge : 1 + ScoreMargin;
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    const int w = ring.Item[i];
-    const float longest = share * this->State.Sizing.ShortestEdge(v, w);
-    if (SquaredDistance(mesh.Position[v], mesh.Position[w]) >= longest * longest)
-    {
-      continue;
-    }
-    for (int opposite : { ring.Next(i), ring.Previous(i) })
-    {
-      if (mesh.Rings[opposite].Count == 3 && this->Editor.Remove(opposite))
-      {
-        return true;
-      }
-    }
-    if (this->CollapseEdge(
-          v, w, std::min(star, StarScore(this->State, w, mesh.Position[w]))))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool SurfacePolish::FlipEdges(int v)
-{
-  const SizingField& sizing = this->State.Sizing;
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const Ring ring = mesh.Rings[v];
-  const Vector& p = mesh.Position[v];
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    const int w = ring.Item[i];
-    const Vector& q = mesh.Position[w];
-    const Vector& a = mesh.Position[ring.Next(i)];
-    const Vector& b = mesh.Position[ring.Previous(i)];
-    const float before = std::min({ EdgeScore(sizing, v, w, SquaredDistance(p, q)),
-      FaceScore(p, q, a), FaceScore(q, p, b) });
-    const float after = std::min(
-      { EdgeScore(sizing, ring.Next(i), ring.Previous(i), SquaredDistance(a, b)),
-      FaceScore(a, p, b), FaceScore(b, q, a) });
-    if (before < Good && after > before + Gain && 
-      this->Editor.Flip(v, w, EditTolerance::Smooth))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool SurfacePolish::Slide(int v)
-{
-  SurfaceState& s = this->State;
-  s.UpdateShape(v);
-  const Vector p = s.Mesh.Position[v];
-  const float before = StarScore(this->State, v, p);
-  const bool bad = before < Bad;
-  const Vector n = s.Normal[v].Axis();
-  const Vector across = std::abs(n.X) < 0.6f ? Vector(1, 0, 0) : Vector(0, 1, 0);
-  const Vector first = Normalized(Cross(n, across));
-  const Vector second = Cross(n, first);
-  this->Candidates.clear();
-  for (float step : { 0.4f, 0.2f, 0.1f, 0.05f })
-  {
-    Candidate best{ before + Gain, p };
-    for (int k = 0; k < 8; ++k)
-    {
-      static const float cosine[8] = { 1, 0.70710678f, 0, -0.70710678f, -1, -0.70710678f, 0,
-        0.70710678f };
-      const Vector slide = first * cosine[k] + second * cosine[(k + 6) % 8];
-      // A bad star in a crease has no plane to slide in.
-      for (int lift = bad ? -1 : 0; lift <= (bad ? 1 : 0); ++lift)
-      {
-        const Vector x = p + (slide + n * static_cast<float>(lift)) * (step * s.Sizing.At(v));
-        const float score = StarScore(this->State, v, x);
-        if (score > best.Score)
-        {
-          best = { score, x };
-        }
-      }
-    }
-    if (best.Score > before + Gain)
-    {
-      this->Candidates.push_back(best);
-    }
-  }
-  std::stable_sort(this->Candidates.begin(), this->Candidates.end(),
-    [](const Candidate& a, const Candidate& b) { return a.Score > b.Score; });
-  for (const Candidate& candidate : this->Candidates)
-  {
-    const Vector place = bad ? candidate.Position : this->Snapped(v, candidate.Position);
-    if (StarScore(this->State, v, place) > before + Gain &&
-      (bad || !(this->Strays(v, place) || this->Approaches(v, place))) &&
-      this->Editor.Move(v, place, EditTolerance::Smooth))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool SurfacePolish::Improve(int v)
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  if (mesh.Rings[v].Count == 3 && this->Editor.Remove(v))
-  {
-    return true;
-  }
-  return this->CollapseEdges(v) || this->FlipEdges(v) || this->Slide(v);
-}
-
-bool SurfacePolish::Approaches(int v, const Vector& position) const
-{
-  const SurfaceState& s = this->State;
-  if (!s.NearOthers[v])
-  {
-    return false;
-  }
-  const float near = s.Sizing.LargestClearance(v);
-  bool approaches = false;
-  s.Grid.Visit(position, near,
-    [&](int w)
-    {
-      const float squared = SquaredDistance(position, s.Mesh.Position[w]);
-      approaches = approaches ||
-        (w != v && squared < near * near &&
-          squared < SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) &&
-          s.Mesh.AreFarApart(v, w));
-    });
-  return approaches;
-}
-
-Vector SurfacePolish::PushAt(int v) const
-{
-  const SurfaceState& s = this->State;
-  const float near = s.Sizing.LargestClearance(v, 1 + ScoreMargin);
-  const Vector p = s.Mesh.Position[v];
-  Vector push;
-  s.Grid.Visit(p, near,
-    [&](int w)
-    {
-      const float squared = SquaredDistance(p, s.Mesh.Position[w]);
-      if (w != v && squared < near * near && squared > 0 && s.Mesh.AreFarApart(v, w))
-      {
-        const float distance = std::sqrt(squared);
-        push += (p - s.Mesh.Position[w]) * (0.5f * (near - distance) / distance);
-      }
-    });
-  return push;
-}
-
-bool SurfacePolish::Separate(int v)
-{
-  SurfaceState& s = this->State;
-  const Vector p = s.Mesh.Position[v];
-  Vector push = this->PushAt(v);
-  const float length = Length(push);
-  if (length <= LeastPush * ScoreMargin * s.Sizing.At(v))
-  {
-    return false;
-  }
-  push *= std::min(1.f, LongestPush * s.Sizing.At(v) / length);
-  const float least = std::min(StarScore(this->State, v, p), Bad);
-  for (float share : { 1.f, 0.4f })
-  {
-    const Vector place = p + push * share;
-    if (StarScore(this->State, v, place) >= least &&
-      this->Editor.Move(v, place, EditTolerance::Smooth))
-    {
-      return true;
-    }
-  }
-  return false;
+/** Of the few cuts that a cell may need, three each; what finds none waits for a next round. */
+constexpr std::size_t PlacesForCuts = 12;
 }
 
 void SurfacePolish::SeparateAll()
@@ -299,90 +25,50 @@ void SurfacePolish::SeparateAll()
     return;
   }
   SurfaceState& s = this->State;
-  std::vector<int> crowded;
-  for (int v = 0; v < s.Mesh.Size(); ++v)
+  const std::vector<int> crowded = SelectIndices(this->Threads, s.Mesh.Rings.size(),
+    [&s](std::size_t v) { return s.Mesh.IsAlive(static_cast<int>(v)) && s.NearOthers[v] != 0; });
+  EditCells::Pass pass;
+  pass.GoOn = [this] { return !this->IsToStop(); };
+  pass.Visit = [this](SurfaceEditor& editor, int v, EditCells::Lists&)
+  { StarImprovement(this->State, editor, this->SnapTo, false).Separate(v); };
+  for (int round = 0; round < SeparatingRounds && !this->IsToStop(); ++round)
   {
-    if (s.Mesh.IsAlive(v) && s.NearOthers[v])
-    {
-      crowded.push_back(v);
-    }
-  }
-  for (int round = 0; round < SeparatingRounds; ++round)
-  {
-    this->Scores.assign(crowded.size(), 0.f);
-    this->Threads.For(crowded.size(), 256,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->Scores[i] = SquaredLength(this->PushAt(crowded[i]));
-        }
-      });
-    for (std::size_t i = 0; i < crowded.size(); ++i)
-    {
-      if (i % StarsAtATime == 0 && this->IsToStop())
-      {
-        return;
-      }
-      if (this->Scores[i] > 0)
-      {
-        this->Separate(crowded[i]);
-      }
-    }
+    pass.Items = SelectOf(
+      this->Threads, crowded, [&s](int v) { return SquaredLength(PushAt(s, v)) > 0; });
+    this->Cells.Run(pass);
   }
 }
 
 void SurfacePolish::ImproveAll(float good)
 {
-  if (this->Stopped)
+  const SurfaceState& s = this->State;
+  const auto score = [&s](int v)
+  { return s.Mesh.IsAlive(v) ? StarScore(s, v, s.Mesh.Position[v]) : 1.f; };
+  EditCells::Pass pass;
+  pass.PlacesPerCell = this->MayCut ? PlacesForCuts : 0;
+  pass.GoOn = [this] { return !this->IsToStop(); };
+  pass.Visit = [this, &score, good](SurfaceEditor& editor, int v, EditCells::Lists& lists)
   {
-    return;
-  }
-  SurfaceState& s = this->State;
-  std::vector<int> list;
-  for (int v = 0; v < s.Mesh.Size(); ++v)
-  {
-    if (s.Mesh.IsAlive(v))
+    // An edit beside it may have changed what was found.
+    const float now = score(v);
+    if (now < good &&
+      !StarImprovement(this->State, editor, this->SnapTo, this->MayCut).Improve(v) &&
+      now < BadStar)
     {
-      list.push_back(v);
+      lists.Kept.push_back(v); // What is edited next to it may help.
     }
-  }
-  std::vector<int> left;
-  for (int round = 0; round < Rounds && !list.empty(); ++round)
+  };
+  std::vector<int> list = SelectIndices(this->Threads, s.Mesh.Rings.size(),
+    [&s](std::size_t v) { return s.Mesh.IsAlive(static_cast<int>(v)); });
+  for (int round = 0; round < Rounds && !list.empty() && !this->IsToStop(); ++round)
   {
-    const std::size_t edited = this->Editor.Changed().size();
-    left.clear();
-    const auto score = [&s, this](int v)
-    { return s.Mesh.IsAlive(v) ? StarScore(this->State, v, s.Mesh.Position[v]) : 1.f; };
-    this->Scores.resize(list.size());
-    this->Threads.For(list.size(), 1024,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->Scores[i] = score(list[i]);
-        }
-      });
-    for (std::size_t i = 0; i < list.size(); ++i)
-    {
-      if (i % StarsAtATime == 0 && this->IsToStop())
-      {
-        return;
-      }
-      const int v = list[i];
-      // An edit beside it may have changed what was found.
-      const float now = this->Scores[i] < good ? score(v) : 1.f;
-      if (now < good && !this->Improve(v) && now < Bad)
-      {
-        left.push_back(v); // What is edited next to it may help.
-      }
-    }
-    const std::vector<int>& changed = this->Editor.Changed();
-    left.insert(
-      left.end(), changed.begin() + static_cast<std::ptrdiff_t>(edited), changed.end());
-    std::sort(left.begin(), left.end());
-    left.erase(std::unique(left.begin(), left.end()), left.end());
-    list.swap(left);
+    const auto edited = static_cast<std::ptrdiff_t>(this->Cells.Changed().size());
+    pass.Items = SelectOf(this->Threads, list, [&](int v) { return score(v) < good; });
+    this->Cells.Run(pass);
+    list = this->Cells.Kept();
+    list.insert(list.end(), this->Cells.Changed().begin() + edited, this->Cells.Changed().end());
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
   }
 }
 
@@ -398,12 +84,12 @@ void SurfacePolish::Run()
   // get ill-shaped faces.
   this->SeparateAll();
   this->Done = 0.1;
-  this->ImproveAll(Good);
+  this->ImproveAll(GoodStar);
   this->Done = 0.7;
   this->SeparateAll();
   this->Done = 0.8;
   // What could not be mended before may be now; if not, a cycle of three stands in the way.
-  this->ImproveAll(Bad);
+  this->ImproveAll(BadStar);
   const int cuts = this->State.Counts.Cuts;
   this->MayCut = this->TopologyChanges;
   this->Done = 0.9;
@@ -411,7 +97,7 @@ void SurfacePolish::Run()
   if (this->State.Counts.Cuts > cuts)
   {
     this->SeparateAll(); // The two sides of a cut are near each other.
-    this->ImproveAll(Bad);
+    this->ImproveAll(BadStar);
   }
 }
 }

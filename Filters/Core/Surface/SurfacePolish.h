@@ -5,7 +5,7 @@
 
 #include "Core/Common/Monitor.h"
 #include "Core/Image/Field.h"
-#include "Core/Surface/SurfaceEditor.h"
+#include "Core/Surface/EditCells.h"
 
 #include <utility>
 #include <vector>
@@ -22,8 +22,8 @@ namespace volumic
  *
  * Every edit is one of SurfaceEditor's, verified, so the mesh stays manifold and free of
  * intersections; one is made only where the worst of the faces concerned gets better, so it ends.
- * What needs an edit is looked for on all threads, edits are made one after the other in order of
- * index: the same for any executor.
+ * What is tried at a star: StarImprovement. Edits are made by passes of EditCells: the same for any
+ * executor.
  */
 class SurfacePolish
 {
@@ -32,7 +32,7 @@ public:
   SurfacePolish(SurfaceState& state, const Field* snapTo, bool topologyChanges, Executor& executor,
     Checkpoint goOn = NeverStop)
     : State(state)
-    , Editor(state)
+    , Cells(state, executor)
     , Threads(executor)
     , SnapTo(snapTo)
     , TopologyChanges(topologyChanges)
@@ -44,31 +44,15 @@ public:
   void Run();
 
   /** Changed vertices of all its edits, in order; some may be named often. */
-  std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
+  std::vector<int> TakeChanged() { return this->Cells.TakeChanged(); }
 
 private:
-  Vector Snapped(int v, const Vector& position) const;
-  bool CollapseEdges(int v);
-  bool CollapseEdge(int u, int v, float before);
-  bool FlipEdges(int v);
-  bool Strays(int v, const Vector& position) const;
-  bool Approaches(int v, const Vector& position) const;
-  bool Slide(int v);
-  Vector PushAt(int v) const;
-  bool Separate(int v);
-  bool Improve(int v);
   void SeparateAll();
   void ImproveAll(float good); ///< Stars whose worst scores less than `good`.
   bool IsToStop();             ///< Asked now and then.
 
-  struct Candidate
-  {
-    float Score;
-    Vector Position;
-  };
-
   SurfaceState& State;
-  SurfaceEditor Editor;
+  EditCells Cells;
   Executor& Threads;
   const Field* SnapTo;
   bool TopologyChanges;
@@ -76,8 +60,6 @@ private:
   double Done = 0.; ///< Share of the work.
   bool Stopped = false;
   bool MayCut = false;
-  std::vector<float> Scores;
-  std::vector<Candidate> Candidates;
 };
 }
 

@@ -2,28 +2,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfaceState.h"
 
+#include "Core/Surface/StarShape.h"
+
 #include <algorithm>
 
 namespace volumic
 {
 void SurfaceState::Reset(const Vector& low, const Vector& high)
 {
-  this->Properties.Reset(this->Mesh.Rings.size());
+  SequentialExecutor thread;
+  this->Reset(low, high, thread);
+}
+
+void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& executor)
+{
+  this->Properties.Reset(this->Mesh.Rings.size(), executor);
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
+  this->LongestEdge = 0;
   this->Grid.Reset(low, high, this->Sizing.LargestReach());
+  this->Grid.InsertAll(
+    this->Mesh.Position, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   for (int v = 0; v < this->Mesh.Size(); ++v)
   {
-    if (this->Mesh.IsAlive(v))
-    {
-      this->Grid.Insert(v, this->Mesh.Position[v]);
-    }
-    else
-    {
-      this->Active[v] = 0;
-    }
+    this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
   }
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic();
+}
+
+void SurfaceState::Lend(VertexPlaces& places, std::size_t n)
+{
+  const std::size_t before = this->Mesh.Rings.size();
+  this->Mesh.Lend(places, n);
+  this->Properties.Resize(this->Mesh.Rings.size());
+  this->Grid.Resize(this->Mesh.Rings.size());
+  for (std::size_t v = before; v < this->Mesh.Rings.size(); ++v)
+  {
+    this->Active[v] = 0; // Until there is a vertex.
+  }
 }
 
 void SurfaceState::AddVertex(int v, int parent)
@@ -40,99 +56,46 @@ void SurfaceState::RemoveVertex(int v)
   this->EdgeLengthSum[v] = 0;
 }
 
-namespace
-{
-/** A star as UpdateShape sees it: its edges, counter-clockwise, and the faces between them. */
-struct StarShape
-{
-  int Count = 0;
-  Vector Edge[Ring::Capacity];
-  float Length[Ring::Capacity];
-  Vector Normal[Ring::Capacity]; ///< Of face i, between the edges i and i + 1.
-  float Size[Ring::Capacity];    ///< Twice its area.
-
-  StarShape(const SurfaceMesh& mesh, int v)
-    : Count(mesh.Rings[v].Count)
-  {
-    const Ring& ring = mesh.Rings[v];
-    const Vector p = mesh.Position[v];
-    for (int i = 0; i < this->Count; ++i)
-    {
-      this->Edge[i] = mesh.Position[ring.Item[i]] - p;
-      this->Length[i] = volumic::Length(this->Edge[i]);
-    }
-    for (int i = 0; i < this->Count; ++i)
-    {
-      this->Normal[i] = Cross(this->Edge[i], this->Edge[this->After(i)]);
-      this->Size[i] = volumic::Length(this->Normal[i]);
-    }
-  }
-  int After(int i) const { return i + 1 < this->Count ? i + 1 : 0; }
-
-  NormalCone Cone() const
-  {
-    Vector sum;
-    for (int i = 0; i < this->Count; ++i)
-    {
-      sum += this->Normal[i];
-    }
-    const Vector axis = Normalized(sum);
-    float cosine = 1;
-    for (int i = 0; i < this->Count; ++i)
-    {
-      cosine = std::min(
-        cosine, this->Size[i] > 0 ? Dot(this->Normal[i], axis) / this->Size[i] : -1.f);
-    }
-    return NormalCone(axis, cosine);
-  }
-
-  /** Whether the angles opposite to each edge exceed 180 degrees by no more than a little. */
-  bool IsDelaunay() const
-  {
-    constexpr float least = LeastCotangentSum;
-    for (int i = 0; i < this->Count; ++i)
-    {
-      const int before = i > 0 ? i - 1 : this->Count - 1;
-      const int after = this->After(i);
-      const float a =
-        this->Length[before] * this->Length[before] - Dot(this->Edge[before], this->Edge[i]);
-      const float b =
-        this->Length[after] * this->Length[after] - Dot(this->Edge[after], this->Edge[i]);
-      // a / size[before] + b / size[i] < least, free of divisions
-      if (a * this->Size[i] + b * this->Size[before] < least * this->Size[i] * this->Size[before])
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-};
-}
-
 void SurfaceState::UpdateShape(int v)
 {
   const StarShape star(this->Mesh, v);
-  const Ring& ring = this->Mesh.Rings[v];
-  Vector laplacian;
-  Vector spring;
+  StarVectors pull;
+  unsigned tooLong = 0;
+  unsigned tooShort = 0;
+  for (int i = 0; i < star.Count; i += Lanes::Count)
+  {
+    const auto ofEdges = [&](auto&& of)
+    {
+      float four[Lanes::Count];
+      for (int k = 0; k < Lanes::Count; ++k)
+      {
+        four[k] = of(star.Item[i + k]);
+      }
+      return Lanes::Load(four);
+    };
+    const Lanes length = star.Length.At(i);
+    const Lanes rest = ofEdges([&](int w) { return this->Sizing.RestLength(v, w); });
+    const Lanes longest = ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w); });
+    const Lanes shortest = ofEdges([&](int w) { return this->Sizing.ShortestEdge(v, w); });
+    pull.Set(
+      i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
+    tooLong |= LessBits(longest, length) << i;
+    tooShort |= LessBits(length, shortest) << i;
+  }
   float edges = 0;
-  std::uint8_t flags = 0;
   for (int i = 0; i < star.Count; ++i)
   {
-    const int w = ring.Item[i];
-    const float rest = this->Sizing.RestLength(v, w);
-    laplacian += star.Edge[i];
-    spring += star.Edge[i] * (1 - rest / std::max(star.Length[i], 1e-6f * rest));
     edges += star.Length[i];
-    flags |= star.Length[i] > this->Sizing.LongestEdge(v, w) ? HasLongEdge : 0;
-    flags |= star.Length[i] < this->Sizing.ShortestEdge(v, w) ? HasShortEdge : 0;
   }
-  laplacian *= 1.f / static_cast<float>(star.Count);
+  std::uint8_t flags = 0;
+  flags |= tooLong & star.All() ? HasLongEdge : 0;
+  flags |= tooShort & star.All() ? HasShortEdge : 0;
+  flags |= star.IsDelaunay() ? 0 : IsNotDelaunay;
   this->Normal[v] = star.Cone();
-  this->Laplacian[v] = laplacian;
-  this->SpringPull[v] = spring;
+  this->Laplacian[v] = star.Edge.Sum(star.Count) * (1.f / static_cast<float>(star.Count));
+  this->SpringPull[v] = pull.Sum(star.Count);
   this->EdgeLengthSum[v] = edges;
-  this->RemeshFlags[v] = star.IsDelaunay() ? flags : flags | IsNotDelaunay;
+  this->RemeshFlags[v] = flags;
 }
 
 void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& executor)

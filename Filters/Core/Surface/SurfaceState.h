@@ -26,6 +26,18 @@ struct EditCounts
   int Flips = 0;
   int Removed = 0; ///< Components deleted.
   int RemovedGenus = 0; ///< Sum of their genera.
+
+  EditCounts& operator+=(const EditCounts& more)
+  {
+    this->Merges += more.Merges;
+    this->Cuts += more.Cuts;
+    this->Splits += more.Splits;
+    this->Collapses += more.Collapses;
+    this->Flips += more.Flips;
+    this->Removed += more.Removed;
+    this->RemovedGenus += more.RemovedGenus;
+    return *this;
+  }
 };
 
 /**
@@ -34,12 +46,19 @@ struct EditCounts
  */
 constexpr float LeastCotangentSum = -0.05f;
 
+/**
+ * Longest edge, of the longest legal one, that there is but for a moment, after long edges could not
+ * be split: an edge's ends may each be displaced by .5 delta, bridge edges have 1.6 times its length.
+ */
+constexpr float HugeEdge = 1.6f;
+
 /** What a vertex may need of the remesher. */
 enum RemeshFlag : std::uint8_t
 {
   HasLongEdge = 1,      ///< One is longer than eq. (1) allows.
   HasShortEdge = 2,     ///< One is shorter.
-  IsNotDelaunay = 4     ///< An edge is not locally Delaunay.
+  IsNotDelaunay = 4,    ///< An edge is not locally Delaunay.
+  HasHugeEdge = 8       ///< One is longer than HugeEdge.
 };
 
 /**
@@ -58,6 +77,8 @@ public:
   ImageMargin Margin; ///< Of the level: no vertex is moved further out.
   int EulerCharacteristic = 0; ///< Kept by the edits; tests hold it against a count.
   EditCounts Counts;
+  /** No edge is longer than HugeEdge or this, which Remesher::Split sets where it must. */
+  float LongestEdge = 0;
 
   // Motion: Dynamics. An edit gives a vertex the mean of those that it comes of.
   VertexProperty<Vector> Velocity{ this->Properties, Vector() };
@@ -99,8 +120,11 @@ public:
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
   /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
+  void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
 
+  /** Gives n free places away, with room for what their vertices will know. */
+  void Lend(VertexPlaces& places, std::size_t n);
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);
   /** Before v is removed from the mesh. */

@@ -30,8 +30,9 @@ constexpr float DrawnApart = 0.25f;
 class TriedCut
 {
 public:
-  TriedCut(SurfaceState& state, const CycleCut& cut)
+  TriedCut(SurfaceState& state, const CycleCut& cut, VertexPlaces* places)
     : State(state)
+    , Places(places)
     , Corner{ cut.A, cut.B, cut.C }
   {
     for (int k = 0; k < 3; ++k)
@@ -44,7 +45,7 @@ public:
         this->Saved.emplace_back(ring.Item[i], state.Mesh.Rings[ring.Item[i]]);
       }
     }
-    const std::array<int, 3> copy = cut.Apply(state.Mesh);
+    const std::array<int, 3> copy = cut.Apply(state.Mesh, places);
     for (int k = 0; k < 3; ++k)
     {
       state.AddVertex(copy[k], this->Corner[k]);
@@ -110,7 +111,7 @@ public:
     for (int k = 3; k < 6; ++k)
     {
       this->State.RemoveVertex(this->All[k]);
-      mesh.RemoveVertex(this->All[k]);
+      mesh.RemoveVertex(this->All[k], this->Places);
     }
     for (const auto& entry : this->Saved)
     {
@@ -124,6 +125,7 @@ public:
 
 private:
   SurfaceState& State;
+  VertexPlaces* Places;
   std::array<int, 3> Corner;
   Vector Place[3];
   std::array<int, 6> All;
@@ -138,7 +140,7 @@ Edit SurfaceEditor::Merge(int u, int v)
   merge.U = u;
   merge.V = v;
   const float longest = s.Sizing.LongestEdge(u, v, LongestBridgeEdge);
-  if (!merge.Plan(s.Mesh) || merge.SquaredLongestBridgeEdge() > longest * longest)
+  if (!this->MayEdit({ u, v }) || !merge.Plan(s.Mesh) || merge.SquaredLongestBridgeEdge() > longest * longest)
   {
     return {};
   }
@@ -158,9 +160,9 @@ Edit SurfaceEditor::Merge(int u, int v)
   const std::size_t first = this->Log.size();
   s.RemoveVertex(u);
   s.RemoveVertex(v);
-  merge.Apply(s.Mesh);
-  s.EulerCharacteristic -= 2;
-  ++s.Counts.Merges;
+  merge.Apply(s.Mesh, this->Places());
+  this->AddToEulerCharacteristic(-2);
+  ++this->Counts().Merges;
   for (const auto& t : merge.Strip())
   {
     for (int w : t)
@@ -176,11 +178,11 @@ Edit SurfaceEditor::Cut(int u, int v, int w)
 {
   SurfaceState& s = this->State;
   const CycleCut cut{ u, v, w };
-  if (!cut.IsLegal(s.Mesh))
+  if (!this->MayEdit({ u, v, w }) || !cut.IsLegal(s.Mesh) || !this->HasPlaces(3))
   {
     return {};
   }
-  TriedCut tried(s, cut);
+  TriedCut tried(s, cut, this->Places());
   tried.DrawApart();
   this->Faces.clear();
   tried.AddFaces(this->Faces);
@@ -192,8 +194,8 @@ Edit SurfaceEditor::Cut(int u, int v, int w)
     return {};
   }
   const std::size_t first = this->Log.size();
-  s.EulerCharacteristic += 2;
-  ++s.Counts.Cuts;
+  this->AddToEulerCharacteristic(2);
+  ++this->Counts().Cuts;
   for (int x : tried.Corners())
   {
     this->TouchStar(x);

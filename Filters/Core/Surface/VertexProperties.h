@@ -3,6 +3,9 @@
 #ifndef volumicVertexProperties_h
 #define volumicVertexProperties_h
 
+#include "Core/Common/Executor.h"
+#include "Core/Common/Grow.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -16,6 +19,8 @@ public:
   virtual ~VertexPropertyBase() = default;
   /** Forgets all values: n vertices, each with the initial one. */
   virtual void Reset(std::size_t n) = 0;
+  /** Has values for indices below n; those that are new have the initial one. */
+  virtual void Resize(std::size_t n) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
 };
@@ -32,13 +37,19 @@ public:
   VertexProperties& operator=(const VertexProperties&) = delete;
 
   void Register(VertexPropertyBase& property) { this->All.push_back(&property); }
-  void Reset(std::size_t n)
+  void Reset(std::size_t n, Executor& executor)
+  {
+    ForBlocks(executor, this->All.size(), 1,
+      [&](std::size_t i, std::size_t, std::size_t) { this->All[i]->Reset(n); });
+  }
+  void Resize(std::size_t n)
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Reset(n);
+      property->Resize(n);
     }
   }
+  /** Threads may do so at the same time where there is room for the vertices. */
   void Add(int v, int parent)
   {
     for (VertexPropertyBase* property : this->All)
@@ -83,11 +94,12 @@ public:
   const std::vector<T>& AsVector() const { return this->Values; }
 
   void Reset(std::size_t n) override { this->Values.assign(n, this->Initial); }
+  void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
   void Add(std::size_t v, std::size_t parent) override
   {
     if (v >= this->Values.size())
     {
-      this->Values.resize(v + 1, this->Initial);
+      this->Resize(v + 1);
     }
     this->Values[v] = this->Inherits ? this->Values[parent] : this->OfNewVertices;
   }

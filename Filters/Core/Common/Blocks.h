@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicBlocks_h
+#define volumicBlocks_h
+
+#include "Core/Common/Executor.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * For lists that threads fill at once: what each block of [0, n) begins at if its items follow
+ * those of the blocks before, and the number of all as the last entry. countIn(begin, end): items
+ * of a block.
+ */
+template <typename CountIn>
+std::vector<std::size_t> FirstOfBlocks(
+  Executor& executor, std::size_t n, std::size_t size, CountIn&& countIn)
+{
+  std::vector<std::size_t> first((n + size - 1) / size + 1, 0);
+  ForBlocks(executor, n, size,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    { first[b + 1] = static_cast<std::size_t>(countIn(begin, end)); });
+  for (std::size_t b = 1; b < first.size(); ++b)
+  {
+    first[b] += first[b - 1];
+  }
+  return first;
+}
+
+/** The sum of the counts countIn(begin, end) of all blocks of [0, n). */
+template <typename CountIn>
+std::size_t CountInBlocks(Executor& executor, std::size_t n, std::size_t size, CountIn&& countIn)
+{
+  return FirstOfBlocks(executor, n, size, countIn).back();
+}
+
+/** All lists as one, in their order. They are emptied. */
+template <typename T>
+std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
+{
+  const std::vector<std::size_t> first = FirstOfBlocks(
+    executor, lists.size(), 1, [&](std::size_t b, std::size_t) { return lists[b].size(); });
+  std::vector<T> all(first.back());
+  ForBlocks(executor, lists.size(), 1,
+    [&](std::size_t b, std::size_t, std::size_t)
+    {
+      std::copy(lists[b].begin(), lists[b].end(),
+        all.begin() + static_cast<std::ptrdiff_t>(first[b]));
+      std::vector<T>().swap(lists[b]);
+    });
+  return all;
+}
+
+namespace detail
+{
+/**
+ * How many of the first `count` items of two sorted ranges, merged, come from the left one; of
+ * equal ones those on the left come first.
+ */
+template <typename Iterator>
+std::ptrdiff_t CountOfLeft(Iterator left, std::ptrdiff_t lefts, Iterator right,
+  std::ptrdiff_t rights, std::ptrdiff_t count)
+{
+  std::ptrdiff_t low = std::max<std::ptrdiff_t>(0, count - rights);
+  std::ptrdiff_t high = std::min(count, lefts);
+  while (low < high)
+  {
+    const std::ptrdiff_t middle = low + (high - low) / 2;
+    if (right[count - middle - 1] < left[middle])
+    {
+      high = middle;
+    }
+    else
+    {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+}
+
+/**
+ * std::sort by threads, for values of which equal ones are alike: sorted in blocks, which are then
+ * merged by twos. Needs as much memory again.
+ */
+template <typename T>
+void SortInBlocks(Executor& executor, std::vector<T>& values, std::size_t size = 1 << 15)
+{
+  const std::size_t n = values.size();
+  const auto at = [](std::vector<T>& list, std::size_t i)
+  { return list.begin() + static_cast<std::ptrdiff_t>(i); };
+  ForBlocks(executor, n, size, [&](std::size_t, std::size_t begin, std::size_t end)
+    { std::sort(at(values, begin), at(values, end)); });
+  std::vector<T> merged(n > size ? n : 0);
+  for (std::size_t width = size; width < n; width *= 2)
+  {
+    // Each block of what is merged is made of parts of two sorted ranges.
+    ForBlocks(executor, n, size,
+      [&](std::size_t, std::size_t begin, std::size_t end)
+      {
+        const std::size_t first = begin / (2 * width) * (2 * width);
+        const auto left = at(values, first);
+        const auto right = at(values, std::min(first + width, n));
+        const auto last = at(values, std::min(first + 2 * width, n));
+        const auto from = static_cast<std::ptrdiff_t>(begin - first);
+        const auto to = static_cast<std::ptrdiff_t>(end - first);
+        const std::ptrdiff_t a = detail::CountOfLeft(left, right - left, right, last - right, from);
+        const std::ptrdiff_t b = detail::CountOfLeft(left, right - left, right, last - right, to);
+        std::merge(
+          left + a, left + b, right + (from - a), right + (to - b), at(merged, begin));
+      });
+    values.swap(merged);
+  }
+}
+}
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicGrow_h
+#define volumicGrow_h
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Lengthens a vector to n values, if it is shorter, by an eighth at least: the library would double
+ * the memory, which of a surface that hardly grows any more is half of it for nothing.
+ */
+template <typename T>
+void Grow(std::vector<T>& values, std::size_t n, const T& value)
+{
+  if (n > values.capacity())
+  {
+    values.reserve(std::max(n, values.capacity() + values.capacity() / 8));
+  }
+  if (n > values.size())
+  {
+    values.resize(n, value);
+  }
+}
+}
+
+#endif

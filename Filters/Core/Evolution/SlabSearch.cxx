@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SlabSearch.h"
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Image/VoxelNumbers.h"
+#include "Core/Mesh/RowCrossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/**
+ * Rows pass beside the voxels by so much, in voxels along y and z, so that hardly any hits an edge
+ * or a corner of a surface on round numbers.
+ */
+constexpr double Aside[2] = { 1.2345e-4, 1.7 * 1.2345e-4 };
+
+constexpr int BitsOfWord = 64;
+}
+
+SlabSearch::SlabSearch(
+  const SurfaceState& state, const Field& field, PartKind kind, int begin, int end)
+  : State(state)
+  , TheField(field)
+  , Kind(kind)
+  , Size(field.Image().Size)
+  , Begin(begin)
+  , End(end)
+  , Words((Size[0] + BitsOfWord - 1) / BitsOfWord)
+  , Open(static_cast<std::size_t>(end - begin) * Size[1] * Words,
+      kind == PartKind::Object ? ~std::uint64_t(0) : 0)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Inverse[k] = 1. / field.Image().Step[k];
+  }
+}
+
+void SlabSearch::Set(int row, int first, int last, bool isOpen)
+{
+  if (first > last)
+  {
+    return;
+  }
+  std::uint64_t* words = this->Open.data() + static_cast<std::size_t>(row) * this->Words;
+  for (int w = first / BitsOfWord; w <= last / BitsOfWord; ++w)
+  {
+    const std::uint64_t all = ~std::uint64_t(0);
+    const std::uint64_t bits =
+      (w == first / BitsOfWord ? all << first % BitsOfWord : all) &
+      (w == last / BitsOfWord ? all >> (BitsOfWord - 1 - last % BitsOfWord) : all);
+    words[w] = isOpen ? words[w] | bits : words[w] & ~bits;
+  }
+}
+
+void SlabSearch::FindCrossings(int a, int b, int c)
+{
+  Point corner[3];
+  Bounds bounds;
+  const int vertices[3] = { a, b, c };
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vector& p = this->State.Mesh.Position[vertices[k]];
+    corner[k] = { p.X * this->Inverse[0], p.Y * this->Inverse[1] - Aside[0],
+      p.Z * this->Inverse[2] - Aside[1] };
+    bounds.Add(corner[k]);
+  }
+  const auto first = [&](int axis, int least)
+  { return std::max(least, static_cast<int>(std::ceil(bounds.Low[axis]))); };
+  const auto last = [&](int axis, int end)
+  { return std::min(end - 1, static_cast<int>(std::floor(bounds.High[axis]))); };
+  for (int k = first(2, this->Begin); k <= last(2, this->End); ++k)
+  {
+    for (int j = first(1, 0); j <= last(1, this->Size[1]); ++j)
+    {
+      const RowCrossing crossing = RowCrossing::Of(corner[0], corner[1], corner[2], j, k);
+      if (crossing.Winding != 0)
+      {
+        this->Crossings.push_back({ this->RowOf(j, k), static_cast<float>(crossing.X) });
+      }
+    }
+  }
+}
+
+void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto v = static_cast<std::size_t>(vertices[i]);
+    this->State.Mesh.VisitFaces(
+      v, v + 1, [this](int a, int b, int c) { this->FindCrossings(a, b, c); });
+  }
+  std::vector<Crossing>& crossings = this->Crossings;
+  std::sort(crossings.begin(), crossings.end());
+  for (std::size_t i = 0; i + 1 < crossings.size();)
+  {
+    if (crossings[i].Row != crossings[i + 1].Row)
+    {
+      ++i; // Odd ones don't exist on a closed surface.
+      continue;
+    }
+    const int first = std::max(0, static_cast<int>(std::ceil(crossings[i].X)));
+    const int last =
+      std::min(this->Size[0] - 1, static_cast<int>(std::floor(crossings[i + 1].X)));
+    this->Set(crossings[i].Row, first, last, this->Kind == PartKind::Cavity);
+    i += 2;
+  }
+}
+
+void SlabSearch::CloseNear(int v)
+{
+  // Whatever the distances of the voxels.
+  const double width = NearUnits * this->TheField.Image().Unit;
+  const auto& step = this->TheField.Image().Step;
+  const Vector& p = this->State.Mesh.Position[v];
+  const double place[3] = { p.X * this->Inverse[0], p.Y * this->Inverse[1],
+    p.Z * this->Inverse[2] };
+  const int least[3] = { 0, 0, this->Begin };
+  const int end[3] = { this->Size[0], this->Size[1], this->End };
+  int low[3];
+  int high[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    const double reach = width * this->Inverse[k];
+    low[k] = std::max(least[k], static_cast<int>(std::ceil(place[k] - reach)));
+    high[k] = std::min(end[k] - 1, static_cast<int>(std::floor(place[k] + reach)));
+  }
+  for (int k = low[2]; k <= high[2]; ++k)
+  {
+    for (int j = low[1]; j <= high[1]; ++j)
+    {
+      const double y = (j - place[1]) * step[1];
+      const double z = (k - place[2]) * step[2];
+      const auto isFar = [&](int i)
+      {
+        const double x = (i - place[0]) * step[0];
+        return !(x * x + y * y + z * z <= width * width);
+      };
+      int first = low[0];
+      int last = high[0];
+      while (first <= last && isFar(first))
+      {
+        ++first;
+      }
+      while (first <= last && isFar(last))
+      {
+        --last;
+      }
+      this->Set(this->RowOf(j, k), first, last, false);
+    }
+  }
+}
+
+std::vector<VoxelRun> SlabSearch::FindRuns() const
+{
+  const VoxelNumbers numbers(this->Size);
+  std::vector<VoxelRun> runs;
+  std::size_t word = 0;
+  for (int k = this->Begin; k < this->End; ++k)
+  {
+    for (int j = 0; j < this->Size[1]; ++j)
+    {
+      const std::int64_t row = numbers.Of(0, j, k);
+      bool isOnRun = false;
+      for (int w = 0; w < this->Words; ++w, ++word)
+      {
+        int i = w * BitsOfWord;
+        const int end = std::min(i + BitsOfWord, this->Size[0]);
+        for (std::uint64_t bits = this->Open[word]; bits != 0 && i < end; bits >>= 1, ++i)
+        {
+          const bool isLost = (bits & 1) != 0 &&
+            (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object);
+          if (isLost && isOnRun)
+          {
+            ++runs.back().Length;
+          }
+          else if (isLost)
+          {
+            runs.push_back({ row + i, 1, VoxelRun::NoPart });
+          }
+          isOnRun = isLost;
+        }
+        isOnRun = isOnRun && i == end;
+      }
+    }
+  }
+  return runs;
+}
+}

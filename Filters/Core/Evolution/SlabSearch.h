@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSlabSearch_h
+#define volumicSlabSearch_h
+
+#include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/** What lies no farther than so many units of the level from a vertex is not lost. */
+constexpr double NearUnits = 2.;
+
+/** What a surface may have lost. */
+enum class PartKind
+{
+  Object, ///< Object outside the surface.
+  Cavity  ///< Background inside the surface.
+};
+
+/** Voxels of a part that follow each other along x. */
+struct VoxelRun
+{
+  static constexpr int NoPart = -1;
+
+  std::int64_t First; ///< Number of the first one, see VoxelNumbers.
+  int Length;
+  int Part = NoPart;
+};
+
+/**
+ * The search of one slab, a range of layers of an image, for the voxels that a surface has lost:
+ * see LostVoxels.
+ */
+class SlabSearch
+{
+public:
+  /** Of the layers [begin, end). What is given must outlive it. */
+  SlabSearch(const SurfaceState& state, const Field& field, PartKind kind, int begin, int end);
+
+  /**
+   * Leaves open what is outside the surface, for objects, or inside, for cavities. `vertices`: all
+   * of which a face may cross a layer.
+   */
+  void LeaveSide(const int* vertices, std::size_t count);
+  /** Closes what is no farther than NearUnits from a vertex. */
+  void CloseNear(int v);
+  /** What is open and of the kind that is looked for, by number. */
+  std::vector<VoxelRun> FindRuns() const;
+
+private:
+  struct Crossing
+  {
+    int Row; ///< Of the slab.
+    float X; ///< Place along it.
+    bool operator<(const Crossing& other) const
+    {
+      return this->Row != other.Row ? this->Row < other.Row : this->X < other.X;
+    }
+  };
+  /** Finds the crossings of the rows of voxels with a face. */
+  void FindCrossings(int a, int b, int c);
+
+  int RowOf(int j, int k) const { return (k - this->Begin) * this->Size[1] + j; }
+  /** Opens or closes voxels of a row of the slab, the last one as well. */
+  void Set(int row, int first, int last, bool isOpen);
+
+  const SurfaceState& State;
+  const Field& TheField;
+  PartKind Kind;
+  std::array<int, 3> Size;
+  int Begin;
+  int End;
+  int Words; ///< Of a row.
+  double Inverse[3];
+  std::vector<std::uint64_t> Open; ///< A bit for each voxel that may be lost, row by row.
+  std::vector<Crossing> Crossings;
+};
+}
+
+#endif

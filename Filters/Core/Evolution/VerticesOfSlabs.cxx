@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/VerticesOfSlabs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexBlock = 16384;
+/** Faces so near to a layer, in layers, are taken to cross it. */
+constexpr double Margin = 0.01;
+
+/** Finds the slabs that a vertex matters in. */
+class SlabFinder
+{
+public:
+  SlabFinder(const SurfaceMesh& mesh, const LevelImage& image, int layersOfSlab, double reach)
+    : Mesh(mesh), Inverse(1. / image.Step[2]), Last(image.Size[2] - 1), Layers(layersOfSlab),
+      Reach(reach * Inverse)
+  {
+  }
+
+  /** Calls visit(slab) for each. */
+  template <typename Visit>
+  void VisitSlabs(int v, const Visit& visit) const
+  {
+    const Ring& ring = this->Mesh.Rings[v];
+    if (ring.Count == 0)
+    {
+      return;
+    }
+    const double place = this->Mesh.Position[v].Z * this->Inverse;
+    double low = place - std::max(this->Reach, Margin);
+    double high = place + std::max(this->Reach, Margin);
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      const double other = this->Mesh.Position[ring.Item[i]].Z * this->Inverse;
+      low = std::min(low, other - Margin);
+      high = std::max(high, other + Margin);
+    }
+    if (high < 0. || low > this->Last)
+    {
+      return;
+    }
+    const int first = std::max(0, static_cast<int>(std::ceil(low)));
+    const int last = std::min(this->Last, static_cast<int>(std::floor(high)));
+    for (int slab = first / this->Layers; first <= last && slab <= last / this->Layers; ++slab)
+    {
+      visit(static_cast<std::size_t>(slab));
+    }
+  }
+
+private:
+  const SurfaceMesh& Mesh;
+  double Inverse;
+  int Last; ///< Layer of the image.
+  int Layers;
+  double Reach; ///< In layers.
+};
+}
+
+VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& image,
+  int layersOfSlab, double reach, Executor& executor)
+{
+  const SlabFinder finder(mesh, image, layersOfSlab, reach);
+  const auto slabs = static_cast<std::size_t>((image.Size[2] + layersOfSlab - 1) / layersOfSlab);
+  const std::size_t n = mesh.Rings.size();
+  const std::size_t blocks = (n + VertexBlock - 1) / VertexBlock;
+  // Of each block and slab: first how many there are, then where the next one goes.
+  std::vector<std::size_t> next(blocks * slabs, 0);
+  const auto visitAll = [&](const auto& visit)
+  {
+    ForBlocks(executor, n, VertexBlock,
+      [&](std::size_t block, std::size_t begin, std::size_t end)
+      {
+        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+        {
+          finder.VisitSlabs(
+            v, [&](std::size_t slab) { visit(next[block * slabs + slab], v); });
+        }
+      });
+  };
+  visitAll([](std::size_t& count, int) { ++count; });
+  this->First.resize(slabs + 1, 0);
+  std::size_t sum = 0;
+  for (std::size_t slab = 0; slab < slabs; ++slab)
+  {
+    for (std::size_t block = 0; block < blocks; ++block)
+    {
+      const std::size_t count = next[block * slabs + slab];
+      next[block * slabs + slab] = sum;
+      sum += count;
+    }
+    this->First[slab + 1] = sum;
+  }
+  this->Vertices.resize(sum);
+  visitAll([this](std::size_t& place, int v) { this->Vertices[place++] = v; });
+}
+}

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Surface/StarFaces.h"
+
+#include <algorithm>
+
+namespace volumic
+{
+StarRim::StarRim(const SurfaceMesh& mesh, int v)
+  : Centre(v)
+  , Count(mesh.Rings[v].Count)
+  , Place(mesh.Position[v])
+{
+  std::copy(mesh.Rings[v].Item, mesh.Rings[v].Item + Ring::Capacity, this->Item);
+  this->Item[Ring::Capacity] = -1;
+  const auto place = [&](int i) -> const Vector&
+  { return mesh.Position[this->Item[i < this->Count ? i : 0]]; };
+  for (int i = 0; i < this->Count; i += Lanes::Count)
+  {
+    this->Rim.Set(i, Gather(place(i), place(i + 1), place(i + 2), place(i + 3)));
+  }
+  this->Rim.Close(this->Count);
+}
+
+bool StarRim::Shares(const StarRim& other) const
+{
+  unsigned shared = other.Matching(this->Centre);
+  for (int i = 0; i < this->Count && shared == 0; ++i)
+  {
+    shared = other.Matching(this->Item[i]);
+  }
+  return shared != 0 || this->Matching(other.Centre) != 0 || this->Centre == other.Centre;
+}
+
+StarFaces::StarFaces(const SurfaceMesh& mesh, int v)
+  : StarRim(mesh, v)
+{
+  const VectorLanes place = AllLanes(this->Place);
+  for (int i = 0; i < this->Count; i += Lanes::Count)
+  {
+    const VectorLanes a = this->Rim.At(i);
+    const VectorLanes b = this->Rim.At(i + 1);
+    this->Low.Set(i, Minimum(place, Minimum(a, b)));
+    this->High.Set(i, Maximum(place, Maximum(a, b)));
+    this->Normal.Set(i, Normalized(Cross(a - place, b - place)));
+  }
+}
+}

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/StandardThreads.h"
+#include "Core/Evolution/LostVoxels.h"
+#include "Core/Image/VoxelNumbers.h"
+#include "Core/Image/VoxelParts.h"
+#include "EvolutionTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** More voxels in a row than a word has bits, more layers than a batch of one slab has. */
+constexpr int Size = 72;
+constexpr double Centre = 35.6;
+constexpr double Radius = 11.;
+
+/** So many voxels in a hundred, here and there, are of the object. */
+TestVolume Noise(unsigned int percent)
+{
+  return MakeVolume(Size,
+    [percent](double x, double y, double z)
+    {
+      auto hash = static_cast<std::uint32_t>(x + Size * (y + Size * z));
+      for (const std::uint32_t factor : { 2654435761u, 2246822519u, 3266489917u })
+      {
+        hash = (hash ^ hash >> 15) * factor;
+      }
+      return (hash >> 8) % 100 < percent ? 1. : 0.;
+    });
+}
+
+void Fill(SurfaceState& state)
+{
+  state.Mesh = MakeSphere({ Centre, Centre, Centre }, Radius, 1.2);
+  state.Sizing = SizingField(0.85f);
+  state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
+}
+
+/** What is lost, voxel by voxel. */
+std::vector<std::uint8_t> Marks(const SurfaceState& state, const Field& field, PartKind kind)
+{
+  const VoxelNumbers numbers({ Size, Size, Size });
+  std::vector<std::uint8_t> marks(static_cast<std::size_t>(numbers.Count()), 0);
+  for (std::int64_t voxel = 0; voxel < numbers.Count(); ++voxel)
+  {
+    const std::array<int, 3> p = numbers.PlaceOf(voxel);
+    const bool isObject = kind == PartKind::Object;
+    const bool isInside = Distance(p[0], p[1], p[2], Centre, Centre, Centre) < Radius;
+    marks[voxel] = isInside != isObject && (field.Voxel(p[0], p[1], p[2]) > 0) == isObject;
+  }
+  for (const Vector& v : state.Mesh.Position)
+  {
+    const auto first = [](float x) { return std::max(0, static_cast<int>(x - NearUnits)); };
+    const auto end = [](float x) { return std::min(Size, static_cast<int>(x + NearUnits) + 1); };
+    for (int k = first(v.Z); k < end(v.Z); ++k)
+    {
+      for (int j = first(v.Y); j < end(v.Y); ++j)
+      {
+        for (int i = first(v.X); i < end(v.X); ++i)
+        {
+          if (Distance(i, j, k, v.X, v.Y, v.Z) <= NearUnits)
+          {
+            marks[numbers.Of(i, j, k)] = 0;
+          }
+        }
+      }
+    }
+  }
+  return marks;
+}
+
+using Parts = std::vector<std::vector<std::int64_t>>;
+
+Parts PartsOf(std::vector<std::uint8_t> marks, std::size_t minimumSize)
+{
+  Parts all;
+  VoxelParts parts(marks, { Size, Size, Size }, 1, 0);
+  for (const auto* part = &parts.Next(); !part->empty(); part = &parts.Next())
+  {
+    if (part->size() >= minimumSize)
+    {
+      all.push_back(*part);
+      std::sort(all.back().begin(), all.back().end());
+    }
+  }
+  return all;
+}
+
+Parts PartsOf(const LostVoxels& lost)
+{
+  Parts all(static_cast<std::size_t>(lost.NumberOfParts()));
+  for (const auto& slab : lost.Slabs())
+  {
+    for (const VoxelRun& run : slab)
+    {
+      for (int i = 0; i < run.Length; ++i)
+      {
+        all.at(static_cast<std::size_t>(run.Part)).push_back(run.First + i);
+      }
+    }
+  }
+  return all;
+}
+}
+
+TEST(LostVoxels, AreThoseOfTheWholeImageInTheSameParts)
+{
+  SurfaceState state;
+  Fill(state);
+  SequentialExecutor alone;
+  StandardThreads threads(3);
+  for (const unsigned int percent : { 3u, 28u, 34u, 60u, 97u })
+  {
+    const TestVolume volume = Noise(percent);
+    const Field field(volume.Image, IsoHalf(), alone);
+    for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
+    {
+      const std::vector<std::uint8_t> marks = Marks(state, field, kind);
+      for (const int minimumSize : { 1, 2, 20 })
+      {
+        const Parts wanted = PartsOf(marks, static_cast<std::size_t>(minimumSize));
+        for (Executor* executor : { static_cast<Executor*>(&alone), static_cast<Executor*>(&threads) })
+        {
+          const LostVoxels lost(state, field, kind, minimumSize, *executor, NeverStop);
+          EXPECT_EQ(PartsOf(lost), wanted) << percent << " %, at least " << minimumSize;
+        }
+      }
+    }
+  }
+}
+
+TEST(LostVoxels, FormPartsThroughOtherSlabs)
+{
+  // A comb: its teeth begin in the first layers and meet in the last.
+  const TestVolume volume = MakeVolume(Size,
+    [](double x, double y, double z)
+    { return y == 3 && x < 68 && (z == Size - 1 || static_cast<int>(x) % 4 == 0) ? 1. : 0.; });
+  SequentialExecutor executor;
+  const Field field(volume.Image, IsoHalf(), executor);
+  SurfaceState state;
+  state.Sizing = SizingField(0.85f);
+  state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
+  const LostVoxels lost(state, field, PartKind::Object, 1, executor, NeverStop);
+  ASSERT_EQ(lost.NumberOfParts(), 1);
+  EXPECT_EQ(PartsOf(lost)[0].size(), 17u * (Size - 1) + 68u);
+}
+
+TEST(LostVoxels, AreNotToldWhenAskedToStop)
+{
+  const TestVolume volume = Noise(34);
+  SequentialExecutor executor;
+  const Field field(volume.Image, IsoHalf(), executor);
+  SurfaceState state;
+  Fill(state);
+  const LostVoxels lost(
+    state, field, PartKind::Object, 1, executor, [](double) { return false; });
+  EXPECT_TRUE(lost.IsStopped());
+  EXPECT_EQ(lost.NumberOfParts(), 0);
+  EXPECT_TRUE(lost.Slabs().empty());
+}

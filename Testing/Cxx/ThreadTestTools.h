@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicThreadTestTools_h
+#define volumicThreadTestTools_h
+
+#include "Core/Common/StandardThreads.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <thread>
+
+namespace volumic
+{
+/**
+ * Threads that are held up by chance, before every item or now and then, so that what they do comes
+ * in another order at each call.
+ */
+class DelayedThreads final : public Executor
+{
+public:
+  /** @param longest delay in microseconds; one in `every` items is delayed. */
+  DelayedThreads(int numberOfThreads, unsigned seed, unsigned longest, unsigned every = 1)
+    : Threads(numberOfThreads)
+    , State(seed)
+    , Longest(longest)
+    , Every(every)
+  {
+  }
+
+  void For(std::size_t n, std::size_t grain,
+    const std::function<void(std::size_t, std::size_t)>& body) override
+  {
+    // As many chunks as may be, whatever the grain.
+    this->Threads.For((n + grain - 1) / grain, 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t chunk = begin; chunk < end; ++chunk)
+        {
+          this->Delay();
+          body(chunk * grain, std::min(n, (chunk + 1) * grain));
+        }
+      });
+  }
+
+private:
+  void Delay()
+  {
+    const std::uint32_t number = this->State.fetch_add(0x9e3779b9u) * 2654435761u;
+    if ((number >> 8) % this->Every == 0)
+    {
+      std::this_thread::sleep_for(std::chrono::microseconds((number >> 16) % this->Longest));
+    }
+  }
+
+  StandardThreads Threads;
+  std::atomic<std::uint32_t> State;
+  unsigned Longest;
+  unsigned Every;
+};
+
+/** FNV-1a of the bytes of some values. */
+template <typename Values>
+std::uint64_t HashOf(const Values& values, std::uint64_t hash = 1469598103934665603ull)
+{
+  const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+  for (std::size_t i = 0; i < values.size() * sizeof(values[0]); ++i)
+  {
+    hash = (hash ^ bytes[i]) * 1099511628211ull;
+  }
+  return hash;
+}
+}
+
+#endif
