@@ -168,12 +168,18 @@ std::vector<VoxelRun> SlabSearch::FindRuns() const
       bool isOnRun = false;
       for (int w = 0; w < this->Words; ++w, ++word)
       {
-        int i = w * BitsOfWord;
+        const int begin = w * BitsOfWord;
+        int i = begin;
         const int end = std::min(i + BitsOfWord, this->Size[0]);
+        float values[BitsOfWord];
+        if (this->Open[word] != 0)
+        {
+          this->TheField.Row(begin, j, k, end - begin, values);
+        }
         for (std::uint64_t bits = this->Open[word]; bits != 0 && i < end; bits >>= 1, ++i)
         {
-          const bool isLost = (bits & 1) != 0 &&
-            (this->TheField.Voxel(i, j, k) > 0) == (this->Kind == PartKind::Object);
+          const bool isLost =
+            (bits & 1) != 0 && (values[i - begin] > 0) == (this->Kind == PartKind::Object);
           if (isLost && isOnRun)
           {
             ++runs.back().Length;
