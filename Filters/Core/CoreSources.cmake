@@ -6,6 +6,7 @@
 # (Documentation/architecture.md).
 
 set(volumic_core_sources
+  Common/FreeMemory.cxx
   Common/MeasuredExecutor.cxx
   Common/StandardThreads.cxx
   Image/AxisOperator.cxx
@@ -69,6 +70,7 @@ set(volumic_core_headers
   Common/Box.h
   Common/DisjointSets.h
   Common/Executor.h
+  Common/FreeMemory.h
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
