@@ -63,7 +63,21 @@ void SurfaceIteration::CollectWorking()
 {
   // The active vertices and the corners of all faces that move with them.
   SurfaceState& s = this->State;
-  this->IsWorking.assign(s.Mesh.Rings.size(), 0);
+  if (this->IsWorking.size() == s.Mesh.Rings.size())
+  {
+    this->Threads.For(this->Working.size(), ActiveGrain,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->IsWorking[this->Working[i]] = 0;
+        }
+      });
+  }
+  else
+  {
+    this->IsWorking.assign(s.Mesh.Rings.size(), 0);
+  }
   this->Working.resize(this->Active.size());
   this->Threads.For(this->Active.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)

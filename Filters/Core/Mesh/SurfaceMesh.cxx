@@ -295,8 +295,12 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
   std::vector<int> place(this->Rings.size(), -1);
-  std::vector<Vector> position(order.size());
-  std::vector<Ring> rings(order.size());
+  std::vector<Vector> position;
+  position.reserve(WithRoomToGrow(order.size()));
+  position.resize(order.size());
+  std::vector<Ring> rings;
+  rings.reserve(WithRoomToGrow(order.size()));
+  rings.resize(order.size());
   ForBlocks(executor, order.size(), VertexBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {

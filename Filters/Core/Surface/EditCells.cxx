@@ -17,7 +17,9 @@ constexpr float Spare = 0.1f;
 /** Items under which the threads are not worth waking. */
 constexpr std::size_t FewItems = 24;
 /** Items that are sorted into cells by one thread at a time. */
-constexpr std::size_t SortedBlock = 4096;
+constexpr std::size_t SortedBlock = 2048;
+/** Cells that are filled by one thread at a time. */
+constexpr std::size_t FilledCells = 64;
 
 /** Numbers of cells along an axis: 20 bits, beyond which the outermost takes all. */
 constexpr int Bits = 20;
@@ -103,45 +105,74 @@ void EditCells::FillCells(const std::vector<int>& items, const Pass& pass, float
 {
   this->FindStretches(items, pass, side);
   this->FirstOfColour.assign(Colours + 1, 0);
-  std::size_t cells = 0;
+  this->FirstStretch.clear();
   for (std::size_t i = 0; i < this->Stretches.size(); ++i)
   {
-    const Stretch& stretch = this->Stretches[i];
-    if (i == 0 || stretch.Cell != this->Stretches[i - 1].Cell)
+    const std::uint64_t cell = this->Stretches[i].Cell;
+    if (i == 0 || cell != this->Stretches[i - 1].Cell)
     {
-      if (cells == this->Cells.size())
-      {
-        this->Cells.push_back(std::make_unique<Cell>());
-        Cell& made = *this->Cells.back();
-        made.Editor = std::make_unique<SurfaceEditor>(this->State, &made.Share);
-      }
-      Cell& cell = *this->Cells[cells++];
-      cell.Content.Items.clear();
-      cell.Content.Kept.clear();
-      cell.Share.Region =
-        BoxOf(stretch.Cell, side).Grown(pass.MarginInDelta * this->State.Sizing.Largest());
-      ++this->FirstOfColour[ColourOf(stretch.Cell) + 1];
+      this->FirstStretch.push_back(i);
+      ++this->FirstOfColour[ColourOf(cell) + 1];
     }
-    std::vector<int>& own = this->Cells[cells - 1]->Content.Items;
-    own.insert(own.end(), items.begin() + stretch.Begin, items.begin() + stretch.End);
   }
+  const std::size_t count = this->FirstStretch.size();
+  this->FirstStretch.push_back(this->Stretches.size());
   for (int colour = 0; colour < Colours; ++colour)
   {
     this->FirstOfColour[colour + 1] += this->FirstOfColour[colour];
+  }
+  while (this->Cells.size() < count)
+  {
+    this->Cells.push_back(std::make_unique<Cell>());
+    Cell& made = *this->Cells.back();
+    made.Editor = std::make_unique<SurfaceEditor>(this->State, &made.Share);
+  }
+  this->Threads.For(count, FilledCells,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t c = begin; c < end; ++c)
+      {
+        Cell& cell = *this->Cells[c];
+        this->FillCell(cell, this->FirstStretch[c], this->FirstStretch[c + 1], items);
+        cell.Share.Region = BoxOf(this->Stretches[this->FirstStretch[c]].Cell, side)
+                              .Grown(pass.MarginInDelta * this->State.Sizing.Largest());
+      }
+    });
+}
+
+void EditCells::FillCell(Cell& cell, std::size_t firstStretch, std::size_t lastStretch,
+  const std::vector<int>& items)
+{
+  cell.Content.Items.clear();
+  cell.Content.Kept.clear();
+  for (std::size_t i = firstStretch; i < lastStretch; ++i)
+  {
+    const Stretch& stretch = this->Stretches[i];
+    cell.Content.Items.insert(
+      cell.Content.Items.end(), items.begin() + stretch.Begin, items.begin() + stretch.End);
   }
 }
 
 void EditCells::LendPlaces(const Pass& pass, std::size_t first, std::size_t last)
 {
-  if (pass.PlacesPerItem + pass.PlacesPerCell == 0)
+  const auto wanted = [&](std::size_t c)
+  { return pass.PlacesPerCell + pass.PlacesPerItem * this->Cells[c]->Content.Items.size(); };
+  std::size_t total = 0;
+  for (std::size_t c = first; c < last; ++c)
+  {
+    total += wanted(c);
+  }
+  if (total == 0)
   {
     return;
   }
+  VertexPlaces all;
+  this->State.Lend(all, total);
   for (std::size_t c = first; c < last; ++c)
   {
-    Cell& cell = *this->Cells[c];
-    this->State.Lend(cell.Share.Places,
-      pass.PlacesPerCell + pass.PlacesPerItem * cell.Content.Items.size());
+    const auto from = all.Free.end() - static_cast<std::ptrdiff_t>(wanted(c));
+    this->Cells[c]->Share.Places.Free.assign(from, all.Free.end());
+    all.Free.erase(from, all.Free.end());
   }
 }
 

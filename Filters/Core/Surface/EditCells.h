@@ -33,8 +33,7 @@ namespace volumic
  * round, in which items are sorted into cells anew, as long as anything changes. Places of removed vertices are not used
  * again before the pass is over: an item of another cell may still name them.
  *
- * Instead of locks, which would make the order of edits, and so the surface, depend on chance; as
- * in "A design that was tried" (spec/blocks.md), which measured what edits read and write.
+ * Instead of locks, which would make the order of edits, and so the surface, depend on chance.
  */
 class EditCells
 {
@@ -103,6 +102,8 @@ private:
   float Side(const Pass& pass) const;
   void FindStretches(const std::vector<int>& items, const Pass& pass, float side);
   void FillCells(const std::vector<int>& items, const Pass& pass, float side);
+  void FillCell(Cell& cell, std::size_t firstStretch, std::size_t lastStretch,
+    const std::vector<int>& items);
   void LendPlaces(const Pass& pass, std::size_t first, std::size_t last);
   void VisitCell(const Pass& pass, Cell& cell);
   void Collect(std::size_t first, std::size_t last);
@@ -113,6 +114,7 @@ private:
   Executor& Threads;
   std::vector<Stretch> Stretches;
   std::vector<std::unique_ptr<Cell>> Cells; ///< Those in use first.
+  std::vector<std::size_t> FirstStretch;    ///< Of each cell, and the end of the last.
   std::vector<int> FirstOfColour;           ///< Nine places among them.
   VertexPlaces Removed;
   std::vector<int> LeftForPlaces;

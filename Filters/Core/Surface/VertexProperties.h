@@ -93,7 +93,11 @@ public:
   std::vector<T>& AsVector() { return this->Values; } ///< Not to be resized.
   const std::vector<T>& AsVector() const { return this->Values; }
 
-  void Reset(std::size_t n) override { this->Values.assign(n, this->Initial); }
+  void Reset(std::size_t n) override
+  {
+    this->Values.reserve(WithRoomToGrow(n));
+    this->Values.assign(n, this->Initial);
+  }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
   void Add(std::size_t v, std::size_t parent) override
   {
