@@ -82,7 +82,8 @@ TEST(Division, NumbersNewVerticesAsTheFacesAndEdgesThatTheyComeOf)
   for (std::size_t f = 0; f < wanted.size(); ++f)
   {
     const std::array<int, 3>& t = wanted[f];
-    const Vector centre = (old.Position[t[0]] + old.Position[t[1]] + old.Position[t[2]]) * (1.f / 3.f);
+    const Vector sum = old.Position[t[0]] + old.Position[t[1]] + old.Position[t[2]];
+    const Vector centre = sum * (1.f / 3.f);
     ASSERT_EQ(Length(mesh.Position[olds + f] - centre), 0.f);
   }
   for (std::size_t e = 0; e < middles.size(); ++e)
