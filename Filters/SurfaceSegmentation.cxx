@@ -3,6 +3,7 @@
 #include "SurfaceSegmentation.h"
 
 #include "CheckEnumeration.h"
+#include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "InitialSurfaces.h"
@@ -259,6 +260,7 @@ void SurfaceSegmentation::RunLevels()
       this->KeepStoppedSurface(level);
       break;
     }
+    GiveBackFreeMemory();
     this->Snapshots.TakeIfDue(
       *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
     this->GoesOn = this->RunLevel(level);
@@ -270,6 +272,7 @@ void SurfaceSegmentation::RunLevels()
 bool SurfaceSegmentation::RunLevel(int level)
 {
   const StopReason reason = this->Evolution->Run();
+  GiveBackFreeMemory();
   SegmentationResults::Level result;
   result.IsAtRest = reason != StopReason::Cancelled;
   SurfaceDescription& description = result.Description;

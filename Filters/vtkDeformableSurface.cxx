@@ -4,6 +4,7 @@
 
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
+#include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
 #include "Deadline.h"
 #include "InputImage.h"
@@ -354,6 +355,7 @@ void vtkDeformableSurface::RunOrGoOn(
       run->EndsAt(), run->HasRecovery() && !settings.End.Preview, request.Warn);
   }
   cache.Keep(std::move(run), this);
+  volumic::GiveBackFreeMemory();
   this->Internals->IsOnTheWay = isStep && !isCutOff && !isFinest;
 }
 

@@ -6,6 +6,7 @@
 # (Documentation/architecture.md).
 
 set(volumic_core_sources
+  Common/FreeMemory.cxx
   Common/MeasuredExecutor.cxx
   Common/StandardThreads.cxx
   Image/AxisOperator.cxx
@@ -41,6 +42,7 @@ set(volumic_core_sources
   Surface/Proximity.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
+  Surface/RemesherMerges.cxx
   Surface/StarImprovement.cxx
   Surface/StarFaces.cxx
   Surface/StarScore.cxx
@@ -68,6 +70,7 @@ set(volumic_core_headers
   Common/Box.h
   Common/DisjointSets.h
   Common/Executor.h
+  Common/FreeMemory.h
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h

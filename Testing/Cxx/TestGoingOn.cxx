@@ -316,6 +316,32 @@ TEST_F(GoingOn, BeginsWhereARunFromTheStartBegins)
   ExpectSameOutputs(filter, FromTheStart(this->Image, choose, 1));
 }
 
+TEST_F(GoingOn, BeginsAtALevelThatWasLetGo)
+{
+  // A thicker rod: one that is to end at level 2 begins there, others at level 1.
+  vtkDataArray* voxels = this->Image->GetPointData()->GetScalars();
+  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
+  {
+    const auto isIn = [](vtkIdType x, vtkIdType low, vtkIdType high)
+    { return x >= low && x <= high; };
+    const bool isRod =
+      isIn(voxel % 64, 5, 9) && isIn(voxel / 64 % 64, 5, 9) && isIn(voxel / 4096, 6, 57);
+    voxels->SetComponent(voxel, 0, isRod ? 100.0 : 0.0);
+  }
+  const Choice choose = [](vtkDeformableSurface* filter)
+  { filter->SetRecovery(vtkDeformableSurface::NoRecovery); };
+  const auto filter = FromTheStart(this->Image, choose, 1);
+  ASSERT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), 1);
+  for (const int finest : { 2, 1 })
+  {
+    filter->SetFinestLevel(finest);
+    filter->Update();
+    EXPECT_EQ(filter->GetErrorCode(), 0u);
+    EXPECT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), finest);
+    ExpectSameOutputs(filter, FromTheStart(this->Image, choose, finest));
+  }
+}
+
 TEST_F(GoingOn, BeginsAnewAfterACancelledRun)
 {
   ProgressListener listener(this->Filter);

@@ -167,7 +167,7 @@ std::vector<VoxelRun> SlabSearch::FindRuns() const
         this->Open.data() + static_cast<std::size_t>(this->RowOf(j, k)) * this->Words;
       if (std::any_of(open, open + this->Words, [](std::uint64_t word) { return word != 0; }))
       {
-        this->TheField.Row(j, k, values.data());
+        this->TheField.Row(0, j, k, this->Size[0], values.data());
         this->AddRuns(VoxelNumbers(this->Size).Of(0, j, k), open, values, runs);
       }
     }

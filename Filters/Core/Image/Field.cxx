@@ -169,15 +169,15 @@ float Field::Fetch(const Voxels& voxels, int i, int j, int k) const
   return voxels[this->Offset(i, j, k)];
 }
 
-void Field::Row(int j, int k, float* values) const
+void Field::Row(int i, int j, int k, int count, float* values) const
 {
   this->Level.Values.Visit(
     [&](const auto& voxels)
     {
-      const std::ptrdiff_t first = this->Offset(0, j, k);
-      for (int i = 0; i < this->Level.Size[0]; ++i)
+      const std::ptrdiff_t first = this->Offset(i, j, k);
+      for (int n = 0; n < count; ++n)
       {
-        values[i] = this->Sign * (voxels[first + i] - this->Iso);
+        values[n] = this->Sign * (voxels[first + n] - this->Iso);
       }
     });
 }
@@ -245,14 +245,21 @@ Field::Sample Field::Interpolated(const Cell& cell, const Voxels& voxels, std::p
   const std::ptrdiff_t after = corner + row + 2 * slice;
   const VoxelRows beside = ReadRows(voxels, { before, before + row, after, after + row });
 
-  const auto lerp = [x](const VoxelRows& v)
-  { return v.Column[1] + x * (v.Column[2] - v.Column[1]); };
-  const auto slope = [x](const VoxelRows& v)
-  { return (1 - x) * (v.Column[2] - v.Column[0]) + x * (v.Column[3] - v.Column[1]); };
-  const FourFloats values[3] = { lerp(near), lerp(far), lerp(beside) };
-  const FourFloats slopes[2] = { slope(near), slope(far) };
-  const auto between = [y](const FourFloats& v, int j) { return v[j] + y * (v[j + 1] - v[j]); };
-  const auto slopeY = [y](const FourFloats& v)
+  const Lanes here = x;
+  const Lanes there = 1 - x;
+  const auto lerp = [&](const VoxelRows& v)
+  { return v.Column[1] + here * (v.Column[2] - v.Column[1]); };
+  const auto slope = [&](const VoxelRows& v)
+  { return there * (v.Column[2] - v.Column[0]) + here * (v.Column[3] - v.Column[1]); };
+  float values[3][Lanes::Count];
+  float slopes[2][Lanes::Count];
+  lerp(near).Store(values[0]);
+  lerp(far).Store(values[1]);
+  lerp(beside).Store(values[2]);
+  slope(near).Store(slopes[0]);
+  slope(far).Store(slopes[1]);
+  const auto between = [y](const float* v, int j) { return v[j] + y * (v[j + 1] - v[j]); };
+  const auto slopeY = [y](const float* v)
   { return (1 - y) * (v[2] - v[0]) + y * (v[3] - v[1]); };
   const float low = between(values[0], 1);
   const float high = between(values[1], 1);

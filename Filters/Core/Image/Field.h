@@ -69,8 +69,8 @@ public:
   {
     return this->Sign * (this->Level.Values[this->Offset(i, j, k)] - this->Iso);
   }
-  /** Values at the voxels of a row inside the image, all Size[0] of them: for many voxels. */
-  void Row(int j, int k, float* values) const;
+  /** Values at so many voxels of a row from (i, j, k) on, all inside the image: for many voxels. */
+  void Row(int i, int j, int k, int count, float* values) const;
 
 private:
   struct Cell

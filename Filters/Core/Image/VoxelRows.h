@@ -3,6 +3,8 @@
 #ifndef volumicVoxelRows_h
 #define volumicVoxelRows_h
 
+#include "Core/Common/Lanes.h"
+#include "Core/Common/Vector.h"
 #include "Core/Image/VoxelValues.h"
 
 #include <cstddef>
@@ -16,39 +18,10 @@
 
 namespace volumic
 {
-/** Four floats side by side, each computed with as if it were alone. */
-#if defined(__GNUC__)
-typedef float FourFloats __attribute__((vector_size(16)));
-#else
-struct FourFloats
-{
-  float Item[4];
-  float operator[](int i) const { return this->Item[i]; }
-};
-template <typename Operation>
-FourFloats ForEach(const FourFloats& a, const FourFloats& b, Operation operation)
-{
-  return { operation(a[0], b[0]), operation(a[1], b[1]), operation(a[2], b[2]),
-    operation(a[3], b[3]) };
-}
-inline FourFloats operator+(const FourFloats& a, const FourFloats& b)
-{
-  return ForEach(a, b, [](float x, float y) { return x + y; });
-}
-inline FourFloats operator-(const FourFloats& a, const FourFloats& b)
-{
-  return ForEach(a, b, [](float x, float y) { return x - y; });
-}
-inline FourFloats operator*(float factor, const FourFloats& a)
-{
-  return ForEach(a, a, [factor](float x, float) { return factor * x; });
-}
-#endif
-
-/** Four voxels of each of four rows: Column[c][r] is the value of the c-th of row r. */
+/** Four voxels of each of four rows: lane r of Column[c] is the value of the c-th of row r. */
 struct VoxelRows
 {
-  FourFloats Column[4];
+  Lanes Column[4];
 };
 
 #if defined(__SSE2__)
@@ -110,28 +83,25 @@ template <typename Voxels>
 VoxelRows ReadRows(const Voxels& voxels, const std::ptrdiff_t (&first)[4])
 {
   VoxelRows rows;
-#if defined(__SSE2__)
   using T = typename Voxels::Stored;
   const T* from[4] = { voxels.Voxels + first[0], voxels.Voxels + first[1],
     voxels.Voxels + first[2], voxels.Voxels + first[3] };
   if constexpr (std::is_same_v<Voxels, PlainVoxels>)
   {
-    __m128 row[4] = { _mm_loadu_ps(from[0]), _mm_loadu_ps(from[1]), _mm_loadu_ps(from[2]),
-      _mm_loadu_ps(from[3]) };
-    _MM_TRANSPOSE4_PS(row[0], row[1], row[2], row[3]);
-    for (int c = 0; c < 4; ++c)
-    {
-      rows.Column[c] = row[c];
-    }
+    const Vector3<Lanes> three = Gather(from[0], from[1], from[2], from[3], rows.Column[3]);
+    rows.Column[0] = three.X;
+    rows.Column[1] = three.Y;
+    rows.Column[2] = three.Z;
     return rows;
   }
+#if defined(__SSE2__)
   else if constexpr (std::is_same_v<Voxels, NarrowVoxels<T>>)
   {
     const RowsOfIntegers integers = ReadIntegers(from[0], from[1], from[2], from[3]);
-    const __m128 base = _mm_set1_ps(voxels.Base);
+    const Lanes base = voxels.Base;
     for (int c = 0; c < 4; ++c)
     {
-      rows.Column[c] = _mm_sub_ps(_mm_cvtepi32_ps(ColumnOf<T>(integers, c)), base);
+      rows.Column[c] = Lanes(_mm_cvtepi32_ps(ColumnOf<T>(integers, c))) - base;
     }
     return rows;
   }
@@ -144,18 +114,22 @@ VoxelRows ReadRows(const Voxels& voxels, const std::ptrdiff_t (&first)[4])
       const __m128i column = ColumnOf<T>(integers, c);
       const __m128i last = _mm_unpackhi_epi64(column, column);
       rows.Column[c] =
-        _mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(column), base)),
-          _mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(last), base)));
+        Lanes(_mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(column), base)),
+          _mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(last), base))));
     }
     return rows;
   }
 #endif
-  for (int c = 0; c < 4; ++c)
+  else
   {
-    rows.Column[c] = FourFloats{ voxels[first[0] + c], voxels[first[1] + c],
-      voxels[first[2] + c], voxels[first[3] + c] };
+    for (int c = 0; c < 4; ++c)
+    {
+      const float column[4] = { voxels.Value(from[0][c]), voxels.Value(from[1][c]),
+        voxels.Value(from[2][c]), voxels.Value(from[3][c]) };
+      rows.Column[c] = Lanes::Load(column);
+    }
+    return rows;
   }
-  return rows;
 }
 }
 

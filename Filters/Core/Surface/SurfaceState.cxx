@@ -67,7 +67,6 @@ void SurfaceState::UpdateShape(int v)
   const StarShape star(this->Mesh, v);
   StarVectors pull;
   unsigned tooLong = 0;
-  unsigned huge = 0;
   unsigned tooShort = 0;
   unsigned huge = 0;
   for (int i = 0; i < star.Count; i += Lanes::Count)
@@ -92,7 +91,6 @@ void SurfaceState::UpdateShape(int v)
     tooLong |= LessBits(longest, length) << i;
     huge |= LessBits(hugest, length) << i;
     tooShort |= LessBits(length, shortest) << i;
-    huge |= LessBits(longest * Lanes(HugeEdge), length) << i;
   }
   float edges = 0;
   for (int i = 0; i < star.Count; ++i)
@@ -101,7 +99,6 @@ void SurfaceState::UpdateShape(int v)
   }
   std::uint8_t flags = 0;
   flags |= tooLong & star.All() ? HasLongEdge : 0;
-  flags |= huge & star.All() ? HasHugeEdge : 0;
   flags |= tooShort & star.All() ? HasShortEdge : 0;
   flags |= huge & star.All() ? HasHugeEdge : 0;
   flags |= star.IsDelaunay() ? 0 : IsNotDelaunay;

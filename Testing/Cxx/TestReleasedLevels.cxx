@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceTestTools.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkWeakPointer.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** A pyramid, whose voxels are watched while a surface goes through the levels. */
+class ReleasedLevels : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Pyramid->SetInputData(BallImage(64, 60, 56, 0.3));
+    this->Pyramid->SetNumberOfLevels(4);
+    this->Pyramid->Update();
+    vtkMultiBlockDataSet* levels = this->Pyramid->GetOutput();
+    for (unsigned int h = 0; h < levels->GetNumberOfBlocks(); ++h)
+    {
+      this->Voxels.emplace_back(
+        vtkImageData::SafeDownCast(levels->GetBlock(h))->GetPointData()->GetScalars());
+    }
+    this->Filter->SetInputConnection(this->Pyramid->GetOutputPort());
+    this->Filter->SetIsoValue(50.0);
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject* caller, unsigned long, void* client, void*)
+      {
+        const char* text = vtkAlgorithm::SafeDownCast(caller)->GetProgressText();
+        static_cast<ReleasedLevels*>(client)->Count(text ? text : "");
+      });
+    this->Filter->AddObserver(vtkCommand::ProgressEvent, this->Command);
+  }
+
+  /** How many levels have voxels while the surface iterates on each: the most that is seen. */
+  void Count(const std::string& text)
+  {
+    for (std::size_t level = 0; level < this->Voxels.size(); ++level)
+    {
+      if (text.find("Level " + std::to_string(level) + ", iteration") != std::string::npos)
+      {
+        this->Held[level] = std::max(this->Held[level], this->NumberHeld());
+      }
+    }
+  }
+
+  int NumberHeld() const
+  {
+    return static_cast<int>(std::count_if(this->Voxels.begin(), this->Voxels.end(),
+      [](const vtkWeakPointer<vtkDataArray>& voxels) { return voxels != nullptr; }));
+  }
+
+  vtkNew<vtkImagePyramid> Pyramid;
+  vtkNew<vtkDeformableSurface> Filter;
+  vtkNew<vtkCallbackCommand> Command;
+  std::vector<vtkWeakPointer<vtkDataArray>> Voxels;
+  std::vector<int> Held = std::vector<int>(4, 0);
+};
+}
+
+TEST_F(ReleasedLevels, GoOneAfterTheOther)
+{
+  this->Pyramid->ReleaseDataFlagOn();
+  this->Filter->Update();
+  EXPECT_EQ(this->Held, (std::vector<int>{ 1, 2, 3, 4 }));
+  EXPECT_EQ(this->NumberHeld(), 1) << "level 0 is the image that the pyramid was given";
+  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "converged");
+}
+
+TEST_F(ReleasedLevels, AreMadeAgainWhereTheyAreNeededAgain)
+{
+  this->Pyramid->ReleaseDataFlagOn();
+  this->Filter->Update();
+  vtkNew<vtkPolyData> first;
+  first->DeepCopy(this->Filter->GetOutput());
+  this->Filter->Modified();
+  this->Filter->Update();
+  EXPECT_TRUE(AreSameSurfaces(first, this->Filter->GetOutput()));
+}
+
+TEST_F(ReleasedLevels, StayWithTheOwnerOfThePyramid)
+{
+  this->Filter->Update();
+  EXPECT_EQ(this->Held, (std::vector<int>{ 4, 4, 4, 4 }));
+  EXPECT_EQ(this->NumberHeld(), 4);
+}
+
+TEST_F(ReleasedLevels, AreTheRunsAsLongAsItCanGoOn)
+{
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  this->Pyramid->GetOutput()->Initialize();
+  EXPECT_EQ(this->NumberHeld(), 3) << "level 3 has been left";
+  this->Filter->ForgetRun();
+  EXPECT_EQ(this->NumberHeld(), 1);
+}
