@@ -51,6 +51,7 @@ TEST(Division, NumbersNewVerticesAsTheFacesAndEdgesThatTheyComeOf)
 {
   // More faces than threads look at at a time.
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 20, 0.5);
+  mesh.Reorder(SpaceFillingOrder(mesh, 1.)); // Else the first vertices have all faces.
   const SurfaceMesh old = mesh;
   KeptEdges kept(old);
   for (int v = 0; v < old.Size(); v += 7)
