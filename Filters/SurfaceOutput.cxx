@@ -206,10 +206,10 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executo
     polyData, "Component", features, executor, [](const Component&, int c) { return c; });
   AddComponentOfCells<vtkFloatArray>(
     polyData, "ComponentArea", features, executor, [](const Component& c, int) { return c.Area; });
-  AddComponentOfCells<vtkFloatArray>(
-    polyData, "ComponentVolume", features, executor, [](const Component& c, int) { return c.Volume; });
-  AddComponentOfCells<vtkIntArray>(
-    polyData, "ComponentGenus", features, executor, [](const Component& c, int) { return c.Genus; });
+  AddComponentOfCells<vtkFloatArray>(polyData, "ComponentVolume", features, executor,
+    [](const Component& c, int) { return c.Volume; });
+  AddComponentOfCells<vtkIntArray>(polyData, "ComponentGenus", features, executor,
+    [](const Component& c, int) { return c.Genus; });
 
   AddField<vtkIntArray>(
     polyData, "NumberOfComponents", static_cast<int>(features.Components.size()));

@@ -12,11 +12,11 @@ namespace volumic
 /** Makes outward what was inward. */
 void FlipOrientation(IndexedSurface& surface, Executor& executor = OnThisThread());
 
-/** The surface in world coordinates, outward oriented there, too; in its place if it is given up. */
+/** The surface in world coordinates, outward oriented there; in its place if it is given up. */
 IndexedSurface ToWorld(
   IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
 
-/** The surface in the workspace, outward oriented there, too; in its place if it is given up. */
+/** The surface in the workspace, outward oriented there; in its place if it is given up. */
 IndexedSurface ToWorkspace(
   IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
 }

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/StandardThreads.h"
+#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceState.h"
 #include "RemeshTestTools.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <vector>
 
 using namespace volumic;
@@ -99,21 +102,31 @@ TEST(ComponentWatch, WatchesSmallComponentsInAllBlocks)
   EXPECT_EQ(watch.NumberOfComponents(), 1);
 }
 
-TEST(ComponentWatch, KnowsLargeCavitiesAndIslandsByTheirWholeVolume)
+TEST(ComponentWatch, KnowsACavityByItsWholeVolume)
 {
-  // Their last blocks alone have the other sign, seen from the first vertex.
-  SurfaceState state;
-  const IndexedSurface shell = DividedIcosahedron({ 0, 0, 0 }, 12, 0.3);
-  const IndexedSurface hollow = InsideOut(DividedIcosahedron({ 0, 0, 0 }, 9, 0.25));
-  Fill(state, { shell, hollow });
-  StandardThreads threads(3);
-  ComponentWatch watch;
-  EXPECT_FALSE(watch.DeleteInsideOut(state, threads));
-  EXPECT_EQ(watch.NumberOfComponents(), 2);
-  SurfaceState open;
-  Fill(open, { hollow });
-  EXPECT_TRUE(watch.DeleteInsideOut(open, threads));
-  EXPECT_EQ(watch.NumberOfComponents(), 0);
+  // A ring that has what faces its first vertex, and alone has the other sign, in the last blocks.
+  const IndexedSurface ring = MakeTorus({ 0, 0, 0 }, 10, 4, 500, 200);
+  for (const bool isCavity : { false, true })
+  {
+    SurfaceState state;
+    Fill(state, { isCavity ? InsideOut(ring) : ring });
+    const SurfaceMesh& mesh = state.Mesh;
+    std::vector<int> order(mesh.Rings.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto last = std::stable_partition(order.begin() + 1, order.end(),
+      [&](int v)
+      {
+        SignedVolume volume(mesh.Position[0]);
+        volume.Add(mesh, v);
+        return (volume.Value() < 0) == isCavity;
+      });
+    ASSERT_GT(order.end() - last, 8192 + 1);
+    state.Mesh.Reorder(order);
+    state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
+    StandardThreads threads(3);
+    ComponentWatch watch;
+    EXPECT_EQ(watch.DeleteInsideOut(state, threads), isCavity);
+  }
 }
 
 TEST(ComponentWatch, DeletesACavityInTheOpen)

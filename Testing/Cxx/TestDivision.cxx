@@ -51,6 +51,7 @@ TEST(Division, NumbersNewVerticesAsTheFacesAndEdgesThatTheyComeOf)
 {
   // More faces than threads look at at a time.
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 20, 0.5);
+  mesh.Reorder(SpaceFillingOrder(mesh, 1.)); // Else the first vertices have all faces.
   const SurfaceMesh old = mesh;
   KeptEdges kept(old);
   for (int v = 0; v < old.Size(); v += 7)
@@ -82,7 +83,8 @@ TEST(Division, NumbersNewVerticesAsTheFacesAndEdgesThatTheyComeOf)
   for (std::size_t f = 0; f < wanted.size(); ++f)
   {
     const std::array<int, 3>& t = wanted[f];
-    const Vector centre = (old.Position[t[0]] + old.Position[t[1]] + old.Position[t[2]]) * (1.f / 3.f);
+    const Vector sum = old.Position[t[0]] + old.Position[t[1]] + old.Position[t[2]];
+    const Vector centre = sum * (1.f / 3.f);
     ASSERT_EQ(Length(mesh.Position[olds + f] - centre), 0.f);
   }
   for (std::size_t e = 0; e < middles.size(); ++e)

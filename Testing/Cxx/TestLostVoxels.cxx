@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -116,6 +117,7 @@ TEST(LostVoxels, AreThoseOfTheWholeImageInTheSameParts)
   Fill(state);
   SequentialExecutor alone;
   StandardThreads threads(3);
+  const std::array<Executor*, 2> executors = { &alone, &threads };
   for (const unsigned int percent : { 3u, 28u, 34u, 60u, 97u })
   {
     const TestVolume volume = Noise(percent);
@@ -126,7 +128,7 @@ TEST(LostVoxels, AreThoseOfTheWholeImageInTheSameParts)
       for (const int minimumSize : { 1, 2, 20 })
       {
         const Parts wanted = PartsOf(marks, static_cast<std::size_t>(minimumSize));
-        for (Executor* executor : { static_cast<Executor*>(&alone), static_cast<Executor*>(&threads) })
+        for (Executor* executor : executors)
         {
           const LostVoxels lost(state, field, kind, minimumSize, *executor, NeverStop);
           EXPECT_EQ(PartsOf(lost), wanted) << percent << " %, at least " << minimumSize;

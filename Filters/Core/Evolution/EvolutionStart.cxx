@@ -105,7 +105,8 @@ void SurfaceEvolution::Implementation::SplitLongEdges()
   this->Iteration.SplitLongEdges();
   if (HasEdgeOver(this->State, 1.0001f, this->Threads))
   {
-    this->TakeRemeshed(this->State.Mesh.ToIndexed(this->Threads)); // Full rings all about it: not seen yet.
+    // Full rings all about it: not seen yet.
+    this->TakeRemeshed(this->State.Mesh.ToIndexed(this->Threads));
   }
 }
 
@@ -237,7 +238,8 @@ void SurfaceEvolution::Implementation::DivideOnce()
   }
   if (!this->Iteration.Intersections().empty())
   {
-    this->TakeRemeshed(old.ToIndexed(this->Threads)); // The old surface intersects itself: not seen yet.
+    // The old surface intersects itself: not seen yet.
+    this->TakeRemeshed(old.ToIndexed(this->Threads));
   }
 }
 

@@ -38,7 +38,7 @@ Range RangeUpTo(const std::vector<VoxelRun>& runs, std::size_t begin, std::int64
   return { begin, static_cast<std::size_t>(end - runs.begin()) };
 }
 
-/** Calls visit(place in a, place in b) where a run, `shift` voxels further, overlaps another one. */
+/** Calls visit(place in a, place in b) where a run, `shift` voxels further, overlaps another. */
 template <typename Visit>
 void VisitOverlaps(const std::vector<VoxelRun>& a, Range inA, const std::vector<VoxelRun>& b,
   Range inB, std::int64_t shift, const Visit& visit)
