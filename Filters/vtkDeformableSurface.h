@@ -558,7 +558,8 @@ public:
 
   ///@{
   /**
-   * Number of threads; 0, the default: all that vtkSMPTools has. Results do not depend on it.
+   * Number of threads; 0, the default: all that vtkSMPTools has, and where its backend is sequential
+   * by default, as in Debian's ParaView, one per processor. Results do not depend on it.
    */
   void SetNumberOfThreads(int number);
   virtual int GetNumberOfThreads();

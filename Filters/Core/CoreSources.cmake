@@ -42,6 +42,7 @@ set(volumic_core_sources
   Surface/Proximity.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
+  Surface/RemesherMerges.cxx
   Surface/StarImprovement.cxx
   Surface/StarFaces.cxx
   Surface/StarScore.cxx

@@ -25,7 +25,7 @@ const char* const Assumptions =
 threads, 8 per thread, none smaller than its grain; each chunk's time is that of the processor, less
 what reading the clock takes. For fewer threads neighbouring chunks are put together. Threads take
 chunks in order, each when it is free. Added: %g us per For(), %g us per chunk. All between the
-calls, and a For() of no more than its grain, is serial and added as it is. Left out: that
+calls, and a For() of no more than its grain ("small"), is serial and added as it is. Left out: that
 processors share memory and caches, and slow down when all of them work. A phase holds what happens
 up to its end since the one before has ended, in iterations and regularisations of all levels.
 Seconds by phase on 1, 2 ... 64 threads; what is longest on %d of them is first.
@@ -77,19 +77,19 @@ std::vector<WorkModel::Phase> SortedWithSum(std::vector<WorkModel::Phase> phases
 /** For people, seconds and the speed-up. */
 TextRows ModelRows(const std::vector<WorkModel::Phase>& sorted)
 {
-  TextRows rows(1, { "phase", "serial", "% of all", "parallel", "calls", "1" });
+  TextRows rows(1, { "phase", "serial", "% of all", "small", "parallel", "calls", "1" });
   const WorkModel::Phase& sum = sorted.back();
   const double all = SecondsOfOne(sum);
   for (const WorkModel::Phase& phase : sorted)
   {
     rows.push_back({ phase.Name, ShortText(phase.Serial), ShortText(100.0 * phase.Serial / all),
-      ShortText(phase.Parallel), ShortText(phase.Calls), ShortText(SecondsOfOne(phase)) });
+      ShortText(phase.Small), ShortText(phase.Parallel), ShortText(phase.Calls), ShortText(SecondsOfOne(phase)) });
     for (std::size_t i = 0; i < ModelledThreads.size(); ++i)
     {
       rows.back().push_back(ShortText(SecondsOf(phase, i)));
     }
   }
-  rows.push_back({ "speed-up", "", "", "", "", "1" });
+  rows.push_back({ "speed-up", "", "", "", "", "", "1" });
   for (std::size_t i = 0; i < ModelledThreads.size(); ++i)
   {
     rows[0].push_back(std::to_string(ModelledThreads[i]));
@@ -103,7 +103,7 @@ void AddCsvRows(int size, const std::string& fingerprint,
 {
   if (rows.empty())
   {
-    rows.push_back({ "Size", "Phase", "Serial", "Parallel", "Calls", "Chunks", "Seconds1" });
+    rows.push_back({ "Size", "Phase", "Serial", "Small", "Parallel", "Calls", "Chunks", "Seconds1" });
     for (const int threads : ModelledThreads)
     {
       rows[0].push_back("Seconds" + std::to_string(threads));
@@ -113,7 +113,7 @@ void AddCsvRows(int size, const std::string& fingerprint,
   for (const WorkModel::Phase& phase : sorted)
   {
     rows.push_back({ std::to_string(size), phase.Name, ExactText(phase.Serial),
-      ExactText(phase.Parallel), ExactText(phase.Calls), ExactText(phase.Chunks),
+      ExactText(phase.Small), ExactText(phase.Parallel), ExactText(phase.Calls), ExactText(phase.Chunks),
       ExactText(SecondsOfOne(phase)) });
     for (std::size_t i = 0; i < ModelledThreads.size(); ++i)
     {
@@ -149,6 +149,7 @@ void SetModel(const WorkModel& model, RunFigures& figures)
   {
     figures.SetText(ModelName(i, "Name"), phases[i].Name);
     figures.Set(ModelName(i, "Serial"), phases[i].Serial);
+    figures.Set(ModelName(i, "Small"), phases[i].Small);
     figures.Set(ModelName(i, "Parallel"), phases[i].Parallel);
     figures.Set(ModelName(i, "Calls"), phases[i].Calls);
     figures.Set(ModelName(i, "Chunks"), phases[i].Chunks);
@@ -167,6 +168,7 @@ std::vector<WorkModel::Phase> ModelOf(const RunFigures& figures)
   {
     phases[i].Name = figures.GetText(ModelName(i, "Name"));
     phases[i].Serial = figures.Get(ModelName(i, "Serial"));
+    phases[i].Small = figures.Get(ModelName(i, "Small"));
     phases[i].Parallel = figures.Get(ModelName(i, "Parallel"));
     phases[i].Calls = figures.Get(ModelName(i, "Calls"));
     phases[i].Chunks = figures.Get(ModelName(i, "Chunks"));

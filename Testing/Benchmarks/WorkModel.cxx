@@ -42,6 +42,14 @@ std::size_t ChunkSize(std::size_t n, std::size_t grain, int threads)
     { grain, n / (ChunksPerThread * static_cast<std::size_t>(threads)), std::size_t(1) });
 }
 
+/** Within a body; also where that throws, until its end. */
+struct Inside
+{
+  explicit Inside(bool& flag) : Flag(flag) { this->Flag = true; }
+  ~Inside() { this->Flag = false; }
+  bool& Flag;
+};
+
 } // namespace
 
 double ScheduledSeconds(const std::vector<double>& chunks, int threads, double secondsOfChunk)
@@ -85,6 +93,7 @@ std::vector<double> JoinedChunks(
 WorkModel::Phase& WorkModel::Phase::operator+=(const Phase& other)
 {
   this->Serial += other.Serial;
+  this->Small += other.Small;
   this->Parallel += other.Parallel;
   this->Calls += other.Calls;
   this->Chunks += other.Chunks;
@@ -110,13 +119,6 @@ void WorkModel::Start()
 void WorkModel::RunChunks(
   std::size_t n, std::size_t size, const std::function<void(std::size_t, std::size_t)>& body)
 {
-  /** Leaves the state as it should be also where the body throws. */
-  struct Inside
-  {
-    explicit Inside(bool& flag) : Flag(flag) { this->Flag = true; }
-    ~Inside() { this->Flag = false; }
-    bool& Flag;
-  };
   const Inside inside(this->IsInside);
   double last = Now();
   for (std::size_t begin = 0; begin < n; begin += size)
@@ -135,9 +137,17 @@ void WorkModel::For(
   {
     return;
   }
-  if (this->IsInside || n <= grain)
+  if (this->IsInside)
   {
     body(0, n);
+    return;
+  }
+  if (n <= grain)
+  {
+    const Inside inside(this->IsInside);
+    const double begin = Now();
+    body(0, n);
+    this->Present.Small += std::max(0.0, Now() - begin - this->ClockSeconds);
     return;
   }
   this->Present.Serial += std::max(0.0, Now() - this->Mark - this->ClockSeconds);

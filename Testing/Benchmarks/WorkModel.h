@@ -57,6 +57,7 @@ public:
   {
     std::string Name;
     double Serial = 0.0;   ///< seconds on one thread, whatever the number of threads
+    double Small = 0.0;    ///< of these in calls of no more than the grain
     double Parallel = 0.0; ///< seconds of all chunks together
     /** Seconds of the parallel part on so many threads. */
     std::array<double, ModelledThreads.size()> Scheduled{};

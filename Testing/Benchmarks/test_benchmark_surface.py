@@ -237,6 +237,7 @@ class Scaling(unittest.TestCase):
             with self.subTest(phase=row["Phase"]):
                 serial, parallel = number(row, "Serial"), number(row, "Parallel")
                 self.assertAlmostEqual(number(row, "Seconds1"), serial + parallel, delta=1e-8)
+                self.assertLessEqual(number(row, "Small"), serial + 1e-8)
                 for p in threads[1:]:
                     self.assertGreaterEqual(number(row, f"Seconds{p}") + 1e-8,
                                             serial + parallel / p)

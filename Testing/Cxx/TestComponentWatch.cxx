@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/StandardThreads.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceState.h"
 #include "RemeshTestTools.h"
@@ -51,6 +52,68 @@ TEST(ComponentWatch, KeepsCavitiesInsideAndIslandsInThem)
   ComponentWatch watch;
   EXPECT_FALSE(watch.DeleteInsideOut(state, executor));
   EXPECT_EQ(watch.NumberOfComponents(), 4);
+}
+
+TEST(ComponentWatch, LabelsComponentsByTheirFirstVerticesInAnyBlocks)
+{
+  // Vertices of all components by turns, so that each lies in all blocks.
+  SurfaceState state;
+  const IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, 10, 0.3);
+  Fill(state, { ball, ball, ball, Ball({ 30, 0, 0 }, 3) });
+  const int size = static_cast<int>(ball.Points.size());
+  ASSERT_GT(size, 10000);
+  std::vector<int> order;
+  for (int v = 0; v < size; ++v)
+  {
+    order.insert(order.end(), { v, v + size, v + 2 * size });
+  }
+  for (int v = 3 * size; v < state.Mesh.Size(); ++v)
+  {
+    order.push_back(v);
+  }
+  state.Mesh.Reorder(order);
+  state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
+  state.FieldValue.Fill(-1.f);
+  StandardThreads threads(3);
+  ComponentWatch watch;
+  watch.Label(state, threads);
+  EXPECT_EQ(watch.NumberOfComponents(), 4);
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    ASSERT_EQ(state.Component[v], v < 3 * size ? v % 3 : 3) << v;
+  }
+}
+
+TEST(ComponentWatch, WatchesSmallComponentsInAllBlocks)
+{
+  SurfaceState state;
+  Fill(state,
+    { DividedIcosahedron({ 0, 0, 0 }, 10, 0.2), Icosahedron({ 30, 0, 0 }, 1),
+      Icosahedron({ 40, 0, 0 }, 1) });
+  ASSERT_GT(state.Mesh.Size(), 2 * 16384);
+  state.FieldValue.Fill(-1.f);
+  StandardThreads threads(3);
+  ComponentWatch watch;
+  watch.Label(state, threads);
+  EXPECT_TRUE(watch.DeleteDegenerate(state)) << "both are on the wrong side";
+  EXPECT_EQ(watch.NumberOfComponents(), 1);
+}
+
+TEST(ComponentWatch, KnowsLargeCavitiesAndIslandsByTheirWholeVolume)
+{
+  // Their last blocks alone have the other sign, seen from the first vertex.
+  SurfaceState state;
+  const IndexedSurface shell = DividedIcosahedron({ 0, 0, 0 }, 12, 0.3);
+  const IndexedSurface hollow = InsideOut(DividedIcosahedron({ 0, 0, 0 }, 9, 0.25));
+  Fill(state, { shell, hollow });
+  StandardThreads threads(3);
+  ComponentWatch watch;
+  EXPECT_FALSE(watch.DeleteInsideOut(state, threads));
+  EXPECT_EQ(watch.NumberOfComponents(), 2);
+  SurfaceState open;
+  Fill(open, { hollow });
+  EXPECT_TRUE(watch.DeleteInsideOut(open, threads));
+  EXPECT_EQ(watch.NumberOfComponents(), 0);
 }
 
 TEST(ComponentWatch, DeletesACavityInTheOpen)

@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
 
 #include <gtest/gtest.h>
 
@@ -131,6 +132,37 @@ TEST(DeformableSurface, IsTheSameBitsForAnyNumberOfThreadsAndAnyRun)
     ASSERT_GT(other->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << threads << " threads";
   }
+}
+
+TEST(DeformableSurface, IsTheSameBitsOnEveryBackend)
+{
+  const auto image = BallImage(48, 48, 48);
+  vtkNew<vtkDeformableSurface> one;
+  one->SetInputData(image);
+  one->SetIsoValue(50.0);
+  one->Update();
+  const std::string host = vtkSMPTools::GetBackend();
+  int tried = 0;
+  for (const char* backend : { "Sequential", "STDThread", "TBB", "OpenMP" })
+  {
+    if (!vtkSMPTools::SetBackend(backend) || std::string(vtkSMPTools::GetBackend()) != backend)
+    {
+      continue; // Not in this build of VTK.
+    }
+    ++tried;
+    for (const int threads : { 0, 2 })
+    {
+      vtkNew<vtkDeformableSurface> other;
+      other->SetInputData(image);
+      other->SetIsoValue(50.0);
+      other->SetNumberOfThreads(threads);
+      other->Update();
+      EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << backend;
+      EXPECT_EQ(std::string(vtkSMPTools::GetBackend()), backend) << "the host's choice is restored";
+    }
+  }
+  vtkSMPTools::SetBackend(host.c_str());
+  EXPECT_GE(tried, 2); // The first two are in every build.
 }
 
 TEST(DeformableSurface, StopsAtTheIterationLimit)

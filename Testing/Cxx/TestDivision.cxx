@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/StandardThreads.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/Division.h"
@@ -44,6 +45,50 @@ TEST(Division, MakesThreeTimesTheFacesWithEdgesShorterBySqrtThree)
   EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_NEAR(edge / MeanEdge(mesh), std::sqrt(3.), 0.03);
+}
+
+TEST(Division, NumbersNewVerticesAsTheFacesAndEdgesThatTheyComeOf)
+{
+  // More faces than threads look at at a time.
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 20, 0.5);
+  const SurfaceMesh old = mesh;
+  KeptEdges kept(old);
+  for (int v = 0; v < old.Size(); v += 7)
+  {
+    kept.Keep(v, old.Rings[v].Item[0]);
+  }
+  StandardThreads threads(3);
+  const std::vector<std::array<int, 3>> faces = Divide(mesh, &kept, threads);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
+  std::vector<std::array<int, 3>> wanted;
+  std::vector<Vector> middles;
+  old.VisitFaces([&](int a, int b, int c) { wanted.push_back({ a, b, c }); });
+  for (int v = 0; v < old.Size(); ++v)
+  {
+    for (int i = 0; i < old.Rings[v].Count; ++i)
+    {
+      const int w = old.Rings[v].Item[i];
+      if (v < w && kept.Has(v, i))
+      {
+        middles.push_back((old.Position[v] + old.Position[w]) * 0.5f);
+      }
+    }
+  }
+  ASSERT_GT(wanted.size(), 20000u);
+  ASSERT_EQ(faces, wanted);
+  const std::size_t olds = old.Rings.size();
+  ASSERT_EQ(mesh.Rings.size(), olds + wanted.size() + middles.size());
+  for (std::size_t f = 0; f < wanted.size(); ++f)
+  {
+    const std::array<int, 3>& t = wanted[f];
+    const Vector centre = (old.Position[t[0]] + old.Position[t[1]] + old.Position[t[2]]) * (1.f / 3.f);
+    ASSERT_EQ(Length(mesh.Position[olds + f] - centre), 0.f);
+  }
+  for (std::size_t e = 0; e < middles.size(); ++e)
+  {
+    ASSERT_EQ(Length(mesh.Position[olds + wanted.size() + e] - middles[e]), 0.f);
+  }
 }
 
 TEST(Division, KeepsOldValencesAndGivesNewVerticesSix)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Another executor in the place of the host's threads, for measurements.
+// How many threads there are, and another executor in their place, for measurements.
 #include "FilterTestTools.h"
 #include "HostThreads.h"
 #include "vtkDeformableSurface.h"
@@ -10,12 +10,19 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
 #include <vtkSmartPointer.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace volumic;
@@ -38,12 +45,80 @@ public:
   std::vector<std::string> Phases;
 };
 
+/** How many threads work where each item takes some time. */
+std::size_t ThreadsAtWork(int numberOfThreads)
+{
+  std::mutex mutex;
+  std::set<std::thread::id> ids;
+  HostThreads threads(numberOfThreads);
+  threads.Run(
+    [&]
+    {
+      threads.For(200, 1,
+        [&](std::size_t begin, std::size_t end)
+        {
+          std::this_thread::sleep_for(std::chrono::milliseconds(end - begin));
+          const std::lock_guard<std::mutex> lock(mutex);
+          ids.insert(std::this_thread::get_id());
+        });
+    });
+  return ids.size();
+}
+
+/** A variable of the environment; as before when it goes. */
+class Variable
+{
+public:
+  Variable(const char* name, const char* value)
+    : Name(name)
+  {
+    const char* before = std::getenv(name);
+    this->Before = before ? std::optional<std::string>(before) : std::nullopt;
+    setenv(name, value, 1);
+  }
+  ~Variable()
+  {
+    this->Before ? setenv(this->Name, this->Before->c_str(), 1) : unsetenv(this->Name);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+private:
+  const char* Name;
+  std::optional<std::string> Before;
+};
+
 /** Gives the threads back whatever happens. */
 class HostThreadsInstead : public testing::Test
 {
 protected:
   ~HostThreadsInstead() override { HostThreads::UseInstead(nullptr); }
 };
+}
+
+TEST(HostThreads, AreSeveralWithoutASetting)
+{
+  if (std::thread::hardware_concurrency() < 2 || std::getenv("VTK_SMP_MAX_THREADS") ||
+    std::getenv("VTK_SMP_BACKEND_IN_USE"))
+  {
+    GTEST_SKIP() << "one processor, or a setting";
+  }
+  EXPECT_GT(ThreadsAtWork(0), 1u) << "in ParaView, too, whose backend may be sequential";
+  EXPECT_EQ(ThreadsAtWork(2), 2u);
+}
+
+TEST(HostThreads, AreFewerIfAsked)
+{
+  EXPECT_EQ(ThreadsAtWork(1), 1u);
+  {
+    const Variable most("VTK_SMP_MAX_THREADS", "1");
+    EXPECT_EQ(ThreadsAtWork(0), 1u);
+  }
+  if (std::string(vtkSMPTools::GetBackend()) == "Sequential")
+  {
+    const Variable backend("VTK_SMP_BACKEND_IN_USE", "Sequential");
+    EXPECT_EQ(ThreadsAtWork(0), 1u) << "the choice of the user";
+  }
 }
 
 TEST_F(HostThreadsInstead, DoesAllThatFiltersHaveToShare)

@@ -127,7 +127,7 @@ TEST(MeasuredExecutor, LetsTheHistoryTellWhatOneThreadDoesAlone)
   { return std::count(noting.Phases.begin(), noting.Phases.end(), name); };
   EXPECT_GT(times("Forces"), 20);
   EXPECT_EQ(times("Forces"), times("Proximity") - 1) << "and where the start is examined";
-  EXPECT_EQ(times("Regularisation"), 1);
+  EXPECT_GT(times("Regularisation"), 0);
 }
 
 TEST(MeasuredExecutor, IsNeededToTellThem)

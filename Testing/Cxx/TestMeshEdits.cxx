@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Box.h"
+#include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/EdgeCollapse.h"
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
@@ -9,9 +11,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,6 +35,122 @@ SurfaceMesh Tetrahedron()
 #define EXPECT_SOUND(mesh, chi)                                                                    \
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");                                                    \
   EXPECT_EQ((mesh).CountEulerCharacteristic(), chi)
+}
+
+namespace
+{
+/** More vertices than threads look at at a time, and many places without one before them. */
+SurfaceMesh LargeMesh()
+{
+  SurfaceMesh mesh;
+  mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 10, 0.5));
+  const int removed = mesh.Size();
+  mesh.Append(DividedIcosahedron({ 3, -40, 2 }, 20, 0.4));
+  for (int v = 0; v < removed; ++v)
+  {
+    mesh.RemoveVertex(v);
+  }
+  return mesh;
+}
+
+bool IsBefore(const std::array<unsigned, 3>& a, const std::array<unsigned, 3>& b)
+{
+  // Along the curve: the axis that differs in the highest bit decides, the last one of several.
+  int axis = 2;
+  for (const int other : { 1, 0 })
+  {
+    const unsigned most = a[axis] ^ b[axis];
+    const unsigned here = a[other] ^ b[other];
+    axis = most < here && most < (most ^ here) ? other : axis;
+  }
+  return a[axis] < b[axis];
+}
+}
+
+TEST(SurfaceMesh, IsOneListWhicheverBlocksItWasMadeIn)
+{
+  const SurfaceMesh mesh = LargeMesh();
+  StandardThreads threads(3);
+  ASSERT_GT(mesh.NumberOfVertices(), 20000);
+  const IndexedSurface surface = mesh.ToIndexed(threads);
+  std::vector<int> place(mesh.Rings.size(), -1);
+  std::vector<Point> points;
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      place[v] = static_cast<int>(points.size());
+      points.push_back({ mesh.Position[v].X, mesh.Position[v].Y, mesh.Position[v].Z });
+    }
+  }
+  EXPECT_EQ(surface.Points, points);
+  std::vector<Triangle> triangles;
+  mesh.VisitFaces(
+    [&](int a, int b, int c) { triangles.push_back({ place[a], place[b], place[c] }); });
+  EXPECT_EQ(surface.Triangles, triangles);
+  EXPECT_EQ(mesh.NumberOfFaces(threads), static_cast<std::int64_t>(triangles.size()));
+  EXPECT_EQ(mesh.CountEulerCharacteristic(threads), 2);
+}
+
+TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
+{
+  SurfaceMesh mesh = LargeMesh();
+  StandardThreads threads(3);
+  const double cell = 0.7;
+  const std::vector<int> order = SpaceFillingOrder(mesh, cell, threads);
+  ASSERT_EQ(order.size(), static_cast<std::size_t>(mesh.NumberOfVertices()));
+  Vector low(1e9f, 1e9f, 1e9f);
+  for (const int v : order)
+  {
+    low = Minimum(low, mesh.Position[v]);
+  }
+  const auto cellOf = [&](int v)
+  {
+    const Vector p = mesh.Position[v] - low;
+    return std::array<unsigned, 3>{ static_cast<unsigned>(p.X / cell),
+      static_cast<unsigned>(p.Y / cell), static_cast<unsigned>(p.Z / cell) };
+  };
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end(),
+    [&](int v, int w)
+    { return cellOf(v) != cellOf(w) ? IsBefore(cellOf(v), cellOf(w)) : v < w; }));
+  const std::vector<Vector> before = mesh.Position;
+  mesh.Reorder(order, threads);
+  EXPECT_SOUND(mesh, 2);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    ASSERT_EQ(Length(mesh.Position[i] - before[order[i]]), 0.f);
+  }
+}
+
+TEST(SurfaceMesh, TellsTheFirstFaultWhicheverThreadFindsOne)
+{
+  // Two vertices of different blocks, a triangle of each left out.
+  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 20, 0.4);
+  const auto uses = [](int v)
+  { return [v](const Triangle& t) { return std::find(t.begin(), t.end(), v) != t.end(); }; };
+  const int last = static_cast<int>(surface.Points.size()) - 1;
+  for (const int v : { last, 4 })
+  {
+    surface.Triangles.erase(
+      std::find_if(surface.Triangles.begin(), surface.Triangles.end(), uses(v)));
+  }
+  StandardThreads threads(3);
+  std::string alone;
+  for (Executor* executor : { &OnThisThread(), static_cast<Executor*>(&threads) })
+  {
+    SurfaceMesh mesh;
+    try
+    {
+      mesh.Append(surface, *executor);
+      FAIL() << "the surface has holes";
+    }
+    catch (const std::invalid_argument& error)
+    {
+      alone = alone.empty() ? error.what() : alone;
+      EXPECT_EQ(error.what(), alone);
+    }
+    EXPECT_EQ(mesh.Size(), 0);
+  }
 }
 
 TEST(SurfaceMesh, KeepsTheTrianglesItWasMadeOf)

@@ -235,6 +235,45 @@ TEST(VertexGrid, IsTheSameWhenFilledAtOnce)
   EXPECT_EQ(visited(one), visited(other));
 }
 
+TEST(VertexGrid, IsTheSameWhenAllAreMovedAtOnce)
+{
+  SurfaceMesh mesh = MakeSphere({ 20, 20, 20 }, 15, 0.7);
+  VertexGrid one;
+  VertexGrid other;
+  std::vector<int> vertices;
+  for (VertexGrid* grid : { &one, &other })
+  {
+    grid->Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
+    for (int v = 0; v < mesh.Size(); ++v)
+    {
+      grid->Insert(v, mesh.Position[v]);
+    }
+  }
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (v % 3 != 0)
+    {
+      mesh.Position[v] = mesh.Position[v] * 0.9f;
+      vertices.push_back(v);
+    }
+  }
+  ASSERT_GT(vertices.size(), 1000u); // Else they are moved one by one.
+  for (int v : vertices)
+  {
+    one.Move(v, mesh.Position[v]);
+  }
+  StandardThreads threads(3);
+  other.MoveAll(vertices, mesh.Position, threads);
+  const auto visited = [](const VertexGrid& grid)
+  {
+    std::vector<int> found;
+    grid.VisitBox(Vector(-9, -9, -9), Vector(50, 50, 50), [&](int w) { found.push_back(w); });
+    return found;
+  };
+  EXPECT_EQ(visited(one).size(), static_cast<std::size_t>(mesh.Size()));
+  EXPECT_EQ(visited(one), visited(other));
+}
+
 TEST(Proximity, FindsNothingOnASmoothSphere)
 {
   LiveSurface state(DividedIcosahedron({ 5, 5, 5 }, 8, 1.6), 1);

@@ -95,6 +95,9 @@ TEST(WorkModel, KnowsWhatIsSerial)
   const WorkModel::Phase& second = model.Phases()[1];
   EXPECT_EQ(first.Name, "first");
   EXPECT_GE(first.Serial, 2.9 * step) << "a call without threads included";
+  EXPECT_GE(first.Small, 0.9 * step);
+  EXPECT_LT(first.Small, first.Serial);
+  EXPECT_EQ(second.Small, 0.) << "within a body it is none";
   EXPECT_GE(first.Parallel, 3.9 * step);
   EXPECT_EQ(second.Calls, 1.) << "those within a body are a part of it";
   EXPECT_LT(second.Serial, second.Parallel);

@@ -39,13 +39,16 @@ std::size_t CountInBlocks(Executor& executor, std::size_t n, std::size_t size, C
   return FirstOfBlocks(executor, n, size, countIn).back();
 }
 
-/** All lists as one, in their order. They are emptied. */
+/** All lists as one, in their order; its memory is used again. They are emptied. */
 template <typename T>
-std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
+void Concatenate(Executor& executor, std::vector<std::vector<T>>& lists, std::vector<T>& all)
 {
-  const std::vector<std::size_t> first = FirstOfBlocks(
-    executor, lists.size(), 1, [&](std::size_t b, std::size_t) { return lists[b].size(); });
-  std::vector<T> all(first.back());
+  std::vector<std::size_t> first(lists.size() + 1, 0);
+  for (std::size_t b = 0; b < lists.size(); ++b)
+  {
+    first[b + 1] = first[b] + lists[b].size();
+  }
+  all.resize(first.back());
   ForBlocks(executor, lists.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
@@ -53,6 +56,13 @@ std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
         all.begin() + static_cast<std::ptrdiff_t>(first[b]));
       std::vector<T>().swap(lists[b]);
     });
+}
+
+template <typename T>
+std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
+{
+  std::vector<T> all;
+  Concatenate(executor, lists, all);
   return all;
 }
 

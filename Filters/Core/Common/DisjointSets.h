@@ -4,6 +4,7 @@
 #define volumicDisjointSets_h
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -64,6 +65,61 @@ public:
 
 private:
   std::vector<int> Parent; ///< A smaller member of the set, or, of the root, itself.
+};
+
+/**
+ * The same for threads that join any integers at once, without locks (R. J. Anderson and H. Woll,
+ * "Wait-free Parallel Algorithms for the Union-Find Problem", STOC 1991): the sets, and so their
+ * roots, are those of any order of the joins.
+ */
+class SharedDisjointSets
+{
+public:
+  /** n sets of one integer each. */
+  explicit SharedDisjointSets(std::size_t n) : Parent(n)
+  {
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      this->Parent[i].store(static_cast<int>(i), std::memory_order_relaxed);
+    }
+  }
+
+  /** The root of the set that i is in; of the moment, while others join. */
+  int Find(int i)
+  {
+    for (;;)
+    {
+      int parent = this->Parent[i].load(std::memory_order_relaxed);
+      const int next = this->Parent[parent].load(std::memory_order_relaxed);
+      if (parent == next)
+      {
+        return parent;
+      }
+      // Shortens the way, unless somebody has done so; either leads to the root.
+      this->Parent[i].compare_exchange_weak(parent, next, std::memory_order_relaxed);
+      i = next;
+    }
+  }
+
+  void Join(int i, int j)
+  {
+    for (;;)
+    {
+      i = this->Find(i);
+      j = this->Find(j);
+      int larger = std::max(i, j);
+      // The larger root gets a parent, if it still is one.
+      if (i == j ||
+        this->Parent[larger].compare_exchange_strong(
+          larger, std::min(i, j), std::memory_order_relaxed))
+      {
+        return;
+      }
+    }
+  }
+
+private:
+  std::vector<std::atomic<int>> Parent; ///< A smaller member of the set, or, of the root, itself.
 };
 }
 

@@ -3,6 +3,7 @@
 #ifndef volumicSelect_h
 #define volumicSelect_h
 
+#include "Core/Common/Blocks.h"
 #include "Core/Common/Executor.h"
 
 #include <cstddef>
@@ -10,10 +11,13 @@
 
 namespace volumic
 {
-/** Appends valueOf(i) for all i of [0, n) for which isWanted(i), in order; on any thread. */
+/**
+ * Fills a list with valueOf(i) for all i of [0, n) for which isWanted(i), in order; both are called
+ * on any thread. The list's memory is used again.
+ */
 template <typename IsWanted, typename ValueOf>
-void SelectValues(Executor& executor, std::size_t n, std::vector<int>& selected,
-  IsWanted&& isWanted, ValueOf&& valueOf)
+void Select(Executor& executor, std::size_t n, std::vector<int>& selected, IsWanted&& isWanted,
+  ValueOf&& valueOf)
 {
   constexpr std::size_t size = 2048;
   std::vector<std::vector<int>> blocks((n + size - 1) / size);
@@ -31,16 +35,7 @@ void SelectValues(Executor& executor, std::size_t n, std::vector<int>& selected,
       }
       blocks[b].assign(found, found + count);
     });
-  std::size_t total = selected.size();
-  for (const std::vector<int>& block : blocks)
-  {
-    total += block.size();
-  }
-  selected.reserve(total);
-  for (const std::vector<int>& block : blocks)
-  {
-    selected.insert(selected.end(), block.begin(), block.end());
-  }
+  Concatenate(executor, blocks, selected);
 }
 
 /** The indices below n that are wanted, in order. */
@@ -48,7 +43,7 @@ template <typename IsWanted>
 std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isWanted)
 {
   std::vector<int> selected;
-  SelectValues(executor, n, selected, isWanted, [](std::size_t i) { return static_cast<int>(i); });
+  Select(executor, n, selected, isWanted, [](std::size_t i) { return static_cast<int>(i); });
   return selected;
 }
 
@@ -57,7 +52,7 @@ template <typename IsWanted>
 std::vector<int> SelectOf(Executor& executor, const std::vector<int>& list, IsWanted&& isWanted)
 {
   std::vector<int> selected;
-  SelectValues(
+  Select(
     executor, list.size(), selected, [&](std::size_t i) { return isWanted(list[i]); },
     [&list](std::size_t i) { return list[i]; });
   return selected;

@@ -11,7 +11,7 @@ namespace volumic
 {
 namespace
 {
-constexpr std::size_t BlockSize = 1024;
+constexpr std::size_t BlockSize = 256;
 /** Distance, in delta, over which the isopotential force grows to its bound. */
 constexpr float ForceRange = 0.75f;
 /** A vertex has moved visibly when it is this far from its anchor along its normal, in delta. */
@@ -115,8 +115,8 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   Vector tension = state.Laplacian[v];
   for (int i = 0; i < ring.Count; ++i)
   {
-    const int w = ring.Item[i];
-    tension -= state.Laplacian[w] * (1.f / static_cast<float>(state.Mesh.Rings[w].Count));
+    const Vector& pull = state.Laplacian[ring.Item[i]];
+    tension -= pull * pull.Padding;
   }
   const float inverse = 1.f / delta;
   Vector force = n * along +
@@ -182,7 +182,8 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
         const int v = vertices[i];
         const float longest = LongestRelaxation * state.Sizing.At(v);
         const Vector n = state.Normal[v].Axis();
-        const Vector pull = state.Laplacian[v];
+        Vector pull = state.Laplacian[v];
+        pull.Padding = 0;
         Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
         if (snap && this->Options.SnapToIsoValue)
         {
@@ -330,10 +331,7 @@ void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active)
     });
   const std::vector<int> leaving = SelectOf(this->Threads, active,
     [&state](int v) { return !state.Grid.IsInPlace(v, state.Mesh.Position[v]); });
-  for (int v : leaving)
-  {
-    state.Grid.Move(v, state.Mesh.Position[v]);
-  }
+  state.Grid.MoveAll(leaving, state.Mesh.Position, this->Threads);
 }
 
 void Dynamics::Freeze(
@@ -385,9 +383,13 @@ void Dynamics::Freeze(
         }
       }
     });
-  for (int v : active)
-  {
-    this->HasMoved[v] = 0;
-  }
+  this->Threads.For(active.size(), BlockSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->HasMoved[active[i]] = 0;
+      }
+    });
 }
 }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 namespace volumic
 {
@@ -15,6 +17,8 @@ namespace
 {
 /** Passes of tangential smoothing and snapping at the end of a level. */
 constexpr int RegularisationPasses = 12;
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexGrain = 2048;
 /** Way in a pass, in delta, under which a vertex is left where it is. */
 constexpr float SmallestMove = 0.015f;
 /** Iterations after which the estimate of a level's progress is 1 - 1/e of its way. */
@@ -161,29 +165,35 @@ void SurfaceEvolution::Implementation::KeepActiveIfMoving()
 {
   // What went some way in the last pass stays active, with its neighbours, and what was edited.
   SurfaceState& s = this->State;
-  const auto moves = [&s](int v)
-  {
-    const float least = SmallestMove * s.Sizing.At(v);
-    return SquaredLength(s.Velocity[v]) > least * least;
-  };
-  for (int v : this->Iteration.ActiveVertices())
-  {
-    if (s.Mesh.IsAlive(v) && !s.Disturbed[v] && !moves(v))
+  const std::vector<int>& last = this->Iteration.ActiveVertices();
+  std::vector<std::uint8_t> moves(static_cast<std::size_t>(s.Mesh.Size()), 0);
+  this->Threads.For(last.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      s.Active[v] = 0;
-    }
-  }
-  for (int v : this->Iteration.ActiveVertices())
-  {
-    if (s.Mesh.IsAlive(v) && moves(v))
-    {
-      const Ring& ring = s.Mesh.Rings[v];
-      for (int i = 0; i < ring.Count; ++i)
+      for (std::size_t i = begin; i < end; ++i)
       {
-        s.Active[ring.Item[i]] = 1;
+        const int v = last[i];
+        if (s.Mesh.IsAlive(v))
+        {
+          const float least = SmallestMove * s.Sizing.At(v);
+          moves[v] = SquaredLength(s.Velocity[v]) > least * least;
+          s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves[v]);
+        }
       }
-    }
-  }
+    });
+  this->Threads.For(moves.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (s.Mesh.IsAlive(v) && !s.Active[v])
+        {
+          const Ring& ring = s.Mesh.Rings[v];
+          s.Active[v] = std::any_of(
+            ring.Item, ring.Item + ring.Count, [&moves](int neighbour) { return moves[neighbour]; });
+        }
+      }
+    });
 }
 
 void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
@@ -239,6 +249,7 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
       this->KeepActiveIfMoving();
     }
     s.Disturbed.Fill(0);
+    this->Threads.EndPhase("Regularisation");
     this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
   }
   this->RunPolish(row);

@@ -211,7 +211,7 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   {
     return stopped;
   }
-  result.Surface = lattice.Boundary(cells);
+  result.Surface = lattice.Boundary(cells, executor);
   if (kind == PartKind::Cavity)
   {
     for (Triangle& triangle : result.Surface.Triangles)

@@ -157,43 +157,47 @@ void SlabSearch::CloseNear(int v)
 
 std::vector<VoxelRun> SlabSearch::FindRuns() const
 {
-  const VoxelNumbers numbers(this->Size);
   std::vector<VoxelRun> runs;
-  std::size_t word = 0;
+  std::vector<float> values(static_cast<std::size_t>(this->Size[0]));
   for (int k = this->Begin; k < this->End; ++k)
   {
     for (int j = 0; j < this->Size[1]; ++j)
     {
-      const std::int64_t row = numbers.Of(0, j, k);
-      bool isOnRun = false;
-      for (int w = 0; w < this->Words; ++w, ++word)
+      const std::uint64_t* open =
+        this->Open.data() + static_cast<std::size_t>(this->RowOf(j, k)) * this->Words;
+      if (std::any_of(open, open + this->Words, [](std::uint64_t word) { return word != 0; }))
       {
-        const int begin = w * BitsOfWord;
-        int i = begin;
-        const int end = std::min(i + BitsOfWord, this->Size[0]);
-        float values[BitsOfWord];
-        if (this->Open[word] != 0)
-        {
-          this->TheField.Row(begin, j, k, end - begin, values);
-        }
-        for (std::uint64_t bits = this->Open[word]; bits != 0 && i < end; bits >>= 1, ++i)
-        {
-          const bool isLost =
-            (bits & 1) != 0 && (values[i - begin] > 0) == (this->Kind == PartKind::Object);
-          if (isLost && isOnRun)
-          {
-            ++runs.back().Length;
-          }
-          else if (isLost)
-          {
-            runs.push_back({ row + i, 1, VoxelRun::NoPart });
-          }
-          isOnRun = isLost;
-        }
-        isOnRun = isOnRun && i == end;
+        this->TheField.Row(0, j, k, this->Size[0], values.data());
+        this->AddRuns(VoxelNumbers(this->Size).Of(0, j, k), open, values, runs);
       }
     }
   }
   return runs;
+}
+
+void SlabSearch::AddRuns(std::int64_t row, const std::uint64_t* open,
+  const std::vector<float>& values, std::vector<VoxelRun>& runs) const
+{
+  bool isOnRun = false;
+  for (int w = 0; w < this->Words; ++w)
+  {
+    int i = w * BitsOfWord;
+    const int end = std::min(i + BitsOfWord, this->Size[0]);
+    for (std::uint64_t bits = open[w]; bits != 0 && i < end; bits >>= 1, ++i)
+    {
+      const bool isLost =
+        (bits & 1) != 0 && (values[i] > 0) == (this->Kind == PartKind::Object);
+      if (isLost && isOnRun)
+      {
+        ++runs.back().Length;
+      }
+      else if (isLost)
+      {
+        runs.push_back({ row + i, 1, VoxelRun::NoPart });
+      }
+      isOnRun = isLost;
+    }
+    isOnRun = isOnRun && i == end;
+  }
 }
 }

@@ -67,6 +67,9 @@ private:
   void FindCrossings(int a, int b, int c);
 
   int RowOf(int j, int k) const { return (k - this->Begin) * this->Size[1] + j; }
+  /** Those of a row: number of its first voxel, bits and values. */
+  void AddRuns(std::int64_t row, const std::uint64_t* open, const std::vector<float>& values,
+    std::vector<VoxelRun>& runs) const;
   /** Opens or closes voxels of a row of the slab, the last one as well. */
   void Set(int row, int first, int last, bool isOpen);
 

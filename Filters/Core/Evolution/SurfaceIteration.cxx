@@ -40,8 +40,10 @@ void SurfaceIteration::Forget()
 
 void SurfaceIteration::CollectActive()
 {
-  this->Active = SelectIndices(this->Threads, this->State.Mesh.Rings.size(),
-    [this](std::size_t v) { return this->State.Active[v] != 0; });
+  Select(
+    this->Threads, this->State.Mesh.Rings.size(), this->Active,
+    [this](std::size_t v) { return this->State.Active[v] != 0; },
+    [](std::size_t v) { return static_cast<int>(v); });
 }
 
 void SurfaceIteration::UpdateActive()
@@ -62,12 +64,13 @@ void SurfaceIteration::CollectWorking()
   // The active vertices and the corners of all faces that move with them.
   SurfaceState& s = this->State;
   this->IsWorking.assign(s.Mesh.Rings.size(), 0);
-  this->Working = this->Active;
+  this->Working.resize(this->Active.size());
   this->Threads.For(this->Active.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
+        this->Working[i] = this->Active[i];
         this->IsWorking[this->Active[i]] = 1;
       }
     });
@@ -124,8 +127,11 @@ void SurfaceIteration::CollectSuspects()
         s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
       }
     });
-  this->Suspects = SelectOf(
-    this->Threads, this->Working, [&s](int v) { return s.Drift[v] > 0.5f * s.Slack[v]; });
+  const auto isSuspect = [&s](int v) { return s.Drift[v] > 0.5f * s.Slack[v]; };
+  Select(
+    this->Threads, this->Working.size(), this->Suspects,
+    [&](std::size_t i) { return isSuspect(this->Working[i]); },
+    [this](std::size_t i) { return this->Working[i]; });
   this->Threads.For(this->Suspects.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)
     {

@@ -14,6 +14,13 @@ constexpr std::size_t VertexBlock = 16384;
 /** Faces so near to a layer, in layers, are taken to cross it. */
 constexpr double Margin = 0.01;
 
+/** Slabs [Begin, End). */
+struct SlabRange
+{
+  int Begin = 0;
+  int End = 0;
+};
+
 /** Finds the slabs that a vertex matters in. */
 class SlabFinder
 {
@@ -24,34 +31,25 @@ public:
   {
   }
 
-  /** Calls visit(slab) for each. */
-  template <typename Visit>
-  void VisitSlabs(int v, const Visit& visit) const
+  SlabRange SlabsOf(int v) const
   {
-    const Ring& ring = this->Mesh.Rings[v];
-    if (ring.Count == 0)
-    {
-      return;
-    }
     const double place = this->Mesh.Position[v].Z * this->Inverse;
     double low = place - std::max(this->Reach, Margin);
     double high = place + std::max(this->Reach, Margin);
+    const Ring& ring = this->Mesh.Rings[v];
     for (int i = 0; i < ring.Count; ++i)
     {
       const double other = this->Mesh.Position[ring.Item[i]].Z * this->Inverse;
       low = std::min(low, other - Margin);
       high = std::max(high, other + Margin);
     }
-    if (high < 0. || low > this->Last)
+    if (ring.Count == 0 || high < 0. || low > this->Last)
     {
-      return;
+      return {};
     }
     const int first = std::max(0, static_cast<int>(std::ceil(low)));
     const int last = std::min(this->Last, static_cast<int>(std::floor(high)));
-    for (int slab = first / this->Layers; first <= last && slab <= last / this->Layers; ++slab)
-    {
-      visit(static_cast<std::size_t>(slab));
-    }
+    return first <= last ? SlabRange{ first / this->Layers, last / this->Layers + 1 } : SlabRange();
   }
 
 private:
@@ -70,21 +68,21 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
   const auto slabs = static_cast<std::size_t>((image.Size[2] + layersOfSlab - 1) / layersOfSlab);
   const std::size_t n = mesh.Rings.size();
   const std::size_t blocks = (n + VertexBlock - 1) / VertexBlock;
+  std::vector<SlabRange> ranges(n);
   // Of each block and slab: first how many there are, then where the next one goes.
   std::vector<std::size_t> next(blocks * slabs, 0);
-  const auto visitAll = [&](const auto& visit)
-  {
-    ForBlocks(executor, n, VertexBlock,
-      [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForBlocks(executor, n, VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
       {
-        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+        ranges[v] = finder.SlabsOf(static_cast<int>(v));
+        for (int slab = ranges[v].Begin; slab < ranges[v].End; ++slab)
         {
-          finder.VisitSlabs(
-            v, [&](std::size_t slab) { visit(next[block * slabs + slab], v); });
+          ++next[block * slabs + slab];
         }
-      });
-  };
-  visitAll([](std::size_t& count, int) { ++count; });
+      }
+    });
   this->First.resize(slabs + 1, 0);
   std::size_t sum = 0;
   for (std::size_t slab = 0; slab < slabs; ++slab)
@@ -98,6 +96,16 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
     this->First[slab + 1] = sum;
   }
   this->Vertices.resize(sum);
-  visitAll([this](std::size_t& place, int v) { this->Vertices[place++] = v; });
+  ForBlocks(executor, n, VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        for (int slab = ranges[v].Begin; slab < ranges[v].End; ++slab)
+        {
+          this->Vertices[next[block * slabs + slab]++] = static_cast<int>(v);
+        }
+      }
+    });
 }
 }

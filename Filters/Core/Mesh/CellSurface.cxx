@@ -121,7 +121,35 @@ Point CellLattice::Corner(const Cell& cell, int index) const
     this->Scale * (2 * cell[2] + offset[2]) };
 }
 
-IndexedSurface CellLattice::Boundary(const std::vector<Cell>& cells) const
+namespace
+{
+/** For each cell a bit for each of its faces, set where no cell of the set lies beyond it. */
+std::vector<std::uint16_t> BareFaces(
+  const std::vector<CellLattice::Cell>& cells, Executor& executor)
+{
+  constexpr std::size_t blockSize = 1024;
+  const std::vector<Face>& faces = Faces();
+  std::vector<std::uint16_t> bare(cells.size(), 0);
+  ForBlocks(executor, cells.size(), blockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        for (std::size_t f = 0; f < faces.size(); ++f)
+        {
+          const CellLattice::Cell& cell = cells[i];
+          const Offset& n = faces[f].Neighbour;
+          const bool isBare = !std::binary_search(cells.begin(), cells.end(),
+            CellLattice::Cell{ cell[0] + n[0], cell[1] + n[1], cell[2] + n[2] });
+          bare[i] = static_cast<std::uint16_t>(bare[i] | (isBare ? 1u << f : 0u));
+        }
+      }
+    });
+  return bare;
+}
+}
+
+IndexedSurface CellLattice::Boundary(const std::vector<Cell>& cells, Executor& executor) const
 {
   IndexedSurface surface;
   std::unordered_map<std::uint64_t, int> places;
@@ -138,16 +166,18 @@ IndexedSurface CellLattice::Boundary(const std::vector<Cell>& cells) const
     }
     return found.first->second;
   };
-  for (const Cell& cell : cells)
+  const std::vector<Face>& faces = Faces();
+  const std::vector<std::uint16_t> bare = BareFaces(cells, executor);
+  for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    for (const Face& face : Faces())
+    const Cell& cell = cells[i];
+    for (std::size_t f = 0; f < faces.size(); ++f)
     {
-      const Offset& n = face.Neighbour;
-      if (std::binary_search(cells.begin(), cells.end(),
-            Cell{ cell[0] + n[0], cell[1] + n[1], cell[2] + n[2] }))
+      if ((bare[i] >> f & 1u) == 0)
       {
         continue;
       }
+      const Face& face = faces[f];
       int corner[6];
       const int count = static_cast<int>(face.Corners.size());
       for (int k = 0; k < count; ++k)
@@ -160,7 +190,7 @@ IndexedSurface CellLattice::Boundary(const std::vector<Cell>& cells) const
         surface.Triangles.push_back({ corner[2], corner[3], corner[0] });
         continue;
       }
-      const int centre = place(cell, n);
+      const int centre = place(cell, face.Neighbour);
       for (int k = 0; k < count; ++k)
       {
         surface.Triangles.push_back({ centre, corner[k], corner[(k + 1) % count] });

@@ -3,6 +3,7 @@
 #ifndef volumicCellSurface_h
 #define volumicCellSurface_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 
 #include <array>
@@ -39,7 +40,8 @@ public:
    * corners that are not joined by one keep at least the edge length from each other.
    * `cells` must be sorted and without repetition.
    */
-  IndexedSurface Boundary(const std::vector<Cell>& cells) const;
+  IndexedSurface Boundary(
+    const std::vector<Cell>& cells, Executor& executor = OnThisThread()) const;
 
 private:
   double Scale; ///< Workspace length of the unit in which corners have integer coordinates.

@@ -151,18 +151,24 @@ Components::Components(const IndexedSurface& surface, Executor& executor)
 
 void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
 {
-  DisjointSets joined(surface.Points.size());
-  for (const Triangle& t : surface.Triangles)
-  {
-    joined.Join(joined.Join(t[0], t[1]), t[2]);
-  }
+  SharedDisjointSets joined(surface.Points.size());
+  ForBlocks(executor, surface.Triangles.size(), BlockSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Triangle& t = surface.Triangles[i];
+        joined.Join(t[0], t[1]);
+        joined.Join(t[0], t[2]);
+      }
+    });
   this->Root.resize(surface.Points.size());
   ForBlocks(executor, this->Root.size(), BlockSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t p = begin; p < end; ++p)
       {
-        this->Root[p] = joined.FindRoot(static_cast<int>(p));
+        this->Root[p] = joined.Find(static_cast<int>(p));
       }
     });
 }

@@ -187,25 +187,33 @@ bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tol
     return false;
   }
   const Plane planeF = PlaneOf(f.Corner);
-  const Plane planeG = PlaneOf(g.Corner);
   if (shared == 2)
   {
+    const Plane planeG = PlaneOf(g.Corner);
     return Dot(planeF.Normal, planeG.Normal) < FoldedCosine * planeF.Size * planeG.Size;
   }
   if (shared == 1)
   {
     const VectorD endsF[2] = { f.Corner[(inF[0] + 1) % 3], f.Corner[(inF[0] + 2) % 3] };
     const VectorD endsG[2] = { g.Corner[(inG[0] + 1) % 3], g.Corner[(inG[0] + 2) % 3] };
-    if (OnOneSide(endsG, 2, f.Corner[0], planeF, tolerance) ||
-      OnOneSide(endsF, 2, g.Corner[0], planeG, tolerance))
+    if (OnOneSide(endsG, 2, f.Corner[0], planeF, tolerance))
+    {
+      return false;
+    }
+    const Plane planeG = PlaneOf(g.Corner);
+    if (OnOneSide(endsF, 2, g.Corner[0], planeG, tolerance))
     {
       return false;
     }
     return SegmentIntersects(endsF[0], endsF[1], g.Corner, planeG, tolerance) ||
       SegmentIntersects(endsG[0], endsG[1], f.Corner, planeF, tolerance);
   }
-  if (OnOneSide(g.Corner, 3, f.Corner[0], planeF, tolerance) ||
-    OnOneSide(f.Corner, 3, g.Corner[0], planeG, tolerance))
+  if (OnOneSide(g.Corner, 3, f.Corner[0], planeF, tolerance))
+  {
+    return false;
+  }
+  const Plane planeG = PlaneOf(g.Corner);
+  if (OnOneSide(f.Corner, 3, g.Corner[0], planeG, tolerance))
   {
     return false;
   }

@@ -21,7 +21,9 @@ constexpr double MaximumNumberOfCells = 4294967295.;
 /** What cells grow by until they are few enough. */
 constexpr float CellGrowth = 1.25f;
 /** Vertices that one thread sorts into layers at a time. */
-constexpr std::size_t InsertedBlock = 1 << 15;
+constexpr std::size_t InsertedBlock = 1 << 14;
+/** Vertices that are moved before threads could be woken for it. */
+constexpr std::size_t FewMoves = 1000;
 }
 
 void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
@@ -111,38 +113,101 @@ void VertexGrid::Insert(int v, const Vector& position)
   this->Link(v, this->CellOf(position));
 }
 
+namespace
+{
+/** What threads have to do in layers that they can work in side by side. */
+class LayeredWork
+{
+public:
+  /** @param put(i, add): calls add(layer, vertex) for the item, or not. */
+  template <typename Put>
+  LayeredWork(Executor& executor, std::size_t items, std::size_t layers, Put&& put)
+    : Layers(layers), Lists((items + InsertedBlock - 1) / InsertedBlock)
+  {
+    ForBlocks(executor, items, InsertedBlock,
+      [&](std::size_t b, std::size_t begin, std::size_t end)
+      {
+        this->Lists[b].resize(layers);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          put(i, [&](std::size_t layer, int v) { this->Lists[b][layer].push_back(v); });
+        }
+      });
+  }
+
+  /** work(v) for all vertices: in a layer one after the other, in their order. */
+  template <typename Work>
+  void Do(Executor& executor, Work&& work) const
+  {
+    ForBlocks(executor, this->Layers, 1,
+      [&](std::size_t layer, std::size_t, std::size_t)
+      {
+        for (const auto& block : this->Lists)
+        {
+          for (int v : block[layer])
+          {
+            work(v);
+          }
+        }
+      });
+  }
+
+private:
+  std::size_t Layers;
+  std::vector<std::vector<std::vector<int>>> Lists; ///< By block, then by layer.
+};
+}
+
 void VertexGrid::InsertAll(const std::vector<Vector>& positions,
   const std::function<bool(int v)>& isThere, Executor& executor)
 {
   this->Resize(positions.size());
-  // Threads link the vertices of different layers of bricks; each finds its own in their order.
   const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
-  const std::size_t blocks = (positions.size() + InsertedBlock - 1) / InsertedBlock;
-  std::vector<std::vector<std::vector<int>>> lists(blocks);
-  ForBlocks(executor, positions.size(), InsertedBlock,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
+  const LayeredWork linking(executor, positions.size(), layers,
+    [&](std::size_t i, auto&& add)
     {
-      lists[b].resize(layers);
-      for (std::size_t i = begin; i < end; ++i)
+      const int v = static_cast<int>(i);
+      if (isThere(v))
       {
-        const int v = static_cast<int>(i);
-        if (isThere(v))
-        {
-          lists[b][static_cast<std::size_t>(this->Along(positions[i].Z, 2) >> Bits)].push_back(v);
-        }
+        add(this->LayerOf(this->CellOf(positions[i])), v);
       }
     });
-  ForBlocks(executor, layers, 1,
-    [&](std::size_t layer, std::size_t, std::size_t)
+  linking.Do(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
+}
+
+void VertexGrid::MoveAll(
+  const std::vector<int>& vertices, const std::vector<Vector>& positions, Executor& executor)
+{
+  if (vertices.size() < FewMoves)
+  {
+    for (int v : vertices)
     {
-      for (const auto& block : lists)
-      {
-        for (int v : block[layer])
-        {
-          this->Link(v, this->CellOf(positions[v]));
-        }
-      }
-    });
+      this->Move(v, positions[v]);
+    }
+    return;
+  }
+  // First all leave their cells, then all enter: chains are those of one move after the other.
+  const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
+  const auto forLeaving = [&](std::size_t i, auto&& add)
+  {
+    const int v = vertices[i];
+    if (!this->IsInPlace(v, positions[v]))
+    {
+      add(this->LayerOf(this->Cell[v]), v);
+    }
+  };
+  const auto forEntering = [&](std::size_t i, auto&& add)
+  {
+    const int v = vertices[i];
+    if (!this->IsInPlace(v, positions[v]))
+    {
+      add(this->LayerOf(this->CellOf(positions[v])), v);
+    }
+  };
+  const LayeredWork leaving(executor, vertices.size(), layers, forLeaving);
+  const LayeredWork entering(executor, vertices.size(), layers, forEntering);
+  leaving.Do(executor, [this](int v) { this->Remove(v); });
+  entering.Do(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
 }
 
 void VertexGrid::Remove(int v)

@@ -46,6 +46,9 @@ public:
   /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
   void InsertAll(const std::vector<Vector>& positions, const std::function<bool(int v)>& isThere,
     Executor& executor);
+  /** Move() for each of them. */
+  void MoveAll(
+    const std::vector<int>& vertices, const std::vector<Vector>& positions, Executor& executor);
   void Remove(int v);
   /** To be called after the vertex has moved. */
   void Move(int v, const Vector& position)
@@ -90,31 +93,15 @@ public:
     const int y1 = this->Along(high.Y, 1);
     const int z0 = this->Along(low.Z, 2);
     const int z1 = this->Along(high.Z, 2);
+    FirstVertices firsts;
     for (int z = z0; z <= z1; ++z)
     {
       for (int y = y0; y <= y1; ++y)
       {
-        for (int x = x0; x <= x1;)
-        {
-          // The part of the row that lies in one brick.
-          const int end = std::min(x1, x | Mask);
-          const Brick* brick = this->BrickAt(x, y, z);
-          if (!brick)
-          {
-            x = end + 1;
-            continue;
-          }
-          const int* heads = brick->data() + PlaceInBrick(0, y, z);
-          for (; x <= end; ++x)
-          {
-            for (int w = heads[x & Mask]; w >= 0; w = this->Next[w])
-            {
-              visit(w);
-            }
-          }
-        }
+        this->AddRow(x0, x1, y, z, firsts, visit);
       }
     }
+    this->VisitChains(firsts, visit);
   }
 
   /** Bricks that there are, for tests of what it costs. */
@@ -139,6 +126,54 @@ private:
   {
     return this->Bricks[this->NumberOfBrick(x, y, z)].load(std::memory_order_acquire);
   }
+  /** Of cells that are not empty: collected first, as their vertices are fetched faster then. */
+  struct FirstVertices
+  {
+    static constexpr int Capacity = 64;
+    int Item[Capacity];
+    int Count = 0;
+  };
+  template <typename Visitor>
+  void VisitChains(FirstVertices& firsts, Visitor&& visit) const
+  {
+    for (int i = 0; i < firsts.Count; ++i)
+    {
+      for (int w = firsts.Item[i]; w >= 0; w = this->Next[w])
+      {
+        visit(w);
+      }
+    }
+    firsts.Count = 0;
+  }
+  /** The cells x0 to x1 of a row; those collected are visited where there is no room for more. */
+  template <typename Visitor>
+  void AddRow(int x0, int x1, int y, int z, FirstVertices& firsts, Visitor&& visit) const
+  {
+    for (int x = x0; x <= x1;)
+    {
+      // The part of the row that lies in one brick.
+      const int end = std::min(x1, x | Mask);
+      const Brick* brick = this->BrickAt(x, y, z);
+      if (!brick)
+      {
+        x = end + 1;
+        continue;
+      }
+      if (firsts.Count + Mask + 1 > FirstVertices::Capacity)
+      {
+        this->VisitChains(firsts, visit);
+      }
+      const int* heads = brick->data() + PlaceInBrick(0, y, z);
+      int count = firsts.Count; // No branches: what is empty is written over.
+      for (; x <= end; ++x)
+      {
+        firsts.Item[count] = heads[x & Mask];
+        count += heads[x & Mask] >= 0 ? 1 : 0;
+      }
+      firsts.Count = count;
+    }
+  }
+
   int Along(float x, int axis) const
   {
     const float place = (x - this->Low[axis]) * this->Inverse;
@@ -150,6 +185,12 @@ private:
     const std::size_t row =
       static_cast<std::size_t>(this->Along(p.Z, 2)) * this->Size[1] + this->Along(p.Y, 1);
     return static_cast<std::uint32_t>(row * this->Size[0] + this->Along(p.X, 0));
+  }
+  /** The layer of bricks that a cell lies in. */
+  std::size_t LayerOf(std::uint32_t cell) const
+  {
+    return static_cast<std::size_t>(cell / (static_cast<std::uint32_t>(this->Size[0]) *
+             static_cast<std::uint32_t>(this->Size[1]))) >> Bits;
   }
   /** The first vertex of a cell, in a brick that is made where there is none. */
   int& HeadOf(std::uint32_t cell);

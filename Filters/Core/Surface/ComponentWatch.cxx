@@ -22,7 +22,7 @@ constexpr int TinySize = 24;
 constexpr int VanishedSize = 5;
 
 /** Vertices that one thread joins at a time. */
-constexpr std::size_t JoinedBlock = 16384;
+constexpr std::size_t JoinedBlock = 4096;
 /** Vertices under which a chunk is not worth a thread. */
 constexpr std::size_t Grain = 4096;
 
@@ -127,6 +127,17 @@ void ComponentWatch::Label(SurfaceState& state, Executor& executor)
   this->WatchSmallOnes(state, std::vector<int>(sizes.begin(), sizes.end()), executor);
 }
 
+namespace
+{
+/** Where a neighbour is, seen from a vertex of a block. */
+enum class Side
+{
+  Later, ///< It sees to the edge between them itself.
+  SameBlock,
+  BlockBefore
+};
+}
+
 void ComponentWatch::JoinVertices(const SurfaceMesh& mesh, Executor& executor)
 {
   // First within blocks, side by side, then across their borders.
@@ -142,17 +153,23 @@ void ComponentWatch::JoinVertices(const SurfaceMesh& mesh, Executor& executor)
         this->Joined.MakeSet(v);
         int root = v;
         const Ring& ring = mesh.Rings[v];
+        Side before = Side::Later;
         for (int i = 0; i < ring.Count; ++i)
         {
+          // Neighbours next to each other are neighbours themselves: on one side one is enough.
           const int w = ring.Item[i];
-          if (w < static_cast<int>(begin))
+          const Side side = w >= v     ? Side::Later
+            : w >= static_cast<int>(begin) ? Side::SameBlock
+                                           : Side::BlockBefore;
+          if (side == Side::BlockBefore && side != before)
           {
             this->Borders[b].emplace_back(v, w);
           }
-          else if (w < v)
+          else if (side == Side::SameBlock && side != before)
           {
             root = this->Joined.Join(root, w);
           }
+          before = side;
         }
       }
     });

@@ -15,7 +15,7 @@ constexpr float LookedBeyond = 1.6f;
 /** Room for rounding, in delta. */
 constexpr float Spare = 0.1f;
 /** Items under which the threads are not worth waking. */
-constexpr std::size_t FewItems = 48;
+constexpr std::size_t FewItems = 24;
 /** Items that are sorted into cells by one thread at a time. */
 constexpr std::size_t SortedBlock = 4096;
 
@@ -164,6 +164,10 @@ void EditCells::VisitCell(const Pass& pass, Cell& cell)
       cell.LeftForRegion.push_back(item);
     }
   }
+  // An edit names all that it has changed: of a cell's, many are the same.
+  cell.Changed = cell.Editor->TakeChanged();
+  std::sort(cell.Changed.begin(), cell.Changed.end());
+  cell.Changed.erase(std::unique(cell.Changed.begin(), cell.Changed.end()), cell.Changed.end());
   std::vector<int>& items = cell.Content.Items;
   items.erase(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(given));
 }
@@ -192,8 +196,7 @@ void EditCells::Collect(std::size_t first, std::size_t last)
     this->State.EulerCharacteristic += cell.Share.EulerCharacteristic;
     cell.Share.Counts = EditCounts();
     cell.Share.EulerCharacteristic = 0;
-    const std::vector<int> changed = cell.Editor->TakeChanged();
-    this->Log.insert(this->Log.end(), changed.begin(), changed.end());
+    append(this->Log, cell.Changed);
   }
 }
 

@@ -23,7 +23,8 @@ namespace volumic
  * of one colour are so far apart that none reads what another one writes:
  *
  *   - the stars of vertices within a margin of the cell are edited (EditShare::Region);
- *   - with L the longest edge there is (HugeEdge, SurfaceState::LongestEdge), such an edit writes within margin + L of the cell;
+ *   - with L the longest edge there is (HugeEdge, SurfaceState::LongestEdge), such an edit writes
+ *     within margin + L of the cell;
  *   - it reads the faces that its own could intersect: corners within ReachShare clearances of
  *     these, and the other ends of their edges, so all within margin + 2 L + 1.6 delta.
  *
@@ -77,7 +78,7 @@ public:
   /** The lists Kept of the last pass, cell by cell. */
   const std::vector<int>& Kept() const { return this->AllKept; }
 
-  /** Changed vertices of all edits since TakeChanged(), in order; some may be named often. */
+  /** Changed vertices of all edits since TakeChanged(), cell by cell; some are named often. */
   const std::vector<int>& Changed() const { return this->Log; }
   std::vector<int> TakeChanged();
 
@@ -96,6 +97,7 @@ private:
     std::unique_ptr<SurfaceEditor> Editor;
     std::vector<int> LeftForPlaces;
     std::vector<int> LeftForRegion;
+    std::vector<int> Changed;
   };
 
   float Side(const Pass& pass) const;

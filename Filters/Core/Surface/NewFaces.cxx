@@ -13,19 +13,25 @@ namespace
 {
 /** Room, in delta, on one side of a plane that tells two faces apart without an exact test. */
 constexpr float RoomBesidePlane = 0.01f;
+/** Least cosine between two faces at an edge that are certainly not folded onto each other. */
+constexpr float Unfolded = -0.99f;
+/** Twice the area, in delta squared, from which on a normal in floats is a face's. */
+constexpr float LeastArea = 1e-2f;
 /** Of the clearance: edges may be a little too long until the end of an iteration. */
 constexpr float ReachShare = 1.1f;
 
 /** A new face, as floats tell most others apart from it: by a box and a plane. */
 struct NewFace
 {
-  explicit NewFace(const MeshTriangle& face)
+  NewFace(const MeshTriangle& face, float delta)
     : Exact(face)
     , Place(face.Corner[0])
     , Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
-    , Normal(Normalized(
-        Cross(Vector(face.Corner[1]) - this->Place, Vector(face.Corner[2]) - this->Place)))
   {
+    const Vector normal =
+      Cross(Vector(face.Corner[1]) - this->Place, Vector(face.Corner[2]) - this->Place);
+    this->Normal = Normalized(normal);
+    this->HasNormal = Length(normal) > LeastArea * delta * delta;
   }
 
   /** Whether all three points lie on one side of its plane, with some room. */
@@ -37,10 +43,41 @@ struct NewFace
       std::max({ heights[0], heights[1], heights[2] }) < -room;
   }
 
+  /**
+   * Whether another face, less a corner that both have, lies on one side of the plane, with some
+   * room; or, if they have an edge, is far from folded onto this one. They don't intersect then.
+   */
+  bool IsClearOf(const NewFace& other, float room) const
+  {
+    if (!this->HasNormal || !other.HasNormal)
+    {
+      return false;
+    }
+    const int* name = this->Exact.Vertex;
+    int shared = 0;
+    bool above = true;
+    bool below = true;
+    for (int k = 0; k < 3; ++k)
+    {
+      const int corner = other.Exact.Vertex[k];
+      if (corner == name[0] || corner == name[1] || corner == name[2])
+      {
+        ++shared;
+        continue;
+      }
+      const float height = Dot(this->Normal, Vector(other.Exact.Corner[k]) - this->Place);
+      above = above && height > room;
+      below = below && height < -room;
+    }
+    return shared < 2 ? above || below
+                      : shared == 2 && Dot(this->Normal, other.Normal) > Unfolded;
+  }
+
   const MeshTriangle& Exact;
   Vector Place;
   Box Bounds;
   Vector Normal; ///< Unit.
+  bool HasNormal; ///< It is no sliver, whose normal in floats says nothing.
 };
 
 bool Intersect(
@@ -49,13 +86,15 @@ bool Intersect(
   return TrianglesIntersect(one, other, state.Sizing.Contact(one.Vertex[0]));
 }
 
-bool IntersectEachOther(const SurfaceState& state, const std::vector<MeshTriangle>& faces)
+bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& faces)
 {
+  const float room = RoomBesidePlane * state.Sizing.At(faces[0].Exact.Vertex[0]);
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     for (std::size_t j = i + 1; j < faces.size(); ++j)
     {
-      if (Intersect(state, faces[i], faces[j]))
+      if (!faces[i].IsClearOf(faces[j], room) && !faces[j].IsClearOf(faces[i], room) &&
+        Intersect(state, faces[i].Exact, faces[j].Exact))
       {
         return true;
       }
@@ -87,17 +126,17 @@ bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, 
 bool NewFacesIntersect(
   const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed)
 {
-  if (IntersectEachOther(state, faces))
-  {
-    return true;
-  }
   std::vector<NewFace> news;
   news.reserve(faces.size());
   Box all = { Vector(faces[0].Corner[0]), Vector(faces[0].Corner[0]) };
   for (const MeshTriangle& face : faces)
   {
-    news.emplace_back(face);
+    news.emplace_back(face, state.Sizing.At(face.Vertex[0]));
     all = all.With(news.back().Bounds);
+  }
+  if (IntersectEachOther(state, news))
+  {
+    return true;
   }
   // A face that intersects one of the new ones has a corner this near to the box of those.
   const Box visited =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/Proximity.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Mesh/TriangleTests.h"
 #include "Core/Surface/StarFaces.h"
 
@@ -21,6 +22,10 @@ constexpr float LeastRoom = 2e-3f;
 constexpr float SomeRoom = 0.01f;
 /** Items of a list that one thread takes at a time. */
 constexpr std::size_t ListGrain = 4096;
+/** Vertices that one thread examines at a time: few where they are few, as each may take long. */
+constexpr std::size_t SmallestBlock = 16;
+constexpr std::size_t LargestBlock = 256;
+constexpr std::size_t BlocksWanted = 128;
 /** Room along the normals that needs no look for more along the line between the vertices. */
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
@@ -225,7 +230,7 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
   const FirstPair pair(state, listed, v, second.Centre);
   const float someRoom = SomeRoom * state.Sizing.At(v);
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
-  const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
+  std::optional<FacesBeside> besideSecond; // Few need it.
   float room = someRoom;
   for (int i = 0; i < first.Count; ++i)
   {
@@ -235,7 +240,11 @@ float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& list
     for (; near != 0; near &= near - 1)
     {
       const int j = LowestBit(near);
-      if (besideSecond.Of(j) >> i & 1)
+      if (!besideSecond)
+      {
+        besideSecond.emplace(second, first, FloatRounding * someRoom);
+      }
+      if (besideSecond->Of(j) >> i & 1)
       {
         continue;
       }
@@ -382,7 +391,8 @@ void Proximity::Examine(
       });
   };
   setListed(1);
-  constexpr std::size_t size = 512;
+  const std::size_t size =
+    std::clamp(vertices.size() / BlocksWanted, SmallestBlock, LargestBlock);
   const std::size_t blocks = (vertices.size() + size - 1) / size;
   if (this->Blocks.size() < blocks)
   {
@@ -438,17 +448,6 @@ void Proximity::CollectPairs(const SurfaceState& state, std::size_t blocks, Exec
     lists.emplace_back();
     lists.back().swap(this->Blocks[b].Pairs);
   }
-  std::vector<std::size_t> first(lists.size() + 1, 0);
-  for (std::size_t b = 0; b < lists.size(); ++b)
-  {
-    first[b + 1] = first[b] + lists[b].size();
-  }
-  this->AllPairs.resize(first.back());
-  ForBlocks(executor, lists.size(), 1,
-    [&](std::size_t b, std::size_t, std::size_t)
-    {
-      std::copy(lists[b].begin(), lists[b].end(),
-        this->AllPairs.begin() + static_cast<std::ptrdiff_t>(first[b]));
-    });
+  Concatenate(executor, lists, this->AllPairs);
 }
 }

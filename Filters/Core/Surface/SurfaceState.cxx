@@ -8,6 +8,12 @@
 
 namespace volumic
 {
+namespace
+{
+/** Vertices that one thread looks at at a time: 20 microseconds. */
+constexpr std::size_t ShapeGrain = 128;
+}
+
 void SurfaceState::Reset(const Vector& low, const Vector& high)
 {
   SequentialExecutor thread;
@@ -27,7 +33,7 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   {
     this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
   }
-  this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic();
+  this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
 }
 
 void SurfaceState::Lend(VertexPlaces& places, std::size_t n)
@@ -62,6 +68,7 @@ void SurfaceState::UpdateShape(int v)
   StarVectors pull;
   unsigned tooLong = 0;
   unsigned tooShort = 0;
+  unsigned huge = 0;
   for (int i = 0; i < star.Count; i += Lanes::Count)
   {
     const auto ofEdges = [&](auto&& of)
@@ -76,10 +83,13 @@ void SurfaceState::UpdateShape(int v)
     const Lanes length = star.Length.At(i);
     const Lanes rest = ofEdges([&](int w) { return this->Sizing.RestLength(v, w); });
     const Lanes longest = ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w); });
+    const Lanes hugest =
+      ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w, HugeEdge); });
     const Lanes shortest = ofEdges([&](int w) { return this->Sizing.ShortestEdge(v, w); });
     pull.Set(
       i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
     tooLong |= LessBits(longest, length) << i;
+    huge |= LessBits(hugest, length) << i;
     tooShort |= LessBits(length, shortest) << i;
   }
   float edges = 0;
@@ -90,9 +100,12 @@ void SurfaceState::UpdateShape(int v)
   std::uint8_t flags = 0;
   flags |= tooLong & star.All() ? HasLongEdge : 0;
   flags |= tooShort & star.All() ? HasShortEdge : 0;
+  flags |= huge & star.All() ? HasHugeEdge : 0;
   flags |= star.IsDelaunay() ? 0 : IsNotDelaunay;
   this->Normal[v] = star.Cone();
-  this->Laplacian[v] = star.Edge.Sum(star.Count) * (1.f / static_cast<float>(star.Count));
+  const float share = 1.f / static_cast<float>(star.Count);
+  this->Laplacian[v] = star.Edge.Sum(star.Count) * share;
+  this->Laplacian[v].Padding = share;
   this->SpringPull[v] = pull.Sum(star.Count);
   this->EdgeLengthSum[v] = edges;
   this->RemeshFlags[v] = flags;
@@ -100,7 +113,7 @@ void SurfaceState::UpdateShape(int v)
 
 void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& executor)
 {
-  executor.For(vertices.size(), 512,
+  executor.For(vertices.size(), ShapeGrain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

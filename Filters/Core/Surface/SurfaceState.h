@@ -100,7 +100,7 @@ public:
 
   // Shape: UpdateShape().
   VertexProperty<NormalCone> Normal{ this->Properties, NormalCone() };
-  /** Barycentre of the neighbours minus position. */
+  /** Barycentre of the neighbours minus position; as Padding the share of each of them in it. */
   VertexProperty<Vector> Laplacian{ this->Properties, Vector(), Vector() };
   VertexProperty<Vector> SpringPull{ this->Properties, Vector() }; ///< Sum over its edges.
   VertexProperty<float> EdgeLengthSum{ this->Properties, 0.f, 0.f };
