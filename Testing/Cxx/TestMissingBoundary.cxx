@@ -22,7 +22,7 @@ vtkSmartPointer<vtkImageData> BallAndSheets(int sheets)
     {
       for (int j = 10; j < 54; ++j)
       {
-        voxels->SetComponent((k * 64 + j) * 64 + 4 + 4 * sheet, 0, 60.0);
+        voxels->SetComponent((k * 64 + j) * 64 + 4 + 4 * sheet, 0, 62.0);
       }
     }
   }
