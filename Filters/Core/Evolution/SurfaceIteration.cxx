@@ -24,6 +24,7 @@ constexpr int SuspiciousCollapses = 40;
 constexpr int InsideOutPeriod = 10;
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t ActiveGrain = 2048;
+constexpr std::size_t ClearedGrain = 1 << 16;
 
 void SortUnique(std::vector<int>& vertices)
 {
@@ -63,21 +64,13 @@ void SurfaceIteration::CollectWorking()
 {
   // The active vertices and the corners of all faces that move with them.
   SurfaceState& s = this->State;
-  if (this->IsWorking.size() == s.Mesh.Rings.size())
-  {
-    this->Threads.For(this->Working.size(), ActiveGrain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->IsWorking[this->Working[i]] = 0;
-        }
-      });
-  }
-  else
-  {
-    this->IsWorking.assign(s.Mesh.Rings.size(), 0);
-  }
+  this->IsWorking.resize(s.Mesh.Rings.size());
+  this->Threads.For(this->IsWorking.size(), ClearedGrain,
+    [this](std::size_t begin, std::size_t end)
+    {
+      std::fill(this->IsWorking.begin() + static_cast<std::ptrdiff_t>(begin),
+        this->IsWorking.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t(0));
+    });
   this->Working.resize(this->Active.size());
   this->Threads.For(this->Active.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)
