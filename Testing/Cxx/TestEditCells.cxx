@@ -157,6 +157,19 @@ TEST(EditCells, GivePlacesUntilAllItemsHaveTheirs)
   }
 }
 
+TEST(EditCells, EndWherePlacesAreNeverEnough)
+{
+  Bench bench(LargeSphere(2.6));
+  SequentialExecutor thread;
+  EditCells cells(bench.State, thread);
+  EditCells::Pass pass; // Gives none.
+  pass.Items = bench.All();
+  pass.Visit = [&](SurfaceEditor& editor, int v, EditCells::Lists&)
+  { EXPECT_FALSE(editor.Split(v, bench.State.Mesh.Rings[v].Item[0])); };
+  cells.Run(pass);
+  EXPECT_TRUE(cells.Changed().empty());
+}
+
 TEST(EditCells, TakeNoPlaceOfAVertexThatTheSamePassHasRemoved)
 {
   Bench bench(LargeSphere(1.6));

@@ -279,8 +279,13 @@ void EditCells::Run(const Pass& pass)
     {
       break;
     }
+    const std::size_t visited = items.size();
     items = std::exchange(this->LeftForPlaces, {});
     // Where nothing has changed it would be refused again.
+    if (this->Log.size() == changed && items.size() == visited)
+    {
+      break;
+    }
     if (this->Log.size() > changed)
     {
       items.insert(items.end(), this->LeftForRegion.begin(), this->LeftForRegion.end());

@@ -30,8 +30,8 @@ namespace volumic
  *
  * So the side of a cell is 2 margin + 3 L + 1.6 delta, and a bit. What is refused because a vertex
  * lies beyond its cell's margin, or for want of places for new vertices, is tried again in a next
- * round, in which items are sorted into cells anew, as long as anything changes. Places of removed vertices are not used
- * again before the pass is over: an item of another cell may still name them.
+ * round, in which items are sorted into cells anew, as long as anything changes. Places of removed
+ * vertices are not used again before the pass is over: an item of another cell may still name them.
  *
  * Instead of locks, which would make the order of edits, and so the surface, depend on chance.
  */
