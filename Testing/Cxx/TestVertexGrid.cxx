@@ -55,12 +55,12 @@ TEST(VertexGrid, FindsVerticesWhereTheyHaveMovedTo)
 
 TEST(VertexGrid, CostsNoMemoryWithoutLimit)
 {
-  // 10^12 cells, if they were as asked for.
+  // 10^15 cells, if they were as asked for.
   VertexGrid grid;
-  grid.Reset(Vector(0, 0, 0), Vector(1e4f, 1e4f, 1e4f), 1.f);
-  grid.Insert(0, Vector(9e3f, 1, 1));
+  grid.Reset(Vector(0, 0, 0), Vector(1e5f, 1e5f, 1e5f), 1.f);
+  grid.Insert(0, Vector(9e4f, 1, 1));
   int found = 0;
-  grid.Visit(Vector(9e3f, 1, 1), 1.f, [&](int) { ++found; });
+  grid.Visit(Vector(9e4f, 1, 1), 1.f, [&](int) { ++found; });
   EXPECT_EQ(found, 1);
 }
 
