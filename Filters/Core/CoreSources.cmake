@@ -155,6 +155,7 @@ list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Results are the same bits on every processor: no product and sum is contracted into one rounding.
+# Nobody asks for errno after a square root, which so is one instruction, rounded as ever.
 set(volumic_core_options)
 if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   set(volumic_core_options "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>"
