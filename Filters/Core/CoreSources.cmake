@@ -8,6 +8,7 @@
 set(volumic_core_sources
   Common/FreeMemory.cxx
   Common/MeasuredExecutor.cxx
+  Common/ScratchMemory.cxx
   Common/StandardThreads.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
@@ -78,6 +79,7 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
+  Common/ScratchMemory.h
   Common/Refuse.h
   Common/Select.h
   Common/StandardThreads.h
