@@ -94,6 +94,7 @@ private:
   void Label();
   void CollectWorking();
   void AddUnmoved(int v);
+  bool IsSuspect(int v) const;
   void CollectSuspects();
   void RollBack();
   void RollBackVertex(int v);
