@@ -48,6 +48,7 @@ set(volumic_core_sources
   Surface/StarFaces.cxx
   Surface/StarScore.cxx
   Surface/StarShape.cxx
+  Surface/SurfaceBlocks.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
   Surface/SurfaceState.cxx
@@ -57,6 +58,7 @@ set(volumic_core_sources
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
+  Evolution/EvolutionSweeps.cxx
   Evolution/GivenSurface.cxx
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx
@@ -134,6 +136,7 @@ set(volumic_core_headers
   Surface/StarFaces.h
   Surface/StarScore.h
   Surface/StarShape.h
+  Surface/SurfaceBlocks.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h
   Surface/SurfaceState.h

@@ -79,12 +79,15 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
   this->State.Margin = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;
+  this->Visit = {};
+  this->InSweeps = false;
   this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
 }
 
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
+  this->DecideOnSweeps();
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   this->Threads.EndPhase("Order");
@@ -92,8 +95,11 @@ void SurfaceEvolution::Implementation::Reset()
   this->Threads.EndPhase("Grid");
   this->SplitLongEdges();
   this->Threads.EndPhase("Long edges");
-  this->Iteration.Examine();
-  this->Threads.EndPhase("Proximity");
+  if (!this->InSweeps) // Else each visit examines its own.
+  {
+    this->Iteration.Examine();
+    this->Threads.EndPhase("Proximity");
+  }
   this->Iteration.LabelComponents();
   this->Threads.EndPhase("Labels");
 }

@@ -43,6 +43,20 @@ public:
   /** For a surface whose vertices have other numbers or lie in another grid. */
   void Forget();
 
+  /**
+   * From now on it works on the vertices of a list only, all others keep still, as if they were not
+   * active; the list may grow between two calls. What happens to components that are not small is
+   * left to EndVisit's caller: LabelComponents(), DeleteInsideOut(). The vertices must have a shape
+   * that is up to date.
+   */
+  void BeginVisit(const std::vector<int>& vertices);
+  /** On all vertices again. */
+  void EndVisit();
+  /** The active vertices and those beside them, and what the last iteration has made or changed. */
+  const std::vector<int>& WorkingVertices() const { return this->Working; }
+  /** Whether cuts or deletions ask for DeleteInsideOut(). */
+  bool IsUnchecked() const { return this->Unchecked > 0; }
+
   /** Collects the active vertices; their shape is up to date afterwards. */
   void UpdateActive();
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
@@ -76,6 +90,8 @@ public:
 
 private:
   void CollectActive();
+  void ClearMarks();
+  void Label();
   void CollectWorking();
   void AddUnmoved(int v);
   void CollectSuspects();
@@ -90,6 +106,7 @@ private:
   Proximity Near;    ///< Of all; keeps the pairs.
   Proximity Recheck; ///< Of what has been rolled back.
   ComponentWatch Watch;
+  const std::vector<int>* Visited = nullptr; ///< See BeginVisit; null: all vertices.
   std::vector<int> Active;
   std::vector<int> Working;            ///< See CollectWorking.
   std::vector<std::uint8_t> IsWorking; ///< Whether that has it.
