@@ -17,6 +17,7 @@ public:
   volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
   volumic::Deadline Limit;                ///< of the run
+  bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.
