@@ -94,7 +94,7 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void LayGrid();
   void SplitLongEdges();
-  void FindIntersections();
+  std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
   void Take(const IndexedSurface& surface);
   void TakeRemeshed(const IndexedSurface& surface);

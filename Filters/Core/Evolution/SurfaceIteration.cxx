@@ -27,6 +27,8 @@ constexpr std::size_t ActiveGrain = 2048;
 constexpr std::size_t ClearedGrain = 1 << 16;
 /** Where fewer than one vertex in so many is marked, the marks are cleared one by one. */
 constexpr std::size_t SparseMarks = 64;
+/** Vertices that FindIntersections examines at a time: what it finds of each takes memory. */
+constexpr std::size_t ExaminedPart = 1000000;
 
 void SortUnique(std::vector<int>& vertices)
 {
@@ -62,6 +64,22 @@ void SurfaceIteration::EndVisit()
 {
   this->Visited = nullptr;
   this->Forget();
+}
+
+std::vector<Proximity::FacePair> SurfaceIteration::FindIntersections()
+{
+  std::vector<Proximity::FacePair> found;
+  for (std::size_t begin = 0; begin < this->Active.size(); begin += ExaminedPart)
+  {
+    const std::size_t end = std::min(this->Active.size(), begin + ExaminedPart);
+    const std::vector<int> part(this->Active.begin() + static_cast<std::ptrdiff_t>(begin),
+      this->Active.begin() + static_cast<std::ptrdiff_t>(end));
+    this->Near.Clear();
+    this->Near.Examine(this->State, part, this->Threads);
+    found.insert(found.end(), this->Near.Intersections().begin(), this->Near.Intersections().end());
+  }
+  this->Near.Clear();
+  return found;
 }
 
 void SurfaceIteration::Label()

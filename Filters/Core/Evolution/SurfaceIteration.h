@@ -61,6 +61,8 @@ public:
   void UpdateActive();
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
   void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
+  /** The same for intersections alone, in little memory; some may be named more than once. */
+  std::vector<Proximity::FacePair> FindIntersections();
   const std::vector<Proximity::FacePair>& Intersections() const
   {
     return this->Near.Intersections();
