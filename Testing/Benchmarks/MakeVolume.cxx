@@ -177,7 +177,7 @@ void MakeFoam(int size, const std::string& name)
     for (int i = 0; i < size; ++i)
     {
       const double cell = i / width;
-      const double angle = turn * (cell + 0.25 * std::sin(turn * cell / (5.3 + 0.9 * axis)));
+      const double angle = turn * (cell + 0.1 * std::sin(turn * cell / (5.3 + 0.9 * axis)));
       sines[axis].push_back(std::sin(angle));
       cosines[axis].push_back(std::cos(angle));
     }
