@@ -4,6 +4,7 @@
 #define vtkDeformableSurfaceInternals_h
 
 #include "Deadline.h"
+#include "LimitedMemory.h"
 #include "SegmentationCache.h"
 #include "SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
@@ -13,8 +14,10 @@ class vtkDeformableSurface::vtkInternals
 {
 public:
   volumic::SegmentationSettings Settings; ///< the properties
+  volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
   volumic::Deadline Limit;                ///< of the run
+  bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.

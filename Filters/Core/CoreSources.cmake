@@ -8,7 +8,9 @@
 set(volumic_core_sources
   Common/FreeMemory.cxx
   Common/MeasuredExecutor.cxx
+  Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
+  Common/ScratchStore.cxx
   Common/StandardThreads.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
@@ -48,6 +50,7 @@ set(volumic_core_sources
   Surface/StarFaces.cxx
   Surface/StarScore.cxx
   Surface/StarShape.cxx
+  Surface/SurfaceBlocks.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
   Surface/SurfaceState.cxx
@@ -57,6 +60,7 @@ set(volumic_core_sources
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
+  Evolution/EvolutionSweeps.cxx
   Evolution/GivenSurface.cxx
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx
@@ -79,8 +83,10 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
-  Common/ScratchMemory.h
   Common/Refuse.h
+  Common/ScratchFile.h
+  Common/ScratchMemory.h
+  Common/ScratchStore.h
   Common/Select.h
   Common/StandardThreads.h
   Common/Vector.h
@@ -134,6 +140,7 @@ set(volumic_core_headers
   Surface/StarFaces.h
   Surface/StarScore.h
   Surface/StarShape.h
+  Surface/SurfaceBlocks.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h
   Surface/SurfaceState.h

@@ -37,6 +37,48 @@ void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
   row.Components = this->Iteration.NumberOfComponents();
 }
 
+double SurfaceEvolution::Implementation::KineticEnergy() const
+{
+  const SurfaceState& s = this->State;
+  const std::vector<int>& active = this->Iteration.ActiveVertices();
+  return SumOfBlocks(this->Threads, active.size(), SumBlock,
+    [&](std::size_t begin, std::size_t end)
+    {
+      double sum = 0;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = active[i];
+        const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
+        sum += 0.5 * speed * speed;
+      }
+      return sum;
+    });
+}
+
+void SurfaceEvolution::Implementation::BeginRow(HistoryRow& row)
+{
+  row.SecondsBefore = this->Lap();
+  row.AddedEulerCharacteristic = this->State.EulerCharacteristic -
+    (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
+}
+
+void SurfaceEvolution::Implementation::KeepRow(const HistoryRow& row)
+{
+  this->Rows.push_back(row);
+  if (this->LastIterations == 0)
+  {
+    HistoryRow& first = this->Rows.back();
+    first.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
+    for (const Phase phase : { Phase::Division, Phase::Recovery })
+    {
+      first.Phases[static_cast<int>(phase)] = this->Preparing.Phases[static_cast<int>(phase)];
+    }
+    this->Preparing = HistoryRow();
+  }
+  this->SinceEvolved = EditCounts();
+  ++this->LastIterations;
+}
+
 void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
 {
   const SurfaceState& s = this->State;
@@ -50,20 +92,7 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.Deletions = s.Counts.Removed;
   row.DeletedGenus = s.Counts.RemovedGenus;
   this->FillCounts(row);
-  const std::vector<int>& active = this->Iteration.ActiveVertices();
-  const double energy = SumOfBlocks(this->Threads, active.size(), SumBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      double sum = 0;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = active[i];
-        const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
-        sum += 0.5 * speed * speed;
-      }
-      return sum;
-    });
-  row.KineticEnergy = energy / std::max(row.Vertices, 1);
+  row.KineticEnergy = this->KineticEnergy() / std::max(row.Vertices, 1);
   row.MeanEdgeLength = this->MeanEdgeLength();
   row.IterationVertices = row.Vertices;
   row.IterationMeanEdgeLength = row.MeanEdgeLength;

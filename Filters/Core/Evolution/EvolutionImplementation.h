@@ -9,10 +9,12 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -43,7 +45,35 @@ struct SurfaceEvolution::Implementation
   std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< Of all laps since the last level.
   bool Stopped = false;     ///< By the monitor.
+  bool InSweeps = false;    ///< The level evolves block by block, see SurfaceSweeps.
+  struct
+  {
+    int Sweep = 0;  ///< From 1; 0: the level evolves as a whole.
+    int Block = 0;  ///< Visits of this sweep, and
+    int Blocks = 0; ///< how many there are at most.
+    double Iterations = 0.; ///< Beyond LastIterations: an estimate.
+    double From = 0.; ///< Shares of the activity before and after the visit.
+    double To = 0.;
+  } Visit;
   EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
+
+  /** A sweep over blocks: what is done in each. */
+  struct BlockVisits
+  {
+    bool OnlyActive = true; ///< Blocks in which nothing may move are left out.
+    Monitor::Activity Doing = Monitor::Activity::Iterating;
+    double From = 0.; ///< Shares of the activity, before and after.
+    double To = 1.;
+    double Iterations = 0.; ///< That a visit makes.
+    std::function<void(const std::vector<int>& vertices)> Visit; ///< The list may grow.
+  };
+  /** An iteration in all the blocks of a sweep. */
+  struct SweptRow
+  {
+    HistoryRow Row;
+    int Vertices = 0; ///< How many more there are.
+    int EulerCharacteristic = 0;
+  };
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
     : Options(options)
@@ -64,7 +94,7 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void LayGrid();
   void SplitLongEdges();
-  void FindIntersections();
+  std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
   void Take(const IndexedSurface& surface);
   void TakeRemeshed(const IndexedSurface& surface);
@@ -75,6 +105,20 @@ struct SurfaceEvolution::Implementation
   void KeepActiveIfMoving();
   void Iterate(
     HistoryRow& row, Dynamics& dynamics, Remesher& remesher, SurfaceIteration::Mode mode);
+  void IterateOnce(Dynamics& dynamics, Remesher& remesher);
+  void DecideOnSweeps();
+  float BlockSide() const;
+  void VisitBlocks(SurfaceBlocks& blocks, const BlockVisits& visits);
+  void RunSweep(Dynamics& dynamics, Remesher& remesher, SurfaceBlocks& blocks);
+  void VisitToEvolve(const std::vector<int>& vertices, Dynamics& dynamics, Remesher& remesher,
+    SurfaceBlocks& blocks, std::vector<SweptRow>& rows);
+  void KeepSweptRows(std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic);
+  void RunPasses(Dynamics& dynamics, Remesher& remesher);
+  void RegulariseInSweeps(Dynamics& dynamics, Remesher& remesher, SurfaceBlocks& blocks);
+  void PolishInSweeps(SurfaceBlocks& blocks);
+  void BeginRow(HistoryRow& row);
+  void KeepRow(const HistoryRow& row);
+  double KineticEnergy() const;
   void FillRow(HistoryRow& row);
   double MeanEdgeLength() const;
   void FillCounts(HistoryRow& row) const;
@@ -83,7 +127,8 @@ struct SurfaceEvolution::Implementation
   void FinishRow();
   void FindMissing();
   void Regularise(Dynamics& dynamics);
-  void RunPolish(HistoryRow& row);
+  std::vector<int> Polish(const Checkpoint& goOn, const std::vector<int>* vertices);
+  void PolishAll();
   StopReason Evolve();
   StopReason Run();
 };

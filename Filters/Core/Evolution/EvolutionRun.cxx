@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Common/Blocks.h"
 #include "Core/Evolution/Stopwatch.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfacePolish.h"
@@ -9,7 +10,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <iterator>
+#include <optional>
 
 namespace volumic
 {
@@ -30,7 +32,7 @@ constexpr double ShareAfter = 0.2;
 constexpr double PassesShare = 0.6;
 
 /** Of a level, in [0, 1]. */
-double FractionOf(Monitor::Activity doing, double share, int iterations)
+double FractionOf(Monitor::Activity doing, double share, double iterations)
 {
   switch (doing)
   {
@@ -67,7 +69,11 @@ bool SurfaceEvolution::Implementation::Ask(
   status.Iteration = this->LastIterations;
   status.Vertices = this->State.Mesh.NumberOfVertices();
   status.ActiveVertices = static_cast<int>(this->Iteration.ActiveVertices().size());
-  status.Fraction = FractionOf(doing, std::clamp(share, 0., 1.), this->LastIterations);
+  status.Sweep = this->Visit.Sweep;
+  status.Block = this->Visit.Block;
+  status.Blocks = this->Visit.Blocks;
+  status.Fraction = FractionOf(
+    doing, std::clamp(share, 0., 1.), this->LastIterations + this->Visit.Iterations);
   this->Stopped = !(this->Listener.*question)(status);
   return !this->Stopped;
 }
@@ -87,11 +93,20 @@ void SurfaceEvolution::Implementation::Iterate(
   const auto goOn = [this, evolves]
   { return !evolves || this->GoOn(Monitor::Activity::Iterating, 1.); };
   this->Iteration.Run(row, dynamics, remesher, mode, this->LastIterations, goOn);
-  this->FillRow(row);
-  this->Threads.EndPhase("History");
   this->SinceEvolved.Cuts += this->State.Counts.Cuts;
   this->SinceEvolved.Removed += this->State.Counts.Removed;
   row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void SurfaceEvolution::Implementation::IterateOnce(Dynamics& dynamics, Remesher& remesher)
+{
+  HistoryRow row;
+  this->BeginRow(row);
+  this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
+  this->FillRow(row);
+  this->Threads.EndPhase("History");
+  row.Seconds = this->Lap();
+  this->KeepRow(row);
 }
 
 StopReason SurfaceEvolution::Implementation::Evolve()
@@ -105,6 +120,11 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges,
     this->Threads);
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
+  std::optional<SurfaceBlocks> blocks;
+  if (this->InSweeps)
+  {
+    blocks.emplace(s, this->BlockSide(), this->Threads);
+  }
   while (true)
   {
     this->Threads.EndPhase("Rest criterion");
@@ -120,24 +140,14 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     {
       return StopReason::IterationLimit;
     }
-    HistoryRow row;
-    row.SecondsBefore = this->Lap();
-    row.AddedEulerCharacteristic = s.EulerCharacteristic -
-      (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
-    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
-    row.Seconds = this->Lap();
-    if (this->LastIterations == 0)
+    if (this->InSweeps)
     {
-      row.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
-      for (const Phase phase : { Phase::Division, Phase::Recovery })
-      {
-        row.Phases[static_cast<int>(phase)] = this->Preparing.Phases[static_cast<int>(phase)];
-      }
-      this->Preparing = HistoryRow();
+      this->RunSweep(dynamics, remesher, *blocks);
     }
-    this->Rows.push_back(row);
-    this->SinceEvolved = EditCounts();
-    ++this->LastIterations;
+    else
+    {
+      this->IterateOnce(dynamics, remesher);
+    }
     if (!this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.))
     {
       return StopReason::Cancelled;
@@ -166,34 +176,41 @@ void SurfaceEvolution::Implementation::KeepActiveIfMoving()
   // What went some way in the last pass stays active, with its neighbours, and what was edited.
   SurfaceState& s = this->State;
   const std::vector<int>& last = this->Iteration.ActiveVertices();
-  std::vector<std::uint8_t> moves(static_cast<std::size_t>(s.Mesh.Size()), 0);
+  const auto moves = [&s](int v)
+  {
+    const float least = SmallestMove * s.Sizing.At(v);
+    return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
+  };
   this->Threads.For(last.size(), VertexGrain,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
         const int v = last[i];
-        if (s.Mesh.IsAlive(v))
-        {
-          const float least = SmallestMove * s.Sizing.At(v);
-          moves[v] = SquaredLength(s.Velocity[v]) > least * least;
-          s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves[v]);
-        }
+        s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves(v));
       }
     });
-  this->Threads.For(moves.size(), VertexGrain,
-    [&](std::size_t begin, std::size_t end)
+  std::vector<std::vector<int>> beside((last.size() + VertexGrain - 1) / VertexGrain);
+  ForBlocks(this->Threads, last.size(), VertexGrain,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
     {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      for (std::size_t i = begin; i < end; ++i)
       {
-        if (s.Mesh.IsAlive(v) && !s.Active[v])
+        if (moves(last[i]))
         {
-          const Ring& ring = s.Mesh.Rings[v];
-          s.Active[v] = std::any_of(
-            ring.Item, ring.Item + ring.Count, [&moves](int neighbour) { return moves[neighbour]; });
+          const Ring& ring = s.Mesh.Rings[last[i]];
+          std::copy_if(ring.Item, ring.Item + ring.Count, std::back_inserter(beside[block]),
+            [&s](int w) { return !s.Active[w]; });
         }
       }
     });
+  for (const std::vector<int>& ofBlock : beside)
+  {
+    for (const int v : ofBlock)
+    {
+      s.Active[v] = 1;
+    }
+  }
 }
 
 void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
@@ -227,6 +244,10 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
     this->Reset();
     s.Velocity.Fill(Vector());
     HistoryRow row;
+    if (this->InSweeps)
+    {
+      this->Iteration.Examine(); // Of all: Reset has left it to the visits.
+    }
     this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
   }
 }
@@ -238,8 +259,29 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   const std::vector<std::uint8_t> active = s.Active.AsVector();
   Remesher remesher(s, this->TheField.get(), false, this->Threads);
   s.Velocity.Fill(Vector());
-  HistoryRow row;
   this->ActivateAll();
+  if (this->InSweeps)
+  {
+    SurfaceBlocks blocks(s, this->BlockSide(), this->Threads);
+    this->RegulariseInSweeps(dynamics, remesher, blocks);
+    this->PolishInSweeps(blocks);
+  }
+  else
+  {
+    this->RunPasses(dynamics, remesher);
+    this->PolishAll();
+  }
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.Active[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(active.size()) || active[v]);
+    s.Velocity[v] = Vector();
+  }
+}
+
+void SurfaceEvolution::Implementation::RunPasses(Dynamics& dynamics, Remesher& remesher)
+{
+  SurfaceState& s = this->State;
+  HistoryRow row;
   for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0 &&
        this->GoOn(Monitor::Activity::Regularising, PassesShare * pass / RegularisationPasses);
        ++pass)
@@ -252,33 +294,33 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
     this->Threads.EndPhase("Regularisation");
     this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
   }
-  this->RunPolish(row);
-  for (int v = 0; v < s.Mesh.Size(); ++v)
-  {
-    s.Active[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(active.size()) || active[v]);
-    s.Velocity[v] = Vector();
-  }
 }
 
-void SurfaceEvolution::Implementation::RunPolish(HistoryRow& row)
+std::vector<int> SurfaceEvolution::Implementation::Polish(
+  const Checkpoint& goOn, const std::vector<int>* vertices)
 {
   SurfaceState& s = this->State;
-  const auto start = std::chrono::steady_clock::now();
   s.Counts = EditCounts();
   SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
-    this->Options.TopologyChanges, this->Threads,
-    this->CheckpointOf(Monitor::Activity::Regularising, PassesShare));
-  polish.Run();
-  this->Iteration.UpdateChanged(polish.TakeChanged());
+    this->Options.TopologyChanges, this->Threads, goOn);
+  vertices ? polish.Run(*vertices) : polish.Run();
+  std::vector<int> changed = polish.TakeChanged();
+  this->Iteration.UpdateChanged(changed);
   this->Threads.EndPhase("Polish");
+  this->SinceEvolved.Cuts += s.Counts.Cuts;
+  return changed;
+}
+
+void SurfaceEvolution::Implementation::PolishAll()
+{
+  SurfaceState& s = this->State;
+  this->Polish(this->CheckpointOf(Monitor::Activity::Regularising, PassesShare), nullptr);
   if (s.Counts.Cuts > 0)
   {
     this->Iteration.LabelComponents();
     this->Iteration.DeleteDegenerate();
   }
-  this->SinceEvolved.Cuts += s.Counts.Cuts;
   this->SinceEvolved.Removed += s.Counts.Removed;
-  row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void SurfaceEvolution::Implementation::DeleteInsideOut()

@@ -79,12 +79,15 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
   this->State.Margin = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;
+  this->Visit = {};
+  this->InSweeps = false;
   this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
 }
 
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
+  this->DecideOnSweeps();
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   this->Threads.EndPhase("Order");
@@ -92,8 +95,11 @@ void SurfaceEvolution::Implementation::Reset()
   this->Threads.EndPhase("Grid");
   this->SplitLongEdges();
   this->Threads.EndPhase("Long edges");
-  this->Iteration.Examine();
-  this->Threads.EndPhase("Proximity");
+  if (!this->InSweeps) // Else each visit examines its own.
+  {
+    this->Iteration.Examine();
+    this->Threads.EndPhase("Proximity");
+  }
   this->Iteration.LabelComponents();
   this->Threads.EndPhase("Labels");
 }
@@ -188,7 +194,7 @@ void KeepAbout(const std::array<int, 3>& face, const std::vector<std::array<int,
 }
 }
 
-void SurfaceEvolution::Implementation::FindIntersections()
+std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersections()
 {
   // A division leaves some edges longer than verification may rely on; it looks further for them.
   SurfaceState& s = this->State;
@@ -196,8 +202,9 @@ void SurfaceEvolution::Implementation::FindIntersections()
   s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh, this->Threads));
   this->LayGrid();
   this->Iteration.UpdateActive();
-  this->Iteration.Examine();
+  const std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections();
   s.Sizing = sizing;
+  return found;
 }
 
 void SurfaceEvolution::Implementation::DivideOnce()
@@ -209,8 +216,8 @@ void SurfaceEvolution::Implementation::DivideOnce()
   this->Threads.EndPhase("Order");
   const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh, nullptr, this->Threads);
   this->Threads.EndPhase("Division");
-  this->FindIntersections();
-  if (this->Iteration.Intersections().empty())
+  std::vector<Proximity::FacePair> intersections = this->FindIntersections();
+  if (intersections.empty())
   {
     return;
   }
@@ -220,9 +227,9 @@ void SurfaceEvolution::Implementation::DivideOnce()
   const SurfaceMesh old = Undivided(s.Mesh, olds, this->Threads);
   KeptEdges kept(old);
   constexpr int rounds = 6;
-  for (int round = 0; round < rounds && !this->Iteration.Intersections().empty(); ++round)
+  for (int round = 0; round < rounds && !intersections.empty(); ++round)
   {
-    for (const Proximity::FacePair& pair : this->Iteration.Intersections())
+    for (const Proximity::FacePair& pair : intersections)
     {
       KeepAbout(pair.First, faces, old, round, kept);
       KeepAbout(pair.Second, faces, old, round, kept);
@@ -234,9 +241,9 @@ void SurfaceEvolution::Implementation::DivideOnce()
     kept.MakeRoom();
     s.Mesh = old;
     volumic::Divide(s.Mesh, &kept, this->Threads);
-    this->FindIntersections();
+    intersections = this->FindIntersections();
   }
-  if (!this->Iteration.Intersections().empty())
+  if (!intersections.empty())
   {
     // The old surface intersects itself: not seen yet.
     this->TakeRemeshed(old.ToIndexed(this->Threads));

@@ -25,6 +25,10 @@ constexpr int InsideOutPeriod = 10;
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t ActiveGrain = 2048;
 constexpr std::size_t ClearedGrain = 1 << 16;
+/** Where fewer than one vertex in so many is marked, the marks are cleared one by one. */
+constexpr std::size_t SparseMarks = 64;
+/** Vertices that FindIntersections examines at a time: what it finds of each takes memory. */
+constexpr std::size_t ExaminedPart = 1000000;
 
 void SortUnique(std::vector<int>& vertices)
 {
@@ -39,8 +43,66 @@ void SurfaceIteration::Forget()
   this->Recheck.Clear();
 }
 
+void SurfaceIteration::BeginVisit(const std::vector<int>& vertices)
+{
+  SurfaceState& s = this->State;
+  this->Visited = &vertices;
+  this->Forget();
+  this->CollectActive();
+  // The pairs of those that were near others, from when they were examined, are forgotten.
+  this->Suspects = SelectOf(this->Threads, this->Active,
+    [this, &s](int v) { return s.NearOthers[v] != 0 || this->IsSuspect(v); });
+  for (const int v : this->Suspects)
+  {
+    s.Drift[v] = 0;
+  }
+  this->Near.Examine(s, this->Suspects, this->Threads);
+  this->Label();
+}
+
+void SurfaceIteration::EndVisit()
+{
+  this->Visited = nullptr;
+  this->Forget();
+}
+
+std::vector<Proximity::FacePair> SurfaceIteration::FindIntersections()
+{
+  std::vector<Proximity::FacePair> found;
+  for (std::size_t begin = 0; begin < this->Active.size(); begin += ExaminedPart)
+  {
+    const std::size_t end = std::min(this->Active.size(), begin + ExaminedPart);
+    const std::vector<int> part(this->Active.begin() + static_cast<std::ptrdiff_t>(begin),
+      this->Active.begin() + static_cast<std::ptrdiff_t>(end));
+    this->Near.Clear();
+    this->Near.Examine(this->State, part, this->Threads);
+    found.insert(found.end(), this->Near.Intersections().begin(), this->Near.Intersections().end());
+  }
+  this->Near.Clear();
+  return found;
+}
+
+void SurfaceIteration::Label()
+{
+  if (this->Visited)
+  {
+    this->Watch.LabelSmall(this->State, *this->Visited);
+  }
+  else
+  {
+    this->Watch.Label(this->State, this->Threads);
+  }
+  this->CollapsesSinceLabels = 0;
+}
+
 void SurfaceIteration::CollectActive()
 {
+  if (this->Visited)
+  {
+    this->Active = SelectOf(this->Threads, *this->Visited,
+      [this](int v) { return this->State.Mesh.IsAlive(v) && this->State.Active[v] != 0; });
+    return;
+  }
   Select(
     this->Threads, this->State.Mesh.Rings.size(), this->Active,
     [this](std::size_t v) { return this->State.Active[v] != 0; },
@@ -60,17 +122,33 @@ void SurfaceIteration::SplitLongEdges()
   this->UpdateChanged(remesher.TakeChanged());
 }
 
-void SurfaceIteration::CollectWorking()
+void SurfaceIteration::ClearMarks()
 {
-  // The active vertices and the corners of all faces that move with them.
-  SurfaceState& s = this->State;
-  this->IsWorking.resize(s.Mesh.Rings.size());
+  const std::size_t size = this->State.Mesh.Rings.size();
+  if (this->Working.size() < this->IsWorking.size() / SparseMarks)
+  {
+    // Of a block of many: the others' marks are not touched.
+    for (const int v : this->Working)
+    {
+      this->IsWorking[v] = 0;
+    }
+    this->IsWorking.resize(size, 0);
+    return;
+  }
+  this->IsWorking.resize(size);
   this->Threads.For(this->IsWorking.size(), ClearedGrain,
     [this](std::size_t begin, std::size_t end)
     {
       std::fill(this->IsWorking.begin() + static_cast<std::ptrdiff_t>(begin),
         this->IsWorking.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t(0));
     });
+}
+
+void SurfaceIteration::CollectWorking()
+{
+  // The active vertices and the corners of all faces that move with them.
+  SurfaceState& s = this->State;
+  this->ClearMarks();
   this->Working.resize(this->Active.size());
   this->Threads.For(this->Active.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)
@@ -113,10 +191,15 @@ void SurfaceIteration::AddUnmoved(int v)
   }
 }
 
-void SurfaceIteration::CollectSuspects()
+bool SurfaceIteration::IsSuspect(int v) const
 {
   // A star that had some room when it was examined needs no new look before it has used half of
   // it: whatever comes near has used half of its own and is examined itself.
+  return this->State.Drift[v] > 0.5f * this->State.Slack[v];
+}
+
+void SurfaceIteration::CollectSuspects()
+{
   SurfaceState& s = this->State;
   this->Threads.For(this->Working.size(), 1024,
     [&](std::size_t begin, std::size_t end)
@@ -134,10 +217,9 @@ void SurfaceIteration::CollectSuspects()
         s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
       }
     });
-  const auto isSuspect = [&s](int v) { return s.Drift[v] > 0.5f * s.Slack[v]; };
   Select(
     this->Threads, this->Working.size(), this->Suspects,
-    [&](std::size_t i) { return isSuspect(this->Working[i]); },
+    [this](std::size_t i) { return this->IsSuspect(this->Working[i]); },
     [this](std::size_t i) { return this->Working[i]; });
   this->Threads.For(this->Suspects.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)
@@ -290,13 +372,12 @@ void SurfaceIteration::WatchComponents(int number)
   // cavity it was: labels are made afresh before anything is deleted.
   if (s.Counts.Merges + s.Counts.Cuts > 0 || this->CollapsesSinceLabels > SuspiciousCollapses)
   {
-    this->Watch.Label(s, this->Threads);
-    this->CollapsesSinceLabels = 0;
+    this->Label();
   }
   const bool deleted = this->Watch.DeleteDegenerate(s);
   // Only a cut can give birth to one, and what was inside a deleted component is bare.
   this->Unchecked += s.Counts.Cuts + (deleted ? 1 : 0);
-  if (number % InsideOutPeriod == 0 && this->Unchecked > 0)
+  if (!this->Visited && number % InsideOutPeriod == 0 && this->Unchecked > 0)
   {
     this->DeleteInsideOut();
   }

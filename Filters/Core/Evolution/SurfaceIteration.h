@@ -43,10 +43,26 @@ public:
   /** For a surface whose vertices have other numbers or lie in another grid. */
   void Forget();
 
+  /**
+   * From now on it works on the vertices of a list only, all others keep still, as if they were not
+   * active; the list may grow between two calls. What happens to components that are not small is
+   * left to EndVisit's caller: LabelComponents(), DeleteInsideOut(). The vertices must have a shape
+   * that is up to date.
+   */
+  void BeginVisit(const std::vector<int>& vertices);
+  /** On all vertices again. */
+  void EndVisit();
+  /** The active vertices and those beside them, and what the last iteration has made or changed. */
+  const std::vector<int>& WorkingVertices() const { return this->Working; }
+  /** Whether cuts or deletions ask for DeleteInsideOut(). */
+  bool IsUnchecked() const { return this->Unchecked > 0; }
+
   /** Collects the active vertices; their shape is up to date afterwards. */
   void UpdateActive();
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
   void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
+  /** The same for intersections alone, in little memory; some may be named more than once. */
+  std::vector<Proximity::FacePair> FindIntersections();
   const std::vector<Proximity::FacePair>& Intersections() const
   {
     return this->Near.Intersections();
@@ -76,8 +92,11 @@ public:
 
 private:
   void CollectActive();
+  void ClearMarks();
+  void Label();
   void CollectWorking();
   void AddUnmoved(int v);
+  bool IsSuspect(int v) const;
   void CollectSuspects();
   void RollBack();
   void RollBackVertex(int v);
@@ -90,6 +109,7 @@ private:
   Proximity Near;    ///< Of all; keeps the pairs.
   Proximity Recheck; ///< Of what has been rolled back.
   ComponentWatch Watch;
+  const std::vector<int>* Visited = nullptr; ///< See BeginVisit; null: all vertices.
   std::vector<int> Active;
   std::vector<int> Working;            ///< See CollectWorking.
   std::vector<std::uint8_t> IsWorking; ///< Whether that has it.

@@ -3,6 +3,8 @@
 #include "Core/Mesh/SurfaceMeasures.h"
 
 #include <cstddef>
+#include <limits>
+#include <vector>
 
 namespace volumic
 {
@@ -30,6 +32,30 @@ double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor)
       return volume.Eighteenfold;
     });
   return whole.Value();
+}
+
+Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
+{
+  constexpr float most = std::numeric_limits<float>::max();
+  const Box none = { Vector(most, most, most), Vector(-most, -most, -most) };
+  std::vector<Box> boxes((mesh.Rings.size() + BlockSize - 1) / BlockSize, none);
+  ForBlocks(executor, mesh.Rings.size(), BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (mesh.IsAlive(static_cast<int>(v)))
+        {
+          boxes[block] = boxes[block].With({ mesh.Position[v], mesh.Position[v] });
+        }
+      }
+    });
+  Box box = none;
+  for (const Box& ofBlock : boxes)
+  {
+    box = box.With(ofBlock);
+  }
+  return mesh.NumberOfVertices() > 0 ? box : Box();
 }
 
 double SurfaceArea(const SurfaceMesh& mesh, Executor& executor)

@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceMeasures_h
 #define volumicSurfaceMeasures_h
 
+#include "Core/Common/Box.h"
 #include "Core/Common/Executor.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
@@ -54,6 +55,9 @@ private:
 
 /** The signed volume of all components, workspace. The same bits for any executor. */
 double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);
+
+/** What the vertices lie in, workspace; a box about the origin where there are none. */
+Box BoundsOf(const SurfaceMesh& mesh, Executor& executor);
 
 /** The area of all faces, workspace. The same bits for any executor. */
 double SurfaceArea(const SurfaceMesh& mesh, Executor& executor);

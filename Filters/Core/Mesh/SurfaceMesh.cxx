@@ -100,6 +100,20 @@ void SurfaceMesh::TakeRemoved(VertexPlaces& places)
   places.Removed.clear();
 }
 
+void SurfaceMesh::PutAside(VertexPlaces& places, std::size_t n)
+{
+  const auto first = this->Free.end() - static_cast<std::ptrdiff_t>(n);
+  places.Free.assign(first, this->Free.end());
+  this->Free.erase(first, this->Free.end());
+  this->Aside += n;
+}
+
+void SurfaceMesh::TakeFromAside(VertexPlaces& places)
+{
+  this->Aside -= places.Free.size();
+  this->TakeBack(places);
+}
+
 std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const
 {
   const std::size_t ends = CountInBlocks(executor, this->Rings.size(), VertexBlock,
@@ -326,6 +340,7 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
     });
   this->Rings.swap(rings);
   this->Free.clear();
+  this->Aside = 0;
 }
 
 void SurfaceMesh::Clear()
@@ -333,6 +348,7 @@ void SurfaceMesh::Clear()
   this->Position.clear();
   this->Rings.clear();
   this->Free.clear();
+  this->Aside = 0;
 }
 
 namespace

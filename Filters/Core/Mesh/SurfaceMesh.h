@@ -95,8 +95,11 @@ public:
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
-  /** Not while places are given away. */
-  int NumberOfVertices() const { return this->Size() - static_cast<int>(this->Free.size()); }
+  /** Not while places are given away, but for those put aside. */
+  int NumberOfVertices() const
+  {
+    return this->Size() - static_cast<int>(this->Free.size() + this->Aside);
+  }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
 
@@ -121,6 +124,13 @@ public:
   void TakeBack(VertexPlaces& places);
   /** Takes those of removed vertices, once nobody looks for these any more. */
   void TakeRemoved(VertexPlaces& places);
+
+  /** Free places that anyone may take; the last of them is taken first. */
+  std::size_t NumberOfFreePlaces() const { return this->Free.size(); }
+  /** Puts the last n free places aside, so that only their keeper uses them. */
+  void PutAside(VertexPlaces& places, std::size_t n);
+  /** Takes those back, which are taken first from now on. */
+  void TakeFromAside(VertexPlaces& places);
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
   template <typename Visitor>
@@ -176,6 +186,7 @@ public:
 
 private:
   std::vector<int> Free;
+  std::size_t Aside = 0; ///< Places that are neither free nor a vertex's.
 };
 
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`. */

@@ -29,6 +29,10 @@ constexpr std::size_t Grain = 4096;
 /** In the place of a label: of a place without a vertex, and of what DeleteDegenerate has seen. */
 constexpr int NoComponent = -1;
 constexpr int Seen = -2;
+/** The labels that LabelSmall gives lie above those of all others. */
+constexpr int FirstOwnLabel = 1 << 30;
+/** Seen, and of a component that is not small. */
+constexpr std::uint8_t OfLarge = 2;
 
 /** Of a root, while the others of its component still bear its index; no index, no NoComponent. */
 constexpr int MarkOfRoot(int label)
@@ -241,6 +245,69 @@ void ComponentWatch::WatchSmallOnes(
         this->Watched[i].IsPositive = IsVolumePositive(state.Mesh, this->Watched[i].Vertices);
       }
     });
+}
+
+bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v)
+{
+  this->Stack.assign(1, v);
+  this->IsSeen[v] = 1;
+  bool isSmall = true;
+  for (std::size_t i = 0; i < this->Stack.size() && this->Stack.size() <= SmallSize; ++i)
+  {
+    const Ring& ring = mesh.Rings[this->Stack[i]];
+    for (int k = 0; k < ring.Count; ++k)
+    {
+      const int w = ring.Item[k];
+      if (this->IsSeen[w] == 0)
+      {
+        this->IsSeen[w] = 1;
+        this->Stack.push_back(w);
+      }
+      else if (this->IsSeen[w] == OfLarge)
+      {
+        isSmall = false;
+      }
+    }
+    if (!isSmall)
+    {
+      break;
+    }
+  }
+  isSmall = isSmall && this->Stack.size() <= SmallSize;
+  for (const int w : this->Stack)
+  {
+    this->IsSeen[w] = isSmall ? 1 : OfLarge;
+  }
+  this->AllSeen.insert(this->AllSeen.end(), this->Stack.begin(), this->Stack.end());
+  return isSmall;
+}
+
+void ComponentWatch::LabelSmall(SurfaceState& state, const std::vector<int>& vertices)
+{
+  this->Watched.clear();
+  this->IsSeen.resize(state.Mesh.Rings.size(), 0);
+  for (const int v : vertices)
+  {
+    if (!state.Mesh.IsAlive(v) || this->IsSeen[v] != 0 || !this->IsSmall(state.Mesh, v))
+    {
+      continue;
+    }
+    this->Watched.emplace_back();
+    SmallComponent& small = this->Watched.back();
+    small.Label = FirstOwnLabel + static_cast<int>(this->Watched.size());
+    small.Vertices = this->Stack;
+    std::sort(small.Vertices.begin(), small.Vertices.end());
+    small.IsPositive = IsVolumePositive(state.Mesh, small.Vertices);
+    for (const int w : small.Vertices)
+    {
+      state.Component[w] = small.Label;
+    }
+  }
+  for (const int v : this->AllSeen)
+  {
+    this->IsSeen[v] = 0;
+  }
+  this->AllSeen.clear();
 }
 
 bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& small)

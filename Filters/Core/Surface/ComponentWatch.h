@@ -6,6 +6,7 @@
 #include "Core/Common/DisjointSets.h"
 #include "Core/Surface/SurfaceState.h"
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,12 @@ class ComponentWatch
 public:
   /** Labels components afresh, by their smallest vertex. Call after merges and cuts. */
   void Label(SurfaceState& state, Executor& executor);
+
+  /**
+   * The same for a part of the surface: the small components that have a vertex in a list, or grow
+   * to it from there, get labels of their own and are watched; the others are left as they are.
+   */
+  void LabelSmall(SurfaceState& state, const std::vector<int>& vertices);
 
   /**
    * Deletes those of the small components that must go; every vertex must have its label.
@@ -51,11 +58,15 @@ private:
   void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
   void WatchSmallOnes(
     const SurfaceState& state, const std::vector<int>& sizes, Executor& executor);
+  /** Whether a component is a small one; if so, its vertices are in Stack. Marks what it sees. */
+  bool IsSmall(const SurfaceMesh& mesh, int v);
   /** Finds the vertices that the component has now, in Stack. @return false if it has none. */
   bool FindVertices(SurfaceState& state, const SmallComponent& small);
 
   std::vector<SmallComponent> Watched;
   std::vector<int> Stack;
+  std::vector<std::uint8_t> IsSeen; ///< LabelSmall; clear between its calls.
+  std::vector<int> AllSeen;
   DisjointSets Joined;                                   ///< Vertices that edges join.
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.
   std::vector<int> Roots; ///< The smallest vertex of each label, when last labelled.

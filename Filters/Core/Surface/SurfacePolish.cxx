@@ -18,6 +18,29 @@ constexpr int SeparatingRounds = 4;
 constexpr std::size_t PlacesForCuts = 12;
 }
 
+std::vector<int> SurfacePolish::AliveOnes() const
+{
+  const SurfaceState& s = this->State;
+  if (!this->Within)
+  {
+    return SelectIndices(this->Threads, s.Mesh.Rings.size(),
+      [&s](std::size_t v) { return s.Mesh.IsAlive(static_cast<int>(v)); });
+  }
+  std::vector<int> alive =
+    SelectOf(this->Threads, *this->Within, [&s](int v) { return s.Mesh.IsAlive(v); });
+  // And what cuts have made.
+  for (const int v : this->Cells.Changed())
+  {
+    if (s.Mesh.IsAlive(v) && s.Block[v] == NoBlock)
+    {
+      alive.push_back(v);
+    }
+  }
+  std::sort(alive.begin(), alive.end());
+  alive.erase(std::unique(alive.begin(), alive.end()), alive.end());
+  return alive;
+}
+
 void SurfacePolish::SeparateAll()
 {
   if (this->Stopped)
@@ -25,8 +48,8 @@ void SurfacePolish::SeparateAll()
     return;
   }
   SurfaceState& s = this->State;
-  const std::vector<int> crowded = SelectIndices(this->Threads, s.Mesh.Rings.size(),
-    [&s](std::size_t v) { return s.Mesh.IsAlive(static_cast<int>(v)) && s.NearOthers[v] != 0; });
+  const std::vector<int> crowded =
+    SelectOf(this->Threads, this->AliveOnes(), [&s](int v) { return s.NearOthers[v] != 0; });
   EditCells::Pass pass;
   pass.GoOn = [this] { return !this->IsToStop(); };
   pass.Visit = [this](SurfaceEditor& editor, int v, EditCells::Lists&)
@@ -58,8 +81,7 @@ void SurfacePolish::ImproveAll(float good)
       lists.Kept.push_back(v); // What is edited next to it may help.
     }
   };
-  std::vector<int> list = SelectIndices(this->Threads, s.Mesh.Rings.size(),
-    [&s](std::size_t v) { return s.Mesh.IsAlive(static_cast<int>(v)); });
+  std::vector<int> list = this->AliveOnes();
   for (int round = 0; round < Rounds && !list.empty() && !this->IsToStop(); ++round)
   {
     const auto edited = static_cast<std::ptrdiff_t>(this->Cells.Changed().size());
@@ -76,6 +98,13 @@ bool SurfacePolish::IsToStop()
 {
   this->Stopped = this->Stopped || !this->Goes(this->Done);
   return this->Stopped;
+}
+
+void SurfacePolish::Run(const std::vector<int>& vertices)
+{
+  this->Within = &vertices;
+  this->Run();
+  this->Within = nullptr;
 }
 
 void SurfacePolish::Run()

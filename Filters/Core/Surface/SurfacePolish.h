@@ -42,18 +42,22 @@ public:
 
   /** Stops after an edit, if asked to. Normals must be up to date. */
   void Run();
+  /** The same for the stars of a list, those of an open block (SurfaceBlocks). */
+  void Run(const std::vector<int>& vertices);
 
   /** Changed vertices of all its edits, in order; some may be named often. */
   std::vector<int> TakeChanged() { return this->Cells.TakeChanged(); }
 
 private:
+  std::vector<int> AliveOnes() const; ///< Of all, or of the list and what is new.
   void SeparateAll();
-  void ImproveAll(float good); ///< Stars whose worst scores less than `good`.
+  void ImproveAll(float good); ///< Those of the stars whose worst scores less than `good`.
   bool IsToStop();             ///< Asked now and then.
 
   SurfaceState& State;
   EditCells Cells;
   Executor& Threads;
+  const std::vector<int>* Within = nullptr; ///< Whose stars are looked at; null: all.
   const Field* SnapTo;
   bool TopologyChanges;
   Checkpoint Goes;

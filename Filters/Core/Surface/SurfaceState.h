@@ -61,6 +61,9 @@ enum RemeshFlag : std::uint8_t
   HasHugeEdge = 8       ///< One is longer than HugeEdge.
 };
 
+/** In the place of a block: of a vertex that is new. */
+constexpr int NoBlock = -1;
+
 /**
  * The live surface: mesh, grid of its vertices, and what each of these knows. Its vertex properties
  * are registered once, below, and resized together. Who may change what: the mesh and its grid,
@@ -116,6 +119,8 @@ public:
   VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
 
   VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.
+  /** Where the surface is worked on block by block: SurfaceBlocks. */
+  VertexProperty<int> Block{ this->Properties, NoBlock, NoBlock };
 
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
