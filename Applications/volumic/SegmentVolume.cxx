@@ -55,7 +55,8 @@ void CheckFiles(const ToolOptions& options)
   for (const std::string& name : options.Surfaces)
   {
     CheckSurfaceName(name);
-    outputs.push_back({ name, OutputName::Kind::File, "" });
+    outputs.push_back(
+      { name, HasPieces(name) ? OutputName::Kind::Blocks : OutputName::Kind::File, "" });
   }
   for (const auto& [name, prefix] :
     { std::pair{ options.Levels, "level" }, std::pair{ options.Snapshots, "snapshot" } })
@@ -176,7 +177,7 @@ void Attempt(std::string& failures, const Write& write)
 }
 
 /** @throws Failure if not all could be written, with a line for each file. */
-void WriteOutputs(const ToolOptions& options, const ReportInput& results)
+void WriteOutputs(const ToolOptions& options, const ReportInput& results, ProgressStyle style)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
   const std::string remark = std::string("volumic " VOLUMIC_VERSION) +
@@ -184,18 +185,18 @@ void WriteOutputs(const ToolOptions& options, const ReportInput& results)
   std::string failures;
   for (const std::string& name : options.Surfaces)
   {
-    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, remark); });
+    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, remark, style); });
   }
   const auto writeSurfaces = [&](vtkMultiBlockDataSet* blocks, const std::string& name,
                                const std::string& prefix, int (*numbers)(vtkPolyData*))
   {
     if (IsBlocks(name))
     {
-      WriteBlocks(blocks, name);
+      WriteBlocks(blocks, name, style);
     }
     else if (!name.empty())
     {
-      WriteFolder(blocks, name, prefix, numbers);
+      WriteFolder(blocks, name, prefix, style, numbers);
     }
   };
   Attempt(failures, [&] { writeSurfaces(filter->GetLevels(), options.Levels, "level", LevelOf); });
@@ -287,7 +288,7 @@ ExitCode SegmentVolume(
     LoadVolume(options, filter->GetSelectedComponent(), announcer);
   if (!options.WrittenVolume.empty())
   {
-    WriteVolume(volume, options.WrittenVolume);
+    WriteVolume(volume, options.WrittenVolume, announcer.Style);
   }
   if (!options.WantsSurface())
   {
@@ -342,7 +343,7 @@ ExitCode SegmentVolume(
   results.PyramidSeconds = pyramidRun.Seconds;
   results.SurfaceSeconds = run.Seconds;
   results.Warnings = run.Warnings;
-  WriteOutputs(options, results);
+  WriteOutputs(options, results, announcer.Style);
 
   announcer.Say(std::to_string(surface->GetNumberOfPoints()) + " vertices after " +
     std::to_string(filter->GetHistory()->GetNumberOfRows()) + " iterations: " + reason);
