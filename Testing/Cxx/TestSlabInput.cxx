@@ -13,18 +13,21 @@
 #include <vtkFloatArray.h>
 #include <vtkImageAlgorithm.h>
 #include <vtkImageData.h>
-#include <vtkImageGaussianSmooth.h>
+#include <vtkImageFlip.h>
 #include <vtkImageShiftScale.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMatrix3x3.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <string>
@@ -35,6 +38,9 @@ using namespace volumic;
 namespace
 {
 constexpr std::array<int, 6> Whole = { -20, 123, 7, 150, 3, 130 };
+constexpr double Spacing[3] = { 0.5, 0.5, 0.75 };
+constexpr double Origin[3] = { 10.0, -5.0, 2.0 };
+constexpr double Direction[9] = { 0, 1, 0, -1, 0, 0, 0, 0, 1 };
 /** MiB: slabs have a sixty-fourth of it. */
 constexpr int Limit = 640;
 /** Floats of a voxel: so many that there are several slabs. */
@@ -47,9 +53,10 @@ struct Scene
   bool AreCells = false;   ///< The voxels are cells, not points.
   bool HasGhosts = false;  ///< Some points and some cells are hidden.
   bool IsNamed = true;
+  bool HasOther = true;    ///< Another array.
   bool GivesParts = true;
-  int FailingSlab = -1;    ///< 0: the first
-  int WrongSlab = -1;      ///< one of another type
+  int FailingSlab = -1;    ///< counted from 0
+  int WrongSlab = -1;      ///< of another type
 };
 
 /** A ball in an image that is turned, shifted and does not begin at 0, with other arrays. */
@@ -70,6 +77,10 @@ protected:
   {
     vtkInformation* info = output->GetInformationObject(0);
     info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), Whole.data(), 6);
+    vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, Components);
+    info->Set(vtkDataObject::SPACING(), Spacing, 3);
+    info->Set(vtkDataObject::ORIGIN(), Origin, 3);
+    info->Set(vtkDataObject::DIRECTION(), Direction, 9);
     if (this->Made.GivesParts)
     {
       info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
@@ -113,9 +124,9 @@ double ValueAt(int i, int j, int k)
 void BallSource::Fill(vtkImageData* image, const std::array<int, 6>& extent, bool isWrong)
 {
   image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
-  image->SetSpacing(0.5, 0.5, 0.75);
-  image->SetOrigin(10.0, -5.0, 2.0);
-  image->SetDirectionMatrix(0, 1, 0, -1, 0, 0, 0, 0, 1);
+  image->SetSpacing(Spacing);
+  image->SetOrigin(Origin);
+  image->SetDirectionMatrix(Direction);
   const int isCell = this->Made.AreCells ? 1 : 0;
   const auto voxels = vtk::TakeSmartPointer(
     isWrong ? static_cast<vtkDataArray*>(vtkUnsignedCharArray::New()) : vtkFloatArray::New());
@@ -125,8 +136,8 @@ void BallSource::Fill(vtkImageData* image, const std::array<int, 6>& extent, boo
   other->SetName("Other");
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  const unsigned char hidden =
-    isCell ? vtkDataSetAttributes::HIDDENCELL : vtkDataSetAttributes::HIDDENPOINT;
+  const int hidden = isCell ? static_cast<int>(vtkDataSetAttributes::HIDDENCELL)
+                            : static_cast<int>(vtkDataSetAttributes::HIDDENPOINT);
   for (int k = extent[4]; k <= extent[5] - isCell; ++k)
   {
     for (int j = extent[2]; j <= extent[3] - isCell; ++j)
@@ -138,13 +149,16 @@ void BallSource::Fill(vtkImageData* image, const std::array<int, 6>& extent, boo
         voxels->InsertNextTuple4(1.0, 2.0,
           isNaN ? std::numeric_limits<float>::quiet_NaN() : value, value * 0.5);
         other->InsertNextValue(static_cast<float>(i + j + k));
-        ghosts->InsertNextValue((i * j + k) % 31 == 0 ? hidden : 0);
+        ghosts->InsertNextValue(static_cast<unsigned char>((i * j + k) % 31 == 0 ? hidden : 0));
       }
     }
   }
   vtkDataSetAttributes* attributes = image->GetPointData();
   attributes = isCell ? static_cast<vtkDataSetAttributes*>(image->GetCellData()) : attributes;
-  attributes->AddArray(other);
+  if (this->Made.HasOther)
+  {
+    attributes->AddArray(other);
+  }
   attributes->SetScalars(voxels);
   if (this->Made.HasGhosts)
   {
@@ -227,23 +241,27 @@ void ExpectSamePyramids(const Scene& scene, int component,
     pyramid->SetInputConnection(last->GetOutputPort());
     pyramid->SetSelectedComponent(component);
     pyramid->SetMemoryLimit(limited ? Limit : 0);
-    Listener listener(pyramid);
+    const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
     pyramid->Update();
-    EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError) << listener.Text();
+    EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_EQ(warnings.Has("NaN"), scene.HasNaNs) << warnings.Get();
+    EXPECT_FALSE(warnings.Has("whole"));
     if (!limited)
     {
       EXPECT_EQ(source->Slices.size(), 1u);
       continue;
     }
     EXPECT_GT(source->Slices.size(), 3u);
-    // Each slice once, but where what is between two matters or a filter needs neighbours.
+    // Each slice once, but where what is between two matters.
     const int shared = scene.HasGhosts || scene.AreCells ? 0 : 1;
-    for (std::size_t n = 1; n < source->Slices.size() && !behind; ++n)
+    std::vector<std::array<int, 2>> slices = source->Slices;
+    std::sort(slices.begin(), slices.end());
+    for (std::size_t n = 1; n < slices.size(); ++n)
     {
-      EXPECT_EQ(source->Slices[n][0], source->Slices[n - 1][1] + shared);
+      EXPECT_EQ(slices[n][0], slices[n - 1][1] + shared);
     }
-    EXPECT_EQ(source->Slices.front()[0], Whole[4]);
-    EXPECT_EQ(source->Slices.back()[1], Whole[5]);
+    EXPECT_EQ(slices.front()[0], Whole[4]);
+    EXPECT_EQ(slices.back()[1], Whole[5]);
   }
   ExpectSamePyramids(pyramids[0]->GetOutput(), pyramids[1]->GetOutput());
 }
@@ -252,4 +270,233 @@ void ExpectSamePyramids(const Scene& scene, int component,
 TEST(SlabInput, GivesTheSamePyramid)
 {
   ExpectSamePyramids(Scene(), 2);
+}
+
+TEST(SlabInput, KnowsNaNsAndMagnitudes)
+{
+  Scene scene;
+  scene.HasNaNs = true;
+  ExpectSamePyramids(scene, -1);
+}
+
+TEST(SlabInput, KnowsWhatIsHiddenAlsoBetweenSlabs)
+{
+  Scene scene;
+  scene.HasGhosts = true;
+  ExpectSamePyramids(scene, 2);
+}
+
+TEST(SlabInput, TakesAnArrayWithoutAName)
+{
+  Scene scene;
+  scene.IsNamed = false;
+  ExpectSamePyramids(scene, 3);
+}
+
+TEST(SlabInput, ComesThroughFiltersThatStream)
+{
+  Scene scene;
+  scene.HasOther = false; // Filters pass other arrays with the whole only.
+  ExpectSamePyramids(scene, 2,
+    [](vtkAlgorithm* source) -> vtkSmartPointer<vtkAlgorithm>
+    {
+      auto filter = vtkSmartPointer<vtkImageShiftScale>::New();
+      filter->SetInputConnection(source->GetOutputPort());
+      filter->SetScale(10.0);
+      filter->SetOutputScalarTypeToInt();
+      return filter;
+    });
+  ExpectSamePyramids(scene, 2,
+    [](vtkAlgorithm* source) -> vtkSmartPointer<vtkAlgorithm>
+    {
+      auto filter = vtkSmartPointer<vtkImageFlip>::New(); // from its other end
+      filter->SetInputConnection(source->GetOutputPort());
+      filter->SetFilteredAxis(2);
+      return filter;
+    });
+}
+
+TEST(SlabInput, IsTheWholeWhereTheSourceGivesNoParts)
+{
+  Scene scene;
+  scene.GivesParts = false;
+  const auto source = SourceOf(scene);
+  vtkNew<vtkImagePyramid> limited;
+  limited->SetInputConnection(source->GetOutputPort());
+  limited->SetSelectedComponent(2);
+  limited->SetMemoryLimit(Limit);
+  const MessagesOf warnings(limited, vtkCommand::WarningEvent);
+  limited->Update();
+  EXPECT_TRUE(warnings.Has("Input port 0: the image is in memory as a whole (")) << warnings.Get();
+  EXPECT_TRUE(warnings.Has("MiB), which counts to Memory Limit: BallSource cannot give it slab"));
+  const std::string first = warnings.Get();
+  limited->Modified();
+  limited->Update();
+  EXPECT_EQ(warnings.Get(), first) << "it is told once";
+  EXPECT_EQ(source->Slices.size(), 1u);
+  vtkImageData* level0 = Level(limited->GetOutput(), 0);
+  EXPECT_EQ(level0->GetPointData()->GetArray("Other"),
+    source->GetOutput()->GetPointData()->GetArray("Other"))
+    << "it is shared";
+  vtkNew<vtkImagePyramid> usual;
+  usual->SetInputData(source->GetOutput());
+  usual->SetSelectedComponent(2);
+  usual->Update();
+  ExpectSamePyramids(usual->GetOutput(), limited->GetOutput());
+  // Where it may be let go, it goes to scratch memory.
+  source->ReleaseDataFlagOn();
+  limited->Modified();
+  limited->Update();
+  EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
+  ExpectSamePyramids(usual->GetOutput(), limited->GetOutput());
+}
+
+TEST(SlabInput, IsNotAskedForAgainWhereItIsAtHand)
+{
+  const auto source = SourceOf(Scene());
+  source->Update();
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(source->GetOutput());
+  pyramid->SetMemoryLimit(Limit);
+  const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
+  pyramid->Update();
+  EXPECT_EQ(warnings.Get(), "") << "who gives data knows that they are in memory";
+  EXPECT_EQ(Level(pyramid->GetOutput(), 0)->GetPointData()->GetArray("Other"),
+    source->GetOutput()->GetPointData()->GetArray("Other"));
+  pyramid->SetInputConnection(source->GetOutputPort());
+  pyramid->Update();
+  EXPECT_EQ(source->Slices.size(), 1u);
+}
+
+TEST(SlabInput, TellsOfAFailureAndWorksAgain)
+{
+  for (const bool isWrong : { false, true })
+  {
+    for (const int slab : { 1, 3 })
+    {
+      Scene scene;
+      (isWrong ? scene.WrongSlab : scene.FailingSlab) = slab;
+      const auto source = SourceOf(scene);
+      vtkNew<vtkImagePyramid> pyramid;
+      pyramid->SetInputConnection(source->GetOutputPort());
+      pyramid->SetSelectedComponent(2);
+      pyramid->SetMemoryLimit(Limit);
+      const MessagesOf errors(pyramid);
+      const MessagesOf executive(source->GetExecutive());
+      pyramid->Update();
+      EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::UserError);
+      EXPECT_TRUE(errors.Has(isWrong ? "or of another type than in the slices before them"
+                                     : "BallSource failed: the disk has gone."))
+        << errors.Get();
+      EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
+      source->Made = Scene();
+      source->Modified();
+      pyramid->Update();
+      EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+      EXPECT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 2u);
+    }
+  }
+}
+
+TEST(SlabInput, CanBeCancelled)
+{
+  const auto source = SourceOf(Scene());
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputConnection(source->GetOutputPort());
+  pyramid->SetMemoryLimit(Limit);
+  ProgressListener listener(pyramid);
+  listener.StopAt = 0.3;
+  pyramid->Update();
+  EXPECT_EQ(listener.Texts.count("Reading the image"), 1u);
+  EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_LT(source->Slices.back()[1], Whole[5]);
+  listener.StopAt = 2.0;
+  pyramid->Modified();
+  pyramid->Update();
+  EXPECT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 2u);
+}
+
+TEST(SlabInput, IsRefusedWithALimitThatIsNone)
+{
+  const auto source = SourceOf(Scene());
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputConnection(source->GetOutputPort());
+  const auto expectError = [&](int limit, const char* directory, const char* text)
+  {
+    pyramid->SetMemoryLimit(limit);
+    pyramid->SetScratchDirectory(directory);
+    const MessagesOf errors(pyramid);
+    pyramid->Update();
+    EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::UserError);
+    EXPECT_TRUE(errors.Has(text)) << errors.Get();
+    EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
+  };
+  expectError(-3, "", "Memory Limit is -3; it must be 0 (none) or a number of MiB.");
+  expectError(1, "", "Memory Limit is 1 MiB");
+  expectError(Limit, "/no/such/folder", "Scratch Directory /no/such/folder");
+  pyramid->SetScratchDirectory("");
+  pyramid->Update();
+  EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 2u);
+}
+
+namespace
+{
+template <class Filter>
+vtkSmartPointer<Filter> SurfaceFrom(BallSource* source, double isoValue, int limit)
+{
+  auto filter = vtkSmartPointer<Filter>::New();
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetIsoValue(isoValue);
+  filter->SetSelectedComponent(2);
+  filter->SetFinestLevel(2);
+  filter->SetMemoryLimit(limit);
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+  return filter;
+}
+}
+
+TEST(SlabInput, GivesTheSameSurfaces)
+{
+  Scene cells;
+  cells.AreCells = true;
+  cells.HasGhosts = true;
+  const double otsu = std::nan("");
+  for (const Scene& scene : { Scene(), cells })
+  {
+    const auto whole = SourceOf(scene);
+    const auto slabs = SourceOf(scene);
+    EXPECT_TRUE(AreSameSurfaces(SurfaceFrom<vtkVolumeToSurface>(whole, otsu, 0)->GetOutput(),
+      SurfaceFrom<vtkVolumeToSurface>(slabs, otsu, Limit)->GetOutput()));
+    EXPECT_GT(slabs->Slices.size(), 3u);
+  }
+  const auto slabs = SourceOf(Scene());
+  EXPECT_TRUE(
+    AreSameSurfaces(SurfaceFrom<vtkDeformableSurface>(SourceOf(Scene()), 50.0, 0)->GetOutput(),
+      SurfaceFrom<vtkDeformableSurface>(slabs, 50.0, Limit)->GetOutput()));
+  EXPECT_GT(slabs->Slices.size(), 3u);
+}
+
+TEST(SlabInput, IsNotAskedForWhereARunGoesOn)
+{
+  const auto whole = SourceOf(Scene());
+  const auto slabs = SourceOf(Scene());
+  const auto usual = SurfaceFrom<vtkVolumeToSurface>(whole, 50.0, 0);
+  const auto limited = SurfaceFrom<vtkVolumeToSurface>(slabs, 50.0, Limit);
+  const std::size_t asked = slabs->Slices.size();
+  for (const int level : { 3, 1 })
+  {
+    usual->SetFinestLevel(level);
+    usual->Update();
+    limited->SetFinestLevel(level);
+    limited->Update();
+    EXPECT_TRUE(AreSameSurfaces(usual->GetOutput(), limited->GetOutput())) << level;
+    EXPECT_EQ(slabs->Slices.size(), asked) << level;
+  }
+  limited->SetFriction(3.5);
+  limited->Update();
+  EXPECT_EQ(slabs->Slices.size(), 2 * asked) << "each slab once more";
 }
