@@ -320,6 +320,7 @@ void vtkDeformableSurface::RunOrGoOn(
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   this->SetErrorCode(vtkErrorCode::NoError);
+  this->Internals->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
   volumic::SegmentationRequest request = this->RequestAsSet(input);
   this->Internals->IsOnTheWay = false;
   if (isKept && this->ShowKept(request, output))

@@ -130,9 +130,10 @@
  *
  * @par Going on:
  * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,
- * Preview, ShowLevels, TimeLimit or NumberOfThreads, and nothing else changed, neither in the
- * filter nor in its inputs, a level at which the surface has rested is shown at once, and a finer
- * one is reached from the level at which the last run has ended (FinestLevel 2, then 0). The
+ * Preview, ShowLevels, TimeLimit, MemoryLimit, ScratchDirectory or NumberOfThreads, and nothing
+ * else changed, neither in the filter nor in its inputs, a level at which the surface has rested is
+ * shown at once, and a finer one is reached from the level at which the last run has ended
+ * (FinestLevel 2, then 0). The
  * outputs are the same bits as those of a run from the start, but for the seconds in History. To go
  * on it holds the surface and the levels of the pyramid that it has not left, and these only where
  * the run has ended at level 1 or above, so that no memory of level 0 is held; else no more than
@@ -144,6 +145,13 @@
  * Voxels are read in the type that they have. Levels of the pyramid go as the surface leaves them;
  * those of a pyramid that is the input do where its data are released (ReleaseDataFlagOn() of
  * vtkImagePyramid), else they stay with their owner.
+ * @par
+ * With MemoryLimit, voxels and meshes live in files of ScratchDirectory, which have no name and
+ * vanish with the process, however it ends; as much of them is in memory as the limit allows. The
+ * limit is one of the process, as it is the process that is ended where memory is short: what other
+ * filters, readers and windows hold counts too, but only what is in the files can leave memory. A
+ * limit that cannot be kept is told. It lasts until the filter runs without one, or is
+ * deleted; of several filters with limits the smallest counts.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -563,6 +571,24 @@ public:
    */
   void SetNumberOfThreads(int number);
   virtual int GetNumberOfThreads();
+  ///@}
+
+  ///@{
+  /**
+   * Resident memory that the process may have, MiB (2^20 bytes); 0, the default: no limit. See
+   * Memory. Results do not depend on it.
+   */
+  void SetMemoryLimit(int mebibytes);
+  virtual int GetMemoryLimit();
+  ///@}
+
+  ///@{
+  /**
+   * With MemoryLimit: the folder for what does not fit, on a disk with room for all of it. Empty,
+   * the default: TMPDIR of the environment, or /var/tmp.
+   */
+  void SetScratchDirectory(const char* directory);
+  virtual const char* GetScratchDirectory();
   ///@}
 
   ///@{

@@ -4,6 +4,7 @@
 #define vtkDeformableSurfaceInternals_h
 
 #include "Deadline.h"
+#include "LimitedMemory.h"
 #include "SegmentationCache.h"
 #include "SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
@@ -13,6 +14,7 @@ class vtkDeformableSurface::vtkInternals
 {
 public:
   volumic::SegmentationSettings Settings; ///< the properties
+  volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
   volumic::Deadline Limit;                ///< of the run
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.

@@ -7,6 +7,7 @@
 #include "HostThreads.h"
 #include "ImageVoxels.h"
 #include "InputImage.h"
+#include "LimitedMemory.h"
 #include "LevelVoxels.h"
 #include "ValidVoxels.h"
 #include "VersionCompatibility.h"
@@ -176,7 +177,16 @@ void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numbe
 }
 
 //------------------------------------------------------------------------------
-vtkImagePyramid::vtkImagePyramid()
+/** What the filter holds beside what all algorithms do. */
+class vtkImagePyramid::vtkInternals
+{
+public:
+  std::string ScratchDirectory;
+  volumic::LimitedMemory Memory; ///< as the last run had it
+};
+
+//------------------------------------------------------------------------------
+vtkImagePyramid::vtkImagePyramid() : Internals(std::make_unique<vtkInternals>())
 {
   const volumic::PyramidOptions defaults;
   this->ReductionFactor = defaults.ReductionFactor;
@@ -185,6 +195,7 @@ vtkImagePyramid::vtkImagePyramid()
   this->SelectedComponent = -1;
   this->NaNIsBackground = true;
   this->NumberOfThreads = 0;
+  this->MemoryLimit = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
@@ -200,6 +211,22 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput()
 vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+void vtkImagePyramid::SetScratchDirectory(const char* directory)
+{
+  const std::string wanted = directory ? directory : "";
+  if (this->Internals->ScratchDirectory != wanted)
+  {
+    this->Internals->ScratchDirectory = wanted;
+    this->Modified();
+  }
+}
+
+const char* vtkImagePyramid::GetScratchDirectory()
+{
+  return this->Internals->ScratchDirectory.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -288,6 +315,7 @@ int vtkImagePyramid::RequestData(
     input = volumic::ImageOf(vtkDataObject::GetData(inputVector[0]));
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
+    this->Internals->Memory.Set(this->MemoryLimit, this->Internals->ScratchDirectory);
     const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
       volumic::ChooseArray(this->GetInputArrayInformation(0), input), this->SelectedComponent);
     Settings settings;
@@ -339,4 +367,6 @@ void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
   os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
+  os << indent << "MemoryLimit: " << this->MemoryLimit << endl;
+  os << indent << "ScratchDirectory: " << this->Internals->ScratchDirectory << endl;
 }

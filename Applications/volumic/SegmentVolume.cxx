@@ -264,6 +264,8 @@ FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImageP
   pyramid->SetSelectedComponent(filter->GetSelectedComponent());
   pyramid->SetNaNIsBackground(filter->GetNaNIsBackground());
   pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
+  pyramid->SetMemoryLimit(filter->GetMemoryLimit());
+  pyramid->SetScratchDirectory(filter->GetScratchDirectory());
   pyramid->SetInputData(volume);
   const FilterRun run = RunOnVolume(options, pyramid, "Building the pyramid", style);
   if (run.IsInterrupted)

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLimitedMemory_h
+#define volumicLimitedMemory_h
+
+#include "Core/Common/ScratchMemory.h"
+
+#include <memory>
+#include <string>
+
+namespace volumic
+{
+/**
+ * The scratch memory of a filter with the properties Memory Limit and Scratch Directory. The filter
+ * has one, from its first run with a limit to its end: what it made is in it that long.
+ */
+class LimitedMemory
+{
+public:
+  LimitedMemory();
+  ~LimitedMemory();
+
+  /**
+   * For the run that begins. What was made under another limit stays where it is.
+   * @param mebibytes 0: no limit
+   * @throws std::invalid_argument naming the property where the limit is none, or the directory
+   *         cannot be used; then there is no limit.
+   */
+  void Set(int mebibytes, const std::string& directory);
+
+  bool IsLimited() const { return this->Options.Limit > 0; }
+  std::size_t Limit() const { return this->Options.Limit; }
+
+private:
+  ScratchOptions Options;
+  std::unique_ptr<ScratchMemory> Scratch; ///< null where there is no limit
+};
+}
+
+#endif
