@@ -4,8 +4,6 @@
 
 #include "Core/Common/Refuse.h"
 
-#include <cstddef>
-
 namespace volumic
 {
 LimitedMemory::LimitedMemory() = default;
@@ -18,7 +16,7 @@ void LimitedMemory::Set(int mebibytes, const std::string& directory)
     Refuse("Memory Limit is ", mebibytes, "; it must be 0 (none) or a number of MiB.");
   }
   ScratchOptions wanted;
-  wanted.Limit = static_cast<std::size_t>(mebibytes) << 20;
+  wanted.Limit = BytesOf(mebibytes);
   wanted.Directory = directory;
   if (wanted.Limit == this->Options.Limit && wanted.Directory == this->Options.Directory)
   {

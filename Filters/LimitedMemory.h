@@ -5,6 +5,7 @@
 
 #include "Core/Common/ScratchMemory.h"
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -28,8 +29,14 @@ public:
    */
   void Set(int mebibytes, const std::string& directory);
 
-  bool IsLimited() const { return this->Options.Limit > 0; }
+  /** Bytes; 0: there is none. */
   std::size_t Limit() const { return this->Options.Limit; }
+
+  /** The bytes of the property; 0 where it is none. */
+  static std::size_t BytesOf(int mebibytes)
+  {
+    return static_cast<std::size_t>(mebibytes > 0 ? mebibytes : 0) << 20;
+  }
 
 private:
   ScratchOptions Options;

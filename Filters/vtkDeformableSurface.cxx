@@ -13,6 +13,7 @@
 #include "SegmentationResults.h"
 #include "SegmentationSettings.h"
 #include "SegmentationVolume.h"
+#include "SlabInput.h"
 #include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
@@ -46,6 +47,8 @@ namespace
 {
 /** Share of the progress that the pyramid takes where it is built here. */
 constexpr double PyramidShare = 0.02;
+/** Share of that that the reading takes where the image comes in slabs. */
+constexpr double ReadingShare = 0.5;
 
 /** Whether the levels are made here: the data of input port 0 are no pyramid. */
 bool BuildsPyramid(vtkDataObject* input)
@@ -189,7 +192,45 @@ int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   volumic::AskForWholeInputs(request, input, 3, output);
+  const vtkInternals& internals = *this->Internals;
+  if (internals.Settings.End.MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
+  {
+    volumic::SlabInput(this).Ask(
+      volumic::LimitedMemory::BytesOf(internals.Settings.End.MemoryLimit),
+      !internals.Cache.IsValidFor(this));
+  }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
+  vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume)
+{
+  if (this->Internals->Memory.Limit() == 0)
+  {
+    return input;
+  }
+  volumic::SlabInput::Request request;
+  request.Limit = this->Internals->Memory.Limit();
+  request.Selection = volume.Selection;
+  request.SelectedComponent = volume.Settings.SelectedComponent;
+  request.TakesCells = takesCells;
+  request.GoOn = [this](double share)
+  { return this->ShowPyramidProgress(ReadingShare * share, "Reading the image"); };
+  const volumic::SlabInput::Result slabs = volumic::PrefixErrors(
+    "Input port 0: ", [&] { return volumic::SlabInput(this).Read(request); });
+  const std::string whole = volumic::SlabInput(this).DescribeWhole();
+  if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
+  {
+    vtkWarningMacro("Input port 0: " << whole);
+  }
+  if (slabs.IsStopped || !slabs.Image)
+  {
+    return slabs.IsStopped ? nullptr : input;
+  }
+  volume.Selection = slabs.Selection;
+  volume.Settings.SelectedComponent = -1; // It has been selected.
+  return slabs.Image;
 }
 
 //------------------------------------------------------------------------------
@@ -231,17 +272,20 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
   if (!volume.Levels)
   {
     vtkNew<vtkImagePyramid> pyramid;
-    vtkImageData* image =
-      volumic::PrefixErrors("Input port 0: ", [input] { return volumic::ImageOf(input); });
-    this->MakeLevels(pyramid, image, volume);
+    if (const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, false, volume))
+    {
+      vtkImageData* image =
+        volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); });
+      this->MakeLevels(pyramid, image, volume);
+    }
   }
   return volume;
 }
 
 //------------------------------------------------------------------------------
-bool vtkDeformableSurface::ShowPyramidProgress(double share)
+bool vtkDeformableSurface::ShowPyramidProgress(double share, const char* text)
 {
-  this->SetProgressText("Building the pyramid");
+  this->SetProgressText(text);
   this->UpdateProgress(PyramidShare * share);
   return !volumic::IsAbortRequested(this) && !this->Internals->Limit.IsOver();
 }

@@ -180,10 +180,13 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
 
+#include <vtkSmartPointer.h>
+
 #include <memory> // For what is hidden
 #include <string>
 
 class vtkAlgorithmOutput;
+class vtkDataObject;
 class vtkImageData;
 class vtkImagePyramid;
 class vtkInformation;
@@ -736,8 +739,12 @@ protected:
   /// What the surface is searched in, of the data of input port 0; its levels are null where
   /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
   virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
+  /// The data of input port 0, which come in slabs where the memory is limited and the source can;
+  /// then what `volume` tells of the voxels is changed to fit. Null after a stop.
+  vtkSmartPointer<vtkDataObject> ReadInput(
+    vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume);
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
-  bool ShowPyramidProgress(double share);
+  bool ShowPyramidProgress(double share, const char* text = "Building the pyramid");
 
 private:
   class vtkInternals;

@@ -22,6 +22,7 @@ public:
   volumic::Deadline Limit;                ///< of the run
   std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
+  bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.

@@ -72,8 +72,13 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkImageAlgorithm.h"
 
-#include <memory> // For what is hidden
+#include <vtkSmartPointer.h>
 
+#include <memory> // For what is hidden
+#include <string>
+
+class vtkDataObject;
+class vtkImageData;
 class vtkMultiBlockDataSet;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkImagePyramid : public vtkImageAlgorithm
@@ -201,6 +206,15 @@ private:
   void operator=(const vtkImagePyramid&) = delete;
 
   int RequestDataObject(vtkInformationVector* output);
+
+  /// The image, whole or put together of slabs, and the component of it that is meant; null after a
+  /// stop.
+  vtkSmartPointer<vtkImageData> ReadInput(vtkDataObject* input, int& component);
+  /// Fills the output; `image` is known before there are levels.
+  void MakeLevels(
+    vtkDataObject* input, vtkSmartPointer<vtkImageData>& image, vtkMultiBlockDataSet* output);
+  /// False asks to stop.
+  bool ShowProgress(double share, const std::string& text);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -10,7 +10,9 @@ set(volumic_core_sources
   Common/ContentHash.cxx
   Common/FreeMemory.cxx
   Common/MeasuredExecutor.cxx
+  Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
+  Common/ScratchStore.cxx
   Common/StandardThreads.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
@@ -86,8 +88,10 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
-  Common/ScratchMemory.h
   Common/Refuse.h
+  Common/ScratchFile.h
+  Common/ScratchMemory.h
+  Common/ScratchStore.h
   Common/Select.h
   Common/StandardThreads.h
   Common/Vector.h

@@ -18,6 +18,8 @@ struct ScratchOptions
   std::size_t Limit = 0;
   /** Where files are made; empty: TMPDIR, or else /var/tmp. */
   std::string Directory;
+  /** What the files may take together, bytes; 0: as much as there is. */
+  std::size_t Room = 0;
 };
 
 /** The scratch directory has no room for what is asked for. */
@@ -26,31 +28,65 @@ struct ScratchFull : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+struct ScratchLimit;
+
+/** What became of a limit, since it was set. Bytes. */
+struct ScratchStatistics
+{
+  std::size_t MostResident = 0;  ///< Of the whole process.
+  std::size_t MostAnonymous = 0; ///< Of the process, what no file holds: it cannot leave.
+  std::size_t Mapped = 0;        ///< Arrays in files, now,
+  std::size_t MostMapped = 0;    ///< and at most: the room that was needed on the disk.
+  std::size_t Dropped = 0;       ///< Taken out of memory, again and again.
+};
+
 /**
  * While one with a limit is alive, large arrays (LargeVector, AllocateLarge) live in files of the
  * scratch directory, mapped into memory; of their pages as many are resident as the limit allows.
  * The files have no name, so that nothing of them is left behind, however the process ends. Arrays
  * may outlive it. With a limit of 0 it does nothing.
+ *
+ * The limit is that of the process. Where several are alive, the smallest limit counts, and new
+ * arrays go to the directory of the last one. A thread looks at the resident memory of the process
+ * every few ms and drops pages before it gets to the limit, one array after another, round and
+ * round; the system keeps them in its cache while it can, so that most come back without the disk.
+ * What is no large array cannot be dropped: where that alone passes the limit, the run goes on
+ * beyond it, and Warnings() says so.
+ *
+ * A process that is forked off can read the arrays, and free them, but not write them, which its
+ * parent would see; its own are on the heap until it sets a limit itself.
  */
 class ScratchMemory
 {
 public:
-  /** @throws std::invalid_argument where the directory cannot be used or the limit kept. */
+  /** Arrays of fewer bytes are on the heap in any case. */
+  static constexpr std::size_t LargeBytes = std::size_t(1) << 20;
+  /** What a limit must at least leave beyond that which cannot be dropped when it is set. */
+  static constexpr std::size_t LeastBytes = std::size_t(128) << 20;
+
+  /**
+   * @throws std::invalid_argument where the directory cannot be used, or the limit not be kept, or
+   *         the system has no such memory (Linux of 64 bits has); ScratchFull.
+   */
   explicit ScratchMemory(const ScratchOptions& options);
   ~ScratchMemory();
   ScratchMemory(const ScratchMemory&) = delete;
   ScratchMemory& operator=(const ScratchMemory&) = delete;
 
+  ScratchStatistics Statistics() const;
+  /** What the user should know by now, a sentence or two each: of the directory, and the limit. */
+  std::vector<std::string> Warnings() const;
+
 private:
-  struct Implementation;
-  std::unique_ptr<Implementation> Self;
+  std::unique_ptr<ScratchLimit> Self; ///< Null: no limit.
 };
 
 /**
- * Memory for an array, zeroed or not: on the heap, or in a file while a limit is set and it is
- * large. @throws std::bad_alloc, ScratchFull.
+ * Memory for an array, with any content: on the heap, or in a file while a limit is set and it is
+ * large. The address is a multiple of `alignment`, a power of 2 of 64 at most.
+ * @throws std::bad_alloc, ScratchFull.
  */
-void* AllocateLarge(std::size_t bytes);
+void* AllocateLarge(std::size_t bytes, std::size_t alignment = 64);
 /** Null is nothing. */
 void FreeLarge(void* memory) noexcept;
 /** It will be needed soon: read ahead what is on disk. Any range; of other memory, nothing. */
@@ -65,7 +101,10 @@ struct LargeAllocator
   LargeAllocator(const LargeAllocator<U>&)
   {
   }
-  T* allocate(std::size_t n) { return static_cast<T*>(AllocateLarge(n * sizeof(T))); }
+  T* allocate(std::size_t n)
+  {
+    return static_cast<T*>(AllocateLarge(n * sizeof(T), alignof(T)));
+  }
   void deallocate(T* memory, std::size_t) noexcept { FreeLarge(memory); }
   template <typename U>
   bool operator==(const LargeAllocator<U>&) const

@@ -262,7 +262,9 @@ void SurfaceEvolution::Implementation::Adapt()
     HistoryRow row;
     this->ActivateAll();
     this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Adapt);
-    if (row.Splits + row.Collapses <= this->State.Mesh.NumberOfVertices() / VerticesPerEdit)
+    const EditCounts& counts = this->State.Counts;
+    if (counts.Splits + counts.Collapses <=
+      this->State.Mesh.NumberOfVertices() / VerticesPerEdit)
     {
       break;
     }

@@ -74,6 +74,8 @@ public:
   void UpdateActive();
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
   void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
+  /** The same for intersections alone, in little memory; some may be named more than once. */
+  std::vector<Proximity::FacePair> FindIntersections();
   const std::vector<Proximity::FacePair>& Intersections() const
   {
     return this->Near.Intersections();
@@ -107,6 +109,7 @@ private:
   void Label();
   void CollectWorking();
   void AddUnmoved(int v);
+  bool IsSuspect(int v) const;
   void CollectSuspects();
   void RollBack();
   void RollBackVertex(int v);

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/ScratchStore.h"
+
+#include "Core/Common/Refuse.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <iterator>
+#include <string>
+#include <thread>
+
+namespace volumic
+{
+namespace
+{
+/**
+ * How far below the limit dropping begins, and by how much it goes on: what threads may fill until
+ * the governor gets its turn.
+ */
+std::size_t HeadroomOf(std::size_t limit)
+{
+  return std::min(std::max(limit / 8, 32 * Mebibyte), 512 * Mebibyte);
+}
+}
+
+struct ScratchStore::Governor
+{
+  ResidentMemoryMeter Meter;
+  std::condition_variable Wake;
+  bool Ends = false;
+  std::thread Thread;
+};
+
+ScratchStore::ScratchStore()
+{
+  // Nobody else may be in the midst of a change when the process is copied.
+  CallAtForks([] { Instance().Mutex.lock(); }, [] { Instance().Mutex.unlock(); },
+    [] { Instance().GoOnInChild(); });
+}
+
+void ScratchStore::GoOnInChild()
+{
+  for (const auto& array : this->Arrays)
+  {
+    ProtectPages(reinterpret_cast<void*>(array.first), array.second);
+  }
+  // They are the parent's, and so is the thread: there is none to be waited for.
+  this->Limits.clear();
+  this->NumberOfLimits = 0;
+  static_cast<void>(this->Governing.release());
+  this->Mutex.unlock();
+}
+
+std::size_t ScratchStore::SmallestLimit() const
+{
+  std::size_t smallest = SIZE_MAX;
+  for (const ScratchLimit* limit : this->Limits)
+  {
+    smallest = std::min(smallest, limit->Options.Limit);
+  }
+  return smallest;
+}
+
+void ScratchStore::Add(ScratchLimit& limit)
+{
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  // What is left of other runs need not be resident.
+  const ResidentMemoryMeter meter;
+  const std::size_t held = this->Drop(meter, 0).All;
+  const std::size_t least = held + ScratchMemory::LeastBytes;
+  if (limit.Options.Limit < least)
+  {
+    Refuse("Memory Limit is ", Mebibytes(limit.Options.Limit), " MiB, but the process holds ",
+      Mebibytes(held), " MiB already, for programs, libraries and data. It must be ",
+      Mebibytes(least), " MiB at least; 0 is no limit.");
+  }
+  this->Limits.push_back(&limit);
+  limit.Statistics.Mapped = limit.Statistics.MostMapped = this->Mapped;
+  this->NumberOfLimits = this->Limits.size();
+  if (!this->Governing)
+  {
+    this->Start();
+  }
+}
+
+void ScratchStore::Remove(ScratchLimit& limit)
+{
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  const auto at = std::find(this->Limits.begin(), this->Limits.end(), &limit);
+  if (at == this->Limits.end())
+  {
+    return; // In a child of the process.
+  }
+  this->Limits.erase(at);
+  this->NumberOfLimits = this->Limits.size();
+  if (this->Limits.empty())
+  {
+    this->Stop(lock);
+  }
+}
+
+ScratchStatistics ScratchStore::StatisticsOf(const ScratchLimit& limit)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  ScratchStatistics statistics = limit.Statistics;
+  statistics.Mapped = this->Mapped;
+  return statistics;
+}
+
+void ScratchStore::CountMapped(std::size_t bytes)
+{
+  this->Mapped += bytes;
+  for (ScratchLimit* limit : this->Limits)
+  {
+    limit->Statistics.MostMapped = std::max(limit->Statistics.MostMapped, this->Mapped);
+  }
+}
+
+void ScratchStore::Record(const ResidentMemory& memory)
+{
+  for (ScratchLimit* limit : this->Limits)
+  {
+    ScratchStatistics& statistics = limit->Statistics;
+    statistics.MostResident = std::max(statistics.MostResident, memory.All);
+    statistics.MostAnonymous = std::max(statistics.MostAnonymous, memory.Anonymous);
+  }
+}
+
+void* ScratchStore::Map(std::size_t bytes)
+{
+  std::string directory;
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (this->Limits.empty())
+    {
+      return nullptr;
+    }
+    const ScratchOptions& options = this->Limits.back()->Options;
+    if (options.Room > 0 && this->Mapped + bytes > options.Room)
+    {
+      throw ScratchFull(Join("Scratch Directory ", options.Directory, " has no room for ",
+        Mebibytes(bytes), " MiB more: ", Mebibytes(this->Mapped), " of ",
+        Mebibytes(options.Room), " MiB are taken. Allow more, or raise Memory Limit."));
+    }
+    directory = options.Directory;
+    this->CountMapped(bytes); // Before the file is made: several threads may ask at once.
+  }
+  void* memory = nullptr;
+  try
+  {
+    memory = MapScratchFile(directory, bytes);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Arrays.emplace(reinterpret_cast<std::uintptr_t>(memory), bytes);
+    this->NumberOfArrays = this->Arrays.size();
+  }
+  catch (...)
+  {
+    if (memory)
+    {
+      UnmapScratchFile(memory, bytes);
+    }
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Mapped -= bytes;
+    throw;
+  }
+  return memory;
+}
+
+bool ScratchStore::Unmap(void* memory) noexcept
+{
+  constexpr std::uintptr_t smallestPage = 4096;
+  const auto address = reinterpret_cast<std::uintptr_t>(memory);
+  if (address % smallestPage != 0 || this->NumberOfArrays.load(std::memory_order_acquire) == 0)
+  {
+    return false;
+  }
+  std::size_t bytes = 0;
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto found = this->Arrays.find(address);
+    if (found == this->Arrays.end())
+    {
+      return false;
+    }
+    bytes = found->second;
+    this->Arrays.erase(found);
+    this->NumberOfArrays = this->Arrays.size();
+    this->Mapped -= bytes;
+  }
+  UnmapScratchFile(memory, bytes);
+  return true;
+}
+
+void ScratchStore::Prefetch(const void* begin, std::size_t bytes)
+{
+  const auto first = reinterpret_cast<std::uintptr_t>(begin);
+  std::uintptr_t last = first + bytes;
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    auto array = this->Arrays.upper_bound(first);
+    if (array == this->Arrays.begin())
+    {
+      return;
+    }
+    --array;
+    last = std::min(last, array->first + array->second);
+  }
+  // Should it be freed meanwhile, nothing is read.
+  if (first < last)
+  {
+    ReadPagesAhead(reinterpret_cast<void*>(first), last - first);
+  }
+}
+
+ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t goal)
+{
+  constexpr std::size_t chunksAtATime = 4;
+  ResidentMemory before = meter.Read();
+  std::size_t left = this->Mapped + ScratchChunk * this->Arrays.size(); // Once around.
+  while (before.All > goal && left > 0 && !this->Arrays.empty())
+  {
+    for (std::size_t i = 0; i < chunksAtATime && left > 0; ++i)
+    {
+      // The array that the hand is in, or the next one, or the first.
+      auto array = this->Arrays.upper_bound(this->Hand);
+      if (array != this->Arrays.begin() &&
+        this->Hand < std::prev(array)->first + std::prev(array)->second)
+      {
+        --array;
+      }
+      else
+      {
+        array = array != this->Arrays.end() ? array : this->Arrays.begin();
+        this->Hand = array->first;
+      }
+      const std::uintptr_t begin = this->Hand;
+      // Up to the next multiple of a chunk, which is a table of the processor's.
+      const std::uintptr_t end = std::min(
+        array->first + array->second, begin / ScratchChunk * ScratchChunk + ScratchChunk);
+      DropPages(reinterpret_cast<void*>(begin), end - begin);
+      this->Hand = end;
+      left -= std::min(left, end - begin);
+    }
+    const ResidentMemory after = meter.Read();
+    for (ScratchLimit* limit : this->Limits)
+    {
+      limit->Statistics.Dropped += before.All - std::min(before.All, after.All);
+    }
+    before = after;
+  }
+  return before;
+}
+
+void ScratchStore::Start()
+{
+  auto governor = std::make_unique<Governor>();
+  governor->Thread = std::thread([this, g = governor.get()] { this->Govern(*g); });
+  this->Governing = std::move(governor);
+}
+
+void ScratchStore::Stop(std::unique_lock<std::mutex>& lock)
+{
+  const std::unique_ptr<Governor> governor = std::move(this->Governing);
+  governor->Ends = true;
+  governor->Wake.notify_all();
+  lock.unlock();
+  governor->Thread.join();
+}
+
+void ScratchStore::Govern(Governor& governor)
+{
+  AskForPromptTurns();
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  while (!governor.Ends)
+  {
+    const std::size_t limit = this->SmallestLimit();
+    const std::size_t headroom = HeadroomOf(limit);
+    const std::size_t begin = limit - headroom;
+    ResidentMemory memory = governor.Meter.Read();
+    this->Record(memory);
+    if (memory.All > begin)
+    {
+      memory = this->Drop(governor.Meter, begin - headroom);
+    }
+    // Microseconds: as long as it takes to fill what is free until then, at 60 GB/s (two threads
+    // that read what is cached: 36). Where nothing is left to be dropped, arrays may stay for a
+    // while: else all would be waiting for pages.
+    const std::size_t wait = memory.All < begin
+      ? std::min<std::size_t>(200 + (begin - memory.All) / Mebibyte * 16, 10000)
+      : (memory.Anonymous < limit ? 2000 : 20000);
+    governor.Wake.wait_for(lock, std::chrono::microseconds(wait));
+  }
+}
+}

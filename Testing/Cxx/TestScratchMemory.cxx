@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ScratchTestTools.h"
+
+#include "Core/Mesh/SurfaceMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+using namespace volumic;
+using namespace volumic::test;
+
+namespace volumic
+{
+namespace test
+{
+bool IsInFile(const void* address)
+{
+  const auto wanted = reinterpret_cast<std::uintptr_t>(address);
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);)
+  {
+    std::istringstream fields(line);
+    std::uintptr_t begin = 0;
+    std::uintptr_t end = 0;
+    char dash = 0;
+    std::string rights;
+    fields >> std::hex >> begin >> dash >> end >> rights;
+    if (wanted >= begin && wanted < end)
+    {
+      return rights.size() == 4 && rights[3] == 's';
+    }
+  }
+  return false;
+}
+}
+}
+
+namespace
+{
+std::string MessageOf(const ScratchOptions& options)
+{
+  try
+  {
+    const ScratchMemory scratch(options);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
+bool Contains(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+class ScratchMemoryTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!ScratchIsPossible)
+    {
+      GTEST_SKIP() << "no scratch memory on this system";
+    }
+  }
+  OwnDirectory Directory;
+};
+}
+
+TEST_F(ScratchMemoryTest, HoldsMoreThanTheLimit)
+{
+  constexpr std::size_t arrays = 8;
+  constexpr std::size_t bytes = 64 * MiB;
+  constexpr std::size_t n = bytes / sizeof(std::uint64_t);
+  const ScratchOptions options = Allowing(144 * MiB, this->Directory.Path);
+  const ScratchMemory scratch(options);
+  std::vector<std::uint64_t*> values(arrays);
+  const auto onTwoThreads = [&](const auto& body)
+  {
+    std::thread other([&] { body(0, arrays / 2); });
+    body(arrays / 2, arrays);
+    other.join();
+  };
+  onTwoThreads(
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t a = begin; a < end; ++a)
+      {
+        values[a] = static_cast<std::uint64_t*>(AllocateLarge(bytes));
+        FillWithNumbers(values[a], 0, n);
+      }
+    });
+  EXPECT_EQ(scratch.Statistics().Mapped, arrays * bytes);
+  std::vector<std::size_t> wrong(arrays, n);
+  onTwoThreads(
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t a = begin; a < end; ++a)
+      {
+        PrefetchLarge(values[a], bytes);
+        wrong[a] = CountWrongNumbers(values[a], 0, n);
+      }
+    });
+  EXPECT_EQ(wrong, std::vector<std::size_t>(arrays, 0));
+  std::for_each(values.begin(), values.end(), FreeLarge);
+  const ScratchStatistics statistics = scratch.Statistics();
+  // On a busy machine the governor may be late, so this is no more than the order of it.
+  EXPECT_LT(statistics.MostResident, options.Limit + 128 * MiB);
+  EXPECT_GT(statistics.MostResident, options.Limit - 64 * MiB) << "much of it is not used";
+  EXPECT_GT(statistics.Dropped, arrays * bytes);
+  EXPECT_EQ(statistics.Mapped, 0u);
+  EXPECT_EQ(statistics.MostMapped, arrays * bytes);
+  EXPECT_EQ(scratch.Warnings().size(),
+    (statistics.MostResident > options.Limit ? 1u : 0u) +
+      (IsMemory(this->Directory.Path) ? 1u : 0u));
+}
+
+TEST_F(ScratchMemoryTest, KeepsSmallArraysOnTheHeap)
+{
+  const ScratchMemory scratch(Allowing(144 * MiB, this->Directory.Path));
+  void* small = AllocateLarge(ScratchMemory::LargeBytes - 1);
+  void* large = AllocateLarge(ScratchMemory::LargeBytes);
+  EXPECT_FALSE(IsInFile(small));
+  EXPECT_TRUE(IsInFile(large));
+  EXPECT_EQ(scratch.Statistics().Mapped, ScratchMemory::LargeBytes);
+  FreeLarge(small);
+  FreeLarge(large);
+  FreeLarge(nullptr);
+  EXPECT_EQ(scratch.Statistics().Mapped, 0u);
+}
+
+TEST_F(ScratchMemoryTest, DoesNothingWithoutALimit)
+{
+  ScratchOptions options;
+  options.Directory = "/nowhere";
+  const ScratchMemory scratch(options);
+  void* memory = AllocateLarge(4 * MiB);
+  EXPECT_FALSE(IsInFile(memory));
+  PrefetchLarge(memory, 4 * MiB);
+  FreeLarge(memory);
+  EXPECT_EQ(scratch.Statistics().MostResident, 0u);
+  EXPECT_TRUE(scratch.Warnings().empty());
+}
+
+TEST_F(ScratchMemoryTest, ArraysOutliveIt)
+{
+  constexpr std::size_t n = 4 * MiB / sizeof(std::uint64_t);
+  LargeVector<std::uint64_t> inFile;
+  const LargeVector<std::uint64_t> onHeap(n, 5);
+  {
+    const ScratchMemory scratch(Allowing(144 * MiB, this->Directory.Path));
+    inFile.resize(n);
+    EXPECT_EQ(std::count(inFile.begin(), inFile.end(), 0u), static_cast<std::ptrdiff_t>(n));
+    FillWithNumbers(inFile.data(), 0, n);
+  }
+  EXPECT_TRUE(IsInFile(inFile.data()));
+  EXPECT_EQ(CountWrongNumbers(inFile.data(), 0, n), 0u);
+  const LargeVector<std::uint64_t> copy = inFile;
+  EXPECT_FALSE(IsInFile(copy.data()));
+  EXPECT_EQ(copy, inFile);
+  const ScratchMemory again(Allowing(144 * MiB, this->Directory.Path));
+  EXPECT_EQ(again.Statistics().Mapped, n * sizeof(std::uint64_t));
+  LargeVector<std::uint64_t>().swap(inFile);
+  EXPECT_EQ(again.Statistics().Mapped, 0u);
+  EXPECT_EQ(onHeap.back(), 5u);
+}
+
+TEST_F(ScratchMemoryTest, VectorsAreAlignedAsTheirValuesNeed)
+{
+  for (std::size_t n : { 1, 3, 100, 100000 })
+  {
+    const LargeVector<Ring> rings(n);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(rings.data()) % alignof(Ring), 0u);
+    void* memory = AllocateLarge(n);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory) % 64, 0u);
+    FreeLarge(memory);
+  }
+}
+
+TEST_F(ScratchMemoryTest, OfTwoTheSmallerLimitCountsAndTheLastDirectory)
+{
+  const OwnDirectory other;
+  constexpr std::size_t bytes = 64 * MiB;
+  constexpr std::size_t n = bytes / sizeof(std::uint64_t);
+  const ScratchOptions small = Allowing(144 * MiB, this->Directory.Path);
+  const ScratchMemory first(small);
+  auto second =
+    std::make_unique<ScratchMemory>(Allowing(4096 * MiB, other.Path));
+  LargeVector<LargeVector<std::uint64_t>> arrays(8, LargeVector<std::uint64_t>(n, 1));
+  EXPECT_LT(second->Statistics().MostResident, small.Limit + 128 * MiB);
+  EXPECT_GT(second->Statistics().Dropped, bytes);
+  // Only the last one has little room.
+  ScratchOptions options = Allowing(4096 * MiB, other.Path);
+  options.Room = 9 * bytes;
+  second = std::make_unique<ScratchMemory>(options);
+  arrays.emplace_back(n, 2);
+  EXPECT_THROW(arrays.emplace_back(n, 3), ScratchFull);
+  second.reset();
+  arrays.emplace_back(n, 3);
+  EXPECT_EQ(first.Statistics().Mapped, 10 * bytes);
+  EXPECT_EQ(arrays[9][n - 1], 3u);
+}
+
+TEST_F(ScratchMemoryTest, RefusesADirectoryThatCannotBeUsed)
+{
+  ScratchOptions options = Allowing(144 * MiB, this->Directory.Path + "/missing");
+  EXPECT_TRUE(Contains(MessageOf(options), "Scratch Directory " + options.Directory));
+  EXPECT_TRUE(Contains(MessageOf(options), "No such file or directory"));
+  options.Directory = this->Directory.Path + "/file";
+  std::ofstream(options.Directory) << "not a directory";
+  EXPECT_TRUE(Contains(MessageOf(options), "Not a directory")) << MessageOf(options);
+  options.Directory = "/proc";
+  EXPECT_TRUE(Contains(MessageOf(options), "/proc cannot be used")) << MessageOf(options);
+  // Other runs are as before.
+  void* memory = AllocateLarge(2 * MiB);
+  EXPECT_FALSE(IsInFile(memory));
+  FreeLarge(memory);
+}
+
+TEST_F(ScratchMemoryTest, TakesTheDirectoryOfTheSystem)
+{
+  const char* set = std::getenv("TMPDIR");
+  const std::string before = set ? set : "";
+  setenv("TMPDIR", "/nowhere/at/all", 1);
+  const std::string message = MessageOf(Allowing(144 * MiB, ""));
+  EXPECT_TRUE(Contains(message, "/nowhere/at/all (of TMPDIR)")) << message;
+  setenv("TMPDIR", this->Directory.Path.c_str(), 1);
+  EXPECT_EQ(CheckedScratchDirectory(""), this->Directory.Path);
+  unsetenv("TMPDIR");
+  EXPECT_EQ(CheckedScratchDirectory(""), "/var/tmp");
+  if (set)
+  {
+    setenv("TMPDIR", before.c_str(), 1);
+  }
+}
+
+TEST_F(ScratchMemoryTest, RefusesLessThanTheProcessHolds)
+{
+  ScratchOptions options = Allowing(0, this->Directory.Path);
+  options.Limit = 3 * MiB;
+  const std::string message = MessageOf(options);
+  EXPECT_TRUE(Contains(message, "Memory Limit is 3 MiB")) << message;
+  EXPECT_TRUE(Contains(message, "MiB at least; 0 is no limit.")) << message;
+  // Arrays of other runs need not stay in memory, so they do not count.
+  auto first = std::make_unique<ScratchMemory>(Allowing(1024 * MiB, this->Directory.Path));
+  const LargeVector<char> resident(256 * MiB, 'x');
+  options.Limit = ResidentMemoryMeter().Read().All - 64 * MiB;
+  EXPECT_EQ(MessageOf(options), "");
+}
+
+TEST_F(ScratchMemoryTest, TellsOnceThatTheLimitWasPassed)
+{
+  const ScratchOptions options = Allowing(136 * MiB, this->Directory.Path);
+  const ScratchMemory scratch(options);
+  LargeVector<char> inFile(16 * MiB, 'x');
+  std::vector<char> cannotLeave(320 * MiB, 'x');
+  while (scratch.Statistics().MostResident <= options.Limit)
+  {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(std::count(inFile.begin(), inFile.end(), cannotLeave.back()), 16 * MiB);
+  const std::vector<std::string> warnings = scratch.Warnings();
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_TRUE(Contains(warnings.back(), "MiB cannot be put into files")) << warnings.back();
+  EXPECT_EQ(scratch.Warnings().size(), warnings.size());
+}
+
+TEST_F(ScratchMemoryTest, TellsThatADirectoryIsMemory)
+{
+  if (!IsMemory("/dev/shm"))
+  {
+    GTEST_SKIP() << "/dev/shm is no tmpfs";
+  }
+  const ScratchMemory scratch(Allowing(144 * MiB, "/dev/shm"));
+  ASSERT_EQ(scratch.Warnings().size(), 1u);
+  EXPECT_TRUE(Contains(scratch.Warnings()[0], "/dev/shm is memory itself"));
+}
+
+TEST_F(ScratchMemoryTest, PrefetchesAnyRange)
+{
+  const ScratchMemory scratch(Allowing(144 * MiB, this->Directory.Path));
+  LargeVector<char> values(3 * MiB + 5, 'x');
+  std::vector<char> other(100);
+  PrefetchLarge(values.data() + 12345, values.size());
+  PrefetchLarge(values.data() + values.size() - 1, 1);
+  PrefetchLarge(values.data(), 0);
+  PrefetchLarge(other.data(), other.size());
+  PrefetchLarge(nullptr, 100);
+  EXPECT_EQ(std::count(values.begin(), values.end(), 'x'),
+    static_cast<std::ptrdiff_t>(values.size()));
+}
+
+TEST_F(ScratchMemoryTest, ManyThreadsTakeAndGiveWhileItDrops)
+{
+  const ScratchOptions options = Allowing(136 * MiB, this->Directory.Path);
+  const ScratchMemory scratch(options);
+  std::vector<std::size_t> wrong(8, 1);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < wrong.size(); ++t)
+  {
+    threads.emplace_back(
+      [&wrong, t]
+      {
+        wrong[t] = 0;
+        for (std::size_t i = 0; i < 12; ++i)
+        {
+          const std::size_t n = (1 + (t + i) % 5) * MiB / 4;
+          LargeVector<std::uint64_t> values(n);
+          FillWithNumbers(values.data(), 0, n);
+          wrong[t] += CountWrongNumbers(values.data(), 0, n);
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(wrong, std::vector<std::size_t>(8, 0));
+  EXPECT_EQ(scratch.Statistics().Mapped, 0u);
+}
