@@ -15,7 +15,7 @@
 
 namespace volumic
 {
-std::string UpdateAndCollectErrors(vtkAlgorithm* algorithm)
+std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& run)
 {
   std::string errors;
   vtkNew<vtkCallbackCommand> collect;
@@ -34,10 +34,15 @@ std::string UpdateAndCollectErrors(vtkAlgorithm* algorithm)
   const unsigned long ofAlgorithm = algorithm->AddObserver(vtkCommand::ErrorEvent, collect);
   const unsigned long ofExecutive =
     algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, collect);
-  algorithm->Update();
+  run();
   algorithm->RemoveObserver(ofAlgorithm);
   algorithm->GetExecutive()->RemoveObserver(ofExecutive);
   return errors;
+}
+
+std::string UpdateAndCollectErrors(vtkAlgorithm* algorithm)
+{
+  return CollectErrors(algorithm, [algorithm] { algorithm->Update(); });
 }
 
 unsigned long ErrorCodeOf(const std::exception& error)

@@ -4,6 +4,7 @@
 #define volumicAlgorithmErrors_h
 
 #include <exception>
+#include <functional>
 #include <string>
 
 class vtkAlgorithm;
@@ -11,6 +12,12 @@ class vtkInformationVector;
 
 namespace volumic
 {
+/**
+ * What an algorithm, or its executive, reports as an error while something runs; it is not printed,
+ * and is without the place in the source. Empty if all went well.
+ */
+std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& run);
+
 /**
  * Updates an algorithm that works within another one; what it, or its executive, reports as an
  * error is not printed but returned, without the place in the source. Empty if all went well.

@@ -222,6 +222,25 @@ vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component
   return selected;
 }
 
+vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxels)
+{
+  vtkSmartPointer<vtkImageData> with;
+  with.TakeReference(image->NewInstance());
+  with->ShallowCopy(image);
+  const char* name = voxels->GetName();
+  if (!name)
+  {
+    with->GetPointData()->SetScalars(voxels);
+    return with;
+  }
+  if (with->GetPointData()->GetArray(name) != voxels)
+  {
+    with->GetPointData()->AddArray(voxels);
+  }
+  with->GetPointData()->SetActiveScalars(name);
+  return with;
+}
+
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels)
 {
   const bool isPacked = voxels->GetDataType() == VTK_BIT;

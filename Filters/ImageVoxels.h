@@ -40,6 +40,12 @@ vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
  */
 vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component);
 
+/**
+ * A copy of the image, whose arrays are shared, with these voxels as its active scalars: they take
+ * the place of an array of their name.
+ */
+vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxels);
+
 /** The same values in one plain block of memory: the array itself where it is one already. */
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
 

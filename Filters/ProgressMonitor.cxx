@@ -12,6 +12,12 @@ namespace volumic
 {
 namespace
 {
+/** Of a level that evolves block by block, how far its sweep is. */
+std::string BlocksOf(const Monitor::Status& status)
+{
+  return status.Block > 0 ? Join(", block ", status.Block, " of ", status.Blocks) : "";
+}
+
 std::string TextOf(const Monitor::Status& status)
 {
   switch (status.Doing)
@@ -23,9 +29,10 @@ std::string TextOf(const Monitor::Status& status)
     case Monitor::Activity::Recovering:
       return "search for lost parts";
     case Monitor::Activity::Iterating:
-      return Join("iteration ", status.Iteration);
+      return Join("iteration ", status.Iteration,
+        status.Sweep > 0 ? Join(", sweep ", status.Sweep) : "", BlocksOf(status));
     default:
-      return "regularisation";
+      return "regularisation" + BlocksOf(status);
   }
 }
 }

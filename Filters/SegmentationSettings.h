@@ -8,6 +8,7 @@
 #include "Workspace.h"
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace volumic
@@ -39,8 +40,8 @@ enum class KeepComponentsType
 };
 
 /**
- * Where a run ends and how much time and how many threads it has. A run can go on from where one
- * has ended that differs from it by these only.
+ * Where a run ends and how much time, memory and how many threads it has. A run can go on from
+ * where one has ended that differs from it by these only.
  */
 struct SegmentationEnd
 {
@@ -49,6 +50,9 @@ struct SegmentationEnd
   bool Preview = false;   ///< End at a level of few voxels.
   bool ShowLevels = false;
   int NumberOfThreads = 0; ///< 0: all
+  int MemoryLimit = 0;     ///< of the process, MiB; 0: none
+  std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
+  bool Resume = false; ///< Go on from a checkpoint, where there is one.
 };
 
 /**

@@ -13,6 +13,7 @@
 #include "SegmentationResults.h"
 #include "SegmentationSettings.h"
 #include "SegmentationVolume.h"
+#include "SlabInput.h"
 #include "SurfaceOutput.h"
 #include "SurfaceSegmentation.h"
 #include "VersionCompatibility.h"
@@ -46,6 +47,8 @@ namespace
 {
 /** Share of the progress that the pyramid takes where it is built here. */
 constexpr double PyramidShare = 0.02;
+/** Share of that that the reading takes where the image comes in slabs. */
+constexpr double ReadingShare = 0.5;
 
 /** Whether the levels are made here: the data of input port 0 are no pyramid. */
 bool BuildsPyramid(vtkDataObject* input)
@@ -159,11 +162,75 @@ void vtkDeformableSurface::ForgetRun()
 }
 
 //------------------------------------------------------------------------------
+void vtkDeformableSurface::LeaveCheckpoints()
+{
+  this->Internals->LeavesCheckpoints = true;
+}
+
+void vtkDeformableSurface::RemoveCheckpoint()
+{
+  if (this->Internals->Checkpoint)
+  {
+    this->Internals->Checkpoint->Remove();
+  }
+}
+
+std::string vtkDeformableSurface::GetCheckpointFolder()
+{
+  return this->Internals->Checkpoint ? this->Internals->Checkpoint->FolderInUse() : "";
+}
+
+int vtkDeformableSurface::GetResumedLevel()
+{
+  constexpr int none = -2;
+  return this->Internals->Checkpoint ? this->Internals->Checkpoint->ResumedLevel().value_or(none)
+                                     : none;
+}
+
+//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   volumic::AskForWholeInputs(request, input, 3, output);
+  const vtkInternals& internals = *this->Internals;
+  if (internals.Settings.End.MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
+  {
+    volumic::SlabInput(this).Ask(
+      volumic::LimitedMemory::BytesOf(internals.Settings.End.MemoryLimit),
+      !internals.Cache.IsValidFor(this));
+  }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
+  vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume)
+{
+  if (this->Internals->Memory.Limit() == 0)
+  {
+    return input;
+  }
+  volumic::SlabInput::Request request;
+  request.Limit = this->Internals->Memory.Limit();
+  request.Selection = volume.Selection;
+  request.SelectedComponent = volume.Settings.SelectedComponent;
+  request.TakesCells = takesCells;
+  request.GoOn = [this](double share)
+  { return this->ShowPyramidProgress(ReadingShare * share, "Reading the image"); };
+  const volumic::SlabInput::Result slabs = volumic::PrefixErrors(
+    "Input port 0: ", [&] { return volumic::SlabInput(this).Read(request); });
+  const std::string whole = volumic::SlabInput(this).DescribeWhole();
+  if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
+  {
+    vtkWarningMacro("Input port 0: " << whole);
+  }
+  if (slabs.IsStopped || !slabs.Image)
+  {
+    return slabs.IsStopped ? nullptr : input;
+  }
+  volume.Selection = slabs.Selection;
+  volume.Settings.SelectedComponent = -1; // It has been selected.
+  return slabs.Image;
 }
 
 //------------------------------------------------------------------------------
@@ -205,17 +272,20 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
   if (!volume.Levels)
   {
     vtkNew<vtkImagePyramid> pyramid;
-    vtkImageData* image =
-      volumic::PrefixErrors("Input port 0: ", [input] { return volumic::ImageOf(input); });
-    this->MakeLevels(pyramid, image, volume);
+    if (const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, false, volume))
+    {
+      vtkImageData* image =
+        volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); });
+      this->MakeLevels(pyramid, image, volume);
+    }
   }
   return volume;
 }
 
 //------------------------------------------------------------------------------
-bool vtkDeformableSurface::ShowPyramidProgress(double share)
+bool vtkDeformableSurface::ShowPyramidProgress(double share, const char* text)
 {
-  this->SetProgressText("Building the pyramid");
+  this->SetProgressText(text);
   this->UpdateProgress(PyramidShare * share);
   return !volumic::IsAbortRequested(this) && !this->Internals->Limit.IsOver();
 }
@@ -236,6 +306,13 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   request.InitialSurface = vtkPolyData::GetData(input[1]);
   request.AttractingPoints = vtkPolyData::GetData(input[2]);
   request.EdgeSelection = this->GetInputArrayInformation(1);
+  request.Checkpoints.AreLeft =
+    request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
+  request.Checkpoints.Directory = request.End.ScratchDirectory;
+  request.Checkpoints.Resumes = request.End.Resume;
+  request.Checkpoints.Stay = this->Internals->LeavesCheckpoints;
+  request.Checkpoints.Prepared = [this](const auto& checkpoint)
+  { this->Internals->Checkpoint = checkpoint; };
   const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
   request.Progress = [this, before](double share, const std::string& text)
   {
@@ -320,6 +397,7 @@ void vtkDeformableSurface::RunOrGoOn(
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   this->SetErrorCode(vtkErrorCode::NoError);
+  this->Internals->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
   volumic::SegmentationRequest request = this->RequestAsSet(input);
   this->Internals->IsOnTheWay = false;
   if (isKept && this->ShowKept(request, output))
@@ -329,6 +407,7 @@ void vtkDeformableSurface::RunOrGoOn(
   const bool isStep = this->ChooseStep(request, isKept);
   std::unique_ptr<volumic::SurfaceSegmentation> run = isKept ? cache.TakeRun() : nullptr;
   cache.Drop();
+  this->Internals->Checkpoint.reset();
   if (run)
   {
     run->Renew(request);
@@ -371,6 +450,10 @@ int vtkDeformableSurface::RequestData(
   try
   {
     this->RunOrGoOn(inputVector, outputVector);
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   catch (const std::bad_alloc& error)
   {

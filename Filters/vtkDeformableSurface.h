@@ -130,9 +130,10 @@
  *
  * @par Going on:
  * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,
- * Preview, ShowLevels, TimeLimit or NumberOfThreads, and nothing else changed, neither in the
- * filter nor in its inputs, a level at which the surface has rested is shown at once, and a finer
- * one is reached from the level at which the last run has ended (FinestLevel 2, then 0). The
+ * Preview, ShowLevels, TimeLimit, MemoryLimit, ScratchDirectory or NumberOfThreads, and nothing
+ * else changed, neither in the filter nor in its inputs, a level at which the surface has rested is
+ * shown at once, and a finer one is reached from the level at which the last run has ended
+ * (FinestLevel 2, then 0). The
  * outputs are the same bits as those of a run from the start, but for the seconds in History. To go
  * on it holds the surface and the levels of the pyramid that it has not left, and these only where
  * the run has ended at level 1 or above, so that no memory of level 0 is held; else no more than
@@ -144,6 +145,27 @@
  * Voxels are read in the type that they have. Levels of the pyramid go as the surface leaves them;
  * those of a pyramid that is the input do where its data are released (ReleaseDataFlagOn() of
  * vtkImagePyramid), else they stay with their owner.
+ * @par
+ * With MemoryLimit, voxels and meshes live in files of ScratchDirectory, which have no name and
+ * vanish with the process, however it ends; as much of them is in memory as the limit allows. The
+ * limit is one of the process, as it is the process that is ended where memory is short: what other
+ * filters, readers and windows hold counts too, but only what is in the files can leave memory. A
+ * limit that cannot be kept is told. It lasts until the filter runs without one, or is
+ * deleted; of several filters with limits the smallest counts.
+ *
+ * @par Checkpoints:
+ * With MemoryLimit, a ScratchDirectory or Resume, each level leaves at its end what another process
+ * can go on from: a folder `volumic-<16 digits>` in the scratch directory, one for each volume and
+ * choice of settings, with the surfaces of the levels so far. It goes when the run is over; it
+ * stays where the process is killed, or the run stopped or cut off by TimeLimit. With Resume a run
+ * of the same volume and settings goes on from there; those of Going on may differ, and Profile.
+ * The outputs are the same bits as without interruption, but for the seconds in History; those of
+ * the levels that were taken over are the other process's. Where there are only checkpoints of
+ * another volume or other settings, it is an error, which names what differs.
+ * @par
+ * Two runs at a time never share a checkpoint: the second of the same volume and settings leaves
+ * none, which is a warning. Where one cannot be written, as the disk is full, that is a warning,
+ * too, and the run goes on.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -158,9 +180,13 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
 
+#include <vtkSmartPointer.h>
+
 #include <memory> // For what is hidden
+#include <string>
 
 class vtkAlgorithmOutput;
+class vtkDataObject;
 class vtkImageData;
 class vtkImagePyramid;
 class vtkInformation;
@@ -567,6 +593,51 @@ public:
 
   ///@{
   /**
+   * Resident memory that the process may have, MiB (2^20 bytes); 0, the default: no limit. See
+   * Memory. Results do not depend on it.
+   */
+  void SetMemoryLimit(int mebibytes);
+  virtual int GetMemoryLimit();
+  ///@}
+
+  ///@{
+  /**
+   * With MemoryLimit: the folder for what does not fit, on a disk with room for all of it. Empty,
+   * the default: TMPDIR of the environment, or /var/tmp.
+   */
+  void SetScratchDirectory(const char* directory);
+  virtual const char* GetScratchDirectory();
+  ///@}
+
+  ///@{
+  /**
+   * Go on from the checkpoint that a run of the same volume and settings has left, which did not
+   * come to its end: it was killed, or stopped. Where there is none the run begins anew. See
+   * Checkpoints. Default: off.
+   */
+  void SetResume(bool resume);
+  virtual bool GetResume();
+  vtkBooleanMacro(Resume, bool);
+  ///@}
+
+  /**
+   * For programs that write the surface: the checkpoints of the runs to come stay when these are
+   * over, that of the last level included, until RemoveCheckpoint(). Where the surface cannot be
+   * written, another process has it again at once.
+   */
+  void LeaveCheckpoints();
+
+  /** Removes the checkpoint of the last run. */
+  void RemoveCheckpoint();
+
+  /** The folder of the checkpoint that the last run has left; empty: none. */
+  std::string GetCheckpointFolder();
+
+  /** The level that the last run has gone on from by Resume; -2: it has begun anew. */
+  int GetResumedLevel();
+
+  ///@{
+  /**
    * Seconds after which a run ends with the surface as it is then, `StopReason` `time limit`; 0,
    * the default: none. They count from the start of RequestData(), the pyramid that is built there
    * included, and are looked at as often as AbortExecute, so that a run may be some tenths longer.
@@ -668,8 +739,12 @@ protected:
   /// What the surface is searched in, of the data of input port 0; its levels are null where
   /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
   virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
+  /// The data of input port 0, which come in slabs where the memory is limited and the source can;
+  /// then what `volume` tells of the voxels is changed to fit. Null after a stop.
+  vtkSmartPointer<vtkDataObject> ReadInput(
+    vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume);
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
-  bool ShowPyramidProgress(double share);
+  bool ShowPyramidProgress(double share, const char* text = "Building the pyramid");
 
 private:
   class vtkInternals;

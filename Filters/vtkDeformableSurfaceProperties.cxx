@@ -11,6 +11,7 @@
 #include <vtkMath.h>
 
 #include <algorithm>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -157,6 +158,8 @@ VolumicPositions(AttractingPosition, AttractingPositions)
 
 VolumicEndProperty(FinestLevel, int)
 VolumicEndProperty(TimeLimit, double)
+VolumicEndProperty(MemoryLimit, int)
+VolumicEndProperty(Resume, bool)
 VolumicEndProperty(Preview, bool)
 VolumicEndProperty(ShowLevels, bool)
 VolumicGetProperty(NumberOfThreads, int, End.NumberOfThreads)
@@ -164,6 +167,16 @@ void vtkDeformableSurface::SetNumberOfThreads(int number)
 {
   vtkInternals& internals = *this->Internals;
   ChangeEnd(this, internals.Cache, internals.Settings.End.NumberOfThreads, std::max(number, 0));
+}
+void vtkDeformableSurface::SetScratchDirectory(const char* directory)
+{
+  vtkInternals& internals = *this->Internals;
+  ChangeEnd(this, internals.Cache, internals.Settings.End.ScratchDirectory,
+    std::string(directory ? directory : ""));
+}
+const char* vtkDeformableSurface::GetScratchDirectory()
+{
+  return this->Internals->Settings.End.ScratchDirectory.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -201,6 +214,9 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FreezeMotionlessVertices: " << this->GetFreezeMotionlessVertices() << endl;
   os << indent << "SnapToIsoValue: " << this->GetSnapToIsoValue() << endl;
   os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << endl;
+  os << indent << "MemoryLimit: " << this->GetMemoryLimit() << endl;
+  os << indent << "ScratchDirectory: " << this->GetScratchDirectory() << endl;
+  os << indent << "Resume: " << this->GetResume() << endl;
   os << indent << "TimeLimit: " << this->GetTimeLimit() << endl;
   os << indent << "Preview: " << this->GetPreview() << endl;
   os << indent << "ShowLevels: " << this->GetShowLevels() << endl;

@@ -7,7 +7,9 @@
 #include "HostThreads.h"
 #include "ImageVoxels.h"
 #include "InputImage.h"
+#include "LimitedMemory.h"
 #include "LevelVoxels.h"
+#include "SlabInput.h"
 #include "ValidVoxels.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
@@ -38,6 +40,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkImagePyramid);
@@ -75,29 +78,6 @@ void AddLevel(vtkMultiBlockDataSet* pyramid, int level, vtkImageData* image, dou
   pyramid->SetBlock(level, image);
   pyramid->GetMetaData(level)->Set(
     vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
-}
-
-/**
- * Level 0: the input with the chosen array as its active scalars; no voxel is copied, but where one
- * component was selected, which takes the place of the array.
- */
-vtkSmartPointer<vtkImageData> ShareInput(vtkImageData* input, vtkDataArray* voxels)
-{
-  vtkSmartPointer<vtkImageData> image;
-  image.TakeReference(input->NewInstance());
-  image->ShallowCopy(input);
-  const char* name = voxels->GetName();
-  if (!name)
-  {
-    image->GetPointData()->SetScalars(voxels);
-    return image;
-  }
-  if (image->GetPointData()->GetArray(name) != voxels)
-  {
-    image->GetPointData()->AddArray(voxels);
-  }
-  image->GetPointData()->SetActiveScalars(name);
-  return image;
 }
 
 vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* input, const char* name, vtkDataArray* voxels,
@@ -143,7 +123,8 @@ bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const Settings& set
       made = volumic::MakeLevelVoxels(contiguous, valid, levels, threads, progress);
     });
 
-  AddLevel(pyramid, 0, ShareInput(input, voxels), levels[0].Unit);
+  // No voxel is copied, but where one component was selected, which takes the place of the array.
+  AddLevel(pyramid, 0, volumic::WithVoxels(input, voxels), levels[0].Unit);
   for (std::size_t h = 1; h <= made.size(); ++h)
   {
     AddLevel(pyramid, static_cast<int>(h),
@@ -176,7 +157,17 @@ void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numbe
 }
 
 //------------------------------------------------------------------------------
-vtkImagePyramid::vtkImagePyramid()
+/** What the filter holds beside what all algorithms do. */
+class vtkImagePyramid::vtkInternals
+{
+public:
+  std::string ScratchDirectory;
+  volumic::LimitedMemory Memory; ///< as the last run had it
+  bool HasToldOfWhole = false;
+};
+
+//------------------------------------------------------------------------------
+vtkImagePyramid::vtkImagePyramid() : Internals(std::make_unique<vtkInternals>())
 {
   const volumic::PyramidOptions defaults;
   this->ReductionFactor = defaults.ReductionFactor;
@@ -185,6 +176,7 @@ vtkImagePyramid::vtkImagePyramid()
   this->SelectedComponent = -1;
   this->NaNIsBackground = true;
   this->NumberOfThreads = 0;
+  this->MemoryLimit = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
@@ -200,6 +192,22 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput()
 vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+void vtkImagePyramid::SetScratchDirectory(const char* directory)
+{
+  const std::string wanted = directory ? directory : "";
+  if (this->Internals->ScratchDirectory != wanted)
+  {
+    this->Internals->ScratchDirectory = wanted;
+    this->Modified();
+  }
+}
+
+const char* vtkImagePyramid::GetScratchDirectory()
+{
+  return this->Internals->ScratchDirectory.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -268,7 +276,79 @@ int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   volumic::AskForWholeInputs(request, input, 1, output);
+  if (this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
+  {
+    volumic::SlabInput(this).Ask(volumic::LimitedMemory::BytesOf(this->MemoryLimit), true);
+  }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(vtkDataObject* input, int& component)
+{
+  volumic::LimitedMemory& memory = this->Internals->Memory;
+  memory.Set(this->MemoryLimit, this->Internals->ScratchDirectory);
+  component = this->SelectedComponent;
+  volumic::SlabInput::Result slabs;
+  if (memory.Limit() > 0)
+  {
+    volumic::SlabInput::Request request;
+    request.Limit = memory.Limit();
+    request.Selection = this->GetInputArrayInformation(0);
+    request.SelectedComponent = component;
+    request.GoOn = [this](double share) { return this->ShowProgress(share, "Reading the image"); };
+    slabs = volumic::SlabInput(this).Read(request);
+    const std::string whole = volumic::SlabInput(this).DescribeWhole();
+    if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
+    {
+      vtkWarningMacro("Input port 0: " << whole);
+    }
+  }
+  if (slabs.IsStopped)
+  {
+    return nullptr;
+  }
+  component = slabs.Image ? -1 : component; // It has been selected.
+  return slabs.Image ? slabs.Image : vtkSmartPointer<vtkImageData>(volumic::ImageOf(input));
+}
+
+//------------------------------------------------------------------------------
+bool vtkImagePyramid::ShowProgress(double share, const std::string& text)
+{
+  this->SetProgressText(text.c_str());
+  this->UpdateProgress(share);
+  return !volumic::IsAbortRequested(this);
+}
+
+//------------------------------------------------------------------------------
+void vtkImagePyramid::MakeLevels(
+  vtkDataObject* input, vtkSmartPointer<vtkImageData>& image, vtkMultiBlockDataSet* output)
+{
+  int component = -1;
+  image = this->ReadInput(input, component);
+  vtkNew<vtkMultiBlockDataSet> pyramid;
+  volumic::ValidVoxels valid;
+  bool isComplete = false;
+  vtkSmartPointer<vtkDataArray> voxels;
+  if (image)
+  {
+    voxels = volumic::SelectComponent(
+      volumic::ChooseArray(this->GetInputArrayInformation(0), image), component);
+    Settings settings;
+    settings.Levels =
+      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
+    settings.NaNIsBackground = this->NaNIsBackground;
+    settings.NumberOfThreads = this->NumberOfThreads;
+    const auto progress = [this](double share, const std::string& text)
+    { return this->ShowProgress(share, text); };
+    isComplete = BuildPyramid(image, voxels, settings, progress, pyramid, valid);
+  }
+  AddFacts(pyramid, isComplete, valid.NaNs);
+  output->ShallowCopy(pyramid);
+  if (valid.NaNs > 0)
+  {
+    vtkWarningMacro("Input port 0: " << volumic::DescribeNaNs(voxels, image, valid));
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -276,40 +356,21 @@ int vtkImagePyramid::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   // In a parallel run the first process holds the pyramid; the others would only repeat it.
   if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
-  vtkImageData* input = nullptr;
+  vtkSmartPointer<vtkImageData> image;
   try
   {
-    input = volumic::ImageOf(vtkDataObject::GetData(inputVector[0]));
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
-    const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
-      volumic::ChooseArray(this->GetInputArrayInformation(0), input), this->SelectedComponent);
-    Settings settings;
-    settings.Levels =
-      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
-    settings.NaNIsBackground = this->NaNIsBackground;
-    settings.NumberOfThreads = this->NumberOfThreads;
-    const auto progress = [this](double share, const std::string& text)
+    this->MakeLevels(
+      vtkDataObject::GetData(inputVector[0]), image, vtkMultiBlockDataSet::GetData(outputVector));
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
     {
-      this->SetProgressText(text.c_str());
-      this->UpdateProgress(share);
-      return !volumic::IsAbortRequested(this);
-    };
-
-    vtkNew<vtkMultiBlockDataSet> pyramid;
-    volumic::ValidVoxels valid;
-    const bool isComplete = BuildPyramid(input, voxels, settings, progress, pyramid, valid);
-    AddFacts(pyramid, isComplete, valid.NaNs);
-    output->ShallowCopy(pyramid);
-    if (valid.NaNs > 0)
-    {
-      vtkWarningMacro("Input port 0: " << volumic::DescribeNaNs(voxels, input, valid));
+      vtkWarningMacro(<< warning);
     }
   }
   catch (const std::bad_alloc& error)
@@ -317,7 +378,7 @@ int vtkImagePyramid::RequestData(
     volumic::InitializeOutputs(outputVector);
     this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro("Input port 0: the memory does not suffice for the pyramid of an image of "
-      << (input ? volumic::SizeOf(input) : "?") << " voxels.");
+      << (image ? volumic::SizeOf(image) : "?") << " voxels.");
   }
   catch (const std::exception& error)
   {
@@ -339,4 +400,6 @@ void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
   os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
+  os << indent << "MemoryLimit: " << this->MemoryLimit << endl;
+  os << indent << "ScratchDirectory: " << this->Internals->ScratchDirectory << endl;
 }

@@ -72,6 +72,13 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkImageAlgorithm.h"
 
+#include <vtkSmartPointer.h>
+
+#include <memory> // For what is hidden
+#include <string>
+
+class vtkDataObject;
+class vtkImageData;
 class vtkMultiBlockDataSet;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkImagePyramid : public vtkImageAlgorithm
@@ -146,6 +153,24 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /**
+   * Resident memory that the process may have, MiB (2^20 bytes); 0, the default: no limit. See
+   * Memory. Results do not depend on it.
+   */
+  vtkSetMacro(MemoryLimit, int);
+  vtkGetMacro(MemoryLimit, int);
+  ///@}
+
+  ///@{
+  /**
+   * With MemoryLimit: the folder for what does not fit, on a disk with room for all of it. Empty,
+   * the default: TMPDIR of the environment, or /var/tmp.
+   */
+  void SetScratchDirectory(const char* directory);
+  const char* GetScratchDirectory();
+  ///@}
+
   /**
    * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where
    * they don't go together, which Update() tells by an error.
@@ -174,12 +199,25 @@ protected:
   int SelectedComponent;
   bool NaNIsBackground;
   int NumberOfThreads;
+  int MemoryLimit;
 
 private:
   vtkImagePyramid(const vtkImagePyramid&) = delete;
   void operator=(const vtkImagePyramid&) = delete;
 
   int RequestDataObject(vtkInformationVector* output);
+
+  /// The image, whole or put together of slabs, and the component of it that is meant; null after a
+  /// stop.
+  vtkSmartPointer<vtkImageData> ReadInput(vtkDataObject* input, int& component);
+  /// Fills the output; `image` is known before there are levels.
+  void MakeLevels(
+    vtkDataObject* input, vtkSmartPointer<vtkImageData>& image, vtkMultiBlockDataSet* output);
+  /// False asks to stop.
+  bool ShowProgress(double share, const std::string& text);
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
 };
 
 #endif

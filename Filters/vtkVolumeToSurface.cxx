@@ -36,10 +36,15 @@ vtkVolumeToSurface::~vtkVolumeToSurface() = default;
 //------------------------------------------------------------------------------
 volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* input)
 {
-  const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-    volumic::PrefixErrors("Input port 0: ", [input] { return volumic::ImageOf(input); }),
-    this->GetInputArrayInformation(0));
   volumic::SegmentationVolume volume = this->VolumeAsSet();
+  const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, true, volume);
+  if (!read)
+  {
+    return volume;
+  }
+  const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
+    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); }),
+    volume.Selection);
   volume.Selection = voxels.Selection;
   if (std::isnan(volume.Settings.Options.IsoValue))
   {

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ParseNumbers.h"
 
+#include "Texts.h"
 #include "ToolErrors.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <system_error>
 
 namespace tool
@@ -32,6 +36,29 @@ T ParseNumber(const std::string& text)
 
 template int ParseNumber<int>(const std::string& text);
 template double ParseNumber<double>(const std::string& text);
+
+int ParseMebibytes(const std::string& text)
+{
+  const std::string lower = Lower(text);
+  const std::size_t end = std::min(lower.find_first_of("kmgtbi"), lower.size());
+  const std::string unit = lower.substr(end);
+  const double number = ParseNumber<double>(lower.substr(0, end));
+  static const std::map<std::string, double> units = { { "k", 0x1p-10 }, { "m", 1.0 },
+    { "g", 0x1p10 }, { "t", 0x1p20 } };
+  const auto found = units.find(unit.substr(0, 1));
+  const bool isUnit = found != units.end() &&
+    (unit.size() == 1 || unit.substr(1) == "b" || unit.substr(1) == "ib");
+  if (!isUnit && !(unit.empty() && number == 0.0))
+  {
+    throw UsageError("'" + text + "' has no unit: give it as 1500M or 2G; 0 is no limit");
+  }
+  const double mebibytes = isUnit ? std::ceil(number * found->second) : 0.0;
+  if (!(mebibytes >= 0.0 && mebibytes <= std::numeric_limits<int>::max()))
+  {
+    throw UsageError("'" + text + "' is no amount of memory");
+  }
+  return static_cast<int>(mebibytes);
+}
 
 std::vector<double> ParseNumbers(const std::string& text, std::size_t count)
 {
@@ -60,5 +87,10 @@ std::string NumberText(double value)
 std::string NumberText(int value)
 {
   return std::to_string(value);
+}
+
+std::string MebibytesText(int mebibytes)
+{
+  return mebibytes == 0 ? "0" : NumberText(mebibytes) + "M";
 }
 }

@@ -157,6 +157,21 @@ std::vector<PropertyOption> MakeProperties()
       "what a component must enclose to be large, in world units cubed"),
     SURFACE_NUMBER(TimeLimit, "time-limit", "SECONDS",
       "write the surface as it is so long after its evolution began; 0: no limit"),
+    { "memory", "SIZE", "vtkDeformableSurface", "MemoryLimit",
+      "memory that the process may have, such as 2G or 1500M; what does not fit waits in files of "
+      "--scratch; 0: no limit; the result does not depend on it",
+      [](const FilterPair& filters) { return MebibytesText(filters.Surface->GetMemoryLimit()); },
+      [](const FilterPair& filters, const std::string& text)
+      { filters.Surface->SetMemoryLimit(ParseMebibytes(text)); } },
+    { "scratch", "DIR", "vtkDeformableSurface", "ScratchDirectory",
+      "with --memory: the folder for these files, on a disk with room for all of them; they vanish "
+      "with the process; empty: TMPDIR of the environment, or /var/tmp",
+      [](const FilterPair& filters) { return std::string(filters.Surface->GetScratchDirectory()); },
+      [](const FilterPair& filters, const std::string& text)
+      { filters.Surface->SetScratchDirectory(text.c_str()); } },
+    SURFACE_SWITCH(Resume, true, "resume",
+      "go on from the checkpoint that a run with the same volume and options, which was killed or "
+      "stopped, has left in --scratch; where there is none, begin anew"),
     SURFACE_NUMBER(NumberOfThreads, "threads", "N", "0: all; the result does not depend on it"),
     SURFACE_SWITCH(Profile, true, "profile", "put into --history where the time goes"),
     SURFACE_NUMBER(SnapshotInterval, "snapshot-interval", "N",

@@ -323,7 +323,7 @@ void PrintHelp(std::ostream& out, const FilterPair& filters)
   for (const PropertyOption& option : SurfaceProperties())
   {
     const std::string value = option.Get(filters);
-    const bool hasDefault = !option.Argument.empty() && value != "nan";
+    const bool hasDefault = !option.Argument.empty() && !value.empty() && value != "nan";
     PrintOption(out, option.Option, option.Argument,
       option.Help + (hasDefault ? " (default: " + value + ")" : ""));
   }

@@ -112,10 +112,10 @@ def run_surface(surface):
 
 
 def property_names(algorithm):
-    """What the filter's own class lets one set to a number or a switch."""
+    """What the filter's own class lets one set to a number, a switch or a text."""
     names = [name[3:] for name in vars(type(algorithm)) if name.startswith("Set")]
     return sorted(name for name in names
-                  if isinstance(getattr(algorithm, "Get" + name, lambda: None)(), (int, float)))
+                  if isinstance(getattr(algorithm, "Get" + name, lambda: None)(), (int, float, str)))
 
 
 def set_property(algorithm, name, value):

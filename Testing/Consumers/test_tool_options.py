@@ -28,7 +28,8 @@ from volumic import vtkDeformableSurface, vtkImagePyramid
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
                                         "ShowLevels"},
-               "vtkImagePyramid": {"NaNIsBackground", "NumberOfThreads", "SelectedComponent"}}
+               "vtkImagePyramid": {"MemoryLimit", "NaNIsBackground", "NumberOfThreads",
+                                   "ScratchDirectory", "SelectedComponent"}}
 
 
 def properties_of(filter_class, base_class):
@@ -72,7 +73,7 @@ class OptionTableTest(ToolTestCase):
             "minimum-level-size": "12", "iterations": "400", "threads": "1",
             "minimum-part-size": "7", "snapshot-interval": "50",
             "component": "0", "time-limit": "100", "metric": "voxels", "edge-length": "1.1",
-            "keep": "largest"}
+            "keep": "largest", "memory": "3000M", "scratch": self.folder}
         before = self.report(volume, "--iso", ISO)["properties"]
         for _, name, option, default in self.table():
             option = option[2:]
@@ -106,6 +107,11 @@ class OptionTableTest(ToolTestCase):
                 ("--recovery: 'all' is none of none|objects".replace("|", r"\|"),
                  ["a", "b.stl", "--recovery", "all"]),
                 ("--spacing: .* are 2 numbers, not 3", ["a", "b.stl", "--spacing", "1,2"]),
+                ("--memory: '2000' has no unit", ["a", "b.stl", "--memory", "2000"]),
+                ("--memory: '2GX' has no unit", ["a", "b.stl", "--memory", "2GX"]),
+                ("--memory: '-1G' is no amount of memory", ["a", "b.stl", "--memory=-1G"]),
+                ("--memory: '9999999T' is no amount", ["a", "b.stl", "--memory", "9999999T"]),
+                ("--memory: '' is not a number", ["a", "b.stl", "--memory", "G"]),
                 ("--edge-attraction needs", ["a", "b.stl", "--edge-attraction", "1"]),
                 ("exclude each other", ["a", "b.stl", "--seeds", "c", "--initial-surface", "d"]),
                 ("--seed-position: .* are 2 numbers", ["a", "b.stl", "--seed-position", "1,2"]),

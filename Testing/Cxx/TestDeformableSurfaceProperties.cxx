@@ -99,6 +99,8 @@ std::vector<Property> AllProperties()
     VolumicTestedProperty(FreezeMotionlessVertices, 0),
     VolumicTestedProperty(SnapToIsoValue, 0),
     VolumicTestedProperty(NumberOfThreads, 3),
+    VolumicTestedProperty(MemoryLimit, 4000),
+    VolumicTestedProperty(Resume, true),
     VolumicTestedProperty(TimeLimit, 12),
     VolumicTestedProperty(Preview, 1),
     VolumicTestedProperty(ShowLevels, 1),
@@ -138,6 +140,25 @@ TEST(DeformableSurfaceProperties, EachHasAValueOfItsOwn)
     line << "  " << changed.Name << ": " << changed.Value << "\n";
     EXPECT_NE(printed.str().find(line.str()), std::string::npos) << line.str();
   }
+}
+
+TEST(DeformableSurfaceProperties, TheScratchDirectoryIsAText)
+{
+  const auto check = [](auto* filter)
+  {
+    EXPECT_STREQ(filter->GetScratchDirectory(), "");
+    const vtkMTimeType before = filter->GetMTime();
+    filter->SetScratchDirectory(nullptr);
+    EXPECT_EQ(filter->GetMTime(), before) << "null is empty";
+    filter->SetScratchDirectory("/some/folder");
+    EXPECT_GT(filter->GetMTime(), before);
+    EXPECT_STREQ(filter->GetScratchDirectory(), "/some/folder");
+    std::ostringstream printed;
+    filter->Print(printed);
+    EXPECT_NE(printed.str().find("  ScratchDirectory: /some/folder\n"), std::string::npos);
+  };
+  check(vtkSmartPointer<vtkDeformableSurface>::New().Get());
+  check(vtkSmartPointer<vtkImagePyramid>::New().Get());
 }
 
 TEST(DeformableSurfaceProperties, WeightsChangeTheSurface)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Whole runs by several threads that are held up by chance: the same surface, the same history.
+#include "BarTestScene.h"
 #include "Core/Surface/SurfaceState.h"
 #include "EvolutionTestTools.h"
 #include "ThreadTestTools.h"
@@ -16,19 +17,6 @@ using namespace volumic;
 
 namespace
 {
-/** A lattice of bars, thick and thin: merges, cuts, lost parts and cavities. */
-double Bars(double x, double y, double z)
-{
-  const auto distance = [](double t) { return std::abs(std::remainder(t, 14.)); };
-  const double u = distance(x - 3);
-  const double v = distance(y - 3);
-  const double w = distance(z - 3);
-  const double thick = std::min({ std::hypot(u, v), std::hypot(v, w), std::hypot(u, w) });
-  const double hollow = 2.6 - Distance(x, y, z, 24, 24, 24);
-  const double outside = std::max({ std::abs(x - 24), std::abs(y - 24), std::abs(z - 24) }) - 20;
-  return std::max({ thick - 2.1 - 0.8 * std::sin(0.3 * x), hollow, outside });
-}
-
 struct Outcome
 {
   std::uint64_t Surface;
@@ -38,16 +26,8 @@ struct Outcome
 
 Outcome Evolve(Executor& executor)
 {
-  const TestVolume fine = MakeVolume(
-    48, [](double x, double y, double z) { return Soft(Bars(x, y, z)); });
-  TestVolume coarse = MakeVolume(27,
-    [](double x, double y, double z)
-    {
-      constexpr double f = 48. / 27;
-      return Soft(Bars(x * f, y * f, z * f) / f);
-    });
-  coarse.Image.Step = { 48. / 27, 48. / 27, 48. / 27 };
-  coarse.Image.Unit = std::sqrt(3.);
+  const TestVolume fine = FineBars();
+  const TestVolume coarse = CoarseBars();
   SurfaceOptions options = IsoHalf();
   options.RecoverLostParts = true;
   options.RecoverCavities = true;

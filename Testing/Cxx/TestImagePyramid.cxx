@@ -254,7 +254,7 @@ TEST(ImagePyramid, PrintsItsProperties)
   std::ostringstream text;
   filter->Print(text);
   for (const char* property : { "ReductionFactor: 1.73205", "NumberOfLevels: 0",
-         "MinimumLevelSize: 10", "NumberOfThreads: 0" })
+         "MinimumLevelSize: 10", "NumberOfThreads: 0", "MemoryLimit: 0", "ScratchDirectory: " })
   {
     EXPECT_NE(text.str().find(property), std::string::npos) << property;
   }

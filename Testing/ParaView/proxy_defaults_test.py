@@ -95,7 +95,7 @@ class ProxyDefaultsTest(unittest.TestCase):
     def test_every_setter_of_the_class_has_its_property(self):
         for group, element in self.elements:
             proxy = self.new_proxy(group, element.get("name"))
-            offered = {command for _, _, command in values_of(proxy)}
+            offered = {property_.GetCommand() for _, property_ in properties_of(proxy)}
             class_ = type(proxy.GetClientSideObject())
             # Setters of our own classes that have a getter, that is, properties.
             for base in class_.__mro__:
@@ -166,6 +166,16 @@ class ProxyDefaultsTest(unittest.TestCase):
                             getattr(object_, f"Get{list_}")(i, place)
                             found += place
                         self.assertEqual(found, numbers)
+
+    def test_the_scratch_directory_reaches_the_object(self):
+        for name in ("DeformableSurface", "ImagePyramid", "VolumeToSurface"):
+            proxy = self.new_proxy("filters", name)
+            held = proxy.GetProperty("ScratchDirectory")
+            object_ = proxy.GetClientSideObject()
+            self.assertEqual((held.GetElement(0), object_.GetScratchDirectory()), ("", ""))
+            held.SetElement(0, "/some/folder")
+            proxy.UpdateVTKObjects()
+            self.assertEqual(object_.GetScratchDirectory(), "/some/folder")
 
     def test_groups_of_the_panel(self):
         """Each group holds what its label says; no property is in two."""

@@ -20,7 +20,8 @@ from pipeline import property_names
 from volume_image import ARRAY_NAME, make_image
 
 REFERENCE = os.path.join(EXAMPLES, "..", "..", "Documentation", "reference.md")
-DEFAULTS = {"on": True, "off": False, "none": math.nan, "sqrt(3)": math.sqrt(3)}
+DEFAULTS = {"on": True, "off": False, "none": math.nan, "sqrt(3)": math.sqrt(3),
+            "empty": ""}
 
 
 def tables():
@@ -76,7 +77,7 @@ class PropertiesTest(ReferenceTest):
         for name, text in rows.items():
             default = DEFAULTS[text] if text in DEFAULTS else float(text)
             actual = getattr(algorithm, "Get" + name)()
-            if math.isnan(default):
+            if isinstance(default, float) and math.isnan(default):
                 self.assertTrue(math.isnan(actual), name)
             else:
                 self.assertEqual(default, actual, name)

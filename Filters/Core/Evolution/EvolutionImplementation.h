@@ -52,6 +52,8 @@ struct SurfaceEvolution::Implementation
     int Block = 0;  ///< Visits of this sweep, and
     int Blocks = 0; ///< how many there are at most.
     double Iterations = 0.; ///< Beyond LastIterations: an estimate.
+    double From = 0.; ///< Shares of the activity before and after the visit.
+    double To = 0.;
   } Visit;
   EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
 
@@ -92,7 +94,7 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void LayGrid();
   void SplitLongEdges();
-  void FindIntersections();
+  std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
   void Take(const IndexedSurface& surface);
   void TakeRemeshed(const IndexedSurface& surface);

@@ -194,7 +194,7 @@ void KeepAbout(const std::array<int, 3>& face, const LargeVector<Triangle>& face
 }
 }
 
-void SurfaceEvolution::Implementation::FindIntersections()
+std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersections()
 {
   // A division leaves some edges longer than verification may rely on; it looks further for them.
   SurfaceState& s = this->State;
@@ -202,8 +202,9 @@ void SurfaceEvolution::Implementation::FindIntersections()
   s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh, this->Threads));
   this->LayGrid();
   this->Iteration.UpdateActive();
-  this->Iteration.Examine();
+  const std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections();
   s.Sizing = sizing;
+  return found;
 }
 
 void SurfaceEvolution::Implementation::DivideOnce()
@@ -215,8 +216,8 @@ void SurfaceEvolution::Implementation::DivideOnce()
   this->Threads.EndPhase("Order");
   const LargeVector<Triangle> faces = volumic::Divide(s.Mesh, nullptr, this->Threads);
   this->Threads.EndPhase("Division");
-  this->FindIntersections();
-  if (this->Iteration.Intersections().empty())
+  std::vector<Proximity::FacePair> intersections = this->FindIntersections();
+  if (intersections.empty())
   {
     return;
   }
@@ -226,9 +227,9 @@ void SurfaceEvolution::Implementation::DivideOnce()
   const SurfaceMesh old = Undivided(s.Mesh, olds, this->Threads);
   KeptEdges kept(old);
   constexpr int rounds = 6;
-  for (int round = 0; round < rounds && !this->Iteration.Intersections().empty(); ++round)
+  for (int round = 0; round < rounds && !intersections.empty(); ++round)
   {
-    for (const Proximity::FacePair& pair : this->Iteration.Intersections())
+    for (const Proximity::FacePair& pair : intersections)
     {
       KeepAbout(pair.First, faces, old, round, kept);
       KeepAbout(pair.Second, faces, old, round, kept);
@@ -240,9 +241,9 @@ void SurfaceEvolution::Implementation::DivideOnce()
     kept.MakeRoom();
     s.Mesh = old;
     volumic::Divide(s.Mesh, &kept, this->Threads);
-    this->FindIntersections();
+    intersections = this->FindIntersections();
   }
-  if (!this->Iteration.Intersections().empty())
+  if (!intersections.empty())
   {
     // The old surface intersects itself: not seen yet.
     this->TakeRemeshed(old.ToIndexed(this->Threads));

@@ -78,13 +78,19 @@ void SurfaceEvolution::Implementation::VisitBlocks(
     {
       continue;
     }
-    const std::vector<int>& vertices = blocks.Open(order[i]);
-    visits.Visit(vertices);
+    const auto shareOf = [&](std::size_t done)
+    {
+      const double share = static_cast<double>(done) / static_cast<double>(order.size());
+      return visits.From + share * (visits.To - visits.From);
+    };
+    this->Visit.From = shareOf(i);
+    this->Visit.To = shareOf(i + 1);
+    visits.Visit(blocks.Open(order[i]));
     blocks.Close();
-    const double done = static_cast<double>(i + 1) / static_cast<double>(order.size());
     this->Visit.Block = static_cast<int>(i + 1);
-    this->Visit.Iterations = done * visits.Iterations;
-    if (!this->GoOn(visits.Doing, visits.From + done * (visits.To - visits.From)))
+    this->Visit.Iterations =
+      visits.Iterations * static_cast<double>(i + 1) / static_cast<double>(order.size());
+    if (!this->GoOn(visits.Doing, this->Visit.To))
     {
       break;
     }
@@ -219,7 +225,8 @@ void SurfaceEvolution::Implementation::PolishInSweeps(SurfaceBlocks& blocks)
   visits.From = PassesShare;
   visits.Visit = [&](const std::vector<int>& vertices)
   {
-    blocks.AddNew(this->Polish(this->CheckpointOf(visits.Doing, visits.From), &vertices));
+    blocks.AddNew(this->Polish(
+      this->CheckpointOf(visits.Doing, this->Visit.From, this->Visit.To), &vertices));
     hasCut = hasCut || s.Counts.Cuts > 0;
   };
   if (!this->Stopped)

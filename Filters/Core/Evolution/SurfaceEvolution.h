@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceEvolution_h
 #define volumicSurfaceEvolution_h
 
+#include "Core/Common/CheckedFile.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
@@ -174,6 +175,19 @@ public:
    *         of before.
    */
   bool Divide(const LevelImage& image, int level);
+
+  /**
+   * Between Run() and Divide(): writes what the levels to come depend on, so that another object,
+   * in another process too, can go on as this one would. @throws FileError.
+   */
+  void Save(CheckedWriter& file) const;
+
+  /**
+   * Instead of a start, with the options of the one that saved it. Then divide it, or look at its
+   * history and its counts; before that it has no Result(). @throws FileError, and then is of no
+   * use any more.
+   */
+  void Load(CheckedReader& file);
 
   /** The surface as it is. */
   SurfaceResult Result() const;

@@ -27,6 +27,8 @@ constexpr std::size_t ActiveGrain = 2048;
 constexpr std::size_t ClearedGrain = 1 << 16;
 /** Where fewer than one vertex in so many is marked, the marks are cleared one by one. */
 constexpr std::size_t SparseMarks = 64;
+/** Vertices that FindIntersections examines at a time: what it finds of each takes memory. */
+constexpr std::size_t ExaminedPart = 1000000;
 
 void SortUnique(std::vector<int>& vertices)
 {
@@ -49,7 +51,7 @@ void SurfaceIteration::BeginVisit(const std::vector<int>& vertices)
   this->CollectActive();
   // The pairs of those that were near others, from when they were examined, are forgotten.
   this->Suspects = SelectOf(this->Threads, this->Active,
-    [&s](int v) { return s.NearOthers[v] != 0 || s.Drift[v] > 0.5f * s.Slack[v]; });
+    [this, &s](int v) { return s.NearOthers[v] != 0 || this->IsSuspect(v); });
   for (const int v : this->Suspects)
   {
     s.Drift[v] = 0;
@@ -62,6 +64,22 @@ void SurfaceIteration::EndVisit()
 {
   this->Visited = nullptr;
   this->Forget();
+}
+
+std::vector<Proximity::FacePair> SurfaceIteration::FindIntersections()
+{
+  std::vector<Proximity::FacePair> found;
+  for (std::size_t begin = 0; begin < this->Active.size(); begin += ExaminedPart)
+  {
+    const std::size_t end = std::min(this->Active.size(), begin + ExaminedPart);
+    const std::vector<int> part(this->Active.begin() + static_cast<std::ptrdiff_t>(begin),
+      this->Active.begin() + static_cast<std::ptrdiff_t>(end));
+    this->Near.Clear();
+    this->Near.Examine(this->State, part, this->Threads);
+    found.insert(found.end(), this->Near.Intersections().begin(), this->Near.Intersections().end());
+  }
+  this->Near.Clear();
+  return found;
 }
 
 void SurfaceIteration::Label()
@@ -173,10 +191,15 @@ void SurfaceIteration::AddUnmoved(int v)
   }
 }
 
-void SurfaceIteration::CollectSuspects()
+bool SurfaceIteration::IsSuspect(int v) const
 {
   // A star that had some room when it was examined needs no new look before it has used half of
   // it: whatever comes near has used half of its own and is examined itself.
+  return this->State.Drift[v] > 0.5f * this->State.Slack[v];
+}
+
+void SurfaceIteration::CollectSuspects()
+{
   SurfaceState& s = this->State;
   this->Threads.For(this->Working.size(), 1024,
     [&](std::size_t begin, std::size_t end)
@@ -194,10 +217,9 @@ void SurfaceIteration::CollectSuspects()
         s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
       }
     });
-  const auto isSuspect = [&s](int v) { return s.Drift[v] > 0.5f * s.Slack[v]; };
   Select(
     this->Threads, this->Working.size(), this->Suspects,
-    [&](std::size_t i) { return isSuspect(this->Working[i]); },
+    [this](std::size_t i) { return this->IsSuspect(this->Working[i]); },
     [this](std::size_t i) { return this->Working[i]; });
   this->Threads.For(this->Suspects.size(), ActiveGrain,
     [&](std::size_t begin, std::size_t end)

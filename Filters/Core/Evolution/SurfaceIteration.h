@@ -57,10 +57,25 @@ public:
   /** Whether cuts or deletions ask for DeleteInsideOut(). */
   bool IsUnchecked() const { return this->Unchecked > 0; }
 
+  /** What it remembers from level to level, of a surface that rests. */
+  struct Memory
+  {
+    int CollapsesSinceLabels = 0;
+    int Unchecked = 0;
+  };
+  Memory Remembered() const { return { this->CollapsesSinceLabels, this->Unchecked }; }
+  void Remember(const Memory& memory)
+  {
+    this->CollapsesSinceLabels = memory.CollapsesSinceLabels;
+    this->Unchecked = memory.Unchecked;
+  }
+
   /** Collects the active vertices; their shape is up to date afterwards. */
   void UpdateActive();
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
   void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
+  /** The same for intersections alone, in little memory; some may be named more than once. */
+  std::vector<Proximity::FacePair> FindIntersections();
   const std::vector<Proximity::FacePair>& Intersections() const
   {
     return this->Near.Intersections();
@@ -94,6 +109,7 @@ private:
   void Label();
   void CollectWorking();
   void AddUnmoved(int v);
+  bool IsSuspect(int v) const;
   void CollectSuspects();
   void RollBack();
   void RollBackVertex(int v);

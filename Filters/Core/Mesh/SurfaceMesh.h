@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -184,6 +185,10 @@ public:
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
+
+  /** The places that no vertex has, the next to be taken last: what a copy needs to go on alike. */
+  const std::vector<int>& FreePlaces() const { return this->Free; }
+  void SetFreePlaces(std::vector<int> places) { this->Free = std::move(places); }
 
 private:
   std::vector<int> Free;

@@ -117,19 +117,30 @@ const std::vector<int>& SurfaceBlocks::Open(int block)
   vertices.erase(std::remove_if(vertices.begin(), vertices.end(), isOther), vertices.end());
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  this->OldOnes = static_cast<std::ptrdiff_t>(vertices.size());
   return vertices;
 }
 
 void SurfaceBlocks::AddNew(const std::vector<int>& vertices)
 {
+  std::vector<int>& all = this->Vertices[this->Opened];
+  const auto endOfOld = all.begin() + this->OldOnes;
+  std::vector<int> added(endOfOld, all.end());
   for (const int v : vertices)
   {
     if (this->State.Mesh.IsAlive(v) && this->State.Block[v] == NoBlock)
     {
       this->State.Block[v] = this->Opened;
-      this->Vertices[this->Opened].push_back(v);
+      if (!std::binary_search(all.begin(), endOfOld, v)) // Else in the place of an old one.
+      {
+        added.push_back(v);
+      }
     }
   }
+  std::sort(added.begin(), added.end());
+  added.erase(std::unique(added.begin(), added.end()), added.end());
+  all.erase(endOfOld, all.end());
+  all.insert(all.end(), added.begin(), added.end());
 }
 
 void SurfaceBlocks::Close()

@@ -58,6 +58,7 @@ private:
   std::size_t CommonPlaces = 0;           ///< Of the mesh, below those of the open block.
   std::vector<int> Visits;
   int Opened = NoBlock;
+  std::ptrdiff_t OldOnes = 0; ///< Of its vertices, those that it had when it was opened: the first.
 };
 }
 
