@@ -22,6 +22,8 @@
 #include <functional>
 #include <map>
 
+#include <sys/resource.h>
+
 namespace tool
 {
 namespace
@@ -151,6 +153,13 @@ void WriteProperties(JsonWriter& json, const FilterPair& filters)
 }
 }
 
+double PeakMemory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
 std::string StopReason(vtkPolyData* surface)
 {
   auto* reason =
@@ -174,6 +183,11 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   json.BeginObject();
   json.Member("pyramid", input.PyramidSeconds);
   json.Member("surface", input.SurfaceSeconds);
+  json.EndObject();
+  json.Name("memory");
+  json.BeginObject();
+  json.Member("reader", input.ReaderMemory);
+  json.Member("peak", PeakMemory());
   json.EndObject();
   WriteProperties(json, input.Filters);
   json.Name("warnings");
