@@ -15,6 +15,7 @@
 #include "ToolOptions.h"
 #include "WriteResults.h"
 
+#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDeformableSurface.h>
@@ -30,6 +31,7 @@
 #include <vtkVolumeToSurface.h>
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -55,7 +57,8 @@ void CheckFiles(const ToolOptions& options)
   for (const std::string& name : options.Surfaces)
   {
     CheckSurfaceName(name);
-    outputs.push_back({ name, OutputName::Kind::File, "" });
+    outputs.push_back(
+      { name, HasPieces(name) ? OutputName::Kind::Blocks : OutputName::Kind::File, "" });
   }
   for (const auto& [name, prefix] :
     { std::pair{ options.Levels, "level" }, std::pair{ options.Snapshots, "snapshot" } })
@@ -177,7 +180,7 @@ void Attempt(std::string& failures, const Write& write)
 }
 
 /** @throws Failure if not all could be written, with a line for each file. */
-void WriteOutputs(const ToolOptions& options, const ReportInput& results)
+void WriteOutputs(const ToolOptions& options, const ReportInput& results, ProgressStyle style)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
   const std::string remark = std::string("volumic " VOLUMIC_VERSION) +
@@ -185,18 +188,18 @@ void WriteOutputs(const ToolOptions& options, const ReportInput& results)
   std::string failures;
   for (const std::string& name : options.Surfaces)
   {
-    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, remark); });
+    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, remark, style); });
   }
   const auto writeSurfaces = [&](vtkMultiBlockDataSet* blocks, const std::string& name,
                                const std::string& prefix, int (*numbers)(vtkPolyData*))
   {
     if (IsBlocks(name))
     {
-      WriteBlocks(blocks, name);
+      WriteBlocks(blocks, name, style);
     }
     else if (!name.empty())
     {
-      WriteFolder(blocks, name, prefix, numbers);
+      WriteFolder(blocks, name, prefix, style, numbers);
     }
   };
   Attempt(failures, [&] { writeSurfaces(filter->GetLevels(), options.Levels, "level", LevelOf); });
@@ -279,6 +282,51 @@ FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImageP
 }
 }
 
+namespace
+{
+/** Says, as soon as it is known, where a run with --resume goes on from. */
+class ResumeTeller : public vtkCommand
+{
+public:
+  static ResumeTeller* New() { return new ResumeTeller; }
+
+  void Execute(vtkObject* caller, unsigned long, void*) override
+  {
+    auto* filter = static_cast<vtkDeformableSurface*>(caller);
+    const char* text = filter->GetProgressText();
+    if (text && std::strncmp(text, "Level", 5) == 0)
+    {
+      this->Tell(filter);
+    }
+  }
+
+  void Tell(vtkDeformableSurface* filter)
+  {
+    if (filter->GetResume() && !std::exchange(this->HasTold, true))
+    {
+      const int level = filter->GetResumedLevel();
+      this->Says->Say(level >= -1
+          ? "going on from level " + std::to_string(level) + ", to which a run before has come"
+          : "there is no checkpoint to resume from: the run begins anew");
+    }
+  }
+
+  const Announcer* Says = nullptr;
+
+private:
+  bool HasTold = false;
+};
+
+/** One that was stopped on its way may go on. */
+void RemoveCheckpointOfEnded(vtkDeformableSurface* filter, const std::string& reason)
+{
+  if (reason != "cancelled" && reason != "time limit")
+  {
+    filter->RemoveCheckpoint();
+  }
+}
+}
+
 ExitCode SegmentVolume(
   const ToolOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
 {
@@ -294,7 +342,7 @@ ExitCode SegmentVolume(
   }
   if (!options.WrittenVolume.empty())
   {
-    WriteVolume(volume, options.WrittenVolume);
+    WriteVolume(volume, options.WrittenVolume, announcer.Style);
   }
   if (!options.WantsSurface())
   {
@@ -319,8 +367,13 @@ ExitCode SegmentVolume(
   }
 
   CatchInterrupts();
+  filter->LeaveCheckpoints(); // Until all is written.
   const FilterRun pyramidRun = GiveLevels(options, volume, pyramid, filter, announcer.Style);
+  vtkNew<ResumeTeller> teller;
+  teller->Says = &announcer;
+  filter->AddObserver(vtkCommand::ProgressEvent, teller);
   const FilterRun run = RunOnVolume(options, filter, "Evolving the surface", announcer.Style);
+  teller->Tell(filter);
   for (const FilterRun& each : { pyramidRun, run })
   {
     for (const std::string& warning : each.Warnings)
@@ -333,6 +386,7 @@ ExitCode SegmentVolume(
   const std::string reason = StopReason(surface);
   if (surface->GetNumberOfPolys() == 0)
   {
+    RemoveCheckpointOfEnded(filter, reason);
     if (reason == "time limit")
     {
       throw Failure("the time limit came before there was a surface; nothing is written");
@@ -352,13 +406,16 @@ ExitCode SegmentVolume(
   results.PyramidSeconds = pyramidRun.Seconds;
   results.SurfaceSeconds = run.Seconds;
   results.Warnings = run.Warnings;
-  WriteOutputs(options, results);
+  WriteOutputs(options, results, announcer.Style);
+  RemoveCheckpointOfEnded(filter, reason);
 
   announcer.Say(std::to_string(surface->GetNumberOfPoints()) + " vertices after " +
     std::to_string(filter->GetHistory()->GetNumberOfRows()) + " iterations: " + reason);
   if (!results.IsFinished)
   {
-    std::cerr << "volumic: unfinished (" << reason << "); the surface as it is was written\n";
+    const bool canGoOn = !filter->GetCheckpointFolder().empty();
+    std::cerr << "volumic: unfinished (" << reason << "); the surface as it is was written"
+              << (canGoOn ? "; the same command with --resume goes on" : "") << "\n";
   }
   return results.IsFinished ? Success : Unfinished;
 }
