@@ -3,6 +3,7 @@
 #include "EdgeLevels.h"
 
 #include "BuildPyramid.h"
+#include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
 #include "ImageVoxels.h"
 #include "PrefixErrors.h"
@@ -106,5 +107,15 @@ VoxelValues EdgeLevels::Load(int level, const std::array<int, 3>& size, Executor
       }
       return loaded.Values;
     });
+}
+
+std::uint64_t EdgeLevels::HashOfVoxels(Executor& threads) const
+{
+  std::uint64_t hash = 0;
+  for (int level = 0; this->Levels && level < this->Levels->NumberOfLevels(); ++level)
+  {
+    hash = CombineHashes(hash, this->Levels->HashOfVoxels(level, threads));
+  }
+  return hash;
 }
 }

@@ -7,6 +7,7 @@
 #include "PyramidLevels.h"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 
 class vtkInformation;
@@ -35,6 +36,9 @@ public:
    * @throws std::invalid_argument if the level has not the size of the voxels'.
    */
   VoxelValues Load(int level, const std::array<int, 3>& size, Executor& executor);
+
+  /** PyramidLevels::HashOfVoxels() of all levels; 0 after a stop. */
+  std::uint64_t HashOfVoxels(Executor& threads) const;
 
   /** Lets go of the voxels of coarser levels, which cannot be loaded any more. */
   void ReleaseCoarserThan(int level)

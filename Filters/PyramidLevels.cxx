@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PyramidLevels.h"
 
+#include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/ThickPart.h"
 #include "Core/Image/VoxelNumbers.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 
@@ -249,6 +251,16 @@ std::string PyramidLevels::DescribeNaNsOfLevel0() const
   SequentialExecutor thread;
   const ValidVoxels valid = this->ValidAt(0, thread);
   return valid.NaNs > 0 ? DescribeNaNs(this->Voxels[0], this->Images[0], valid) : std::string();
+}
+
+std::uint64_t PyramidLevels::HashOfVoxels(int level, Executor& executor) const
+{
+  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
+  const std::string kind = SizeOf(this->Images[level]) + voxels->GetDataTypeAsString();
+  const std::size_t bytes = static_cast<std::size_t>(voxels->GetNumberOfValues()) *
+    static_cast<std::size_t>(voxels->GetDataTypeSize());
+  return CombineHashes(ContentHash(kind.data(), kind.size()),
+    ContentHash(voxels->GetVoidPointer(0), bytes, executor));
 }
 
 LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)

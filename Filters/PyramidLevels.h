@@ -80,6 +80,9 @@ public:
   /** What DescribeNaNs() says of level 0; nothing if there are none. */
   std::string DescribeNaNsOfLevel0() const;
 
+  /** Of size, type and values of the level's voxels; see ContentHash.h. */
+  std::uint64_t HashOfVoxels(int level, Executor& executor) const;
+
   /**
    * The voxels of a level, of level 0 for level -1; they stay valid until the next call. They are
    * shared, and read in their own type (VoxelValues), unless some of them are not valid: then they

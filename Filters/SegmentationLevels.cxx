@@ -132,6 +132,12 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
   }
   return image;
 }
+
+std::uint64_t SegmentationLevels::HashOfEdges(Executor& threads) const
+{
+  return this->Edges ? this->Edges->HashOfVoxels(threads) : 0;
+}
+
 void SegmentationLevels::ReleaseCoarserThan(int level)
 {
   this->Voxels.ReleaseCoarserThan(level);

@@ -15,6 +15,7 @@
 #include "Workspace.h"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -70,6 +71,9 @@ public:
    */
   void ReleaseCoarserThan(int level);
   bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
+
+  /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */
+  std::uint64_t HashOfEdges(Executor& threads) const;
 
 private:
   bool MayHaveUnreportedNaNs;

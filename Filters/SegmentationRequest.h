@@ -8,6 +8,7 @@
 #include "SegmentationSettings.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 
 class vtkInformation;
@@ -15,6 +16,19 @@ class vtkPolyData;
 
 namespace volumic
 {
+class SegmentationCheckpoint;
+
+/** Whether a run leaves what another process can go on from; see SegmentationCheckpoint. */
+struct CheckpointRequest
+{
+  bool AreLeft = false;  ///< at the end of each level
+  std::string Directory; ///< the scratch directory; empty: the system's
+  bool Resumes = false;  ///< Go on from one, where there is one.
+  bool Stay = false;     ///< They are not removed at the end, whose own is left, too.
+  /** Given the run's own, once it has been looked at; null where it has none. */
+  std::function<void(const std::shared_ptr<SegmentationCheckpoint>& checkpoint)> Prepared;
+};
+
 /**
  * What a run is asked for, beside the settings: where it ends, inputs that may come in other
  * objects for one that goes on, and the callbacks.
@@ -26,6 +40,7 @@ struct SegmentationRequest
   vtkPolyData* InitialSurface = nullptr;   ///< input port 1, may be missing
   vtkPolyData* AttractingPoints = nullptr; ///< input port 2, may be missing
   vtkInformation* EdgeSelection = nullptr; ///< of the map of edges; without effect at weight 0
+  CheckpointRequest Checkpoints;
   Deadline Limit;
   /** When the run began: what came before counts to the seconds of its first level. */
   Deadline::Clock::time_point Started = Deadline::Clock::now();

@@ -34,6 +34,13 @@ public:
     bool IsAtRest = false;  ///< Not cut off while it evolved.
   };
 
+  struct Snapshot
+  {
+    int Level;
+    std::string Name;
+    vtkSmartPointer<vtkPolyData> Surface;
+  };
+
   SegmentationResults();
   SegmentationResults(int numberOfLevels, int coarsest, const Workspace& space, bool withPhases);
   ~SegmentationResults();
@@ -64,13 +71,11 @@ public:
     int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const;
   vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
 
+  /** All that were set. */
+  const std::map<int, Level>& Levels() const { return this->ByLevel; }
+  const std::vector<Snapshot>& AllSnapshots() const { return this->Snapshots; }
+
 private:
-  struct Snapshot
-  {
-    int Level;
-    std::string Name;
-    vtkSmartPointer<vtkPolyData> Surface;
-  };
   int NumberOfLevels = 0;
   int Coarsest = 0;
   int PreviewLevel = 0;

@@ -52,6 +52,7 @@ struct SegmentationEnd
   int NumberOfThreads = 0; ///< 0: all
   int MemoryLimit = 0;     ///< of the process, MiB; 0: none
   std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
+  bool Resume = false; ///< Go on from a checkpoint, where there is one.
 };
 
 /**

@@ -175,6 +175,7 @@ void SurfaceSegmentation::Run()
     this->Begin();
   }
   this->Found.SetStoppedSurface(nullptr);
+  this->PrepareCheckpoint();
   if (!this->Found.HasAtRest(this->Choice.Last))
   {
     // What the evolution refers to stays in its place.
@@ -190,6 +191,11 @@ void SurfaceSegmentation::Run()
         *this->Threads);
     };
     this->Threads->Run([this] { this->RunLevels(); });
+  }
+  const bool isOver = this->Found.HasAtRest(this->Choice.Last) && !this->Request.IsStep;
+  if (this->Left && isOver && !this->Request.Checkpoints.Stay)
+  {
+    this->Left->Remove();
   }
   if (!this->Request.IsStep)
   {
@@ -232,6 +238,7 @@ void SurfaceSegmentation::RunLevels()
       std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
     this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
+    this->Resume();
   }
   this->Evolution->StartClock(this->Request.Started);
   while (this->GoesOn && this->Reached > this->Choice.Last)
@@ -265,8 +272,69 @@ void SurfaceSegmentation::RunLevels()
       *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
     this->GoesOn = this->RunLevel(level);
     this->Reached = level;
+    this->LeaveCheckpoint(level);
   }
   this->Found.SetRows(this->Evolution->History());
+}
+
+void SurfaceSegmentation::PrepareCheckpoint()
+{
+  const CheckpointRequest& wanted = this->Request.Checkpoints;
+  if (!wanted.AreLeft && !wanted.Resumes)
+  {
+    this->Left.reset();
+  }
+  else if (this->Evolution)
+  {
+    // It goes on with the one that it has: levels that it has let go of tell nothing any more.
+    this->Request.Checkpoints.Prepared(this->Left);
+  }
+  else
+  {
+    HostThreads threads(this->Settings.End.NumberOfThreads);
+    threads.Run(
+      [&]
+      {
+        SegmentationSettings settings = this->Settings;
+        settings.CoarsestLevel = this->Choice.Coarsest;
+        this->Left = std::make_shared<SegmentationCheckpoint>(
+          wanted.Directory, RunFingerprint(settings, this->Request, this->Levels, threads));
+      });
+  }
+}
+
+void SurfaceSegmentation::Resume()
+{
+  if (!this->Left)
+  {
+    return;
+  }
+  if (this->Request.Checkpoints.Resumes)
+  {
+    const auto place = this->Left->Load(this->Found, *this->Evolution);
+    if (place)
+    {
+      this->Reached = place->Level;
+      this->GoesOn = place->GoesOn;
+    }
+  }
+  this->Request.Checkpoints.Prepared(this->Left);
+}
+
+void SurfaceSegmentation::LeaveCheckpoint(int level)
+{
+  const CheckpointRequest& wanted = this->Request.Checkpoints;
+  const bool isLast = level <= this->Choice.Last && !this->Request.IsStep;
+  if (!this->Left || !wanted.AreLeft || !this->Found.HasAtRest(level) || (isLast && !wanted.Stay))
+  {
+    return;
+  }
+  const std::string warning =
+    this->Left->Save(this->Found, *this->Evolution, { level, this->GoesOn });
+  if (!warning.empty())
+  {
+    this->Request.Warn(warning);
+  }
 }
 
 bool SurfaceSegmentation::RunLevel(int level)

@@ -11,6 +11,7 @@
 #include "KeepComponents.h"
 #include "LevelChoice.h"
 #include "ProgressMonitor.h"
+#include "SegmentationCheckpoint.h"
 #include "SegmentationLevels.h"
 #include "SegmentationRequest.h"
 #include "SegmentationResults.h"
@@ -70,6 +71,9 @@ private:
   void Begin();
   void RunLevels();
   bool RunLevel(int level);
+  void PrepareCheckpoint();
+  void Resume();
+  void LeaveCheckpoint(int level);
   void KeepStoppedSurface(int level);
   std::string DescribeStop() const;
 
@@ -86,6 +90,7 @@ private:
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
+  std::shared_ptr<SegmentationCheckpoint> Left;
 };
 }
 

@@ -162,6 +162,32 @@ void vtkDeformableSurface::ForgetRun()
 }
 
 //------------------------------------------------------------------------------
+void vtkDeformableSurface::LeaveCheckpoints()
+{
+  this->Internals->LeavesCheckpoints = true;
+}
+
+void vtkDeformableSurface::RemoveCheckpoint()
+{
+  if (this->Internals->Checkpoint)
+  {
+    this->Internals->Checkpoint->Remove();
+  }
+}
+
+std::string vtkDeformableSurface::GetCheckpointFolder()
+{
+  return this->Internals->Checkpoint ? this->Internals->Checkpoint->FolderInUse() : "";
+}
+
+int vtkDeformableSurface::GetResumedLevel()
+{
+  constexpr int none = -2;
+  return this->Internals->Checkpoint ? this->Internals->Checkpoint->ResumedLevel().value_or(none)
+                                     : none;
+}
+
+//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -280,6 +306,13 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   request.InitialSurface = vtkPolyData::GetData(input[1]);
   request.AttractingPoints = vtkPolyData::GetData(input[2]);
   request.EdgeSelection = this->GetInputArrayInformation(1);
+  request.Checkpoints.AreLeft =
+    request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
+  request.Checkpoints.Directory = request.End.ScratchDirectory;
+  request.Checkpoints.Resumes = request.End.Resume;
+  request.Checkpoints.Stay = this->Internals->LeavesCheckpoints;
+  request.Checkpoints.Prepared = [this](const auto& checkpoint)
+  { this->Internals->Checkpoint = checkpoint; };
   const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
   request.Progress = [this, before](double share, const std::string& text)
   {
@@ -374,6 +407,7 @@ void vtkDeformableSurface::RunOrGoOn(
   const bool isStep = this->ChooseStep(request, isKept);
   std::unique_ptr<volumic::SurfaceSegmentation> run = isKept ? cache.TakeRun() : nullptr;
   cache.Drop();
+  this->Internals->Checkpoint.reset();
   if (run)
   {
     run->Renew(request);
@@ -416,6 +450,10 @@ int vtkDeformableSurface::RequestData(
   try
   {
     this->RunOrGoOn(inputVector, outputVector);
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   catch (const std::bad_alloc& error)
   {

@@ -153,6 +153,20 @@
  * limit that cannot be kept is told. It lasts until the filter runs without one, or is
  * deleted; of several filters with limits the smallest counts.
  *
+ * @par Checkpoints:
+ * With MemoryLimit, a ScratchDirectory or Resume, each level leaves at its end what another process
+ * can go on from: a folder `volumic-<16 digits>` in the scratch directory, one for each volume and
+ * choice of settings, with the surfaces of the levels so far. It goes when the run is over; it
+ * stays where the process is killed, or the run stopped or cut off by TimeLimit. With Resume a run
+ * of the same volume and settings goes on from there; those of Going on may differ, and Profile.
+ * The outputs are the same bits as without interruption, but for the seconds in History; those of
+ * the levels that were taken over are the other process's. Where there are only checkpoints of
+ * another volume or other settings, it is an error, which names what differs.
+ * @par
+ * Two runs at a time never share a checkpoint: the second of the same volume and settings leaves
+ * none, which is a warning. Where one cannot be written, as the disk is full, that is a warning,
+ * too, and the run goes on.
+ *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
  * Triangulated Surface", ECCV 1996.
@@ -169,6 +183,7 @@
 #include <vtkSmartPointer.h>
 
 #include <memory> // For what is hidden
+#include <string>
 
 class vtkAlgorithmOutput;
 class vtkDataObject;
@@ -593,6 +608,33 @@ public:
   void SetScratchDirectory(const char* directory);
   virtual const char* GetScratchDirectory();
   ///@}
+
+  ///@{
+  /**
+   * Go on from the checkpoint that a run of the same volume and settings has left, which did not
+   * come to its end: it was killed, or stopped. Where there is none the run begins anew. See
+   * Checkpoints. Default: off.
+   */
+  void SetResume(bool resume);
+  virtual bool GetResume();
+  vtkBooleanMacro(Resume, bool);
+  ///@}
+
+  /**
+   * For programs that write the surface: the checkpoints of the runs to come stay when these are
+   * over, that of the last level included, until RemoveCheckpoint(). Where the surface cannot be
+   * written, another process has it again at once.
+   */
+  void LeaveCheckpoints();
+
+  /** Removes the checkpoint of the last run. */
+  void RemoveCheckpoint();
+
+  /** The folder of the checkpoint that the last run has left; empty: none. */
+  std::string GetCheckpointFolder();
+
+  /** The level that the last run has gone on from by Resume; -2: it has begun anew. */
+  int GetResumedLevel();
 
   ///@{
   /**

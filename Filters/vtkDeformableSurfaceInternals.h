@@ -6,8 +6,11 @@
 #include "Deadline.h"
 #include "LimitedMemory.h"
 #include "SegmentationCache.h"
+#include "SegmentationCheckpoint.h"
 #include "SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
+
+#include <memory>
 
 /** What vtkDeformableSurface holds, beside what all algorithms do. */
 class vtkDeformableSurface::vtkInternals
@@ -17,6 +20,8 @@ public:
   volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
   volumic::Deadline Limit;                ///< of the run
+  std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
+  bool LeavesCheckpoints = false; ///< also of runs that have come to their end
   bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.

@@ -159,6 +159,7 @@ VolumicPositions(AttractingPosition, AttractingPositions)
 VolumicEndProperty(FinestLevel, int)
 VolumicEndProperty(TimeLimit, double)
 VolumicEndProperty(MemoryLimit, int)
+VolumicEndProperty(Resume, bool)
 VolumicEndProperty(Preview, bool)
 VolumicEndProperty(ShowLevels, bool)
 VolumicGetProperty(NumberOfThreads, int, End.NumberOfThreads)
@@ -215,6 +216,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << endl;
   os << indent << "MemoryLimit: " << this->GetMemoryLimit() << endl;
   os << indent << "ScratchDirectory: " << this->GetScratchDirectory() << endl;
+  os << indent << "Resume: " << this->GetResume() << endl;
   os << indent << "TimeLimit: " << this->GetTimeLimit() << endl;
   os << indent << "Preview: " << this->GetPreview() << endl;
   os << indent << "ShowLevels: " << this->GetShowLevels() << endl;

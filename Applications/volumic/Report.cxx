@@ -94,19 +94,25 @@ void WriteComponents(JsonWriter& json, vtkPolyData* surface)
   json.EndArray();
 }
 
-/** What a level took, by its rows. */
-double SecondsOf(vtkTable* history, double level)
+double SecondsOfRow(vtkTable* history, vtkIdType row)
+{
+  double seconds = 0.0;
+  for (const char* column : { "SecondsBefore", "Seconds", "SecondsAfter" })
+  {
+    seconds += history->GetValueByName(row, column).ToDouble();
+  }
+  return seconds;
+}
+
+/** What levels took, by their rows: those that `counts` says yes to. */
+template <typename Counts>
+double SecondsOf(vtkTable* history, const Counts& counts)
 {
   double seconds = 0.0;
   for (vtkIdType row = 0; row < history->GetNumberOfRows(); ++row)
   {
-    if (history->GetValueByName(row, "Level").ToDouble() == level)
-    {
-      for (const char* column : { "SecondsBefore", "Seconds", "SecondsAfter" })
-      {
-        seconds += history->GetValueByName(row, column).ToDouble();
-      }
-    }
+    const double level = history->GetValueByName(row, "Level").ToDouble();
+    seconds += counts(level) ? SecondsOfRow(history, row) : 0.0;
   }
   return seconds;
 }
@@ -133,10 +139,31 @@ void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* histo
   {
     json.BeginObject();
     WriteSurfaceFacts(json, surface);
-    json.Member("seconds", SecondsOf(history, level));
+    const double own = level;
+    json.Member("seconds", SecondsOf(history, [own](double of) { return of == own; }));
     json.EndObject();
   }
   json.EndArray();
+}
+
+/** Those of the whole surface, and, after --resume, of that what a run before has taken. */
+void WriteSeconds(JsonWriter& json, const ReportInput& input)
+{
+  vtkDeformableSurface* filter = input.Filters.Surface;
+  const int resumed = filter->GetResumedLevel();
+  const bool isResumed = resumed >= -1;
+  const double before = isResumed
+    ? SecondsOf(filter->GetHistory(), [resumed](double of) { return of >= resumed; })
+    : 0.0;
+  json.Name("seconds");
+  json.BeginObject();
+  json.Member("pyramid", input.PyramidSeconds);
+  json.Member("surface", before + input.SurfaceSeconds);
+  if (isResumed)
+  {
+    json.Member("taken_over", before);
+  }
+  json.EndObject();
 }
 
 void WriteProperties(JsonWriter& json, const FilterPair& filters)
@@ -170,11 +197,7 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   WriteSurfaceFacts(json, surface);
   WriteComponents(json, surface);
   WriteLevels(json, filter->GetLevels(), filter->GetHistory());
-  json.Name("seconds");
-  json.BeginObject();
-  json.Member("pyramid", input.PyramidSeconds);
-  json.Member("surface", input.SurfaceSeconds);
-  json.EndObject();
+  WriteSeconds(json, input);
   WriteProperties(json, input.Filters);
   json.Name("warnings");
   json.BeginArray();

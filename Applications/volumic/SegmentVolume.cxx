@@ -15,6 +15,7 @@
 #include "ToolOptions.h"
 #include "WriteResults.h"
 
+#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDeformableSurface.h>
@@ -30,6 +31,7 @@
 #include <vtkVolumeToSurface.h>
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -279,6 +281,51 @@ FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImageP
 }
 }
 
+namespace
+{
+/** Says, as soon as it is known, where a run with --resume goes on from. */
+class ResumeTeller : public vtkCommand
+{
+public:
+  static ResumeTeller* New() { return new ResumeTeller; }
+
+  void Execute(vtkObject* caller, unsigned long, void*) override
+  {
+    auto* filter = static_cast<vtkDeformableSurface*>(caller);
+    const char* text = filter->GetProgressText();
+    if (text && std::strncmp(text, "Level", 5) == 0)
+    {
+      this->Tell(filter);
+    }
+  }
+
+  void Tell(vtkDeformableSurface* filter)
+  {
+    if (filter->GetResume() && !std::exchange(this->HasTold, true))
+    {
+      const int level = filter->GetResumedLevel();
+      this->Says->Say(level >= -1
+          ? "going on from level " + std::to_string(level) + ", to which a run before has come"
+          : "there is no checkpoint to resume from: the run begins anew");
+    }
+  }
+
+  const Announcer* Says = nullptr;
+
+private:
+  bool HasTold = false;
+};
+
+/** One that was stopped on its way may go on. */
+void RemoveCheckpointOfEnded(vtkDeformableSurface* filter, const std::string& reason)
+{
+  if (reason != "cancelled" && reason != "time limit")
+  {
+    filter->RemoveCheckpoint();
+  }
+}
+}
+
 ExitCode SegmentVolume(
   const ToolOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
 {
@@ -312,8 +359,13 @@ ExitCode SegmentVolume(
   }
 
   CatchInterrupts();
+  filter->LeaveCheckpoints(); // Until all is written.
   const FilterRun pyramidRun = GiveLevels(options, volume, pyramid, filter, announcer.Style);
+  vtkNew<ResumeTeller> teller;
+  teller->Says = &announcer;
+  filter->AddObserver(vtkCommand::ProgressEvent, teller);
   const FilterRun run = RunOnVolume(options, filter, "Evolving the surface", announcer.Style);
+  teller->Tell(filter);
   for (const FilterRun& each : { pyramidRun, run })
   {
     for (const std::string& warning : each.Warnings)
@@ -326,6 +378,7 @@ ExitCode SegmentVolume(
   const std::string reason = StopReason(surface);
   if (surface->GetNumberOfPolys() == 0)
   {
+    RemoveCheckpointOfEnded(filter, reason);
     if (reason == "time limit")
     {
       throw Failure("the time limit came before there was a surface; nothing is written");
@@ -344,12 +397,15 @@ ExitCode SegmentVolume(
   results.SurfaceSeconds = run.Seconds;
   results.Warnings = run.Warnings;
   WriteOutputs(options, results, announcer.Style);
+  RemoveCheckpointOfEnded(filter, reason);
 
   announcer.Say(std::to_string(surface->GetNumberOfPoints()) + " vertices after " +
     std::to_string(filter->GetHistory()->GetNumberOfRows()) + " iterations: " + reason);
   if (!results.IsFinished)
   {
-    std::cerr << "volumic: unfinished (" << reason << "); the surface as it is was written\n";
+    const bool canGoOn = !filter->GetCheckpointFolder().empty();
+    std::cerr << "volumic: unfinished (" << reason << "); the surface as it is was written"
+              << (canGoOn ? "; the same command with --resume goes on" : "") << "\n";
   }
   return results.IsFinished ? Success : Unfinished;
 }

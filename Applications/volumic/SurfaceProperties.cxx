@@ -169,6 +169,9 @@ std::vector<PropertyOption> MakeProperties()
       [](const FilterPair& filters) { return std::string(filters.Surface->GetScratchDirectory()); },
       [](const FilterPair& filters, const std::string& text)
       { filters.Surface->SetScratchDirectory(text.c_str()); } },
+    SURFACE_SWITCH(Resume, true, "resume",
+      "go on from the checkpoint that a run with the same volume and options, which was killed or "
+      "stopped, has left in --scratch; where there is none, begin anew"),
     SURFACE_NUMBER(NumberOfThreads, "threads", "N", "0: all; the result does not depend on it"),
     SURFACE_SWITCH(Profile, true, "profile", "put into --history where the time goes"),
     SURFACE_NUMBER(SnapshotInterval, "snapshot-interval", "N",

@@ -6,6 +6,8 @@
 # (Documentation/architecture.md).
 
 set(volumic_core_sources
+  Common/CheckedFile.cxx
+  Common/ContentHash.cxx
   Common/FreeMemory.cxx
   Common/MeasuredExecutor.cxx
   Common/ScratchFile.cxx
@@ -57,6 +59,7 @@ set(volumic_core_sources
   Surface/TopologyEdits.cxx
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
+  Evolution/EvolutionCheckpoint.cxx
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
@@ -73,6 +76,8 @@ set(volumic_core_sources
 set(volumic_core_headers
   Common/Blocks.h
   Common/Box.h
+  Common/CheckedFile.h
+  Common/ContentHash.h
   Common/DisjointSets.h
   Common/Executor.h
   Common/FreeMemory.h

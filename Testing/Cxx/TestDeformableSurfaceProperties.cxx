@@ -100,6 +100,7 @@ std::vector<Property> AllProperties()
     VolumicTestedProperty(SnapToIsoValue, 0),
     VolumicTestedProperty(NumberOfThreads, 3),
     VolumicTestedProperty(MemoryLimit, 4000),
+    VolumicTestedProperty(Resume, true),
     VolumicTestedProperty(TimeLimit, 12),
     VolumicTestedProperty(Preview, 1),
     VolumicTestedProperty(ShowLevels, 1),

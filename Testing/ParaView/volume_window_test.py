@@ -22,7 +22,7 @@ BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Fin
          "Recovery", "KeepComponents", "EdgeLength")
 ADVANCED = ("CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels",
             "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction", "TimeLimit",
-            "MemoryLimit", "ScratchDirectory", "SnapshotInterval")
+            "MemoryLimit", "ScratchDirectory", "Resume", "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
 # stopped after some iterations; the end of each run is told.

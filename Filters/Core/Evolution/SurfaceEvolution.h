@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceEvolution_h
 #define volumicSurfaceEvolution_h
 
+#include "Core/Common/CheckedFile.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
@@ -102,11 +103,11 @@ struct HistoryRow
 /** The surface as handed out: compact, workspace coordinates. */
 struct SurfaceResult : IndexedSurface
 {
-  std::vector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
-  std::vector<float> Residual;                ///< Field minus iso-value, per point.
-  std::vector<unsigned char> Motionless;      ///< 1 where frozen, per point.
-  std::vector<unsigned char> Held;            ///< Per point, see RemainingContacts.
-  std::vector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
+  LargeVector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
+  LargeVector<float> Residual;                ///< Field minus iso-value, per point.
+  LargeVector<unsigned char> Motionless;      ///< 1 where frozen, per point.
+  LargeVector<unsigned char> Held;            ///< Per point, see RemainingContacts.
+  LargeVector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
   double Delta = 0.;                          ///< delta_h, workspace.
 };
 
@@ -174,6 +175,19 @@ public:
    *         of before.
    */
   bool Divide(const LevelImage& image, int level);
+
+  /**
+   * Between Run() and Divide(): writes what the levels to come depend on, so that another object,
+   * in another process too, can go on as this one would. @throws FileError.
+   */
+  void Save(CheckedWriter& file) const;
+
+  /**
+   * Instead of a start, with the options of the one that saved it. Then divide it, or look at its
+   * history and its counts; before that it has no Result(). @throws FileError, and then is of no
+   * use any more.
+   */
+  void Load(CheckedReader& file);
 
   /** The surface as it is. */
   SurfaceResult Result() const;

@@ -57,6 +57,19 @@ public:
   /** Whether cuts or deletions ask for DeleteInsideOut(). */
   bool IsUnchecked() const { return this->Unchecked > 0; }
 
+  /** What it remembers from level to level, of a surface that rests. */
+  struct Memory
+  {
+    int CollapsesSinceLabels = 0;
+    int Unchecked = 0;
+  };
+  Memory Remembered() const { return { this->CollapsesSinceLabels, this->Unchecked }; }
+  void Remember(const Memory& memory)
+  {
+    this->CollapsesSinceLabels = memory.CollapsesSinceLabels;
+    this->Unchecked = memory.Unchecked;
+  }
+
   /** Collects the active vertices; their shape is up to date afterwards. */
   void UpdateActive();
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
@@ -112,7 +125,7 @@ private:
   const std::vector<int>* Visited = nullptr; ///< See BeginVisit; null: all vertices.
   std::vector<int> Active;
   std::vector<int> Working;            ///< See CollectWorking.
-  std::vector<std::uint8_t> IsWorking; ///< Whether that has it.
+  LargeVector<std::uint8_t> IsWorking; ///< Whether that has it.
   std::vector<int> Suspects;           ///< See CollectSuspects.
   int CollapsesSinceLabels = 0;
   int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.

@@ -5,10 +5,12 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Vector.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -90,8 +92,8 @@ struct VertexPlaces
 class SurfaceMesh
 {
 public:
-  std::vector<Vector> Position;
-  std::vector<Ring> Rings;
+  LargeVector<Vector> Position;
+  LargeVector<Ring> Rings;
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
@@ -183,6 +185,10 @@ public:
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
+
+  /** The places that no vertex has, the next to be taken last: what a copy needs to go on alike. */
+  const std::vector<int>& FreePlaces() const { return this->Free; }
+  void SetFreePlaces(std::vector<int> places) { this->Free = std::move(places); }
 
 private:
   std::vector<int> Free;

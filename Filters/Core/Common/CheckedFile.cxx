@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/CheckedFile.h"
+
+#include "Core/Common/ContentHash.h"
+#include "Core/Common/Join.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
+namespace volumic
+{
+namespace
+{
+// A file is a row of blocks: their head, then so many bytes. The last one has none.
+constexpr std::size_t BlockSize = 1 << 20;
+
+struct BlockHead
+{
+  std::uint64_t Count;
+  std::uint64_t Hash; ///< Of all blocks up to this one: none is missing, or of another file.
+};
+
+std::string ReasonOf(int error)
+{
+  return error != 0 ? std::generic_category().message(error) : "unknown reason";
+}
+
+std::string Unfinished(const std::string& name)
+{
+  return name + ".new";
+}
+
+/** Whether the disk has the file. Some network folders know no such request. */
+bool Flush(std::FILE* file)
+{
+#ifdef _WIN32
+  return std::fflush(file) == 0 && _commit(_fileno(file)) == 0;
+#else
+  return std::fflush(file) == 0 &&
+    (fsync(fileno(file)) == 0 || errno == EINVAL || errno == ENOTSUP);
+#endif
+}
+
+/** A new file; a link in its place is not followed. */
+std::FILE* Create(const std::string& name)
+{
+  std::remove(name.c_str());
+#ifdef _WIN32
+  return std::fopen(name.c_str(), "wb");
+#else
+  const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  return file >= 0 ? fdopen(file, "wb") : nullptr;
+#endif
+}
+}
+
+CheckedWriter::CheckedWriter(const std::string& name)
+  : Name(name), File(Create(Unfinished(name)))
+{
+  if (!this->File)
+  {
+    this->Fail();
+  }
+  std::setvbuf(this->File, nullptr, _IONBF, 0); // Blocks are large.
+  this->Block.reserve(BlockSize);
+}
+
+CheckedWriter::~CheckedWriter()
+{
+  if (this->File)
+  {
+    std::fclose(this->File);
+    std::remove(Unfinished(this->Name).c_str());
+  }
+}
+
+void CheckedWriter::Fail()
+{
+  const int error = errno;
+  throw FileError(Join(this->Name, " cannot be written (", ReasonOf(error), ")"));
+}
+
+void CheckedWriter::WriteBlock()
+{
+  const std::size_t count = this->Block.size();
+  this->Hash =
+    CombineHashes(this->Hash, CombineHashes(count, ContentHash(this->Block.data(), count)));
+  const BlockHead head = { count, this->Hash };
+  errno = 0;
+  if (std::fwrite(&head, sizeof(head), 1, this->File) != 1 ||
+    std::fwrite(this->Block.data(), 1, count, this->File) != count)
+  {
+    this->Fail();
+  }
+  this->Block.clear();
+}
+
+void CheckedWriter::Write(const void* bytes, std::size_t count)
+{
+  const auto* next = static_cast<const unsigned char*>(bytes);
+  while (count > 0)
+  {
+    const std::size_t part = std::min(count, BlockSize - this->Block.size());
+    this->Block.insert(this->Block.end(), next, next + part);
+    next += part;
+    count -= part;
+    if (this->Block.size() == BlockSize)
+    {
+      this->WriteBlock();
+    }
+  }
+}
+
+void CheckedWriter::PutText(const std::string& text)
+{
+  this->Put<std::uint64_t>(text.size());
+  this->Write(text.data(), text.size());
+}
+
+void CheckedWriter::Commit()
+{
+  if (!this->Block.empty())
+  {
+    this->WriteBlock();
+  }
+  this->WriteBlock(); // The end.
+  errno = 0;
+  if (!Flush(this->File))
+  {
+    this->Fail();
+  }
+  std::FILE* file = this->File;
+  this->File = nullptr;
+  std::error_code failed;
+  if (std::fclose(file) == 0)
+  {
+    std::filesystem::rename(Unfinished(this->Name), this->Name, failed);
+  }
+  else
+  {
+    failed = std::error_code(errno, std::generic_category());
+  }
+  if (failed)
+  {
+    std::remove(Unfinished(this->Name).c_str());
+    throw FileError(Join(this->Name, " cannot be written (", failed.message(), ")"));
+  }
+  FlushFolder(std::filesystem::path(this->Name).parent_path().string());
+}
+
+CheckedReader::CheckedReader(const std::string& name)
+  : Name(name), File(std::fopen(name.c_str(), "rb"))
+{
+  if (!this->File)
+  {
+    this->Refuse(Join("cannot be read (", ReasonOf(errno), ")"));
+  }
+  std::setvbuf(this->File, nullptr, _IONBF, 0);
+}
+
+CheckedReader::~CheckedReader()
+{
+  if (this->File)
+  {
+    std::fclose(this->File);
+  }
+}
+
+void CheckedReader::Refuse(const std::string& reason) const
+{
+  throw FileError(Join(this->Name, " ", reason));
+}
+
+void CheckedReader::ReadBlock()
+{
+  BlockHead head;
+  if (std::fread(&head, sizeof(head), 1, this->File) != 1 || head.Count > BlockSize)
+  {
+    this->Refuse("is damaged");
+  }
+  this->Block.resize(head.Count);
+  this->Taken = 0;
+  const bool isWhole =
+    std::fread(this->Block.data(), 1, head.Count, this->File) == head.Count;
+  this->Hash = CombineHashes(
+    this->Hash, CombineHashes(head.Count, ContentHash(this->Block.data(), head.Count)));
+  if (!isWhole || this->Hash != head.Hash || head.Count == 0)
+  {
+    this->Refuse("is damaged");
+  }
+}
+
+void CheckedReader::Read(void* bytes, std::size_t count)
+{
+  auto* next = static_cast<unsigned char*>(bytes);
+  while (count > 0)
+  {
+    if (this->Taken == this->Block.size())
+    {
+      this->ReadBlock();
+    }
+    const std::size_t part = std::min(count, this->Block.size() - this->Taken);
+    std::memcpy(next, this->Block.data() + this->Taken, part);
+    this->Taken += part;
+    next += part;
+    count -= part;
+  }
+}
+
+std::string CheckedReader::GetText()
+{
+  std::string text(this->Get<std::uint64_t>(), ' ');
+  this->Read(text.data(), text.size());
+  return text;
+}
+
+void FlushFolder(const std::string& folder)
+{
+#ifdef _WIN32
+  static_cast<void>(folder);
+#else
+  const int opened =
+    open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened >= 0)
+  {
+    fsync(opened);
+    close(opened);
+  }
+#endif
+}
+}
