@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HostThreads.h"
 
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Common/StandardThreads.h"
 
 #include <vtkSMPTools.h>
@@ -161,6 +162,27 @@ void HostThreads::For(
   {
     return;
   }
+  if (!HasMemoryLimit())
+  {
+    this->Share(n, grain, body);
+    return;
+  }
+  // In pieces of a few MB, where a piece of the work is all of a level.
+  const std::size_t piece = std::max({ n / 512, grain, std::size_t(1) });
+  this->Share(n, grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (; begin < end; begin += piece)
+      {
+        KeepMemoryLimit();
+        body(begin, std::min(end, begin + piece));
+      }
+    });
+}
+
+void HostThreads::Share(
+  std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)
+{
   if (this->Running && this->Instead)
   {
     this->Instead->For(n, grain, body);

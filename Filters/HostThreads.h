@@ -39,12 +39,17 @@ public:
    */
   void Run(const std::function<void()>& work);
 
-  /** @see Executor. Outside Run() everything is done on the calling thread. */
+  /**
+   * @see Executor. Outside Run() everything is done on the calling thread. With a limit of memory
+   * (ScratchMemory) in smaller chunks, between which it is kept.
+   */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
   void EndPhase(const char* name) override;
 
 private:
+  void Share(std::size_t n, std::size_t grain,
+    const std::function<void(std::size_t, std::size_t)>& body);
   void RunWithin(
     const std::string& backend, int numberOfThreads, const std::function<void()>& work);
 

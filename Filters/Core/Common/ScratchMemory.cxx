@@ -120,6 +120,19 @@ void FreeLarge(void* memory) noexcept
   }
 }
 
+bool HasMemoryLimit()
+{
+  return ScratchStore::Instance().HasLimit();
+}
+
+void KeepMemoryLimit()
+{
+  if (ScratchStore::Instance().HasLimit())
+  {
+    ScratchStore::Instance().KeepIfDue();
+  }
+}
+
 void PrefetchLarge(const void* begin, std::size_t bytes)
 {
   if (ScratchStore::Instance().HasLimit())

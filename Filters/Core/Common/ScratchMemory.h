@@ -95,6 +95,14 @@ void FreeLarge(void* memory) noexcept;
  */
 void PrefetchLarge(const void* begin, std::size_t bytes);
 
+/** Whether a limit is set, by anyone. */
+bool HasMemoryLimit();
+/**
+ * For threads that go through much memory, every few MB: drops pages where it is time to, as the
+ * governor's turn may come late on a busy machine. Nothing without a limit.
+ */
+void KeepMemoryLimit();
+
 template <typename T>
 struct LargeAllocator
 {

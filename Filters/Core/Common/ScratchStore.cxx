@@ -219,6 +219,24 @@ void ScratchStore::Prefetch(const void* begin, std::size_t bytes)
   }
 }
 
+void ScratchStore::KeepIfDue()
+{
+  using namespace std::chrono;
+  constexpr std::int64_t interval = 100;
+  const std::int64_t now =
+    duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
+  std::int64_t last = this->LastKept.load(std::memory_order_relaxed);
+  if (now - last < interval || !this->LastKept.compare_exchange_strong(last, now))
+  {
+    return; // Another thread does it.
+  }
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  if (this->Governing)
+  {
+    this->Keep(this->Governing->Meter);
+  }
+}
+
 ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t goal)
 {
   constexpr std::size_t chunksAtATime = 4;

@@ -49,6 +49,8 @@ public:
   /** @return whether it was such memory. */
   bool Unmap(void* memory) noexcept;
   void Prefetch(const void* begin, std::size_t bytes);
+  /** Does what the governor does, if nobody has for a tenth of a millisecond. */
+  void KeepIfDue();
 
 private:
   /** The thread that looks at the memory. */
@@ -70,6 +72,7 @@ private:
   std::mutex Mutex; ///< For all that follows.
   std::vector<ScratchLimit*> Limits;
   std::atomic<std::size_t> NumberOfLimits{ 0 };
+  std::atomic<std::int64_t> LastKept{ 0 }; ///< Microseconds of the steady clock.
   std::map<std::uintptr_t, std::size_t> Arrays; ///< Bytes by address.
   std::atomic<std::size_t> NumberOfArrays{ 0 };
   std::size_t Mapped = 0;  ///< Bytes, of arrays that are being made, too.
