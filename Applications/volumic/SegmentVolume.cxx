@@ -127,7 +127,8 @@ void SetStart(const ToolOptions& options, vtkDeformableSurface* filter)
 }
 
 /** Hand the map of edges to the filter, as a second array of the volume. */
-void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter)
+void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer)
 {
   if (options.Edges.empty())
   {
@@ -137,8 +138,8 @@ void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSur
   vtkPointData* points = volume->GetPointData();
   if (!points->HasArray(name.c_str()))
   {
-    const vtkSmartPointer<vtkImageData> edges = ReadVolume(options.Edges);
-    ChooseScalars(edges, "");
+    const vtkSmartPointer<vtkImageData> edges =
+      LoadVoxels(options.Edges, "", filter, holder, announcer);
     if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
     {
       throw Failure(options.Edges + ": its size differs from the volume's");
@@ -331,8 +332,14 @@ ExitCode SegmentVolume(
 {
   const Announcer announcer(options);
   CheckFiles(options);
-  const vtkSmartPointer<vtkImageData> volume =
-    LoadVolume(options, filter->GetSelectedComponent(), announcer);
+  const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
+  const vtkSmartPointer<vtkImageData> volume = LoadVolume(options, filter, holder, announcer);
+  const double readerMemory = PeakMemory();
+  const int component = filter->GetSelectedComponent();
+  if (filter->GetMemoryLimit() > 0)
+  {
+    filter->SetSelectedComponent(-1); // The volume has no other.
+  }
   if (!options.WrittenVolume.empty())
   {
     WriteVolume(volume, options.WrittenVolume, announcer.Style);
@@ -342,7 +349,8 @@ ExitCode SegmentVolume(
     return Success;
   }
   SetStart(options, filter);
-  SetEdges(options, volume, filter);
+  const vtkNew<vtkImagePyramid> edgesHolder;
+  SetEdges(options, volume, filter, edgesHolder, announcer);
   if (!options.HasProperty("IsoValue"))
   {
     vtkNew<vtkOtsuThreshold> otsu;
@@ -388,7 +396,9 @@ ExitCode SegmentVolume(
           std::string(filter->GetObjectIsBright() ? "above " : "below ") +
           NumberText(filter->GetIsoValue()) + "? (--iso, --dark)");
   }
+  filter->SetSelectedComponent(component); // as it was chosen
   ReportInput results;
+  results.ReaderMemory = readerMemory;
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = volume;
   results.Filters = { pyramid, filter };
