@@ -47,5 +47,5 @@ volumic_add_warnings(
   WARNINGS ${volumic_warnings})
 volumic_add_warnings(
   TARGETS TestFilters TestRealScans TestScenes
-    BenchmarkImagePyramid BenchmarkSurface VolumicBenchmarkItk VolumicBenchmarkLevelSet
+    BenchmarkImagePyramid BenchmarkSurface MakeVolume VolumicBenchmarkItk VolumicBenchmarkLevelSet
   WARNINGS ${volumic_vtk_warnings})

@@ -256,8 +256,8 @@ IndexedSurface Placed(vtkPolyData* shape, Dice& dice)
 TriangleSurface Judged(const IndexedSurface& surface)
 {
   TriangleSurface judged;
-  judged.Points = surface.Points;
-  judged.Triangles = surface.Triangles;
+  judged.Points.assign(surface.Points.begin(), surface.Points.end());
+  judged.Triangles.assign(surface.Triangles.begin(), surface.Triangles.end());
   return judged;
 }
 

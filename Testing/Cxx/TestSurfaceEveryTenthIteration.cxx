@@ -69,8 +69,8 @@ public:
     {
       const SurfaceResult surface = this->Evolution->Result();
       TriangleSurface judged;
-      judged.Points = surface.Points;
-      judged.Triangles = surface.Triangles;
+      judged.Points.assign(surface.Points.begin(), surface.Points.end());
+      judged.Triangles.assign(surface.Triangles.begin(), surface.Triangles.end());
       const std::string where =
         "level " + std::to_string(status.Level) + ", iteration " + std::to_string(status.Iteration);
       const TopologyVerdict topology = JudgeTopology(judged);
