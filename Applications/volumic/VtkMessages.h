@@ -3,11 +3,14 @@
 #ifndef volumicVtkMessages_h
 #define volumicVtkMessages_h
 
+#include <vtkSmartPointer.h>
+
 #include <functional>
 #include <string>
 #include <vector>
 
 class vtkAlgorithm;
+class vtkCommand;
 
 namespace tool
 {
@@ -15,10 +18,15 @@ namespace tool
 class VtkMessages
 {
 public:
+  VtkMessages();
+  ~VtkMessages();
+  VtkMessages(const VtkMessages&) = delete;
+  VtkMessages& operator=(const VtkMessages&) = delete;
+
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
 
-  /** Listen to an algorithm and its executive. This object must outlive their runs. */
+  /** Listen to an algorithm and its executive, as long as this object is there. */
   void ListenTo(vtkAlgorithm* algorithm);
 
   /**
@@ -35,6 +43,9 @@ public:
 
   /** Each error once, with semicolons between. */
   std::string JoinedErrors() const;
+
+private:
+  std::vector<vtkSmartPointer<vtkCommand>> Observers;
 };
 }
 
