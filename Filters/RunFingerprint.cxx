@@ -95,7 +95,7 @@ std::string HashOf(vtkPolyData* polyData)
 RunFingerprint::RunFingerprint(const SegmentationSettings& settings,
   const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads)
 {
-  this->AddHidden("the version of Volumic", VOLUMIC_FILTERS_VERSION);
+  this->AddHidden("version of Volumic", VOLUMIC_FILTERS_VERSION);
   this->AddVolume(levels, threads);
   this->AddSettings(settings);
   this->AddInputs(request, levels, threads);
@@ -129,21 +129,21 @@ void RunFingerprint::AddVolume(const SegmentationLevels& levels, Executor& threa
   const Workspace& space = levels.GetWorkspace();
   const std::array<int, 3> size = pyramid.SizeOfLevel0();
   this->AddHidden(
-    "the size of the volume", Join(size[0], " x ", size[1], " x ", size[2]), Kind::Volume);
+    "size of the volume", Join(size[0], " x ", size[1], " x ", size[2]), Kind::Volume);
   // An affine map is known by what it does to four points.
-  this->AddHidden("the place of the volume",
-    TextOf({ space.ToWorld({ 0, 0, 0 }), space.ToWorld({ 1, 0, 0 }), space.ToWorld({ 0, 1, 0 }),
+  this->AddHidden("place of the volume",
+    TextOf({ space.Step(), space.ToWorld({ 0, 0, 0 }), space.ToWorld({ 1, 0, 0 }), space.ToWorld({ 0, 1, 0 }),
       space.ToWorld({ 0, 0, 1 }) }),
     Kind::Volume);
   this->AddHidden(
-    "the voxels of the volume", HashText(pyramid.HashOfVoxels(0, threads)), Kind::Volume);
+    "voxels", HashText(pyramid.HashOfVoxels(0, threads)), Kind::Volume);
   std::string coarser = NumberText(levels.UnitInWorld(-1));
   for (int level = 1; level < pyramid.NumberOfLevels(); ++level)
   {
     coarser += " " + NumberText(levels.UnitInWorld(level)) + " " +
       HashText(pyramid.HashOfVoxels(level, threads));
   }
-  this->AddHidden("the levels of the pyramid", coarser);
+  this->AddHidden("levels of the pyramid", coarser);
 }
 
 void RunFingerprint::AddSettings(const SegmentationSettings& settings)
@@ -238,7 +238,7 @@ std::string RunFingerprint::DifferencesFrom(const RunFingerprint& before) const
     }
     text += text.empty() ? "" : "; ";
     text += is.Is == Kind::Shown ? Join(is.Name, " was ", was, " and is ", is.Value)
-                                 : Join(is.Name, " differs");
+                                 : Join("not the same ", is.Name);
   }
   return text;
 }

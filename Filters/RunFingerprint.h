@@ -35,7 +35,7 @@ public:
   std::uint64_t Hash() const;
 
   bool IsSameVolume(const RunFingerprint& other) const;
-  /** What differs in another one, as `Iso Value was 20 and is 30; ...`; empty: nothing. */
+  /** As `Iso Value was 20 and is 30; not the same voxels`; empty: nothing differs. */
   std::string DifferencesFrom(const RunFingerprint& before) const;
   int NumberOfDifferences(const RunFingerprint& other) const;
 

@@ -172,7 +172,8 @@ SegmentationCheckpoint::~SegmentationCheckpoint()
 
 void SegmentationCheckpoint::RemoveIfEmpty()
 {
-  if (this->Locked && !this->Existing)
+  std::error_code ignored;
+  if (this->Locked && !fs::exists(StateIn(this->Folder), ignored))
   {
     this->Locked->RemoveFolder();
     this->Locked.reset();

@@ -176,7 +176,7 @@ std::string Summary(vtkPolyData* piece, const std::vector<std::string>& sources)
 }
 }
 
-void WritePieces(vtkPolyData* surface, const std::string& path, ProgressLine& line)
+void WritePieces(vtkPolyData* surface, const std::string& path, int size, ProgressLine& line)
 {
   const vtkIdType triangles = surface->GetNumberOfPolys();
   const fs::path folder = fs::path(path).replace_extension();
@@ -184,11 +184,10 @@ void WritePieces(vtkPolyData* surface, const std::string& path, ProgressLine& li
   fs::create_directory(folder);
   std::vector<std::string> sources;
   vtkSmartPointer<vtkPolyData> piece;
-  for (vtkIdType begin = 0; begin < triangles; begin += SurfacePieceSize)
+  for (vtkIdType begin = 0; begin < triangles; begin += size)
   {
     line.Show(static_cast<double>(begin) / static_cast<double>(triangles), "");
-    piece = MakePiece(
-      surface, begin, std::min<vtkIdType>(triangles, begin + SurfacePieceSize));
+    piece = MakePiece(surface, begin, std::min(triangles, begin + size));
     const std::string name = stem + "_" + std::to_string(sources.size()) + ".vtp";
     const std::string place = (folder / name).string();
     ProgressLine noLine("", ProgressStyle::None);

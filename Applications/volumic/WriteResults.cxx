@@ -84,6 +84,7 @@ struct SurfaceFile
   vtkPolyData* Surface;
   std::string Path;
   std::string Remark;
+  int PieceSize;
   ProgressLine& Line;
 };
 
@@ -218,7 +219,7 @@ void WriteLegacyFile(const SurfaceFile& file)
 
 void WritePiecesFile(const SurfaceFile& file)
 {
-  WritePieces(file.Surface, file.Path, file.Line);
+  WritePieces(file.Surface, file.Path, file.PieceSize, file.Line);
 }
 
 void CheckVtp(const std::string& path, vtkPolyData*)
@@ -280,15 +281,14 @@ bool HasPieces(const std::string& name)
   return SuffixOf(name) == ".pvtp";
 }
 
-void WriteSurface(
-  vtkPolyData* surface, const std::string& name, const std::string& remark, ProgressStyle style)
+void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing)
 {
   const Format* format = FindFormat(name);
   WriteBeside(name,
     [&](const std::string& path)
     {
-      ProgressLine line(TitleOf(name), style);
-      format->Write({ surface, path, remark, line });
+      ProgressLine line(TitleOf(name), writing.Style);
+      format->Write({ surface, path, writing.Remark, writing.PieceSize, line });
       if (format->Check)
       {
         format->Check(path, surface);

@@ -23,13 +23,19 @@ void CheckSurfaceName(const std::string& name);
 /** Whether a surface of this name has files in a folder beside it. */
 bool HasPieces(const std::string& name);
 
+/** How a surface is written. */
+struct SurfaceWriting
+{
+  std::string Remark; ///< a line for the head of the file where the format has one (.stl, .ply)
+  int PieceSize = 0;  ///< triangles of a piece, where there are pieces
+  ProgressStyle Style = ProgressStyle::None;
+};
+
 /**
  * Write a surface in the format of the suffix. Arrays and field data go along where the format has
- * a place for them (.vtp, .pvtp, .vtk). `remark`, a line, is put into the head of the file where the
- * format has one (.stl, .ply).
+ * a place for them (.vtp, .pvtp, .vtk).
  */
-void WriteSurface(
-  vtkPolyData* surface, const std::string& name, const std::string& remark, ProgressStyle style);
+void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing);
 
 /** @throws UsageError if the name of a volume to write does not end in .vti. */
 void CheckVolumeName(const std::string& name);

@@ -87,10 +87,10 @@ class MemoryGroup:
 
 
 def to_bytes(text):
-    match = re.fullmatch(r"(\d+(?:\.\d+)?)([KMGT]?)(?:i?B)?", text, re.I)
+    match = re.fullmatch(r"(\d+(?:\.\d+)?)([KMGT])(?:i?B)?", text, re.I)
     if not match:
         raise argparse.ArgumentTypeError(f"'{text}' is no size, such as 1500M or 2G")
-    return int(float(match[1]) * 1024 ** " KMGT".index(match[2].upper() or " "))
+    return int(float(match[1]) * 1024 ** " KMGT".index(match[2].upper()))
 
 
 def limits_of(text):

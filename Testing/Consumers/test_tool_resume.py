@@ -1,0 +1,228 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program `volumic` killed on its way: with --resume it goes on, to the same files."""
+
+import csv
+import json
+import os
+import random
+import re
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
+
+# What is told of a run, and may differ from one to the next.
+OF_THE_RUN = ("Resume", "ScratchDirectory", "MemoryLimit")
+# What a run that goes on may have otherwise.
+MAY_DIFFER = {"finest", "threads", "time-limit", "memory", "scratch", "resume", "profile",
+              "levels", "minimum-level-size"}
+
+
+def waves(size=64):
+    z, y, x = np.mgrid[0:size, 0:size, 0:size] * 36.0 / size
+    voxels = 300 * (np.sin(x / 3) + np.sin(y / 3.5) + np.sin(z / 4 + 1))
+    voxels[3:6, 3:6, 4:-4] = 900  # a rod that coarse levels lose
+    return make_image(voxels.astype("i2"), (1, 1, 1.5))
+
+
+class ResumeTestCase(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        self.scratch = self.path("scratch")
+        os.mkdir(self.scratch)
+
+    def waves_file(self):
+        return self.write(vtkXMLImageDataWriter(), "waves.vti", waves())
+
+    def arguments(self, volume, name, *more):
+        return [str(a) for a in (
+            volume, self.path(name + ".vtp"), "--iso", 100, "--report", self.path(name + ".json"),
+            "--history", self.path(name + ".csv"), "--levels-output", self.path(name + "-levels"),
+            "--snapshots", self.path(name + "-snapshots"), *more)]
+
+    def resume(self, volume, name, *more):
+        return self.arguments(volume, name, "--scratch", self.scratch, "--resume", *more)
+
+    def contents(self, name):
+        """All that a run has written, but for its seconds."""
+        files = {}
+        folders = [self.path(name + "-levels"), self.path(name + "-snapshots")]
+        for path in [self.path(name + ".vtp")] + [
+                os.path.join(folder, file) for folder in folders
+                for file in sorted(os.listdir(folder)) if not file.startswith(".")]:
+            with open(path, "rb") as file:
+                files[os.path.basename(path).replace(name, "")] = file.read()
+        with open(self.path(name + ".csv"), encoding="utf-8", newline="") as file:
+            rows = [{k: v for k, v in row.items() if "Seconds" not in k}
+                    for row in csv.DictReader(file)]
+        with open(self.path(name + ".json"), encoding="utf-8") as file:
+            report = json.load(file)
+        seconds = report.pop("seconds")
+        for level in report["levels"]:
+            seconds[level["level"]] = level.pop("seconds")
+        for property_ in OF_THE_RUN:
+            del report["properties"][property_]
+        return files, rows, report, seconds
+
+    def expect_same(self, name, other):
+        for one, two in zip(self.contents(name)[:3], self.contents(other)[:3]):
+            self.assertEqual(one, two)
+
+    def checkpoint_level(self):
+        """That of the checkpoint, by the surfaces that it has; None without one."""
+        for folder in os.listdir(self.scratch):
+            files = os.listdir(os.path.join(self.scratch, folder))
+            if "state" in files:
+                return min(int(f[6:]) for f in files if re.fullmatch(r"level--?\d+|level-\d+", f))
+        return None
+
+    def kill_at_level(self, level, arguments):
+        """Killed as soon as that level has left its checkpoint. @return its level then."""
+        with subprocess.Popen([PROGRAM, *arguments], stderr=subprocess.DEVNULL) as process:
+            while process.poll() is None:
+                found = self.checkpoint_level()
+                if found is not None and found <= level:
+                    process.kill()
+                time.sleep(0.001)
+            self.assertEqual(process.returncode, -signal.SIGKILL)
+        return self.checkpoint_level()
+
+
+class KillTest(ResumeTestCase):
+    def test_the_same_files_after_a_kill_at_each_level(self):
+        volume = self.waves_file()
+        self.run_tool(*self.arguments(volume, "whole"))
+        self.assertEqual(os.listdir(self.scratch), [])
+        for memory in ((), ("--memory", "2G")):
+            for level in (2, 1):
+                with self.subTest(level=level, memory=memory):
+                    found = self.kill_at_level(level, self.resume(volume, "killed", *memory))
+                    run = self.run_tool(*self.resume(volume, "killed", *memory))
+                    told = int(re.search(r"going on from level (-?\d+)", run.stderr).group(1))
+                    self.assertLessEqual(told, found)
+                    self.expect_same("killed", "whole")
+                    self.assertEqual(os.listdir(self.scratch), [])
+
+    def test_the_same_files_after_kills_at_random(self):
+        volume = self.waves_file()
+        started = time.monotonic()
+        self.run_tool(*self.arguments(volume, "whole"))
+        longest = time.monotonic() - started
+        chance = random.Random(15)
+        kills = 0
+        while kills < 8:
+            try:
+                subprocess.run([PROGRAM, *self.resume(volume, "killed", "--quiet")], check=True,
+                               timeout=chance.uniform(0, longest))
+            except subprocess.TimeoutExpired:  # It has been killed.
+                kills += 1
+        self.run_tool(*self.resume(volume, "killed", "--quiet"))
+        self.expect_same("killed", "whole")
+        self.assertEqual(os.listdir(self.scratch), [])
+
+    def test_interrupted_and_resumed(self):
+        volume = self.waves_file()
+        self.run_tool(*self.arguments(volume, "whole"))
+        with subprocess.Popen([PROGRAM, *self.resume(volume, "part", "--progress")], text=True,
+                              stderr=subprocess.PIPE) as process:
+            while process.poll() is None and self.checkpoint_level() is None:
+                time.sleep(0.001)
+            process.send_signal(signal.SIGINT)
+            rest = process.stderr.read()
+            self.assertEqual(process.wait(timeout=60), 3, rest)
+        self.assertIn("the same command with --resume goes on", rest)
+        self.assertFalse(self.contents("part")[2]["finished"])
+        self.run_tool(*self.resume(volume, "part"))
+        self.expect_same("part", "whole")
+        self.assertEqual(os.listdir(self.scratch), [])
+
+    def test_seconds_are_those_of_both_runs(self):
+        volume = self.waves_file()
+        self.kill_at_level(1, self.resume(volume, "killed"))
+        self.run_tool(*self.resume(volume, "killed"))
+        *_, seconds = self.contents("killed")
+        levels = {level: s for level, s in seconds.items() if not isinstance(level, str)}
+        self.assertGreater(seconds["taken_over"], 0)
+        taken_over = [sum(s for l, s in levels.items() if l >= first) for first in levels]
+        self.assertLess(min(abs(seconds["taken_over"] - s) for s in taken_over), 1e-4)
+        self.assertLessEqual(sum(levels.values()), seconds["surface"] + 1e-4)
+        self.run_tool(*self.resume(volume, "anew"))
+        self.assertNotIn("taken_over", self.contents("anew")[3])
+
+
+class OutputTest(ResumeTestCase):
+    def test_what_could_not_be_written_is_there_at_once(self):
+        volume = self.waves_file()
+        self.run_tool(*self.arguments(volume, "whole"))
+        os.mkdir(self.path("part.vtp"))  # In the way: told before the work begins.
+        os.rmdir(self.path("part.vtp"))
+        limit = os.path.getsize(self.path("whole.vtp")) // 2
+        run = self.run_tool(
+            *self.resume(volume, "part"), status=1,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertRegex(run.stderr, r"part.vtp.*cannot be written|cannot be written.*part.vtp")
+        self.assertIsNotNone(self.checkpoint_level())
+        self.run_tool(*self.resume(volume, "part"))
+        self.expect_same("part", "whole")
+        self.assertEqual(os.listdir(self.scratch), [])
+
+
+class RefusalTest(ResumeTestCase):
+    def test_without_a_checkpoint_it_begins_anew_and_says_so(self):
+        run = self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--resume",
+                            "--scratch", self.scratch)
+        self.assertIn("there is no checkpoint to resume from: the run begins anew", run.stderr)
+
+    def test_every_option_that_matters_is_named(self):
+        """Whatever property comes, it is named, or known not to matter."""
+        volume = self.waves_file()
+        values = {
+            "iso": "101", "reduction-factor": "1.5", "sampling-ratio": "0.9", "friction": "2.5",
+            "tolerance": "0.01", "border": "replicate", "recovery": "none",
+            "initialization": "iso-surface", "coarsest": "1", "seed-radius": "1.5",
+            "iterations": "400", "minimum-part-size": "7", "component": "0", "metric": "voxels",
+            "edge-length": "1.7", "keep": "largest", "snapshot-interval": "9"}
+        names = {"reduction-factor": "levels of the pyramid", "edge-length": "Edge Length",
+                 "border": "Border Value", "keep": "Keep Components", "dark": "Object Is Bright",
+                 "refuse-nan": "NaN Is Background", "coarsest": "Coarsest Level"}
+        self.kill_at_level(1, self.resume(volume, "killed"))
+        table = [line.split("\t")
+                 for line in self.run_tool("--list-properties").stdout.splitlines()]
+        self.assertGreater(len(table), 30)
+        for _, name, option, default in table:
+            option = option[2:]
+            if option in MAY_DIFFER or option == "component":
+                continue
+            value = [] if default in ("on", "off") else [values.get(option, "0.3")]
+            if option == "edge-attraction":
+                value += ["--edges", volume]
+            label = names.get(option, re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name))
+            with self.subTest(option):
+                run = self.run_tool(*self.resume(volume, "other"), f"--{option}", *value, status=1)
+                self.assertIn("Resume: the checkpoint", run.stderr)
+                self.assertRegex(run.stderr, f"{label} was|not the same {label}")
+        self.run_tool(*self.resume(volume, "killed", "--threads", 1))
+
+    def test_another_volume_is_told(self):
+        self.kill_at_level(1, self.resume(self.waves_file(), "killed"))
+        self.refused("is of another volume: not the same size", *self.resume(self.ball_file(), "a"))
+        image = waves()
+        image.GetPointData().GetScalars().SetComponent(1234, 0, 77)
+        other = self.write(vtkXMLImageDataWriter(), "other.vti", image)
+        self.refused("is of another volume: not the same voxels", *self.resume(other, "a"))
+
+    def test_a_folder_that_is_not_there_is_told_before_the_work(self):
+        self.refused("Scratch Directory .*none cannot be used", self.ball_file(),
+                     self.path("a.vtp"), "--iso", ISO, "--scratch", self.path("none"))
+        self.assertFalse(os.path.exists(self.path("a.vtp")))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicTemporaryFolder_h
+#define volumicTemporaryFolder_h
+
+#include <csignal>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <stdlib.h>
+#include <string>
+#include <sys/resource.h>
+
+namespace volumic
+{
+/** A new folder, which goes with the object. */
+class TemporaryFolder
+{
+public:
+  TemporaryFolder() : Name((std::filesystem::temp_directory_path() / "volumic-XXXXXX").string())
+  {
+    if (!mkdtemp(this->Name.data()))
+    {
+      throw std::runtime_error("no temporary folder");
+    }
+  }
+  ~TemporaryFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(this->Name, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::string& Path() const { return this->Name; }
+  std::string File(const std::string& name) const { return this->Name + "/" + name; }
+  std::set<std::string> Names() const
+  {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(this->Name))
+    {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
+
+private:
+  std::string Name;
+};
+
+/** While it lives no file of the process grows beyond so many bytes: as if the disk were full. */
+class LimitedFileSize
+{
+public:
+  explicit LimitedFileSize(rlim_t bytes) : Handler(std::signal(SIGXFSZ, SIG_IGN))
+  {
+    getrlimit(RLIMIT_FSIZE, &this->Before);
+    const rlimit limited = { bytes, this->Before.rlim_max };
+    setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  ~LimitedFileSize()
+  {
+    setrlimit(RLIMIT_FSIZE, &this->Before);
+    std::signal(SIGXFSZ, this->Handler);
+  }
+  LimitedFileSize(const LimitedFileSize&) = delete;
+  LimitedFileSize& operator=(const LimitedFileSize&) = delete;
+
+private:
+  void (*Handler)(int);
+  rlimit Before{};
+};
+}
+
+#endif

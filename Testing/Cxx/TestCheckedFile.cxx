@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/CheckedFile.h"
+#include "Core/Common/ContentHash.h"
+#include "Core/Common/StandardThreads.h"
+#include "TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** More than a block. */
+std::vector<int> LongList()
+{
+  std::vector<int> list(700001);
+  std::iota(list.begin(), list.end(), -5);
+  return list;
+}
+
+void WriteSome(const std::string& name)
+{
+  CheckedWriter file(name);
+  file.Put(2.5);
+  file.PutText("a text");
+  file.PutList(LongList());
+  file.PutText("");
+  file.Commit();
+}
+
+void ExpectSome(const std::string& name)
+{
+  CheckedReader file(name);
+  EXPECT_EQ(file.Get<double>(), 2.5);
+  EXPECT_EQ(file.GetText(), "a text");
+  std::vector<int> list;
+  file.GetList(list);
+  EXPECT_EQ(list, LongList());
+  EXPECT_EQ(file.GetText(), "");
+}
+
+std::string BytesOf(const std::string& name)
+{
+  std::ifstream file(name, std::ios::binary);
+  return { std::istreambuf_iterator<char>(file), {} };
+}
+
+void SetBytes(const std::string& name, const std::string& bytes)
+{
+  std::ofstream(name, std::ios::binary) << bytes;
+}
+
+void ExpectDamaged(const std::string& name)
+{
+  try
+  {
+    ExpectSome(name);
+    ADD_FAILURE() << "it was believed";
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_EQ(std::string(error.what()), name + " is damaged");
+  }
+}
+}
+
+TEST(CheckedFile, GivesBackWhatWasWritten)
+{
+  const TemporaryFolder folder;
+  const std::string name = folder.File("some");
+  WriteSome(name);
+  ExpectSome(name);
+  EXPECT_EQ(folder.Names(), std::set<std::string>{ "some" });
+}
+
+TEST(CheckedFile, ReadsNoMoreThanWasWritten)
+{
+  const TemporaryFolder folder;
+  WriteSome(folder.File("some"));
+  CheckedReader file(folder.File("some"));
+  file.Get<double>();
+  std::vector<int> list;
+  file.GetText();
+  file.GetList(list);
+  file.GetText();
+  EXPECT_THROW(file.Get<int>(), FileError);
+}
+
+TEST(CheckedFile, IsThereWhenItIsCommittedAndTheOldOneUntilThen)
+{
+  const TemporaryFolder folder;
+  const std::string name = folder.File("some");
+  WriteSome(name);
+  {
+    CheckedWriter file(name);
+    file.PutList(LongList());
+    EXPECT_EQ(folder.Names(), (std::set<std::string>{ "some", "some.new" }));
+  }
+  EXPECT_EQ(folder.Names(), std::set<std::string>{ "some" });
+  ExpectSome(name);
+  CheckedWriter file(name);
+  file.Put(1);
+  file.Commit();
+  EXPECT_EQ(CheckedReader(name).Get<int>(), 1);
+}
+
+TEST(CheckedFile, DoesNotBelieveWhatIsDamaged)
+{
+  const TemporaryFolder folder;
+  const std::string name = folder.File("some");
+  WriteSome(name);
+  const std::string bytes = BytesOf(name);
+  ASSERT_GT(bytes.size(), std::size_t(2) << 20);
+  for (std::size_t place = 0; place < bytes.size(); place += 200003)
+  {
+    std::string damaged = bytes;
+    damaged[place] = static_cast<char>(damaged[place] ^ 4);
+    SetBytes(name, damaged);
+    ExpectDamaged(name);
+    SetBytes(name, bytes.substr(0, place)); // Cut off.
+    ExpectDamaged(name);
+  }
+  // Two whole blocks that have changed places.
+  const std::size_t block = 16 + (std::size_t(1) << 20);
+  SetBytes(name, bytes.substr(block, block) + bytes.substr(0, block) + bytes.substr(2 * block));
+  ExpectDamaged(name);
+  SetBytes(name, bytes);
+  ExpectSome(name);
+}
+
+TEST(CheckedFile, TellsWhichFileAndWhy)
+{
+  const TemporaryFolder folder;
+  const std::string missing = folder.File("none/some");
+  try
+  {
+    CheckedWriter file(missing);
+    ADD_FAILURE();
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_EQ(
+      std::string(error.what()), missing + " cannot be written (No such file or directory)");
+  }
+  try
+  {
+    CheckedReader file(missing);
+    ADD_FAILURE();
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_EQ(std::string(error.what()), missing + " cannot be read (No such file or directory)");
+  }
+}
+
+TEST(CheckedFile, LeavesNothingOnAFullDisk)
+{
+  const TemporaryFolder folder;
+  const LimitedFileSize limit(1500000);
+  try
+  {
+    WriteSome(folder.File("some"));
+    ADD_FAILURE() << "there was room";
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("cannot be written (File too large)"),
+      std::string::npos)
+      << error.what();
+  }
+  EXPECT_EQ(folder.Names(), std::set<std::string>());
+}
+
+TEST(ContentHash, IsAnotherOneForAnyOtherContent)
+{
+  std::set<std::uint64_t> found;
+  std::vector<unsigned char> bytes(3 << 20, 0);
+  std::size_t tried = 0;
+  const auto expectNew = [&](std::size_t count)
+  {
+    ++tried;
+    EXPECT_TRUE(found.insert(ContentHash(bytes.data(), count)).second) << tried;
+  };
+  for (std::size_t count = 0; count < 100; ++count)
+  {
+    expectNew(count);
+  }
+  expectNew(1 << 20);
+  expectNew((1 << 20) + 1);
+  for (std::size_t place = 0; place < bytes.size(); place += 99991)
+  {
+    bytes[place] = 1;
+    expectNew(bytes.size());
+    bytes[place] = 0;
+  }
+  expectNew(bytes.size());
+}
+
+TEST(ContentHash, IsTheSameForAnyExecutor)
+{
+  std::vector<unsigned char> bytes((3 << 20) + 17);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+  {
+    bytes[i] = static_cast<unsigned char>(i * i >> 3);
+  }
+  StandardThreads threads(3);
+  EXPECT_EQ(
+    ContentHash(bytes.data(), bytes.size()), ContentHash(bytes.data(), bytes.size(), threads));
+}
+
+TEST(ContentHash, IsWrittenInHexadecimalDigits)
+{
+  EXPECT_EQ(HashText(0x0123456789abcdefu), "0123456789abcdef");
+  EXPECT_EQ(HashText(10), "000000000000000a");
+}
