@@ -128,7 +128,8 @@ vtkSmartPointer<vtkDataArray> RawSlabs::Read(int first, int count)
     !this->Stream.read(static_cast<char*>(values->GetVoidPointer(0)), bytes))
   {
     throw Failure("the slices " + std::to_string(first) + " to " +
-      std::to_string(first + count - 1) + " cannot be read: the file is cut off, or its disk fails");
+      std::to_string(first + count - 1) +
+      " cannot be read: the file is cut off, or its disk fails");
   }
   ToNativeOrder(values, this->IsBig);
   return values;

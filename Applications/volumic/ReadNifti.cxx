@@ -26,7 +26,7 @@ namespace tool
 {
 namespace
 {
-/** What a reader that has seen the header tells of the values. @throws Failure for several times. */
+/** Slope and shift that the header tells of. @throws Failure for several times. */
 std::pair<double, double> RescalingOf(vtkNIFTIImageReader* reader)
 {
   if (reader->GetTimeDimension() > 1)

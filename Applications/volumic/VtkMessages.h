@@ -30,7 +30,8 @@ public:
   void ListenTo(vtkAlgorithm* algorithm);
 
   /**
-   * Update the reader of the file, or, with an extent, that part. @throws Failure "NAME: cannot be read (reasons)" if it, or an
+   * Update the reader of the file, or, with an extent, that part.
+   * @throws Failure "NAME: cannot be read (reasons)" if it, or an
    * object within it, reports an error; or warns, unless its warnings are not `trusted`.
    */
   void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true,
