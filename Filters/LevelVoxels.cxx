@@ -98,7 +98,7 @@ std::vector<double> ShareDoneBefore(const std::vector<LevelGeometry>& levels)
  * Level h + 1 from level h, where voxels without a value are known by their marks (none: all have).
  */
 template <typename T>
-bool Reduce(const T* below, const std::vector<std::uint8_t>& marks, const LevelGeometry& geometry,
+bool Reduce(const T* below, const LargeVector<std::uint8_t>& marks, const LevelGeometry& geometry,
   typename RealOf<T>::Type* made, const LevelGeometry& above, Executor& executor,
   const LevelProgress& progress)
 {
@@ -109,14 +109,14 @@ bool Reduce(const T* below, const std::vector<std::uint8_t>& marks, const LevelG
 
 template <typename T>
 std::vector<vtkSmartPointer<vtkDataArray>> MakeLevels(const T* level0,
-  const std::vector<std::uint8_t>& valid, const std::vector<LevelGeometry>& levels,
+  const LargeVector<std::uint8_t>& valid, const std::vector<LevelGeometry>& levels,
   Executor& executor, const PyramidProgress& progress)
 {
   using Real = typename RealOf<T>::Type;
   const std::vector<double> before = ShareDoneBefore(levels);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
   const Real* below = nullptr;
-  std::vector<std::uint8_t> marks;
+  LargeVector<std::uint8_t> marks;
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
     const auto array = NewArray<Real>(levels[h].NumberOfVoxels(), static_cast<int>(h));

@@ -112,10 +112,10 @@ double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
 }
 
 /** A copy in which voxels that are not valid have a value. */
-std::vector<float> Fill(const VoxelValues& voxels, const std::vector<std::uint8_t>& valid,
+LargeVector<float> Fill(const VoxelValues& voxels, const LargeVector<std::uint8_t>& valid,
   float value, Executor& executor)
 {
-  std::vector<float> filled(valid.size());
+  LargeVector<float> filled(valid.size());
   executor.For(filled.size(), 1 << 16,
     [&](std::size_t begin, std::size_t end)
     {
@@ -282,7 +282,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
   }
 
   this->Loaded = voxels;
-  this->Filled = std::vector<float>();
+  this->Filled = LargeVector<float>();
   LevelImage loaded;
   const bool isFine = voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level] &&
     FloatHolds(range[0], range[1]);
@@ -321,7 +321,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
 void PyramidLevels::ReleaseCoarserThan(int level)
 {
   this->Loaded = nullptr;
-  this->Filled = std::vector<float>();
+  this->Filled = LargeVector<float>();
   for (int h = std::max(level, 0) + 1; h < this->NumberOfLevels(); ++h)
   {
     this->Images[h] = nullptr;

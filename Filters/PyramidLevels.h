@@ -5,6 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Image/LevelImage.h"
 #include "ValidVoxels.h"
 #include "Workspace.h"
@@ -116,7 +117,7 @@ private:
   double FactorBelowLevel0 = 1.7320508075688772;
   Workspace Space;
   vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to
-  std::vector<float> Filled;            ///< or this
+  LargeVector<float> Filled;            ///< or this
   bool NaNIsBackground;
   mutable std::vector<std::optional<std::array<double, 2>>> Ranges; ///< by level, once asked for
 };

@@ -40,15 +40,14 @@ constexpr std::size_t SlabBytes = std::size_t(16) << 20;
  * Whether a source gives a part of its image where it is asked for one. Those that can say so
  * (CAN_PRODUCE_SUB_EXTENT). All readers of pictures do, by inheritance, but vtkDICOMImageReader
  * writes the whole image over the end of a part's memory, vtkTIFFReader gives other slices from its
- * second part on; vtkNIFTIImageReader can, and does not say so.
+ * second part on, and vtkNIFTIImageReader where it reverses them.
  */
 bool GivesParts(vtkAlgorithm* source, int port)
 {
   if (source->IsA("vtkImageReader2"))
   {
     static const std::set<std::string> known = { "vtkImageReader", "vtkImageReader2",
-      "vtkJPEGReader", "vtkMRCReader", "vtkNIFTIImageReader", "vtkNrrdReader", "vtkPNGReader",
-      "vtkPNMReader" };
+      "vtkJPEGReader", "vtkMRCReader", "vtkNrrdReader", "vtkPNGReader", "vtkPNMReader" };
     return known.count(source->GetClassName()) != 0;
   }
   vtkInformation* info = source->GetOutputInformation(port);

@@ -41,7 +41,7 @@ const unsigned char* HidingGhosts(
 
 /** Marks the corners of all visible cells. */
 void MarkVisibleCorners(
-  const unsigned char* ghosts, const int* size, std::vector<std::uint8_t>& marks)
+  const unsigned char* ghosts, const int* size, LargeVector<std::uint8_t>& marks)
 {
   int cells[3];
   std::transform(size, size + 3, cells, [](int points) { return std::max(1, points - 1); });
@@ -69,9 +69,9 @@ void MarkVisibleCorners(
 }
 
 /** Empty where nothing is blanked. */
-std::vector<std::uint8_t> NotBlanked(vtkImageData* image)
+LargeVector<std::uint8_t> NotBlanked(vtkImageData* image)
 {
-  std::vector<std::uint8_t> marks;
+  LargeVector<std::uint8_t> marks;
   const auto count = static_cast<std::size_t>(image->GetNumberOfPoints());
   if (const unsigned char* ghosts = HidingGhosts(
         image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL))
@@ -123,7 +123,7 @@ InfiniteVoxels ExcludeNaNs(const T* values, std::int64_t count, ValidVoxels& val
 }
 
 template <typename T>
-void FindRange(const T* values, const std::vector<std::uint8_t>& marks, double range[2])
+void FindRange(const T* values, const LargeVector<std::uint8_t>& marks, double range[2])
 {
   for (std::size_t i = 0; i < marks.size(); ++i)
   {

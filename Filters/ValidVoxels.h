@@ -4,11 +4,11 @@
 #define volumicValidVoxels_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/ScratchMemory.h"
 
 #include <array>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 class vtkDataArray;
 class vtkImageData;
@@ -18,7 +18,7 @@ namespace volumic
 /** Which voxels of an image have a value: neither NaN nor blanked. The others are background. */
 struct ValidVoxels
 {
-  std::vector<std::uint8_t> Marks; ///< 1 or 0 per voxel; empty where all have a value
+  LargeVector<std::uint8_t> Marks; ///< 1 or 0 per voxel; empty where all have a value
   std::int64_t NaNs = 0;           ///< among those that are not blanked
   std::int64_t FirstNaN = -1;      ///< its number, or -1
 

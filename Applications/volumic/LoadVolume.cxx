@@ -14,14 +14,17 @@
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDeformableSurface.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkImagePyramid.h>
+#include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -29,6 +32,18 @@ namespace tool
 {
 namespace
 {
+/** Of the voxels that a source tells of; empty: of its active scalars. */
+int ComponentsOf(vtkAlgorithm* source, const std::string& array)
+{
+  vtkInformation* info = source->GetOutputInformation(0);
+  constexpr int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkInformation* told = array.empty()
+    ? vtkDataObject::GetActiveFieldInformation(info, points, vtkDataSetAttributes::SCALARS)
+    : vtkDataObject::GetNamedFieldInformation(info, points, array.c_str());
+  const bool has = told && told->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS());
+  return has ? told->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()) : 1;
+}
+
 /** Level 0 of the holder's pyramid: all slabs of the source, one behind the other. */
 vtkSmartPointer<vtkImageData> GatherSlabs(
   const std::string& name, vtkAlgorithm* source, vtkImagePyramid* holder, ProgressStyle style)
@@ -77,10 +92,11 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
 }
 }
 
-vtkSmartPointer<vtkImageData> LoadVoxels(const std::string& name, const std::string& array,
+LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
 {
-  vtkSmartPointer<vtkImageData> image;
+  LoadedVoxels loaded;
+  vtkSmartPointer<vtkImageData>& image = loaded.Image;
   if (filter->GetMemoryLimit() == 0)
   {
     image = ReadVolume(name);
@@ -107,6 +123,7 @@ vtkSmartPointer<vtkImageData> LoadVoxels(const std::string& name, const std::str
     holder->SetMemoryLimit(filter->GetMemoryLimit());
     holder->SetScratchDirectory(filter->GetScratchDirectory());
     image = GatherSlabs(name, opened.Source, holder, announcer.Style);
+    loaded.Components = ComponentsOf(opened.Source, array);
     holder->RemoveAllInputs();
   }
   try
@@ -117,15 +134,18 @@ vtkSmartPointer<vtkImageData> LoadVoxels(const std::string& name, const std::str
   {
     throw Failure(name + ": " + failure.what());
   }
-  return image;
+  loaded.Components = std::max(
+    loaded.Components, image->GetPointData()->GetScalars()->GetNumberOfComponents());
+  return loaded;
 }
 
 vtkSmartPointer<vtkImageData> LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
   vtkImagePyramid* holder, const Announcer& announcer)
 {
   const int component = filter->GetSelectedComponent();
-  const vtkSmartPointer<vtkImageData> image =
+  const LoadedVoxels loaded =
     LoadVoxels(options.Volume, options.Array, filter, holder, announcer);
+  const vtkSmartPointer<vtkImageData> image = loaded.Image;
   if (options.Spacing)
   {
     image->SetSpacing(options.Spacing->data());
@@ -136,7 +156,7 @@ vtkSmartPointer<vtkImageData> LoadVolume(const ToolOptions& options, vtkDeformab
   const auto times = [](auto a, auto b, auto c)
   { return NumberText(a) + " x " + NumberText(b) + " x " + NumberText(c); };
   const std::array<double, 2> range = RangeOf(scalars, component);
-  const int components = scalars->GetNumberOfComponents();
+  const int components = loaded.Components;
   const std::string taken = components == 1
     ? ""
     : (component < 0 ? "magnitude" : "component " + NumberText(component)) + " of " +

@@ -27,8 +27,15 @@ struct ToolOptions;
 vtkSmartPointer<vtkImageData> LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
   vtkImagePyramid* holder, const Announcer& announcer);
 
-/** The part that reads: any volume, of which the array is the active scalars. */
-vtkSmartPointer<vtkImageData> LoadVoxels(const std::string& name, const std::string& array,
+/** A volume whose active scalars are the array that is wanted. */
+struct LoadedVoxels
+{
+  vtkSmartPointer<vtkImageData> Image;
+  int Components = 1; ///< that the file has; with a limit the image has the selected one
+};
+
+/** The part that reads: any volume. */
+LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
 }
 

@@ -67,16 +67,35 @@ std::string NamelessFile::Path() const
   return "/proc/self/fd/" + std::to_string(this->Descriptor);
 }
 
-std::unique_ptr<NamelessFile> Unpack(
-  const std::string& name, std::uint64_t start, const std::string& directory)
+std::uint64_t SizeOfData(const std::string& name)
+{
+  try
+  {
+    return BinaryFile(name).Size();
+  }
+  catch (const Failure&)
+  {
+    throw Failure("its data file " + name + " cannot be opened");
+  }
+}
+
+std::unique_ptr<NamelessFile> Unpack(const std::string& name, std::uint64_t start,
+  const std::string& directory, std::uint64_t count)
 {
   std::ifstream packed(name, std::ios::binary);
   if (!packed || !packed.seekg(static_cast<std::streamoff>(start)))
   {
-    throw Failure(name + ": cannot be opened");
+    throw Failure("its data file " + name + " cannot be opened");
   }
   auto file = std::make_unique<NamelessFile>(directory);
-  Inflate(packed, [&](const char* bytes, std::size_t count) { file->Append(bytes, count); });
+  const auto append = [&](const char* bytes, std::size_t got) { file->Append(bytes, got); };
+  const std::uint64_t got =
+    count == 0 ? Inflate(packed, append) : Inflate(packed, append, count);
+  if (got < count)
+  {
+    throw Failure("the packed data give " + std::to_string(got) + " bytes, " +
+      std::to_string(count) + " are needed");
+  }
   return file;
 }
 
@@ -109,7 +128,8 @@ vtkSmartPointer<vtkDataArray> RawSlabs::Read(int first, int count)
     !this->Stream.read(static_cast<char*>(values->GetVoidPointer(0)), bytes))
   {
     throw Failure("the slices " + std::to_string(first) + " to " +
-      std::to_string(first + count - 1) + " cannot be read: the file is cut off, or its disk fails");
+      std::to_string(first + count - 1) +
+      " cannot be read: the file is cut off, or its disk fails");
   }
   ToNativeOrder(values, this->IsBig);
   return values;

@@ -264,7 +264,8 @@ struct Series
  * The voxels of so many slices one after the other; slices without an image are read again. VTK's
  * reader turns the rows upside down.
  */
-vtkSmartPointer<vtkDataArray> StackVoxels(const Series& series, std::size_t first, std::size_t count)
+vtkSmartPointer<vtkDataArray> StackVoxels(
+  const Series& series, std::size_t first, std::size_t count)
 {
   const std::array<int, 2>& size = series.Size;
   const vtkIdType area = static_cast<vtkIdType>(size[0]) * size[1];

@@ -151,7 +151,7 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const ScratchDirec
   slabs->Start = isLocal ? BehindHeader(name) : 0;
   if (IsTrue(HeaderValue(name, "CompressedData")))
   {
-    slabs->Unpacked = Unpack(slabs->File, slabs->Start, scratch);
+    slabs->Unpacked = Unpack(slabs->File, slabs->Start, scratch, slabs->Bytes());
     slabs->File = slabs->Unpacked->Path();
     slabs->Start = 0;
   }
@@ -159,11 +159,11 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const ScratchDirec
   {
     // -1: the voxels are the last bytes of the file, whatever is before.
     const long long skipped = std::atoll(HeaderValue(name, "HeaderSize").c_str());
-    const std::uint64_t there = BinaryFile(slabs->File).Size();
+    const std::uint64_t there = SizeOfData(slabs->File);
     slabs->Start = skipped < 0 ? there - std::min(there, slabs->Bytes())
                                : slabs->Start + static_cast<std::uint64_t>(skipped);
   }
-  const std::uint64_t there = BinaryFile(slabs->File).Size();
+  const std::uint64_t there = SizeOfData(slabs->File);
   NeedBytes(there - std::min(there, slabs->Start), slabs->Bytes());
   return slabs;
 }

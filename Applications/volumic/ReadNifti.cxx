@@ -26,7 +26,7 @@ namespace tool
 {
 namespace
 {
-/** What a reader that has seen the header tells of the values. @throws Failure for several times. */
+/** Slope and shift that the header tells of. @throws Failure for several times. */
 std::pair<double, double> RescalingOf(vtkNIFTIImageReader* reader)
 {
   if (reader->GetTimeDimension() > 1)
@@ -119,6 +119,7 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDire
   reader->UpdateInformation();
   std::tie(slabs->Slope, slabs->Shift) = RescalingOf(reader);
   slabs->HasTrustedWarnings = false;
+  slabs->IsReversed = reader->GetQFac() < 0;
   if (slabs->Slope != 1.0 || slabs->Shift != 0.0)
   {
     slabs->Type = VTK_FLOAT;

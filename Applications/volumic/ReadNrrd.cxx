@@ -322,14 +322,15 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirec
   slabs->IsBig = Lower(Field(header.All, "endian", "little")) == "big";
   slabs->File = header.DataFile;
   std::uint64_t start = header.DataStart;
+  const int skip = ParseNumber<int>(Field(header.All, "byte skip", "0"));
   if (isPacked)
   {
-    slabs->Unpacked = Unpack(header.DataFile, start, scratch);
+    slabs->Unpacked = Unpack(header.DataFile, start, scratch,
+      slabs->Bytes() + static_cast<std::uint64_t>(std::max(skip, 0)));
     slabs->File = slabs->Unpacked->Path();
     start = 0;
   }
-  const int skip = ParseNumber<int>(Field(header.All, "byte skip", "0"));
-  const std::uint64_t there = BinaryFile(slabs->File).Size();
+  const std::uint64_t there = SizeOfData(slabs->File);
   // -1: the voxels are the last bytes.
   slabs->Start = skip >= 0 ? start + static_cast<std::uint64_t>(skip)
                            : there - std::min(there, slabs->Bytes());

@@ -181,10 +181,18 @@ vtkSmartPointer<vtkAlgorithm> OpenXml(const std::string& name, const std::string
   {
     throw Failure("cannot be read (" + messages.JoinedErrors() + ")");
   }
+  std::string names;
+  bool isThere = array.empty();
   for (int i = 0; !array.empty() && i < reader->GetNumberOfPointArrays(); ++i)
   {
-    const char* each = reader->GetPointArrayName(i);
-    reader->SetPointArrayStatus(each, array == each ? 1 : 0);
+    const std::string each = reader->GetPointArrayName(i);
+    names += (names.empty() ? "; point arrays: " : ", ") + each;
+    isThere = isThere || array == each;
+    reader->SetPointArrayStatus(each.c_str(), array == each ? 1 : 0);
+  }
+  if (!isThere)
+  {
+    throw Failure("no point array " + array + (names.empty() ? "; there are none" : names));
   }
   return reader;
 }

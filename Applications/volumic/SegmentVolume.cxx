@@ -139,7 +139,7 @@ void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSur
   if (!points->HasArray(name.c_str()))
   {
     const vtkSmartPointer<vtkImageData> edges =
-      LoadVoxels(options.Edges, "", filter, holder, announcer);
+      LoadVoxels(options.Edges, "", filter, holder, announcer).Image;
     if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
     {
       throw Failure(options.Edges + ": its size differs from the volume's");

@@ -28,7 +28,7 @@ public:
   int Components = 1;
   VolumePlacement Placement;
   std::string WorldAxes; ///< as SetWorldAxes takes them; may be empty
-  std::string ArrayName; ///< of the values; may be empty
+  std::string ArrayName; ///< of the values; empty: as Read() gives it
 
   /** The values of so many slices; a new array, or one that is valid until the next call. */
   virtual vtkSmartPointer<vtkDataArray> Read(int first, int count) = 0;

@@ -61,7 +61,10 @@ protected:
       image->SetExtent(0, size[0] - 1, 0, size[1] - 1, extent[4], extent[5]);
       PlaceImage(image, this->Reader->Placement);
       const std::string& name = this->Reader->ArrayName;
-      values->SetName(name.empty() ? "Intensity" : name.c_str());
+      if (!name.empty() || !values->GetName())
+      {
+        values->SetName(name.empty() ? "Intensity" : name.c_str());
+      }
       image->GetPointData()->SetScalars(values);
       if (!this->Reader->WorldAxes.empty())
       {

@@ -63,6 +63,10 @@ public:
 
   void Execute(vtkObject*, unsigned long event, void* data) override
   {
+    if (!this->Messages)
+    {
+      return; // They have ended.
+    }
     const std::string text = PlainMessage(data ? static_cast<const char*>(data) : "");
     if (event == vtkCommand::ErrorEvent)
     {
@@ -125,10 +129,21 @@ private:
 };
 }
 
+VtkMessages::VtkMessages() = default;
+
+VtkMessages::~VtkMessages()
+{
+  for (const vtkSmartPointer<vtkCommand>& observer : this->Observers)
+  {
+    static_cast<MessageObserver*>(observer.Get())->Messages = nullptr;
+  }
+}
+
 void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
 {
-  vtkNew<MessageObserver> observer;
+  const auto observer = vtkSmartPointer<MessageObserver>::New();
   observer->Messages = this;
+  this->Observers.emplace_back(observer);
   for (vtkObject* object :
     { static_cast<vtkObject*>(algorithm), static_cast<vtkObject*>(algorithm->GetExecutive()) })
   {

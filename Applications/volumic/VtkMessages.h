@@ -3,11 +3,14 @@
 #ifndef volumicVtkMessages_h
 #define volumicVtkMessages_h
 
+#include <vtkSmartPointer.h>
+
 #include <functional>
 #include <string>
 #include <vector>
 
 class vtkAlgorithm;
+class vtkCommand;
 
 namespace tool
 {
@@ -15,14 +18,20 @@ namespace tool
 class VtkMessages
 {
 public:
+  VtkMessages();
+  ~VtkMessages();
+  VtkMessages(const VtkMessages&) = delete;
+  VtkMessages& operator=(const VtkMessages&) = delete;
+
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
 
-  /** Listen to an algorithm and its executive. This object must outlive their runs. */
+  /** Listen to an algorithm and its executive, as long as this object is there. */
   void ListenTo(vtkAlgorithm* algorithm);
 
   /**
-   * Update the reader of the file, or, with an extent, that part. @throws Failure "NAME: cannot be read (reasons)" if it, or an
+   * Update the reader of the file, or, with an extent, that part.
+   * @throws Failure "NAME: cannot be read (reasons)" if it, or an
    * object within it, reports an error; or warns, unless its warnings are not `trusted`.
    */
   void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true,
@@ -35,6 +44,9 @@ public:
 
   /** Each error once, with semicolons between. */
   std::string JoinedErrors() const;
+
+private:
+  std::vector<vtkSmartPointer<vtkCommand>> Observers;
 };
 }
 

@@ -67,7 +67,8 @@ ReaderSlabs::ReaderSlabs(const std::string& name, const Factory& make) : Name(na
 vtkSmartPointer<vtkDataArray> ReaderSlabs::Read(int first, int count)
 {
   const vtkSmartPointer<vtkImageReader2> reader = this->Make();
-  const int extent[6] = { 0, this->Size[0] - 1, 0, this->Size[1] - 1, first, first + count - 1 };
+  const int begin = this->IsReversed ? this->Size[2] - first - count : first;
+  const int extent[6] = { 0, this->Size[0] - 1, 0, this->Size[1] - 1, begin, begin + count - 1 };
   VtkMessages messages;
   messages.UpdateReader(reader, this->Name, this->HasTrustedWarnings, extent);
   vtkSmartPointer<vtkDataArray> values = reader->GetOutput()->GetPointData()->GetScalars();

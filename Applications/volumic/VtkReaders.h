@@ -66,6 +66,7 @@ public:
   ReaderSlabs(const std::string& name, const Factory& make);
 
   bool HasTrustedWarnings = true; ///< as VtkMessages::UpdateReader says
+  bool IsReversed = false; ///< The reader reverses the slices, of each part by itself.
   double Slope = 1.0; ///< What is read gets multiplied,
   double Shift = 0.0; ///< and shifted, and is float then.
 

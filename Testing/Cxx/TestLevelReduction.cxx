@@ -242,7 +242,7 @@ TEST(ValidReduction, IsTheMeanOfTheVoxelsWithAValue)
   const auto levels = TwoLevels({ 30, 20, 24 });
   SequentialExecutor executor;
   // Some have none: the mean of the others is theirs, whatever stands at these places.
-  std::vector<std::uint8_t> valid(levels[0].NumberOfVoxels());
+  LargeVector<std::uint8_t> valid(levels[0].NumberOfVoxels());
   std::vector<short> voxels(valid.size());
   for (std::size_t i = 0; i < valid.size(); ++i)
   {
@@ -263,14 +263,14 @@ TEST(ValidReduction, IsTheMeanOfTheVoxelsWithAValue)
   }
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_EQ(shares.back(), 1.0);
-  EXPECT_EQ(MarkNumbers(out.data(), 3), std::vector<std::uint8_t>(3, 1));
+  EXPECT_EQ(MarkNumbers(out.data(), 3), LargeVector<std::uint8_t>(3, 1));
 }
 
 TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
 {
   const auto levels = TwoLevels({ 30, 20, 24 });
   SequentialExecutor executor;
-  std::vector<std::uint8_t> valid(levels[0].NumberOfVoxels());
+  LargeVector<std::uint8_t> valid(levels[0].NumberOfVoxels());
   for (std::size_t i = 0; i < valid.size(); ++i)
   {
     valid[i] = i % 30 < 15 ? 1 : 0;

@@ -17,12 +17,12 @@ constexpr double LeastWeight = 0.5;
 }
 
 template <typename T>
-bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
+bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
   const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
   const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress)
 {
   using Real = typename RealOf<T>::Type;
-  std::vector<T> values(valid.size());
+  LargeVector<T> values(valid.size());
   std::transform(valid.begin(), valid.end(), input, values.begin(),
     [](std::uint8_t mark, T value) { return mark != 0 ? value : T(0); });
   const auto firstHalf = [&](double share) { return progress(0.5 * share); };
@@ -31,11 +31,11 @@ bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
   {
     return false;
   }
-  values = std::vector<T>();
+  values = LargeVector<T>();
   // The weights are as precise as the voxels: as bytes they would give single precision.
   using Mark = std::conditional_t<std::is_same_v<Real, double>, double, std::uint8_t>;
-  const std::vector<Mark> marks(valid.begin(), valid.end());
-  std::vector<Real> weights(static_cast<std::size_t>(outputGeometry.NumberOfVoxels()));
+  const LargeVector<Mark> marks(valid.begin(), valid.end());
+  LargeVector<Real> weights(static_cast<std::size_t>(outputGeometry.NumberOfVoxels()));
   if (!ReduceLevel(
         marks.data(), inputGeometry, weights.data(), outputGeometry, executor, secondHalf))
   {
@@ -49,19 +49,19 @@ bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
 }
 
 template <typename Real>
-std::vector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n)
+LargeVector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n)
 {
-  std::vector<std::uint8_t> marks(static_cast<std::size_t>(n));
+  LargeVector<std::uint8_t> marks(static_cast<std::size_t>(n));
   std::transform(values, values + n, marks.begin(),
     [](Real value) { return static_cast<std::uint8_t>(std::isnan(value) ? 0 : 1); });
   return marks;
 }
 
 #define VOLUMIC_INSTANTIATE(T)                                                                  \
-  template bool ReduceValidVoxels<T>(const T*, const std::vector<std::uint8_t>&,               \
+  template bool ReduceValidVoxels<T>(const T*, const LargeVector<std::uint8_t>&,               \
     const LevelGeometry&, RealOf<T>::Type*, const LevelGeometry&, Executor&, const LevelProgress&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE
-template std::vector<std::uint8_t> MarkNumbers<float>(const float*, std::int64_t);
-template std::vector<std::uint8_t> MarkNumbers<double>(const double*, std::int64_t);
+template LargeVector<std::uint8_t> MarkNumbers<float>(const float*, std::int64_t);
+template LargeVector<std::uint8_t> MarkNumbers<double>(const double*, std::int64_t);
 }

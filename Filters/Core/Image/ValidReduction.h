@@ -3,10 +3,10 @@
 #ifndef volumicValidReduction_h
 #define volumicValidReduction_h
 
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Image/LevelReduction.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace volumic
 {
@@ -17,13 +17,13 @@ namespace volumic
  * @param valid 1 for voxels with a value, 0 for others, whose value does not matter
  */
 template <typename T>
-bool ReduceValidVoxels(const T* input, const std::vector<std::uint8_t>& valid,
+bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
   const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
   const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress);
 
 /** 1 for numbers, 0 for NaN. */
 template <typename Real>
-std::vector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n);
+LargeVector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n);
 }
 
 #endif
