@@ -218,7 +218,7 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
 {
   SurfaceResult part;
   part.Delta = surface.Delta;
-  std::vector<int> index(surface.Points.size(), -1);
+  LargeVector<int> index(surface.Points.size(), -1);
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
   {
     if (isKept[features.ComponentOfTriangle[t]])

@@ -7,36 +7,41 @@
 #include "Core/Image/LevelReduction.h"
 #include "Core/Image/ValidReduction.h"
 #include "ImageVoxels.h"
+#include "LargeArray.h"
 
-#include <vtkAOSDataArrayTemplate.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
+#include <new>
 #include <stdexcept>
+#include <type_traits>
 
 namespace volumic
 {
 namespace
 {
+/** vtkFloatArray or vtkDoubleArray. */
+template <typename Real>
+using ArrayOf = std::conditional_t<std::is_same_v<Real, float>, vtkFloatArray, vtkDoubleArray>;
+
 /** An array of n values in memory that may turn out not to be had, which is no reason to abort. */
 template <typename Real>
-vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> NewArray(std::int64_t n, int level)
+vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
 {
-  auto* values = static_cast<Real*>(std::malloc(static_cast<std::size_t>(n) * sizeof(Real)));
-  if (!values)
+  try
+  {
+    return NewLargeArray<ArrayOf<Real>>(static_cast<std::size_t>(n));
+  }
+  catch (const std::bad_alloc&)
   {
     throw std::runtime_error(Join("the memory does not suffice for level ", level,
       ", which takes ", static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
-      " MB. Ask for fewer levels, or crop the image."));
+      " MB. Set Memory Limit, ask for fewer levels, or crop the image."));
   }
-  vtkSmartPointer<vtkAOSDataArrayTemplate<Real>> array;
-  array.TakeReference(vtkAOSDataArrayTemplate<Real>::FastDownCast(
-    vtkDataArray::CreateDataArray(vtkTypeTraits<Real>::VTK_TYPE_ID)));
-  array->SetArray(values, n, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
-  return array;
 }
 
 /**

@@ -4,6 +4,8 @@
 
 #include "Core/Common/Refuse.h"
 
+#include <algorithm>
+
 namespace volumic
 {
 LimitedMemory::LimitedMemory() = default;
@@ -29,5 +31,20 @@ void LimitedMemory::Set(int mebibytes, const std::string& directory)
     this->Scratch = std::make_unique<ScratchMemory>(wanted);
     this->Options = wanted;
   }
+  this->Told.clear();
+}
+
+std::vector<std::string> LimitedMemory::TakeWarnings()
+{
+  std::vector<std::string> warnings;
+  for (const std::string& text : this->Scratch ? this->Scratch->Warnings() : warnings)
+  {
+    if (std::find(this->Told.begin(), this->Told.end(), text) == this->Told.end())
+    {
+      warnings.push_back(text);
+      this->Told.push_back(text);
+    }
+  }
+  return warnings;
 }
 }

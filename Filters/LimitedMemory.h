@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace volumic
 {
@@ -32,6 +33,9 @@ public:
   /** Bytes; 0: there is none. */
   std::size_t Limit() const { return this->Options.Limit; }
 
+  /** What ScratchMemory warns of, each as long as it is new, for the end of a run. */
+  std::vector<std::string> TakeWarnings();
+
   /** The bytes of the property; 0 where it is none. */
   static std::size_t BytesOf(int mebibytes)
   {
@@ -41,6 +45,7 @@ public:
 private:
   ScratchOptions Options;
   std::unique_ptr<ScratchMemory> Scratch; ///< null where there is no limit
+  std::vector<std::string> Told;          ///< the warnings that were taken
 };
 }
 

@@ -107,6 +107,12 @@ double SliceBytes(vtkInformation* info, const Extent& whole)
   return bytes * (whole[1] - whole[0] + 1.0) * (whole[3] - whole[2] + 1.0);
 }
 
+/** The same of a slab that is there, with all of its arrays. */
+double SliceBytes(vtkImageData* slab)
+{
+  return static_cast<double>(slab->GetActualMemorySize()) * 1024.0 / slab->GetDimensions()[2];
+}
+
 /** How many slices a slab has: two at least, as cells lie between two. */
 int Thickness(double sliceBytes, std::size_t limit)
 {
@@ -232,7 +238,7 @@ SlabInput::Result SlabInput::Read(const Request& request) const
     return result;
   }
   const auto sliceCount = static_cast<double>(whole[5] - whole[4] + 1);
-  const int slices = Thickness(SliceBytes(this->Info(), whole), request.Limit);
+  int slices = Thickness(SliceBytes(this->Info(), whole), request.Limit);
   std::unique_ptr<SlabImage> image;
   int first = whole[4];
   int last = isThere ? whole[5] : std::min(first + slices - 1, whole[5]);
@@ -248,6 +254,7 @@ SlabInput::Result SlabInput::Read(const Request& request) const
     if (!image)
     {
       image = std::make_unique<SlabImage>(PreparedExtent(whole, slab, prepared));
+      slices = std::min(slices, Thickness(SliceBytes(slab), request.Limit));
     }
     image->Take(prepared);
     result.IsStopped = !request.GoOn((last - whole[4] + 1) / sliceCount);

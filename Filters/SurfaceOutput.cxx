@@ -3,6 +3,7 @@
 #include "SurfaceOutput.h"
 
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "LargeArray.h"
 #include "SurfaceTransform.h"
 
 #include <vtkCellArray.h>
@@ -68,9 +69,9 @@ void ForRanges(Executor& executor, std::size_t n, const Body& body)
 }
 
 template <typename T>
-void Free(std::vector<T>& values)
+void Free(LargeVector<T>& values)
 {
-  std::vector<T>().swap(values);
+  LargeVector<T>().swap(values);
 }
 
 /** The same value for all triangles of a component, so that filters of cells can choose by it. */
@@ -79,9 +80,8 @@ void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceF
   Executor& executor, const Get& get)
 {
   using Value = typename Array::ValueType;
-  vtkNew<Array> array;
+  const auto array = NewLargeArray<Array>(features.ComponentOfTriangle.size());
   array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(features.ComponentOfTriangle.size()));
   Value* values = array->GetPointer(0);
   ForRanges(executor, features.ComponentOfTriangle.size(),
     [&](std::size_t begin, std::size_t end)
@@ -96,7 +96,7 @@ void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceF
 }
 
 /** The size that 98 % of the residuals don't exceed; 0 for none. */
-double ResidualQuantile(std::vector<float> residuals)
+double ResidualQuantile(LargeVector<float> residuals)
 {
   if (residuals.empty())
   {
@@ -112,12 +112,13 @@ double ResidualQuantile(std::vector<float> residuals)
   return *place;
 }
 
-void TakePoints(vtkPolyData* polyData, std::vector<Point>& places, Executor& executor)
+void TakePoints(vtkPolyData* polyData, LargeVector<Point>& places, Executor& executor)
 {
   vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(places.size()));
-  double* to = vtkDoubleArray::SafeDownCast(points->GetData())->GetPointer(0);
+  const auto coordinates = NewLargeArray<vtkDoubleArray>(places.size(), 3);
+  coordinates->SetName(points->GetData()->GetName());
+  points->SetData(coordinates);
+  double* to = coordinates->GetPointer(0);
   ForRanges(executor, places.size(),
     [&](std::size_t begin, std::size_t end)
     {
@@ -130,13 +131,11 @@ void TakePoints(vtkPolyData* polyData, std::vector<Point>& places, Executor& exe
   Free(places);
 }
 
-void TakeTriangles(vtkPolyData* polyData, std::vector<Triangle>& corners, Executor& executor)
+void TakeTriangles(vtkPolyData* polyData, LargeVector<Triangle>& corners, Executor& executor)
 {
   // As VTK itself keeps them: what reads arrays of a file by their type finds the same.
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfTuples(static_cast<vtkIdType>(corners.size()) + 1);
-  vtkNew<vtkIdTypeArray> connectivity;
-  connectivity->SetNumberOfTuples(3 * static_cast<vtkIdType>(corners.size()));
+  const auto offsets = NewLargeArray<vtkIdTypeArray>(corners.size() + 1);
+  const auto connectivity = NewLargeArray<vtkIdTypeArray>(3 * corners.size());
   vtkIdType* first = offsets->GetPointer(0);
   vtkIdType* to = connectivity->GetPointer(0);
   ForRanges(executor, corners.size(),
@@ -160,11 +159,8 @@ void TakePointArrays(
   vtkPolyData* polyData, SurfaceResult& surface, const Workspace& space, Executor& executor)
 {
   const std::size_t n = surface.Normals.size();
-  const auto numberOfPoints = static_cast<vtkIdType>(n);
-  vtkNew<vtkFloatArray> normals;
+  const auto normals = NewLargeArray<vtkFloatArray>(n, 3);
   normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(numberOfPoints);
   float* to = normals->GetPointer(0);
   ForRanges(executor, n,
     [&](std::size_t begin, std::size_t end)
@@ -176,20 +172,17 @@ void TakePointArrays(
       }
     });
   Free(surface.Normals);
-  vtkNew<vtkFloatArray> residual;
+  const auto residual = NewLargeArray<vtkFloatArray>(n);
   residual->SetName("Residual");
-  residual->SetNumberOfTuples(numberOfPoints);
   std::copy(surface.Residual.begin(), surface.Residual.end(), residual->GetPointer(0));
-  vtkNew<vtkUnsignedCharArray> motionless;
+  const auto motionless = NewLargeArray<vtkUnsignedCharArray>(n);
   motionless->SetName("Motionless");
-  motionless->SetNumberOfTuples(numberOfPoints);
   std::copy(surface.Motionless.begin(), surface.Motionless.end(), motionless->GetPointer(0));
   polyData->GetPointData()->SetNormals(normals);
   polyData->GetPointData()->AddArray(residual);
   polyData->GetPointData()->AddArray(motionless);
-  vtkNew<vtkUnsignedCharArray> contact;
+  const auto contact = NewLargeArray<vtkUnsignedCharArray>(n);
   contact->SetName("Contact");
-  contact->SetNumberOfTuples(numberOfPoints);
   std::copy(surface.Held.begin(), surface.Held.end(), contact->GetPointer(0));
   for (const std::array<int, 2>& pair : surface.Contacts)
   {

@@ -450,6 +450,10 @@ int vtkDeformableSurface::RequestData(
   try
   {
     this->RunOrGoOn(inputVector, outputVector);
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   catch (const std::bad_alloc& error)
   {

@@ -368,6 +368,10 @@ int vtkImagePyramid::RequestData(
     volumic::ForgetAbort(this);
     this->MakeLevels(
       vtkDataObject::GetData(inputVector[0]), image, vtkMultiBlockDataSet::GetData(outputVector));
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
   catch (const std::bad_alloc& error)
   {

@@ -55,21 +55,22 @@ bool IsGzip(const z_stream& stream)
 }
 }
 
-void Inflate(std::istream& packed, std::uint64_t count, char* bytes)
+std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint64_t most)
 {
   Inflater inflater;
   z_stream& stream = inflater.Stream;
   std::vector<char> input(Piece);
   std::vector<char> output(Piece);
   std::uint64_t done = 0;
+  const bool isAny = most == std::numeric_limits<std::uint64_t>::max();
   bool isAtEnd = false;
   while (!isAtEnd)
   {
     Refill(packed, input, stream);
     if (stream.avail_in == 0)
     {
-      throw Failure("the packed data are cut off: they give " + std::to_string(done) + " of " +
-        std::to_string(count) + " bytes");
+      throw Failure("the packed data are cut off: they give " + std::to_string(done) +
+        (isAny ? "" : " of " + std::to_string(most)) + " bytes");
     }
     stream.next_out = reinterpret_cast<Bytef*>(output.data());
     stream.avail_out = static_cast<uInt>(output.size());
@@ -79,24 +80,33 @@ void Inflate(std::istream& packed, std::uint64_t count, char* bytes)
     {
       throw Failure("the packed data are damaged: their checksum or code is wrong");
     }
-    if (done + got > count)
+    if (got > most - done)
     {
-      throw Failure("the packed data give more than the " + std::to_string(count) +
+      throw Failure("the packed data give more than the " + std::to_string(most) +
         " bytes that the header tells of");
     }
-    if (bytes)
-    {
-      std::copy_n(output.data(), got, bytes + done);
-    }
+    sink(output.data(), got);
     done += got;
     isAtEnd = status == Z_STREAM_END;
-    if (isAtEnd && done < count)
+    if (isAtEnd && done < most)
     {
       // Several members, one behind the other, are one gzip file.
       Refill(packed, input, stream);
-      isAtEnd = stream.avail_in == 0 || inflateReset(&stream) != Z_OK;
+      const bool isMember = isAny ? IsGzip(stream) : stream.avail_in > 0;
+      isAtEnd = !isMember || inflateReset(&stream) != Z_OK;
     }
   }
+  return done;
+}
+
+void Inflate(std::istream& packed, std::uint64_t count, char* bytes)
+{
+  char* to = bytes;
+  const std::uint64_t done = Inflate(
+    packed,
+    [&to](const char* unpacked, std::size_t got)
+    { to = to ? std::copy_n(unpacked, got, to) : nullptr; },
+    count);
   if (done < count)
   {
     throw Failure("the packed data give " + std::to_string(done) + " bytes, " +

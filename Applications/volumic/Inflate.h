@@ -3,8 +3,11 @@
 #ifndef volumicInflate_h
 #define volumicInflate_h
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <istream>
+#include <limits>
 #include <string>
 
 namespace tool
@@ -15,6 +18,13 @@ namespace tool
  * is null. @throws Failure, without a name, if they are damaged, cut off or of another size.
  */
 void Inflate(std::istream& packed, std::uint64_t count, char* bytes);
+
+/** Takes unpacked bytes, in their order. */
+using UnpackedSink = std::function<void(const char* bytes, std::size_t count)>;
+
+/** The same, to where the sink puts them; by default as many as there are. @return how many. */
+std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink,
+  std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
 /**
  * The first bytes that a gzip file unpacks to, or those of a file that is not packed; `count` at

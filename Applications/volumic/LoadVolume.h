@@ -5,7 +5,11 @@
 
 #include <vtkSmartPointer.h>
 
+#include <string>
+
+class vtkDeformableSurface;
 class vtkImageData;
+class vtkImagePyramid;
 
 namespace tool
 {
@@ -14,11 +18,18 @@ struct ToolOptions;
 
 /**
  * Read the volume of the command line, choose its array, set its spacing, and tell what it is.
- * @param component of its voxels of which the range is told, -1: the magnitude
+ * Where the memory is limited it is read slab by slab into scratch memory; the voxels are those of
+ * the selected component then.
+ * @param filter of which the component and the memory limit are taken
+ * @param holder a pyramid for this purpose: the scratch memory lasts as long as it does
  * @throws Failure if it cannot be read or lacks the array.
  */
-vtkSmartPointer<vtkImageData> LoadVolume(
-  const ToolOptions& options, int component, const Announcer& announcer);
+vtkSmartPointer<vtkImageData> LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer);
+
+/** The part that reads: any volume, of which the array is the active scalars. */
+vtkSmartPointer<vtkImageData> LoadVoxels(const std::string& name, const std::string& array,
+  vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
 }
 
 #endif

@@ -14,7 +14,7 @@ struct OutputName
   enum class Kind
   {
     File,
-    Blocks, ///< a .vtm, and the files STEM/STEM_... beside it
+    Blocks, ///< a .vtm or .pvtp, and the files STEM/STEM_... beside it
     Folder  ///< the files Prefix-....vtp in it; it may have to be made
   };
   std::string Name;

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputFiles.h"
 
+#include "Descriptor.h"
 #include "ToolErrors.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <sys/stat.h>
@@ -21,69 +20,11 @@ namespace
 {
 namespace fs = std::filesystem;
 
-std::string SystemReason()
-{
-  return std::generic_category().message(errno);
-}
-
 std::string FolderOf(const std::string& name)
 {
   const std::string folder = fs::path(name).parent_path().string();
   return folder.empty() ? "." : folder;
 }
-
-/** An open file that closes itself. */
-class Descriptor
-{
-public:
-  Descriptor(const std::string& path, int flags)
-    : Number(open(path.c_str(), flags | O_CLOEXEC, 0666))
-  {
-  }
-  ~Descriptor() { this->Close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  bool IsOpen() const { return this->Number >= 0; }
-
-  /** Whether all could be written. */
-  bool Write(const char* bytes, std::size_t count)
-  {
-    while (count > 0)
-    {
-      const ssize_t written = write(this->Number, bytes, count);
-      if (written < 0 && errno != EINTR)
-      {
-        return false;
-      }
-      const std::size_t done = written > 0 ? static_cast<std::size_t>(written) : 0;
-      bytes += done;
-      count -= done;
-    }
-    return true;
-  }
-
-  /** Whether there is room for so many bytes. */
-  bool Reserve(std::size_t count)
-  {
-    errno = posix_fallocate(this->Number, 0, static_cast<off_t>(count));
-    return errno == 0;
-  }
-
-  /** Whether the disk has it. Pipes and some network folders know no such request. */
-  bool Flush() { return fsync(this->Number) == 0 || errno == EINVAL || errno == ENOTSUP; }
-
-  /** Whether nothing was left to fail. */
-  bool Close()
-  {
-    const bool isClosed = this->Number < 0 || close(this->Number) == 0;
-    this->Number = -1;
-    return isClosed;
-  }
-
-private:
-  int Number;
-};
 
 /** Give `path` the owner and the permissions of the file it replaces, as far as we may. */
 void InheritPermissions(const std::string& path, const std::string& old)

@@ -8,6 +8,7 @@
 
 #include "DicomHeader.h"
 #include "ParseNumbers.h"
+#include "SlabReader.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
@@ -20,11 +21,13 @@
 #include <vtkVersion.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <utility>
 
 namespace tool
@@ -183,12 +186,11 @@ Slice ReadSlice(const std::string& file)
   return slice;
 }
 
-void CheckFits(const Slice& slice, const Slice& first)
+void CheckFits(const Slice& slice, const Slice& first, const std::array<int, 2>& size)
 {
   const bool isSameSeries = slice.Study == first.Study && Dot(slice.Across, first.Across) > 0.999 &&
     Dot(slice.Down, first.Down) > 0.999;
-  const bool isSameSize = std::equal(slice.Image->GetDimensions(), slice.Image->GetDimensions() + 2,
-                            first.Image->GetDimensions()) &&
+  const bool isSameSize = std::equal(size.begin(), size.end(), slice.Image->GetDimensions()) &&
     std::abs(slice.Spacing[0] - first.Spacing[0]) < 1e-3 &&
     std::abs(slice.Spacing[1] - first.Spacing[1]) < 1e-3;
   if (!isSameSeries || !isSameSize)
@@ -249,16 +251,31 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
   return mean;
 }
 
-/** Copy the slices' voxels one after the other. VTK's reader turns the rows upside down. */
-vtkSmartPointer<vtkDataArray> StackVoxels(const std::vector<Slice>& slices, int type)
+/** A series whose slices are sorted. */
+struct Series
 {
-  const int* size = slices[0].Image->GetDimensions();
+  std::vector<Slice> Slices; ///< with or without their images
+  std::array<int, 2> Size = { 0, 0 };
+  int Type = 0; ///< the widest of the slices
+  VolumePlacement Placement;
+};
+
+/**
+ * The voxels of so many slices one after the other; slices without an image are read again. VTK's
+ * reader turns the rows upside down.
+ */
+vtkSmartPointer<vtkDataArray> StackVoxels(const Series& series, std::size_t first, std::size_t count)
+{
+  const std::array<int, 2>& size = series.Size;
   const vtkIdType area = static_cast<vtkIdType>(size[0]) * size[1];
-  auto voxels = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-  voxels->SetNumberOfTuples(area * static_cast<vtkIdType>(slices.size()));
-  for (std::size_t i = 0; i < slices.size(); ++i)
+  auto voxels = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(series.Type));
+  voxels->SetNumberOfTuples(area * static_cast<vtkIdType>(count));
+  for (std::size_t i = 0; i < count; ++i)
   {
-    vtkDataArray* pixels = slices[i].Image->GetPointData()->GetScalars();
+    const Slice& slice = series.Slices[first + i];
+    const vtkSmartPointer<vtkImageData> image =
+      slice.Image ? slice.Image : ReadSlice(slice.File).Image;
+    vtkDataArray* pixels = image->GetPointData()->GetScalars();
     for (int row = 0; row < size[1]; ++row)
     {
       voxels->InsertTuples(static_cast<vtkIdType>(i) * area + static_cast<vtkIdType>(row) * size[0],
@@ -267,17 +284,9 @@ vtkSmartPointer<vtkDataArray> StackVoxels(const std::vector<Slice>& slices, int 
   }
   return voxels;
 }
-}
 
-bool IsDicom(const std::string& file)
-{
-  // VTK's reader takes some other files for old DICOM without this mark.
-  std::ifstream stream(file, std::ios::binary);
-  char head[132];
-  return stream.read(head, sizeof(head)) && std::memcmp(head + 128, "DICM", 4) == 0;
-}
-
-vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
+/** Reads and sorts all slices; their images are kept, or let go one by one. */
+Series ReadSeries(const std::vector<std::string>& files, bool keepsImages)
 {
   std::vector<std::string> images;
   std::vector<DicomHeader> headers;
@@ -293,37 +302,83 @@ vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
   CheckSingleSeries(images, headers);
   CheckPlaces(images, headers);
 
-  std::vector<Slice> slices;
-  int type = 0;
+  Series series;
+  std::vector<Slice>& slices = series.Slices;
   for (const std::string& file : images)
   {
     slices.push_back(ReadSlice(file));
-    CheckFits(slices.back(), slices.front());
-    vtkDataArray* pixels = slices.back().Image->GetPointData()->GetScalars();
+    const vtkSmartPointer<vtkImageData> image = slices.back().Image;
+    const int* size = image->GetDimensions();
+    series.Size = slices.size() == 1 ? std::array<int, 2>{ size[0], size[1] } : series.Size;
+    CheckFits(slices.back(), slices.front(), series.Size);
+    vtkDataArray* pixels = image->GetPointData()->GetScalars();
     // Slices may differ in slope and shift, and so in type: the widest holds all.
     const bool isWider = slices.size() == 1 ||
-      pixels->GetDataTypeSize() > vtkDataArray::GetDataTypeSize(type) ||
+      pixels->GetDataTypeSize() > vtkDataArray::GetDataTypeSize(series.Type) ||
       (pixels->GetDataTypeMin() < 0 &&
-        pixels->GetDataTypeSize() == vtkDataArray::GetDataTypeSize(type));
-    type = isWider ? pixels->GetDataType() : type;
+        pixels->GetDataTypeSize() == vtkDataArray::GetDataTypeSize(series.Type));
+    series.Type = isWider ? pixels->GetDataType() : series.Type;
+    slices.back().Image = keepsImages ? image : nullptr;
   }
   if (slices.empty())
   {
     throw Failure("no DICOM image there");
   }
-  VolumePlacement placement;
   const Vector3 normal = Cross(slices[0].Across, slices[0].Down);
-  placement.Axes = { slices[0].Across, slices[0].Down, normal };
+  series.Placement.Axes = { slices[0].Across, slices[0].Down, normal };
   std::stable_sort(slices.begin(), slices.end(),
     [&](const Slice& a, const Slice& b)
     { return Dot(a.Position, normal) < Dot(b.Position, normal); });
   const double distance = SliceDistance(slices, normal);
-  placement.Spacing = { slices[0].Spacing[0], slices[0].Spacing[1], distance };
-  placement.Origin = slices[0].Position;
-  const int* size = slices[0].Image->GetDimensions();
-  vtkSmartPointer<vtkImageData> image = MakeImage(
-    { size[0], size[1], static_cast<int>(slices.size()) }, StackVoxels(slices, type), placement);
+  series.Placement.Spacing = { slices[0].Spacing[0], slices[0].Spacing[1], distance };
+  series.Placement.Origin = slices[0].Position;
+  return series;
+}
+
+class DicomSlabs : public SlabReader
+{
+public:
+  explicit DicomSlabs(const std::vector<std::string>& files) : Held(ReadSeries(files, false))
+  {
+    this->Size = { this->Held.Size[0], this->Held.Size[1],
+      static_cast<int>(this->Held.Slices.size()) };
+    this->Type = this->Held.Type;
+    this->Placement = this->Held.Placement;
+    this->WorldAxes = "LPS";
+  }
+
+  vtkSmartPointer<vtkDataArray> Read(int first, int count) override
+  {
+    return StackVoxels(
+      this->Held, static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+  }
+
+private:
+  Series Held;
+};
+}
+
+bool IsDicom(const std::string& file)
+{
+  // VTK's reader takes some other files for old DICOM without this mark.
+  std::ifstream stream(file, std::ios::binary);
+  char head[132];
+  return stream.read(head, sizeof(head)) && std::memcmp(head + 128, "DICM", 4) == 0;
+}
+
+vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
+{
+  const Series series = ReadSeries(files, true);
+  const std::size_t count = series.Slices.size();
+  vtkSmartPointer<vtkImageData> image =
+    MakeImage({ series.Size[0], series.Size[1], static_cast<int>(count) },
+      StackVoxels(series, 0, count), series.Placement);
   SetWorldAxes(image, "LPS");
   return image;
+}
+
+std::unique_ptr<SlabReader> OpenDicom(const std::vector<std::string>& files)
+{
+  return std::make_unique<DicomSlabs>(files);
 }
 }

@@ -5,9 +5,11 @@
 // here: https://teem.sourceforge.net/nrrd/format.html.
 #include "ReadVolume.h"
 
+#include "BinaryFile.h"
 #include "Bunzip.h"
 #include "Inflate.h"
 #include "ParseNumbers.h"
+#include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
@@ -18,11 +20,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <map>
+#include <memory>
 #include <sstream>
 
 namespace tool
@@ -31,14 +34,13 @@ namespace
 {
 using Fields = std::map<std::string, std::string>;
 
-std::string ReadBytes(const std::string& name)
+/** What a file holds behind its first `start` bytes, so many of them at most. */
+std::string ReadBytes(const std::string& name, std::uint64_t start = 0,
+  std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
 {
-  std::ifstream file(name, std::ios::binary);
-  if (!file)
-  {
-    throw Failure(name + ": cannot be opened");
-  }
-  return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  BinaryFile file(name);
+  start = std::min(start, file.Size());
+  return file.Text(start, std::min(most, file.Size() - start));
 }
 
 /** Fields by lower-case name; `dataStart` is where the data of an attached file begin. */
@@ -227,40 +229,72 @@ std::string WorldAxesOf(const std::string& space)
   const auto found = axes.find(Lower(space));
   return found == axes.end() ? "" : found->second;
 }
-}
 
-vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
+/** The most bytes that a header has. */
+constexpr std::uint64_t HeaderBytes = 1 << 20;
+
+/** What a header tells. */
+struct Header
 {
-  std::string content = ReadBytes(name);
-  std::size_t dataStart = 0;
-  const Fields fields = ParseHeader(content, dataStart);
+  Fields All;
+  std::array<int, 3> Size = { 0, 0, 0 };
+  int Type = 0;
+  VolumePlacement Placement;
+  std::string WorldAxes;       ///< may be empty
+  std::string DataFile;        ///< the file itself, or another one
+  std::uint64_t DataStart = 0; ///< bytes before the data in it
+};
+
+Header ReadHeader(const std::string& name)
+{
+  Header header;
+  std::size_t start = 0;
+  header.All = ParseHeader(ReadBytes(name, 0, HeaderBytes), start);
   try
   {
-    std::array<int, 3> size = { 0, 0, 0 };
-    std::istringstream sizes(Field(fields, "sizes", ""));
+    std::array<int, 3>& size = header.Size;
+    std::istringstream sizes(Field(header.All, "sizes", ""));
     std::string more;
     if (!(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more ||
       *std::min_element(size.begin(), size.end()) < 1)
     {
-      throw Failure(
-        "sizes '" + Field(fields, "sizes", "") + "'; a volume with one scalar component has three");
+      throw Failure("sizes '" + Field(header.All, "sizes", "") +
+        "'; a volume with one scalar component has three");
     }
-    auto values = vtkSmartPointer<vtkDataArray>::Take(
-      vtkDataArray::CreateDataArray(TypeOf(Lower(Field(fields, "type", "")))));
-    values->SetNumberOfTuples(static_cast<vtkIdType>(size[0]) * size[1] * size[2]);
-    const std::string file = Field(fields, "data file", "");
+    header.Type = TypeOf(Lower(Field(header.All, "type", "")));
+    const std::string file = Field(header.All, "data file", "");
     if (file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos)
     {
       throw Failure("data spread over several files are not read");
     }
-    Decode(file.empty() ? content.substr(dataStart)
-                        : ReadBytes((std::filesystem::path(name).parent_path() / file).string()),
-      fields, values);
-    vtkSmartPointer<vtkImageData> image = MakeImage(size, values, PlacementOf(fields));
-    const std::string axes = WorldAxesOf(Field(fields, "space", ""));
-    if (!axes.empty())
+    header.DataFile =
+      file.empty() ? name : (std::filesystem::path(name).parent_path() / file).string();
+    header.DataStart = file.empty() ? start : 0;
+    header.Placement = PlacementOf(header.All);
+    header.WorldAxes = WorldAxesOf(Field(header.All, "space", ""));
+    return header;
+  }
+  catch (const UsageError& error)
+  {
+    throw Failure(name + ": the header cannot be parsed: " + error.what());
+  }
+}
+}
+
+vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
+{
+  const Header header = ReadHeader(name);
+  try
+  {
+    auto values =
+      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(header.Type));
+    const std::array<int, 3>& size = header.Size;
+    values->SetNumberOfTuples(static_cast<vtkIdType>(size[0]) * size[1] * size[2]);
+    Decode(ReadBytes(header.DataFile, header.DataStart), header.All, values);
+    vtkSmartPointer<vtkImageData> image = MakeImage(size, values, header.Placement);
+    if (!header.WorldAxes.empty())
     {
-      SetWorldAxes(image, axes);
+      SetWorldAxes(image, header.WorldAxes);
     }
     return image;
   }
@@ -268,5 +302,38 @@ vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
   {
     throw Failure(name + ": the header cannot be parsed: " + error.what());
   }
+}
+
+std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirectory& scratch)
+{
+  const Header header = ReadHeader(name);
+  const std::string encoding = Lower(Field(header.All, "encoding", "raw"));
+  const bool isPacked = encoding == "gzip" || encoding == "gz";
+  const bool hasLines = Field(header.All, "line skip", "0") != "0";
+  if (hasLines || (!isPacked && encoding != "raw"))
+  {
+    return nullptr;
+  }
+  auto slabs = std::make_unique<RawSlabs>();
+  slabs->Size = header.Size;
+  slabs->Type = header.Type;
+  slabs->Placement = header.Placement;
+  slabs->WorldAxes = header.WorldAxes;
+  slabs->IsBig = Lower(Field(header.All, "endian", "little")) == "big";
+  slabs->File = header.DataFile;
+  std::uint64_t start = header.DataStart;
+  if (isPacked)
+  {
+    slabs->Unpacked = Unpack(header.DataFile, start, scratch);
+    slabs->File = slabs->Unpacked->Path();
+    start = 0;
+  }
+  const int skip = ParseNumber<int>(Field(header.All, "byte skip", "0"));
+  const std::uint64_t there = BinaryFile(slabs->File).Size();
+  // -1: the voxels are the last bytes.
+  slabs->Start = skip >= 0 ? start + static_cast<std::uint64_t>(skip)
+                           : there - std::min(there, slabs->Bytes());
+  NeedBytes(there - std::min(there, slabs->Start), slabs->Bytes());
+  return slabs;
 }
 }

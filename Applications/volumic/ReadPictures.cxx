@@ -5,17 +5,22 @@
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
+#include "VtkReaders.h"
 
+#include <vtkDataArray.h>
 #include <vtkImageAppend.h>
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkImageReader2Factory.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkStringArray.h>
+#include <vtkTIFFReader.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <memory>
 #include <regex>
 #include <set>
 
@@ -134,48 +139,18 @@ void FindDamaged(const std::vector<std::string>& files)
     ReadPicture(file);
   }
 }
-}
 
-std::vector<std::string> FilesOf(const std::string& folder)
-{
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-  {
-    if (entry.is_regular_file() && entry.path().filename().string()[0] != '.')
-    {
-      files.push_back(entry.path().string());
-    }
-  }
-  std::sort(files.begin(), files.end(), IsBefore);
-  return files;
-}
-
-std::vector<std::string> MatchFiles(const std::string& pattern)
-{
-  const std::filesystem::path path(pattern);
-  const std::string folder = path.parent_path().empty() ? "." : path.parent_path().string();
-  const std::regex expression = ExpressionOf(path.filename().string());
-  std::vector<std::string> files = FilesOf(folder);
-  files.erase(
-    std::remove_if(files.begin(), files.end(),
-      [&](const std::string& file)
-      { return !std::regex_match(std::filesystem::path(file).filename().string(), expression); }),
-    files.end());
-  return files;
-}
-
-vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files)
+/** @throws Failure unless they are pictures of one kind and size. */
+void CheckPictures(const std::vector<std::string>& files)
 {
   if (files.empty())
   {
     throw Failure("no pictures and no DICOM slices there");
   }
   std::set<std::string> suffixes;
-  vtkNew<vtkStringArray> names;
   for (const std::string& file : files)
   {
     suffixes.insert(std::filesystem::path(file).extension().string());
-    names->InsertNextValue(file);
   }
   if (suffixes.size() > 1)
   {
@@ -218,6 +193,97 @@ vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files
       throw Failure(file + ": its size differs from the first picture's");
     }
   }
+}
+
+/** A slice per picture. */
+class PictureSlabs : public SlabReader
+{
+public:
+  explicit PictureSlabs(const std::vector<std::string>& files) : Files(files)
+  {
+    const vtkSmartPointer<vtkImageData> first = ReadPicture(files.front());
+    vtkDataArray* values = ValuesOf(first, files.front());
+    this->Size = { first->GetDimensions()[0], first->GetDimensions()[1],
+      static_cast<int>(files.size()) };
+    this->Type = values->GetDataType();
+    this->Components = values->GetNumberOfComponents();
+    this->ArrayName = values->GetName() ? values->GetName() : "";
+    this->Placement.Origin = { first->GetOrigin()[0], first->GetOrigin()[1],
+      first->GetOrigin()[2] };
+  }
+
+  vtkSmartPointer<vtkDataArray> Read(int first, int count) override
+  {
+    auto stack = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+    stack->SetNumberOfComponents(this->Components);
+    const vtkIdType area = static_cast<vtkIdType>(this->Size[0]) * this->Size[1];
+    stack->SetNumberOfTuples(area * count);
+    for (int i = 0; i < count; ++i)
+    {
+      const std::string& file = this->Files[static_cast<std::size_t>(first + i)];
+      const vtkSmartPointer<vtkImageData> picture = ReadPicture(file);
+      vtkDataArray* values = ValuesOf(picture, file);
+      if (values->GetDataType() != this->Type ||
+        values->GetNumberOfComponents() != this->Components)
+      {
+        throw Failure(file + ": its values are of another type than the first picture's");
+      }
+      stack->InsertTuples(area * i, area, 0, values);
+    }
+    return stack;
+  }
+
+private:
+  static vtkDataArray* ValuesOf(vtkImageData* picture, const std::string& file)
+  {
+    vtkDataArray* values = picture->GetPointData()->GetScalars();
+    if (!values)
+    {
+      throw Failure(file + ": holds no picture");
+    }
+    return values;
+  }
+
+  std::vector<std::string> Files;
+};
+}
+
+std::vector<std::string> FilesOf(const std::string& folder)
+{
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    if (entry.is_regular_file() && entry.path().filename().string()[0] != '.')
+    {
+      files.push_back(entry.path().string());
+    }
+  }
+  std::sort(files.begin(), files.end(), IsBefore);
+  return files;
+}
+
+std::vector<std::string> MatchFiles(const std::string& pattern)
+{
+  const std::filesystem::path path(pattern);
+  const std::string folder = path.parent_path().empty() ? "." : path.parent_path().string();
+  const std::regex expression = ExpressionOf(path.filename().string());
+  std::vector<std::string> files = FilesOf(folder);
+  files.erase(
+    std::remove_if(files.begin(), files.end(),
+      [&](const std::string& file)
+      { return !std::regex_match(std::filesystem::path(file).filename().string(), expression); }),
+    files.end());
+  return files;
+}
+
+vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files)
+{
+  CheckPictures(files);
+  vtkNew<vtkStringArray> names;
+  for (const std::string& file : files)
+  {
+    names->InsertNextValue(file);
+  }
   auto reader = vtkSmartPointer<vtkImageReader2>::Take(
     vtkImageReader2Factory::CreateImageReader2(files.front().c_str()));
   if (reader->IsA("vtkBMPReader"))
@@ -237,5 +303,23 @@ vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files
     throw;
   }
   return reader->GetOutput();
+}
+
+std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files)
+{
+  CheckPictures(files);
+  return std::make_unique<PictureSlabs>(files);
+}
+
+std::unique_ptr<SlabReader> OpenTiff(const std::string& name)
+{
+  CheckPicture(name);
+  const auto make = [name]
+  {
+    auto reader = vtkSmartPointer<vtkTIFFReader>::New();
+    reader->SetFileName(name.c_str());
+    return reader;
+  };
+  return std::make_unique<ReaderSlabs>(name, make);
 }
 }

@@ -3,12 +3,12 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
-#include "InputFiles.h"
-#include "ParseNumbers.h"
+#include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
+#include "VtkReaders.h"
 
 #include <vtkDataArray.h>
 #include <vtkGenericDataObjectReader.h>
@@ -17,11 +17,10 @@
 #include <vtkImageReader2Factory.h>
 #include <vtkMRCReader.h>
 #include <vtkMatrix4x4.h>
-#include <vtkMetaImageReader.h>
-#include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSLCReader.h>
+#include <vtkTrivialProducer.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPImageDataReader.h>
 #ifdef VOLUMIC_HAS_HDF
@@ -33,10 +32,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
 #include <new>
-#include <sstream>
 #include <utility>
 
 namespace tool
@@ -44,167 +43,6 @@ namespace tool
 namespace
 {
 using Image = vtkSmartPointer<vtkImageData>;
-
-Image ImageOf(vtkAlgorithm* reader, const std::string& name, bool hasTrustedWarnings = true)
-{
-  VtkMessages messages;
-  messages.UpdateReader(reader, name, hasTrustedWarnings);
-  auto* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
-  if (!image)
-  {
-    throw Failure(name + ": holds no image");
-  }
-  return image;
-}
-
-template <class Reader>
-Image ReadWith(const std::string& name)
-{
-  vtkNew<Reader> reader;
-  reader->SetFileName(name.c_str());
-  return ImageOf(reader, name);
-}
-
-template <class Reader>
-Image ReadIfItsFormat(const std::string& name)
-{
-  vtkNew<Reader> reader;
-  if (!reader->CanReadFile(name.c_str()))
-  {
-    throw Failure(name + ": is not what its suffix says");
-  }
-  reader->SetFileName(name.c_str());
-  return ImageOf(reader, name);
-}
-
-/** MetaIO prints what it misses, and goes on: an error, unless the file is known to be whole. */
-Image ReadMetaVoxels(const std::string& name, bool isWhole)
-{
-  std::ostringstream printed;
-  std::streambuf* output = std::cerr.rdbuf(printed.rdbuf());
-  Image image;
-  try
-  {
-    image = ReadIfItsFormat<vtkMetaImageReader>(name);
-  }
-  catch (...)
-  {
-    std::cerr.rdbuf(output);
-    throw;
-  }
-  std::cerr.rdbuf(output);
-  if (!isWhole && !printed.str().empty())
-  {
-    std::string text = printed.str();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    throw Failure("cannot be read (" + text + ")");
-  }
-  return image;
-}
-
-/** The directions of the axes that a MetaImage's header lists, axis after axis. */
-std::array<Vector3, 3> MetaAxes(const std::string& name, const std::string& key)
-{
-  std::istringstream words(HeaderValue(name, key));
-  std::array<Vector3, 3> axes;
-  for (Vector3& axis : axes)
-  {
-    if (!(words >> axis[0] >> axis[1] >> axis[2]))
-    {
-      throw Failure(key + " does not hold nine numbers");
-    }
-  }
-  return axes;
-}
-
-/** MetaImage; VTK's reader drops the directions of the axes, which are in the header's text. */
-Image ReadMeta(const std::string& name)
-{
-  const bool isWhole = CheckMeta(name);
-  Image image = ReadMetaVoxels(name, isWhole);
-  for (const char* key : { "TransformMatrix", "Rotation", "Orientation" })
-  {
-    if (!HeaderValue(name, key).empty())
-    {
-      VolumePlacement placement;
-      placement.Axes = MetaAxes(name, key);
-      image->GetSpacing(placement.Spacing.data());
-      image->GetOrigin(placement.Origin.data());
-      PlaceImage(image, placement);
-      break;
-    }
-  }
-  const std::string sides = HeaderValue(name, "AnatomicalOrientation");
-  if (sides.size() == 3 && sides.find_first_not_of("LRAPSI") == std::string::npos)
-  {
-    SetWorldAxes(image, "LPS"); // whatever the letters, which tell of the voxels' axes
-  }
-  return image;
-}
-
-/** Columns of the matrix, each times the spacing along its axis, and the translation. */
-VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing)
-{
-  VolumePlacement placement;
-  std::array<Vector3, 3> steps;
-  for (int row = 0; row < 3; ++row)
-  {
-    placement.Origin[row] = matrix->GetElement(row, 3);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      steps[axis][row] = matrix->GetElement(row, axis) * spacing[axis];
-    }
-  }
-  placement.SetSteps(steps);
-  return placement;
-}
-
-/** NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails. */
-Image ReadNifti(const std::string& name)
-{
-  vtkNew<vtkNIFTIImageReader> reader;
-  if (!reader->CanReadFile(name.c_str()))
-  {
-    throw Failure("not a NIfTI or Analyze file");
-  }
-  CheckNifti(name);
-  reader->SetFileName(name.c_str());
-  // It warns where sform and qform differ in handedness, of which both are served below.
-  Image image = ImageOf(reader, name, false);
-  if (reader->GetTimeDimension() > 1)
-  {
-    throw Failure(NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");
-  }
-  const double slope = reader->GetRescaleSlope() == 0.0 ? 1.0 : reader->GetRescaleSlope();
-  const double shift = reader->GetRescaleIntercept();
-  if ((slope != 1.0 || shift != 0.0) && image->GetPointData()->GetScalars())
-  {
-    image->GetPointData()->SetScalars(Rescaled(image->GetPointData()->GetScalars(), slope, shift));
-  }
-  std::string failure;
-  for (vtkMatrix4x4* matrix : { reader->GetSFormMatrix(), reader->GetQFormMatrix() })
-  {
-    if (!matrix)
-    {
-      continue;
-    }
-    try
-    {
-      PlaceImage(image, PlacementOf(matrix, image->GetSpacing()));
-      SetWorldAxes(image, "RAS");
-      return image;
-    }
-    catch (const Failure& error)
-    {
-      failure = failure.empty() ? error.what() : failure;
-    }
-  }
-  if (!failure.empty())
-  {
-    throw Failure(failure);
-  }
-  return image;
-}
 
 Image ReadMrc(const std::string& name)
 {
@@ -240,12 +78,19 @@ Image ReadMinc(const std::string& name)
 }
 #endif
 
-Image ReadFolder(const std::string& name)
+/** The slices of a folder, of DICOM or pictures, and whether they are DICOM. */
+std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
 {
-  const std::vector<std::string> files = FilesOf(name);
+  const std::vector<std::string> files = FilesOf(folder);
   std::vector<std::string> slices;
   std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
-  return slices.empty() ? ReadPictures(files) : ReadDicom(slices);
+  return slices.empty() ? std::pair{ files, false } : std::pair{ slices, true };
+}
+
+Image ReadFolder(const std::string& name)
+{
+  const auto [slices, areDicom] = SlicesOf(name);
+  return areDicom ? ReadDicom(slices) : ReadPictures(slices);
 }
 
 Image ReadDicomFile(const std::string& name)
@@ -318,36 +163,89 @@ Reader ChooseReader(const std::string& name)
   }
   return ReadByContent;
 }
+
+std::unique_ptr<SlabReader> OpenSlices(const std::pair<std::vector<std::string>, bool>& slices)
+{
+  return slices.second ? OpenDicom(slices.first) : OpenPictures(slices.first);
 }
 
-vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
+/** Readers of VTK that give parts; without the arrays that nobody asks for. */
+template <class Reader>
+vtkSmartPointer<vtkAlgorithm> OpenXml(const std::string& name, const std::string& array)
+{
+  const vtkSmartPointer<Reader> reader = NewReader<Reader>(name);
+  VtkMessages messages;
+  messages.ListenTo(reader);
+  messages.Catch([&] { reader->UpdateInformation(); });
+  if (!messages.Errors.empty())
+  {
+    throw Failure("cannot be read (" + messages.JoinedErrors() + ")");
+  }
+  for (int i = 0; !array.empty() && i < reader->GetNumberOfPointArrays(); ++i)
+  {
+    const char* each = reader->GetPointArrayName(i);
+    reader->SetPointArrayStatus(each, array == each ? 1 : 0);
+  }
+  return reader;
+}
+
+/** Null where the file can only be read as a whole. */
+vtkSmartPointer<vtkAlgorithm> OpenFile(
+  const std::string& name, const std::string& array, const std::string& scratch)
+{
+  const std::string lower = Lower(name);
+  const auto ends = [&lower](std::initializer_list<const char*> suffixes)
+  {
+    return std::any_of(suffixes.begin(), suffixes.end(),
+      [&](const char* suffix) { return EndsWith(lower, suffix); });
+  };
+  std::unique_ptr<SlabReader> slabs;
+  if (ends({ ".vti" }))
+  {
+    return OpenXml<vtkXMLImageDataReader>(name, array);
+  }
+  if (ends({ ".pvti" }))
+  {
+    return OpenXml<vtkXMLPImageDataReader>(name, array);
+  }
+  if (ends({ ".mrc", ".ccp4" }))
+  {
+    CheckMrc(name);
+    auto reader = vtkSmartPointer<vtkMRCReader>::New();
+    reader->SetFileName(name.c_str());
+    return reader;
+  }
+  if (ends({ ".mha", ".mhd" }))
+  {
+    slabs = OpenMeta(name, scratch);
+  }
+  else if (ends({ ".nrrd", ".nhdr" }))
+  {
+    slabs = OpenNrrd(name, scratch);
+  }
+  else if (ends({ ".nii", ".nii.gz" }))
+  {
+    slabs = OpenNifti(name, scratch);
+  }
+  else if (ends({ ".tif", ".tiff" }))
+  {
+    slabs = OpenTiff(name);
+  }
+  else if (ends({ ".dcm", ".dicom", ".ima" }) || IsDicom(name))
+  {
+    const std::string folder = std::filesystem::path(name).parent_path().string();
+    slabs = OpenSlices(SlicesOf(folder.empty() ? "." : folder));
+  }
+  return slabs ? NewSlabSource(std::move(slabs)) : nullptr;
+}
+
+/** What the work gives; what it throws names the volume. */
+template <class Work>
+auto NameFailures(const std::string& name, const Work& work) -> decltype(work())
 {
   try
   {
-    Image image;
-    if (std::filesystem::is_directory(name))
-    {
-      image = ReadFolder(name);
-    }
-    else if (std::filesystem::exists(name))
-    {
-      image = ChooseReader(name)(name);
-    }
-    else if (name.find_first_of("%*") != std::string::npos)
-    {
-      const std::vector<std::string> files = MatchFiles(name);
-      const bool isSeries = !files.empty() && IsDicom(files.front());
-      image = isSeries ? ReadDicom(files) : ReadPictures(files);
-    }
-    else
-    {
-      throw Failure("no such file or folder");
-    }
-    if (image->GetNumberOfPoints() == 0)
-    {
-      throw Failure("the image is empty");
-    }
-    return image;
+    return work();
   }
   catch (const std::filesystem::filesystem_error& error)
   {
@@ -357,11 +255,81 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
   {
     throw Failure(name + ": not enough memory to read it; crop it, or resample it to fewer voxels");
   }
+  catch (const UsageError& error)
+  {
+    throw Failure(name + ": the header cannot be parsed: " + error.what());
+  }
   catch (const Failure& failure)
   {
     const std::string text = failure.what();
     throw Failure(text.compare(0, name.size(), name) == 0 ? text : name + ": " + text);
   }
+}
+}
+
+vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
+{
+  return NameFailures(name,
+    [&name]
+    {
+      Image image;
+      if (std::filesystem::is_directory(name))
+      {
+        image = ReadFolder(name);
+      }
+      else if (std::filesystem::exists(name))
+      {
+        image = ChooseReader(name)(name);
+      }
+      else if (name.find_first_of("%*") != std::string::npos)
+      {
+        const std::vector<std::string> files = MatchFiles(name);
+        const bool isSeries = !files.empty() && IsDicom(files.front());
+        image = isSeries ? ReadDicom(files) : ReadPictures(files);
+      }
+      else
+      {
+        throw Failure("no such file or folder");
+      }
+      if (image->GetNumberOfPoints() == 0)
+      {
+        throw Failure("the image is empty");
+      }
+      return image;
+    });
+}
+
+OpenedVolume OpenVolume(
+  const std::string& name, const std::string& array, const std::string& scratch)
+{
+  OpenedVolume opened;
+  opened.Source = NameFailures(name,
+    [&]() -> vtkSmartPointer<vtkAlgorithm>
+    {
+      if (std::filesystem::is_directory(name))
+      {
+        return NewSlabSource(OpenSlices(SlicesOf(name)));
+      }
+      if (std::filesystem::exists(name))
+      {
+        return OpenFile(name, array, scratch);
+      }
+      const std::vector<std::string> files =
+        name.find_first_of("%*") != std::string::npos ? MatchFiles(name)
+                                                      : std::vector<std::string>();
+      return files.empty() ? nullptr
+                           : NewSlabSource(OpenSlices({ files, IsDicom(files.front()) }));
+    });
+  if (!opened.Source)
+  {
+    const vtkSmartPointer<vtkImageData> image = ReadVolume(name);
+    ChooseScalars(image, array);
+    auto holder = vtkSmartPointer<vtkTrivialProducer>::New();
+    holder->SetOutput(image);
+    opened.Source = holder;
+    opened.Whole = SuffixOf(name);
+  }
+  return opened;
 }
 
 void ChooseScalars(vtkImageData* image, const std::string& name)

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+class vtkAlgorithm;
 class vtkImageData;
 
 namespace tool
@@ -20,6 +21,23 @@ namespace tool
  */
 vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name);
 
+/** A volume that can be read slab by slab, or has been read. */
+struct OpenedVolume
+{
+  vtkSmartPointer<vtkAlgorithm> Source; ///< Its output is the image.
+  std::string Whole; ///< Why it has been read as a whole, if so: the format.
+};
+
+/**
+ * Open a volume as ReadVolume reads it, which takes little memory if the format can be read in
+ * parts.
+ * @param array   that is wanted; empty: as ChooseScalars has it
+ * @param scratch the folder for what is unpacked: the option --scratch
+ * @throws Failure as ReadVolume; what is wrong with the voxels is told as they are read.
+ */
+OpenedVolume OpenVolume(
+  const std::string& name, const std::string& array, const std::string& scratch);
+
 /**
  * Make the array (empty: the active scalars, or the only one) the active scalars.
  * @throws Failure if there is none.
@@ -27,6 +45,12 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name);
 void ChooseScalars(vtkImageData* image, const std::string& array);
 
 // ---- The parts, each in its file ----------------------------------------------------------------
+
+/** MetaImage (.mha, .mhd); VTK's reader drops the directions of the axes. */
+vtkSmartPointer<vtkImageData> ReadMeta(const std::string& name);
+
+/** NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails. */
+vtkSmartPointer<vtkImageData> ReadNifti(const std::string& name);
 
 /** NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`. */
 vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name);

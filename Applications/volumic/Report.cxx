@@ -22,6 +22,8 @@
 #include <functional>
 #include <map>
 
+#include <sys/resource.h>
+
 namespace tool
 {
 namespace
@@ -178,6 +180,13 @@ void WriteProperties(JsonWriter& json, const FilterPair& filters)
 }
 }
 
+double PeakMemory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
 std::string StopReason(vtkPolyData* surface)
 {
   auto* reason =
@@ -198,6 +207,11 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   WriteComponents(json, surface);
   WriteLevels(json, filter->GetLevels(), filter->GetHistory());
   WriteSeconds(json, input);
+  json.Name("memory");
+  json.BeginObject();
+  json.Member("reader", input.ReaderMemory);
+  json.Member("peak", PeakMemory());
+  json.EndObject();
   WriteProperties(json, input.Filters);
   json.Name("warnings");
   json.BeginArray();

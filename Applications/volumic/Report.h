@@ -28,11 +28,15 @@ struct ReportInput
   bool IsFinished = false;
   double PyramidSeconds = 0.0;
   double SurfaceSeconds = 0.0;
+  double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings;
 };
 
 /** Write the report as JSON. Lengths, areas and volumes are in world units. */
 void WriteReport(std::ostream& out, const ReportInput& input);
+
+/** The most memory that was resident so far, MiB. */
+double PeakMemory();
 
 /** The `StopReason` of a surface of vtkDeformableSurface. */
 std::string StopReason(vtkPolyData* surface);

@@ -3,6 +3,8 @@
 #ifndef volumicRunFilter_h
 #define volumicRunFilter_h
 
+#include "ProgressLine.h"
+
 #include <string>
 #include <vector>
 
@@ -10,14 +12,6 @@ class vtkAlgorithm;
 
 namespace tool
 {
-/** How the progress is shown on stderr. */
-enum class ProgressStyle
-{
-  None,
-  OneLine, ///< one line that is drawn anew: a terminal
-  Lines    ///< a line for each tenth
-};
-
 struct FilterRun
 {
   double Seconds = 0.0;

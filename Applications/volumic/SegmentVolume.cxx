@@ -57,7 +57,8 @@ void CheckFiles(const ToolOptions& options)
   for (const std::string& name : options.Surfaces)
   {
     CheckSurfaceName(name);
-    outputs.push_back({ name, OutputName::Kind::File, "" });
+    outputs.push_back(
+      { name, HasPieces(name) ? OutputName::Kind::Blocks : OutputName::Kind::File, "" });
   }
   for (const auto& [name, prefix] :
     { std::pair{ options.Levels, "level" }, std::pair{ options.Snapshots, "snapshot" } })
@@ -126,7 +127,8 @@ void SetStart(const ToolOptions& options, vtkDeformableSurface* filter)
 }
 
 /** Hand the map of edges to the filter, as a second array of the volume. */
-void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter)
+void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer)
 {
   if (options.Edges.empty())
   {
@@ -136,8 +138,8 @@ void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSur
   vtkPointData* points = volume->GetPointData();
   if (!points->HasArray(name.c_str()))
   {
-    const vtkSmartPointer<vtkImageData> edges = ReadVolume(options.Edges);
-    ChooseScalars(edges, "");
+    const vtkSmartPointer<vtkImageData> edges =
+      LoadVoxels(options.Edges, "", filter, holder, announcer);
     if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
     {
       throw Failure(options.Edges + ": its size differs from the volume's");
@@ -178,7 +180,7 @@ void Attempt(std::string& failures, const Write& write)
 }
 
 /** @throws Failure if not all could be written, with a line for each file. */
-void WriteOutputs(const ToolOptions& options, const ReportInput& results)
+void WriteOutputs(const ToolOptions& options, const ReportInput& results, ProgressStyle style)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
   const std::string remark = std::string("volumic " VOLUMIC_VERSION) +
@@ -186,18 +188,18 @@ void WriteOutputs(const ToolOptions& options, const ReportInput& results)
   std::string failures;
   for (const std::string& name : options.Surfaces)
   {
-    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, remark); });
+    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, { remark, options.PieceSize, style }); });
   }
   const auto writeSurfaces = [&](vtkMultiBlockDataSet* blocks, const std::string& name,
                                const std::string& prefix, int (*numbers)(vtkPolyData*))
   {
     if (IsBlocks(name))
     {
-      WriteBlocks(blocks, name);
+      WriteBlocks(blocks, name, style);
     }
     else if (!name.empty())
     {
-      WriteFolder(blocks, name, prefix, numbers);
+      WriteFolder(blocks, name, prefix, style, numbers);
     }
   };
   Attempt(failures, [&] { writeSurfaces(filter->GetLevels(), options.Levels, "level", LevelOf); });
@@ -330,18 +332,25 @@ ExitCode SegmentVolume(
 {
   const Announcer announcer(options);
   CheckFiles(options);
-  const vtkSmartPointer<vtkImageData> volume =
-    LoadVolume(options, filter->GetSelectedComponent(), announcer);
+  const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
+  const vtkSmartPointer<vtkImageData> volume = LoadVolume(options, filter, holder, announcer);
+  const double readerMemory = PeakMemory();
+  const int component = filter->GetSelectedComponent();
+  if (filter->GetMemoryLimit() > 0)
+  {
+    filter->SetSelectedComponent(-1); // The volume has no other.
+  }
   if (!options.WrittenVolume.empty())
   {
-    WriteVolume(volume, options.WrittenVolume);
+    WriteVolume(volume, options.WrittenVolume, announcer.Style);
   }
   if (!options.WantsSurface())
   {
     return Success;
   }
   SetStart(options, filter);
-  SetEdges(options, volume, filter);
+  const vtkNew<vtkImagePyramid> edgesHolder;
+  SetEdges(options, volume, filter, edgesHolder, announcer);
   if (!options.HasProperty("IsoValue"))
   {
     vtkNew<vtkOtsuThreshold> otsu;
@@ -387,7 +396,9 @@ ExitCode SegmentVolume(
           std::string(filter->GetObjectIsBright() ? "above " : "below ") +
           NumberText(filter->GetIsoValue()) + "? (--iso, --dark)");
   }
+  filter->SetSelectedComponent(component); // as it was chosen
   ReportInput results;
+  results.ReaderMemory = readerMemory;
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = volume;
   results.Filters = { pyramid, filter };
@@ -395,7 +406,7 @@ ExitCode SegmentVolume(
   results.PyramidSeconds = pyramidRun.Seconds;
   results.SurfaceSeconds = run.Seconds;
   results.Warnings = run.Warnings;
-  WriteOutputs(options, results);
+  WriteOutputs(options, results, announcer.Style);
   RemoveCheckpointOfEnded(filter, reason);
 
   announcer.Say(std::to_string(surface->GetNumberOfPoints()) + " vertices after " +

@@ -65,6 +65,15 @@ void SetSpacing(ToolOptions& options, const std::string& text)
   options.Spacing = { numbers[0], numbers[1], numbers[2] };
 }
 
+void SetPieceSize(ToolOptions& options, const std::string& text)
+{
+  options.PieceSize = ParseNumber<int>(text);
+  if (options.PieceSize < 1)
+  {
+    throw UsageError("pieces have a triangle at least");
+  }
+}
+
 const std::vector<ProgramOption>& InputOptions()
 {
   static const std::vector<ProgramOption> options = {
@@ -107,6 +116,7 @@ const std::vector<ProgramOption>& OutputOptions()
       "write components, genus, area, volume, seconds, ...; - for the standard output"),
     Text("write-volume", "FILE.vti", &ToolOptions::WrittenVolume,
       "write the volume as it was read; without another file to write, that is all"),
+    { "piece-size", "N", "triangles in each piece of a .pvtp (default: 1048576)", SetPieceSize },
     Switch("quiet", &ToolOptions::Quiet, "print errors only"),
     Switch("progress", &ToolOptions::Progress,
       "print the progress even if the standard error is no terminal, then in lines"),
@@ -312,7 +322,7 @@ void PrintHelp(std::ostream& out, const FilterPair& filters)
          "\n"
          "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
          "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
-         "SURFACE  .vtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; all are written\n"
+         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; all are written\n"
          "\n"
          "Input:\n";
   for (const ProgramOption& option : InputOptions())

@@ -43,6 +43,7 @@ struct ToolOptions
   std::string Snapshots;                        ///< .vtm, or a folder
   std::string Report;                           ///< .json
   std::string WrittenVolume;                    ///< .vti
+  int PieceSize = 1 << 20;                      ///< triangles of a piece of a .pvtp
   bool Quiet = false;
   bool Progress = false; ///< also where stderr is no terminal
 

@@ -137,10 +137,23 @@ void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
   }
 }
 
-void VtkMessages::UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted)
+void VtkMessages::UpdateReader(
+  vtkAlgorithm* reader, const std::string& name, bool trusted, const int* extent)
 {
   this->ListenTo(reader);
-  this->Catch([&] { reader->Update(); });
+  this->Catch(
+    [&]
+    {
+      if (extent)
+      {
+        reader->UpdateInformation();
+        reader->UpdateExtent(extent);
+      }
+      else
+      {
+        reader->Update();
+      }
+    });
   if (trusted)
   {
     // What a reader warns of are data that it lacked and made up.

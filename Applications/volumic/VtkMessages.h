@@ -22,10 +22,11 @@ public:
   void ListenTo(vtkAlgorithm* algorithm);
 
   /**
-   * Update the reader of the file. @throws Failure "NAME: cannot be read (reasons)" if it, or an
+   * Update the reader of the file, or, with an extent, that part. @throws Failure "NAME: cannot be read (reasons)" if it, or an
    * object within it, reports an error; or warns, unless its warnings are not `trusted`.
    */
-  void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true);
+  void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true,
+    const int* extent = nullptr);
 
   /**
    * Run the action; what VTK would print meanwhile, for objects that nobody listens to, is kept.

@@ -4,17 +4,19 @@
 
 #include "CheckInputs.h"
 #include "CheckWritten.h"
+#include "FileGrowth.h"
 #include "OutputFiles.h"
+#include "RunWriter.h"
+#include "StreamedWriters.h"
+#include "SurfacePieces.h"
 #include "Texts.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkBYUWriter.h>
 #include <vtkDelimitedTextWriter.h>
 #include <vtkFacetWriter.h>
 #include <vtkHoudiniPolyDataWriter.h>
 #include <vtkIVWriter.h>
-#include <vtkImageData.h>
 #include <vtkMCubesWriter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -22,15 +24,10 @@
 #include <vtkPLYWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataWriter.h>
 #include <vtkSTLWriter.h>
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkWriter.h>
-#include <vtkXMLImageDataWriter.h>
 #include <vtkXMLMultiBlockDataWriter.h>
-#include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLWriter.h>
 
 #include <cstdint>
 #include <exception>
@@ -45,25 +42,16 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** Run a writer whose input and file are set. */
-template <class Writer>
-void Run(Writer* writer)
-{
-  VtkMessages messages;
-  messages.ListenTo(writer);
-  messages.Catch([&] { writer->Write(); });
-  if (!messages.Errors.empty() || writer->GetErrorCode() != 0)
-  {
-    const std::string reason = messages.JoinedErrors();
-    throw Failure("cannot be written (" + (reason.empty() ? "is the disk full?" : reason) + ")");
-  }
-}
-
 /** Why the file cannot be written. */
 std::string ReasonOf(const std::exception& error)
 {
   const bool isOfMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
   return isOfMemory ? "cannot be written (not enough memory)" : error.what();
+}
+
+std::string TitleOf(const std::string& name)
+{
+  return "Writing " + fs::path(name).filename().string();
 }
 
 /** Have `write` write to a path beside the file, which takes the file's place if all went well. */
@@ -90,69 +78,57 @@ void WriteBeside(const std::string& name, const Write& write)
   }
 }
 
+/** A surface, and all that is told to a writer of it. */
+struct SurfaceFile
+{
+  vtkPolyData* Surface;
+  std::string Path;
+  std::string Remark;
+  int PieceSize;
+  ProgressLine& Line;
+};
+
 template <class Writer>
-void WriteWith(vtkPolyData* surface, const std::string& name, const std::string&)
+void WriteWith(const SurfaceFile& file)
 {
   vtkNew<Writer> writer;
-  writer->SetInputData(surface);
-  writer->SetFileName(name.c_str());
-  Run(writer.Get());
+  writer->SetInputData(file.Surface);
+  writer->SetFileName(file.Path.c_str());
+  RunWriter(writer.Get(), file.Line);
 }
 
-/**
- * With the data inline: ParaView 5.11's readers, with an expat of 2024 or later, take what is
- * appended for damaged. By way of a string, as VTK's writer ends the program on a full disk then.
- */
-void WriteInline(vtkXMLWriter* writer, vtkDataObject* data, const std::string& name)
+/** Of a binary file that has so many bytes for each point and triangle, about. */
+std::uint64_t BytesOf(vtkPolyData* surface, int point, int triangle)
 {
-  writer->SetInputData(data);
-  writer->SetDataModeToBinary();
-  writer->WriteToOutputStringOn();
-  Run(writer);
-  const std::string text = writer->GetOutputString();
-  WriteBytes(name, text.data(), text.size());
+  return static_cast<std::uint64_t>(
+    point * surface->GetNumberOfPoints() + triangle * surface->GetNumberOfPolys());
 }
 
-void WriteVtp(vtkPolyData* surface, const std::string& name, const std::string&)
+void WriteStl(const SurfaceFile& file)
 {
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  WriteInline(writer, surface, name);
-}
-
-void WriteLegacy(vtkPolyData* surface, const std::string& name, const std::string&)
-{
-  vtkNew<vtkPolyDataWriter> writer;
-  writer->SetInputData(surface);
-  writer->SetFileTypeToBinary();
-  writer->WriteToOutputStringOn();
-  Run(writer.Get());
-  WriteBytes(
-    name, writer->GetOutputString(), static_cast<std::size_t>(writer->GetOutputStringLength()));
-}
-
-void WriteStl(vtkPolyData* surface, const std::string& name, const std::string& remark)
-{
+  const FileGrowth growth(file.Path, BytesOf(file.Surface, 0, 50), file.Line);
   vtkNew<vtkSTLWriter> writer;
-  writer->SetInputData(surface);
-  writer->SetFileName(name.c_str());
+  writer->SetInputData(file.Surface);
+  writer->SetFileName(file.Path.c_str());
   writer->SetFileTypeToBinary();
   // The head of a binary file has 80 bytes.
   vtkNew<vtkUnsignedCharArray> head;
   for (std::size_t i = 0; i < 80; ++i)
   {
-    head->InsertNextValue(i < remark.size() ? static_cast<unsigned char>(remark[i]) : ' ');
+    head->InsertNextValue(i < file.Remark.size() ? static_cast<unsigned char>(file.Remark[i]) : ' ');
   }
   writer->SetBinaryHeader(head);
-  Run(writer.Get());
+  RunWriter(writer.Get(), file.Line);
 }
 
-void WritePly(vtkPolyData* surface, const std::string& name, const std::string& remark)
+void WritePly(const SurfaceFile& file)
 {
+  const FileGrowth growth(file.Path, BytesOf(file.Surface, 12, 13), file.Line);
   vtkNew<vtkPLYWriter> writer;
-  writer->SetInputData(surface);
-  writer->SetFileName(name.c_str());
-  writer->AddComment(remark);
-  Run(writer.Get());
+  writer->SetInputData(file.Surface);
+  writer->SetFileName(file.Path.c_str());
+  writer->AddComment(file.Remark);
+  RunWriter(writer.Get(), file.Line);
 }
 
 /**
@@ -165,29 +141,29 @@ std::size_t LargestText(vtkPolyData* surface)
 }
 
 /** On a full disk the writer of VTK 9.6 destroys memory instead of telling. */
-void WriteInventor(vtkPolyData* surface, const std::string& name, const std::string& remark)
+void WriteInventor(const SurfaceFile& file)
 {
-  NeedRoom(name, LargestText(surface));
-  WriteWith<vtkIVWriter>(surface, name, remark);
+  NeedRoom(file.Path, LargestText(file.Surface));
+  WriteWith<vtkIVWriter>(file);
 }
 
 /** As WriteInventor. */
-void WriteByu(vtkPolyData* surface, const std::string& name, const std::string&)
+void WriteByu(const SurfaceFile& file)
 {
-  NeedRoom(name, LargestText(surface));
+  NeedRoom(file.Path, LargestText(file.Surface));
   vtkNew<vtkBYUWriter> writer;
-  writer->SetInputData(surface);
-  writer->SetGeometryFileName(name.c_str());
-  Run(writer.Get());
+  writer->SetInputData(file.Surface);
+  writer->SetGeometryFileName(file.Path.c_str());
+  RunWriter(writer.Get(), file.Line);
 }
 
 /** VTK's writer counts what it has written on the standard output, where a report may go. */
-void WriteFacet(vtkPolyData* surface, const std::string& name, const std::string& remark)
+void WriteFacet(const SurfaceFile& file)
 {
   std::streambuf* output = std::cout.rdbuf(nullptr);
   try
   {
-    WriteWith<vtkFacetWriter>(surface, name, remark);
+    WriteWith<vtkFacetWriter>(file);
   }
   catch (...)
   {
@@ -231,6 +207,21 @@ void CheckPairs(const std::string& path, vtkPolyData* surface)
         (surface->GetNumberOfPoints() + 1) / 2 + surface->GetNumberOfPolys()));
 }
 
+void WriteVtpFile(const SurfaceFile& file)
+{
+  WriteVtp(file.Surface, file.Path, file.Line);
+}
+
+void WriteLegacyFile(const SurfaceFile& file)
+{
+  WriteLegacy(file.Surface, file.Path, file.Line);
+}
+
+void WritePiecesFile(const SurfaceFile& file)
+{
+  WritePieces(file.Surface, file.Path, file.PieceSize, file.Line);
+}
+
 void CheckVtp(const std::string& path, vtkPolyData*)
 {
   CheckXml(path);
@@ -250,7 +241,7 @@ void CheckWrittenPly(const std::string& path, vtkPolyData*)
 
 struct Format
 {
-  void (*Write)(vtkPolyData*, const std::string& path, const std::string& remark);
+  void (*Write)(const SurfaceFile&);
   /** Whether the disk took it all; none where that was seen at once. */
   void (*Check)(const std::string& path, vtkPolyData*);
 };
@@ -258,8 +249,9 @@ struct Format
 const Format* FindFormat(const std::string& name)
 {
   static const std::map<std::string, Format> formats = {
-    { ".vtp", { WriteVtp, CheckVtp } },
-    { ".vtk", { WriteLegacy, nullptr } },
+    { ".vtp", { WriteVtpFile, CheckVtp } },
+    { ".pvtp", { WritePiecesFile, CheckVtp } },
+    { ".vtk", { WriteLegacyFile, nullptr } },
     { ".stl", { WriteStl, CheckTriangles<84, 50> } },
     { ".ply", { WritePly, CheckWrittenPly } },
     { ".obj", { WriteWith<vtkOBJWriter>, CheckObj } },
@@ -279,18 +271,24 @@ void CheckSurfaceName(const std::string& name)
   if (!FindFormat(name))
   {
     throw UsageError(name +
-      ": no surface format has this suffix; known are .vtp .vtk .stl .ply "
+      ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
       ".obj .iv .g .geo .facet .tri");
   }
 }
 
-void WriteSurface(vtkPolyData* surface, const std::string& name, const std::string& remark)
+bool HasPieces(const std::string& name)
+{
+  return SuffixOf(name) == ".pvtp";
+}
+
+void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing)
 {
   const Format* format = FindFormat(name);
   WriteBeside(name,
     [&](const std::string& path)
     {
-      format->Write(surface, path, remark);
+      ProgressLine line(TitleOf(name), writing.Style);
+      format->Write({ surface, path, writing.Remark, writing.PieceSize, line });
       if (format->Check)
       {
         format->Check(path, surface);
@@ -306,34 +304,43 @@ void CheckVolumeName(const std::string& name)
   }
 }
 
-void WriteVolume(vtkImageData* volume, const std::string& name)
+void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle style)
 {
   WriteBeside(name,
     [&](const std::string& path)
     {
-      vtkNew<vtkXMLImageDataWriter> writer;
-      writer->SetCompressorTypeToLZ4(); // four times as fast as zlib, at 1.5 times the size (a CT)
-      WriteInline(writer, volume, path);
+      ProgressLine line(TitleOf(name), style);
+      WriteVti(volume, path, line);
       CheckXml(path);
     });
 }
 
-void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name)
+void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style)
 {
+  vtkNew<vtkMultiBlockDataSet> triangles;
+  triangles->ShallowCopy(blocks);
+  for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+  {
+    if (auto* surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i)))
+    {
+      triangles->SetBlock(i, AsTriangles(surface));
+    }
+  }
   WriteBeside(name,
     [&](const std::string& path)
     {
+      ProgressLine line(TitleOf(name), style);
       vtkNew<vtkXMLMultiBlockDataWriter> writer;
-      writer->SetInputData(blocks);
+      writer->SetInputData(triangles);
       writer->SetFileName(path.c_str());
-      Run(writer.Get());
+      RunWriter(writer.Get(), line);
       CheckXml(path);
       CheckXml(fs::path(path).replace_extension().string());
     });
 }
 
 void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
-  int (*numbers)(vtkPolyData*))
+  ProgressStyle style, int (*numbers)(vtkPolyData*))
 {
   std::error_code failed;
   const bool isNew = fs::create_directories(name, failed);
@@ -346,8 +353,10 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
       if (surface && surface->GetNumberOfPoints() > 0)
       {
         const std::string number = std::to_string(numbers ? numbers(surface) : static_cast<int>(i));
-        const std::string path = files.Folder() + "/" + prefix + "-" + number + ".vtp";
-        WriteVtp(surface, path, "");
+        const std::string file = prefix + "-" + number + ".vtp";
+        const std::string path = files.Folder() + "/" + file;
+        ProgressLine line(TitleOf(file), style);
+        WriteVtp(surface, path, line);
         CheckXml(path);
       }
     }
@@ -372,7 +381,8 @@ void WriteTable(vtkTable* table, const std::string& name)
       writer->SetInputData(table);
       writer->SetFileName(path.c_str());
       writer->SetFieldDelimiter(",");
-      Run(writer.Get());
+      ProgressLine noLine("", ProgressStyle::None);
+      RunWriter(writer.Get(), noLine);
       CheckLines(path, 1 + static_cast<std::uint64_t>(table->GetNumberOfRows()));
     });
 }

@@ -3,6 +3,8 @@
 #ifndef volumicWriteResults_h
 #define volumicWriteResults_h
 
+#include "ProgressLine.h"
+
 #include <string>
 
 class vtkImageData;
@@ -13,33 +15,43 @@ class vtkTable;
 namespace tool
 {
 // All write beside the file, which takes its place when it is whole (see OutputFiles.h), and throw
-// a Failure that names the file if that cannot be.
+// a Failure that names the file if that cannot be. What is large shows its progress.
 
 /** @throws UsageError if no writer has this suffix: to call before the work begins. */
 void CheckSurfaceName(const std::string& name);
 
+/** Whether a surface of this name has files in a folder beside it. */
+bool HasPieces(const std::string& name);
+
+/** How a surface is written. */
+struct SurfaceWriting
+{
+  std::string Remark; ///< a line for the head of the file where the format has one (.stl, .ply)
+  int PieceSize = 0;  ///< triangles of a piece, where there are pieces
+  ProgressStyle Style = ProgressStyle::None;
+};
+
 /**
  * Write a surface in the format of the suffix. Arrays and field data go along where the format has
- * a place for them (.vtp, .vtk). `remark`, a line, is put into the head of the file where the
- * format has one (.stl, .ply).
+ * a place for them (.vtp, .pvtp, .vtk).
  */
-void WriteSurface(vtkPolyData* surface, const std::string& name, const std::string& remark);
+void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing);
 
 /** @throws UsageError if the name of a volume to write does not end in .vti. */
 void CheckVolumeName(const std::string& name);
 
 /** Write a volume with all its arrays and field data as .vti. */
-void WriteVolume(vtkImageData* volume, const std::string& name);
+void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle style);
 
 /** Write the blocks that are not empty to one .vtm, with their files in a folder beside it. */
-void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name);
+void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style);
 
 /**
  * Write each block that is not empty to FOLDER/PREFIX-NUMBER.vtp, where `numbers` tells a
  * surface's number (none: that of the block). The folder is made.
  */
 void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
-  int (*numbers)(vtkPolyData*) = nullptr);
+  ProgressStyle style, int (*numbers)(vtkPolyData*) = nullptr);
 
 /** Write a .csv with a line of column names. */
 void WriteTable(vtkTable* table, const std::string& name);

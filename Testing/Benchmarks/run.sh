@@ -30,10 +30,11 @@ The surface:
                        medians of 5 rounds, or of --repetitions
   --model              also what 2 to 64 threads would gain, by a model, on the same two
   --memory             also what memory it takes, resampled to 512^3 and 1024^3 voxels
+  --limit LIST         also what limits of memory cost, such as 300M,1G: measure_limit.py
   --help               this text
 Tables are printed; all figures are left in build/benchmarks: every repetition of the pyramid in
 *.json, the surface in surface-NAME*.csv and surface-NAME.vtp, the others in growth-NAME*.csv,
-threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv.
+threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv, limit-NAME.csv.
 USAGE
 }
 
@@ -45,6 +46,7 @@ volume=
 iso=
 all_scans=
 growth=
+limits=
 scaling=()
 surface_options=()
 growth_options=()
@@ -66,6 +68,10 @@ take_option()
     --iso)
       need_value "a value" "$@"
       iso=$2
+      ;;
+    --limit)
+      need_value "a value" "$@"
+      limits=$2
       ;;
     --generate)
       need_number "$@"
@@ -135,6 +141,11 @@ measure_surface()
     say ""
     "$program" --volume "$2" --iso "$3" "${options[@]}" --csv "$results/$what-$1.csv" || failed=yes
   done
+  if [ -n "$limits" ]; then
+    say ""
+    python3 "$root/Testing/Benchmarks/measure_limit.py" --program "$build/vtk/bin/volumic" \
+      --memory "$limits" --csv "$results/limit-$1.csv" "$2" --iso "$3" || failed=yes
+  fi
 }
 
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u

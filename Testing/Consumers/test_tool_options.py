@@ -112,6 +112,8 @@ class OptionTableTest(ToolTestCase):
                 ("--memory: '-1G' is no amount of memory", ["a", "b.stl", "--memory=-1G"]),
                 ("--memory: '9999999T' is no amount", ["a", "b.stl", "--memory", "9999999T"]),
                 ("--memory: '' is not a number", ["a", "b.stl", "--memory", "G"]),
+                ("--piece-size: pieces have a triangle", ["a", "b.pvtp", "--piece-size", "0"]),
+                ("--piece-size: '1.5' is not a whole", ["a", "b.pvtp", "--piece-size", "1.5"]),
                 ("--edge-attraction needs", ["a", "b.stl", "--edge-attraction", "1"]),
                 ("exclude each other", ["a", "b.stl", "--seeds", "c", "--initial-surface", "d"]),
                 ("--seed-position: .* are 2 numbers", ["a", "b.stl", "--seed-position", "1,2"]),

@@ -12,11 +12,17 @@ import subprocess
 import tempfile
 import time
 import unittest
+from xml.etree import ElementTree
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataWriter, vtkXMLPPolyDataReader, vtkXMLPolyDataReader)
 
 from limited_files import largest_file
-from tool_test_case import ISO, PROGRAM, ToolTestCase
+from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
 
-SURFACES = ("vtp", "vtk", "stl", "ply", "obj", "iv", "g", "geo", "facet", "tri")
+SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "iv", "g", "geo", "facet", "tri")
 OLD = b"an older result"
 
 
@@ -309,7 +315,109 @@ class PlacesTest(OutputsTest):
                 self.refused_at_once("would take the same place", *arguments)
 
 
+class PiecesTest(OutputsTest):
+    """A .pvtp and its pieces: of two balls, so that cells have values that differ."""
+
+    def setUp(self):
+        super().setUp()
+        voxels = np.maximum(ball(), ball()[:, :, ::-1])
+        self.volume = self.write(vtkXMLImageDataWriter(), "balls.vti", make_image(voxels))
+
+    def segment(self, *arguments, **options):
+        return self.run_tool(self.volume, "--iso", 750.5, "--levels", 1, "-q", *arguments,
+                             **options)
+
+    def read(self, name, reader_class=vtkXMLPolyDataReader):
+        reader = reader_class()
+        reader.SetFileName(self.path(name))
+        reader.Update()
+        return reader.GetOutput()
+
+    def check_that_it_is(self, whole, pieces):
+        """Several pieces in their order, or one that holds them all."""
+        corners, places = [], {}
+        for piece in pieces:
+            ids = vtk_to_numpy(piece.GetPointData().GetGlobalIds())
+            self.assertEqual(len(ids), piece.GetNumberOfPoints())
+            corners.append(ids[vtk_to_numpy(piece.GetPolys().GetConnectivityArray())])
+            places.update(zip(ids, vtk_to_numpy(piece.GetPoints().GetData())))
+        self.assertEqual(sorted(places), list(range(whole.GetNumberOfPoints())))
+        np.testing.assert_array_equal([places[i] for i in sorted(places)],
+                                      vtk_to_numpy(whole.GetPoints().GetData()))
+        np.testing.assert_array_equal(np.concatenate(corners),
+                                      vtk_to_numpy(whole.GetPolys().GetConnectivityArray()))
+
+    def test_they_are_the_surface(self):
+        self.segment(self.path("a.vtp"), self.path("a.pvtp"), "--piece-size", 40)
+        whole = self.read("a.vtp")
+        triangles = whole.GetNumberOfPolys()
+        self.assertGreater(triangles, 120)
+        self.assertEqual(set(vtk_to_numpy(whole.GetCellData().GetArray("Component"))), {0, 1})
+        sources = [piece.get("Source") for piece
+                   in ElementTree.parse(self.path("a.pvtp")).getroot().iter("Piece")]
+        self.assertEqual(sources, [f"a/a_{i}.vtp" for i in range(-(-triangles // 40))])
+        pieces = [self.read(source) for source in sources]
+        self.assertEqual([p.GetNumberOfPolys() for p in pieces[:-1]], [40] * (len(pieces) - 1))
+        self.check_that_it_is(whole, pieces)
+        for piece in pieces:
+            ids = vtk_to_numpy(piece.GetPointData().GetGlobalIds())
+            self.assertEqual(len(set(ids)), len(ids))
+            self.assertEqual(piece.GetPointData().GetNormals().GetName(), "Normals")
+            for name in ("Normals", "Residual", "Motionless", "Contact"):
+                np.testing.assert_array_equal(
+                    vtk_to_numpy(piece.GetPointData().GetArray(name)),
+                    vtk_to_numpy(whole.GetPointData().GetArray(name))[ids], name)
+            self.assertEqual(piece.GetFieldData().GetNumberOfArrays(),
+                             whole.GetFieldData().GetNumberOfArrays())
+        for i in range(whole.GetCellData().GetNumberOfArrays()):
+            name = whole.GetCellData().GetArrayName(i)
+            np.testing.assert_array_equal(
+                np.concatenate([vtk_to_numpy(p.GetCellData().GetArray(name)) for p in pieces]),
+                vtk_to_numpy(whole.GetCellData().GetArray(i)), name)
+
+    def test_vtk_reads_them_together(self):
+        self.segment(self.path("a.vtp"), self.path("a & b.pvtp"), "--piece-size", 50)
+        whole, together = self.read("a.vtp"), self.read("a & b.pvtp", vtkXMLPPolyDataReader)
+        self.check_that_it_is(whole, [together])
+        for data, of_whole in ((together.GetPointData(), whole.GetPointData()),
+                               (together.GetCellData(), whole.GetCellData())):
+            for i in range(of_whole.GetNumberOfArrays()):
+                array = data.GetArray(of_whole.GetArrayName(i))
+                self.assertEqual(array.GetDataType(), of_whole.GetArray(i).GetDataType())
+                self.assertEqual(array.GetNumberOfComponents(),
+                                 of_whole.GetArray(i).GetNumberOfComponents())
+        self.assertIsNotNone(together.GetPointData().GetNormals())
+
+    def test_one_piece_and_no_half_of_them(self):
+        self.segment(self.path("a.pvtp"))
+        self.assertEqual(os.listdir(self.path("a")), ["a_0.vtp"])
+        before = {name: self.content(name) for name in ("a.pvtp", "a/a_0.vtp")}
+        process = self.segment(self.path("a.pvtp"), "--piece-size", 150, status=1,
+                               preexec_fn=largest_file(12000))
+        self.assertRegex(process.stderr, "a.pvtp: cannot be written .File too large")
+        self.assertEqual({name: self.content(name) for name in before}, before)
+        self.assertEqual(os.listdir(self.path("a")), ["a_0.vtp"])
+        self.without_rests("a.pvtp")
+
+    def test_inputs_are_not_replaced_by_pieces(self):
+        os.mkdir(self.path("b"))
+        start = self.write_bytes("b/b_0.vtp", OLD)
+        process = self.segment(self.path("b.pvtp"), "--initial-surface", start, status=1)
+        self.assertIn("b_0.vtp would be replaced, which is the input", process.stderr)
+        self.assertEqual(self.content("b/b_0.vtp"), OLD)
+        process = self.segment(self.path("b.pvtp"), self.path("b/b_1.vtp"), status=1)
+        self.assertIn("would take the same place", process.stderr)
+
+
 class WrittenTest(OutputsTest):
+    def test_writing_shows_its_progress(self):
+        names = [self.path("a." + suffix) for suffix in ("vtp", "pvtp", "vtk", "stl")]
+        said = self.run_tool(self.volume, "--iso", ISO, "--levels", 2, "--progress", *names,
+                             "--piece-size", 100, "--levels-output", self.path("l"),
+                             "--write-volume", self.path("v.vti")).stderr
+        for name in ("a.vtp", "a.pvtp", "level-1.vtp", "v.vti"):
+            self.assertRegex(said, rf"(?m)^Writing {name}:  *\d+ %$")
+
     def test_links_are_followed(self):
         os.mkdir(self.path("there"))
         self.write_bytes("there/a.stl", OLD)

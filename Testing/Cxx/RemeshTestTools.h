@@ -98,7 +98,7 @@ struct Bench
   /** Of the vertices [from, to). */
   int Nearest(const Vector& place, int from, int to) const
   {
-    const std::vector<Vector>& position = this->State.Mesh.Position;
+    const LargeVector<Vector>& position = this->State.Mesh.Position;
     int best = from;
     for (int v = from; v < to; ++v)
     {

@@ -324,3 +324,46 @@ TEST(ComponentWatch, LabelsComponentsOfManyBlocks)
     ASSERT_EQ(state.Component[v], state.Mesh.Position[v].X < 15 ? 0 : 1);
   }
 }
+
+TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)
+{
+  SurfaceState state;
+  const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
+  const IndexedSurface speck = Ball({ 30, 0, 0 }, 0.8);
+  Fill(state, { large, speck, Ball({ 40, 0, 0 }, 0.8) });
+  const int first = static_cast<int>(large.Points.size());
+  const int size = static_cast<int>(speck.Points.size());
+  ASSERT_GT(first, 800);
+  ASSERT_LE(size, 24);
+  state.FieldValue.Fill(-1.f); // All of the wrong side.
+  ComponentWatch watch;
+  // One vertex of the first speck, and some of the large one, from which the search ends early.
+  for (int round = 0; round < 2; ++round)
+  {
+    watch.LabelSmall(state, { 5, 6, first / 2, first + 3, 700 });
+  }
+  const int before = state.Mesh.NumberOfVertices();
+  EXPECT_TRUE(watch.DeleteDegenerate(state));
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), before - size);
+  EXPECT_FALSE(state.Mesh.IsAlive(first));
+  EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the list";
+  EXPECT_FALSE(watch.DeleteDegenerate(state));
+  watch.LabelSmall(state, { first + size });
+  EXPECT_TRUE(watch.DeleteDegenerate(state));
+}
+
+TEST(ComponentWatch, KeepsASmallOneOfAListOnTheRightSide)
+{
+  SurfaceState state;
+  Fill(state, { Ball({ 0, 0, 0 }, 0.8) });
+  state.FieldValue.Fill(1.f);
+  ComponentWatch watch;
+  watch.LabelSmall(state, { 0 });
+  EXPECT_FALSE(watch.DeleteDegenerate(state));
+  // Turned inside out since: its volume has changed its sign.
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    state.Mesh.Position[v] = state.Mesh.Position[v] * -1.f;
+  }
+  EXPECT_TRUE(watch.DeleteDegenerate(state));
+}

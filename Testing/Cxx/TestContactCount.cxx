@@ -62,7 +62,7 @@ TEST(ContactCount, ArePairsNearerThanLambdaDeltaAndFarAlongTheSurface)
   {
     TwoBalls balls(gap);
     const RemainingContacts found = balls.Find(-0.5);
-    std::vector<std::array<int, 2>> expected;
+    LargeVector<std::array<int, 2>> expected;
     const SurfaceMesh& mesh = balls.State.Mesh;
     for (int v = 0; v < mesh.Size(); ++v)
     {

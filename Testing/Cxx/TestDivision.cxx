@@ -59,10 +59,10 @@ TEST(Division, NumbersNewVerticesAsTheFacesAndEdgesThatTheyComeOf)
     kept.Keep(v, old.Rings[v].Item[0]);
   }
   StandardThreads threads(3);
-  const std::vector<std::array<int, 3>> faces = Divide(mesh, &kept, threads);
+  const LargeVector<Triangle> faces = Divide(mesh, &kept, threads);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
-  std::vector<std::array<int, 3>> wanted;
+  LargeVector<Triangle> wanted;
   std::vector<Vector> middles;
   old.VisitFaces([&](int a, int b, int c) { wanted.push_back({ a, b, c }); });
   for (int v = 0; v < old.Size(); ++v)
@@ -98,7 +98,7 @@ TEST(Division, KeepsOldValencesAndGivesNewVerticesSix)
   SurfaceMesh mesh;
   mesh.Append(MakeTorus({ 0, 0, 0 }, 5, 2, 17, 9));
   mesh.Append(Icosahedron({ 20, 0, 0 }, 3));
-  const std::vector<Ring> old = mesh.Rings;
+  const LargeVector<Ring> old = mesh.Rings;
   const int first = mesh.Size();
   Divide(mesh);
   for (int v = 0; v < mesh.Size(); ++v)

@@ -260,7 +260,7 @@ TEST(Forces, WhatKnowsNoBackgroundGivesWayToItBeyondTheMargin)
     Stage stage(DividedIcosahedron({ 16, 16, 16 }, 22, 1.6), 1);
     stage.Volume.Image.Edges = map.Values.data();
     (byEdges ? stage.Options.EdgeAttractionWeight : stage.Options.GradientWeight) = 0.7;
-    const std::vector<Vector> before = stage.State.Mesh.Position;
+    const LargeVector<Vector> before = stage.State.Mesh.Position;
     const double step = stage.Push();
     int beyond = 0;
     for (int v : stage.All)

@@ -74,7 +74,7 @@ TEST(SurfaceMesh, IsOneListWhicheverBlocksItWasMadeIn)
   ASSERT_GT(mesh.NumberOfVertices(), 20000);
   const IndexedSurface surface = mesh.ToIndexed(threads);
   std::vector<int> place(mesh.Rings.size(), -1);
-  std::vector<Point> points;
+  LargeVector<Point> points;
   for (int v = 0; v < mesh.Size(); ++v)
   {
     if (mesh.IsAlive(v))
@@ -84,7 +84,7 @@ TEST(SurfaceMesh, IsOneListWhicheverBlocksItWasMadeIn)
     }
   }
   EXPECT_EQ(surface.Points, points);
-  std::vector<Triangle> triangles;
+  LargeVector<Triangle> triangles;
   mesh.VisitFaces(
     [&](int a, int b, int c) { triangles.push_back({ place[a], place[b], place[c] }); });
   EXPECT_EQ(surface.Triangles, triangles);
@@ -113,7 +113,7 @@ TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end(),
     [&](int v, int w)
     { return cellOf(v) != cellOf(w) ? IsBefore(cellOf(v), cellOf(w)) : v < w; }));
-  const std::vector<Vector> before = mesh.Position;
+  const LargeVector<Vector> before = mesh.Position;
   mesh.Reorder(order, threads);
   EXPECT_SOUND(mesh, 2);
   for (std::size_t i = 0; i < order.size(); ++i)

@@ -108,7 +108,7 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
     dynamics.Accelerate(stage.State, stage.All, {});
     stage.State.Velocity[3] *= 100.f;
     stage.State.Velocity[4] *= 0.1f;
-    const std::vector<Vector> before = stage.State.Mesh.Position;
+    const LargeVector<Vector> before = stage.State.Mesh.Position;
     stage.State.PreviousPosition.Fill(Vector()); // Of long ago.
     dynamics.Displace(stage.State, stage.All);
     for (int v : stage.All)

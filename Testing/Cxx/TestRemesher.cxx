@@ -103,7 +103,7 @@ TEST(Remesher, LeavesEdgesOfDeltaAndMore)
 TEST(Remesher, TakesAwayVerticesOfValenceThreeWithoutMovingOthers)
 {
   Bench bench(FineSphere());
-  const std::vector<Vector> before = bench.State.Mesh.Position;
+  const LargeVector<Vector> before = bench.State.Mesh.Position;
   const int m = SetIntoAFace(bench.State, 40);
   ASSERT_EQ(bench.State.Mesh.Rings[m].Count, 3);
   bench.UpdateShape();

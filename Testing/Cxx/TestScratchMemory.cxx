@@ -84,6 +84,16 @@ TEST_F(ScratchMemoryTest, HoldsMoreThanTheLimit)
   const ScratchOptions options = Allowing(144 * MiB, this->Directory.Path);
   const ScratchMemory scratch(options);
   std::vector<std::uint64_t*> values(arrays);
+  // Piece by piece, so that no thread runs away while the governor waits for its turn.
+  constexpr std::size_t piece = n / 16;
+  const auto inPieces = [](const std::uint64_t* array, const auto& body)
+  {
+    for (std::size_t i = 0; i < n; i += piece)
+    {
+      PrefetchLarge(array + i, piece * sizeof(std::uint64_t));
+      body(i, i + piece);
+    }
+  };
   const auto onTwoThreads = [&](const auto& body)
   {
     std::thread other([&] { body(0, arrays / 2); });
@@ -96,32 +106,30 @@ TEST_F(ScratchMemoryTest, HoldsMoreThanTheLimit)
       for (std::size_t a = begin; a < end; ++a)
       {
         values[a] = static_cast<std::uint64_t*>(AllocateLarge(bytes));
-        FillWithNumbers(values[a], 0, n);
+        inPieces(values[a], [&](std::size_t from, std::size_t to)
+          { FillWithNumbers(values[a], from, to); });
       }
     });
   EXPECT_EQ(scratch.Statistics().Mapped, arrays * bytes);
-  std::vector<std::size_t> wrong(arrays, n);
+  std::vector<std::size_t> wrong(arrays, 0);
   onTwoThreads(
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t a = begin; a < end; ++a)
       {
-        PrefetchLarge(values[a], bytes);
-        wrong[a] = CountWrongNumbers(values[a], 0, n);
+        inPieces(values[a], [&](std::size_t from, std::size_t to)
+          { wrong[a] += CountWrongNumbers(values[a], from, to); });
       }
     });
   EXPECT_EQ(wrong, std::vector<std::size_t>(arrays, 0));
   std::for_each(values.begin(), values.end(), FreeLarge);
   const ScratchStatistics statistics = scratch.Statistics();
-  // On a busy machine the governor may be late, so this is no more than the order of it.
-  EXPECT_LT(statistics.MostResident, options.Limit + 128 * MiB);
+  EXPECT_LE(statistics.MostResident, options.Limit);
   EXPECT_GT(statistics.MostResident, options.Limit - 64 * MiB) << "much of it is not used";
   EXPECT_GT(statistics.Dropped, arrays * bytes);
   EXPECT_EQ(statistics.Mapped, 0u);
   EXPECT_EQ(statistics.MostMapped, arrays * bytes);
-  EXPECT_EQ(scratch.Warnings().size(),
-    (statistics.MostResident > options.Limit ? 1u : 0u) +
-      (IsMemory(this->Directory.Path) ? 1u : 0u));
+  EXPECT_EQ(scratch.Warnings().size(), IsMemory(this->Directory.Path) ? 1u : 0u);
 }
 
 TEST_F(ScratchMemoryTest, KeepsSmallArraysOnTheHeap)
@@ -195,8 +203,13 @@ TEST_F(ScratchMemoryTest, OfTwoTheSmallerLimitCountsAndTheLastDirectory)
   const ScratchMemory first(small);
   auto second =
     std::make_unique<ScratchMemory>(Allowing(4096 * MiB, other.Path));
-  LargeVector<LargeVector<std::uint64_t>> arrays(8, LargeVector<std::uint64_t>(n, 1));
-  EXPECT_LT(second->Statistics().MostResident, small.Limit + 128 * MiB);
+  std::vector<LargeVector<std::uint64_t>> arrays;
+  for (int i = 0; i < 8; ++i)
+  {
+    arrays.emplace_back(n, 1);
+  }
+  // The governor may have its turn but once in an array.
+  EXPECT_LT(second->Statistics().MostResident, small.Limit + bytes);
   EXPECT_GT(second->Statistics().Dropped, bytes);
   // Only the last one has little room.
   ScratchOptions options = Allowing(4096 * MiB, other.Path);

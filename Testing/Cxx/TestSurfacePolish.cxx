@@ -222,7 +222,7 @@ TEST(SurfacePolish, LeavesAWellShapedMeshAsItIs)
   LiveSurface state(MakeSphere({ 0, 0, 0 }, 8, 1.7));
   ASSERT_EQ(ShapeOf(state).EdgesOutside, 0);
   ASSERT_GT(ShapeOf(state).WorstRatio, 0.82);
-  const std::vector<Vector> before = state.Mesh.Position;
+  const LargeVector<Vector> before = state.Mesh.Position;
   SequentialExecutor executor;
   SurfacePolish polish(state, nullptr, true, executor);
   polish.Run();

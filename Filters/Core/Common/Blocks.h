@@ -40,8 +40,9 @@ std::size_t CountInBlocks(Executor& executor, std::size_t n, std::size_t size, C
 }
 
 /** All lists as one, in their order; its memory is used again. They are emptied. */
-template <typename T>
-void Concatenate(Executor& executor, std::vector<std::vector<T>>& lists, std::vector<T>& all)
+template <typename T, typename Allocator>
+void Concatenate(
+  Executor& executor, std::vector<std::vector<T>>& lists, std::vector<T, Allocator>& all)
 {
   std::vector<std::size_t> first(lists.size() + 1, 0);
   for (std::size_t b = 0; b < lists.size(); ++b)
@@ -98,15 +99,16 @@ std::ptrdiff_t CountOfLeft(Iterator left, std::ptrdiff_t lefts, Iterator right,
  * std::sort by threads, for values of which equal ones are alike: sorted in blocks, which are then
  * merged by twos. Needs as much memory again.
  */
-template <typename T>
-void SortInBlocks(Executor& executor, std::vector<T>& values, std::size_t size = 1 << 15)
+template <typename T, typename Allocator>
+void SortInBlocks(
+  Executor& executor, std::vector<T, Allocator>& values, std::size_t size = 1 << 15)
 {
   const std::size_t n = values.size();
-  const auto at = [](std::vector<T>& list, std::size_t i)
+  const auto at = [](std::vector<T, Allocator>& list, std::size_t i)
   { return list.begin() + static_cast<std::ptrdiff_t>(i); };
   ForBlocks(executor, n, size, [&](std::size_t, std::size_t begin, std::size_t end)
     { std::sort(at(values, begin), at(values, end)); });
-  std::vector<T> merged(n > size ? n : 0);
+  std::vector<T, Allocator> merged(n > size ? n : 0);
   for (std::size_t width = size; width < n; width *= 2)
   {
     // Each block of what is merged is made of parts of two sorted ranges.

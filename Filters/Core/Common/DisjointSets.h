@@ -3,11 +3,12 @@
 #ifndef volumicDisjointSets_h
 #define volumicDisjointSets_h
 
+#include "Core/Common/ScratchMemory.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <numeric>
-#include <vector>
 
 namespace volumic
 {
@@ -64,7 +65,7 @@ public:
   }
 
 private:
-  std::vector<int> Parent; ///< A smaller member of the set, or, of the root, itself.
+  LargeVector<int> Parent; ///< A smaller member of the set, or, of the root, itself.
 };
 
 /**
@@ -119,7 +120,7 @@ public:
   }
 
 private:
-  std::vector<std::atomic<int>> Parent; ///< A smaller member of the set, or, of the root, itself.
+  LargeVector<std::atomic<int>> Parent; ///< A smaller member of the set, or, of the root, itself.
 };
 }
 

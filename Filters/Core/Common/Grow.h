@@ -19,8 +19,8 @@ constexpr std::size_t WithRoomToGrow(std::size_t n)
  * Lengthens a vector to n values, if it is shorter, by an eighth at least: the library would double
  * the memory, which of a surface that hardly grows any more is half of it for nothing.
  */
-template <typename T>
-void Grow(std::vector<T>& values, std::size_t n, const T& value)
+template <typename T, typename Allocator>
+void Grow(std::vector<T, Allocator>& values, std::size_t n, const T& value)
 {
   if (n > values.capacity())
   {

@@ -3,10 +3,11 @@
 #ifndef volumicIndexedSurface_h
 #define volumicIndexedSurface_h
 
+#include "Core/Common/ScratchMemory.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <vector>
 
 namespace volumic
 {
@@ -16,8 +17,8 @@ using Triangle = std::array<int, 3>;
 /** An indexed triangle mesh, in whatever space its owner says. */
 struct IndexedSurface
 {
-  std::vector<Point> Points;
-  std::vector<Triangle> Triangles; ///< Counter-clockwise seen from outside.
+  LargeVector<Point> Points;
+  LargeVector<Triangle> Triangles; ///< Counter-clockwise seen from outside.
 };
 
 /** A box along the axes; empty until a point is added. */

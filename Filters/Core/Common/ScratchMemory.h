@@ -89,7 +89,10 @@ private:
 void* AllocateLarge(std::size_t bytes, std::size_t alignment = 64);
 /** Null is nothing. */
 void FreeLarge(void* memory) noexcept;
-/** It will be needed soon: read ahead what is on disk. Any range; of other memory, nothing. */
+/**
+ * It will be needed soon: room is made below the limit, and what is on disk is read ahead. Any
+ * range; of other memory, nothing is read.
+ */
 void PrefetchLarge(const void* begin, std::size_t bytes);
 
 template <typename T>

@@ -144,6 +144,7 @@ void* ScratchStore::Map(std::size_t bytes)
         Mebibytes(bytes), " MiB more: ", Mebibytes(this->Mapped), " of ",
         Mebibytes(options.Room), " MiB are taken. Allow more, or raise Memory Limit."));
     }
+    this->Keep(this->Governing->Meter);
     directory = options.Directory;
     this->CountMapped(bytes); // Before the file is made: several threads may ask at once.
   }
@@ -199,6 +200,10 @@ void ScratchStore::Prefetch(const void* begin, std::size_t bytes)
   std::uintptr_t last = first + bytes;
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (this->Governing)
+    {
+      this->Keep(this->Governing->Meter);
+    }
     auto array = this->Arrays.upper_bound(first);
     if (array == this->Arrays.begin())
     {
@@ -253,6 +258,15 @@ ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t 
   return before;
 }
 
+ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter)
+{
+  const std::size_t limit = this->SmallestLimit();
+  const std::size_t headroom = HeadroomOf(limit);
+  const ResidentMemory memory = meter.Read();
+  this->Record(memory);
+  return memory.All > limit - headroom ? this->Drop(meter, limit - 2 * headroom) : memory;
+}
+
 void ScratchStore::Start()
 {
   auto governor = std::make_unique<Governor>();
@@ -276,14 +290,8 @@ void ScratchStore::Govern(Governor& governor)
   while (!governor.Ends)
   {
     const std::size_t limit = this->SmallestLimit();
-    const std::size_t headroom = HeadroomOf(limit);
-    const std::size_t begin = limit - headroom;
-    ResidentMemory memory = governor.Meter.Read();
-    this->Record(memory);
-    if (memory.All > begin)
-    {
-      memory = this->Drop(governor.Meter, begin - headroom);
-    }
+    const std::size_t begin = limit - HeadroomOf(limit);
+    const ResidentMemory memory = this->Keep(governor.Meter);
     // Microseconds: as long as it takes to fill what is free until then, at 60 GB/s (two threads
     // that read what is cached: 36). Where nothing is left to be dropped, arrays may stay for a
     // while: else all would be waiting for pages.

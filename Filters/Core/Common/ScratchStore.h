@@ -60,6 +60,8 @@ private:
   void Record(const ResidentMemory& memory);
   /** Until so much is resident, once around at most. @return what is resident then. */
   ResidentMemory Drop(const ResidentMemoryMeter& meter, std::size_t goal);
+  /** Drops what must be, as things are. @return what is resident then. */
+  ResidentMemory Keep(const ResidentMemoryMeter& meter);
   void Start();
   void Stop(std::unique_lock<std::mutex>& lock);
   void Govern(Governor& governor);

@@ -15,9 +15,9 @@ namespace volumic
  * Fills a list with valueOf(i) for all i of [0, n) for which isWanted(i), in order; both are called
  * on any thread. The list's memory is used again.
  */
-template <typename IsWanted, typename ValueOf>
-void Select(Executor& executor, std::size_t n, std::vector<int>& selected, IsWanted&& isWanted,
-  ValueOf&& valueOf)
+template <typename Allocator, typename IsWanted, typename ValueOf>
+void Select(Executor& executor, std::size_t n, std::vector<int, Allocator>& selected,
+  IsWanted&& isWanted, ValueOf&& valueOf)
 {
   constexpr std::size_t size = 2048;
   std::vector<std::vector<int>> blocks((n + size - 1) / size);

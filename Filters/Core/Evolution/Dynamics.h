@@ -106,8 +106,8 @@ private:
   float Longest = 0;    ///< Time step, unless shortened.
   float InnerShare = 1; ///< Of the internal forces that the time step can follow.
   float Step = 0;
-  std::vector<Vector> Force;
-  std::vector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.
+  LargeVector<Vector> Force;
+  LargeVector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.
   std::vector<float> Fastest;
   std::vector<ContactsOfVertex> Contacts;
 };

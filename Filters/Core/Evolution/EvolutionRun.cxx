@@ -256,7 +256,7 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = this->State;
-  const std::vector<std::uint8_t> active = s.Active.AsVector();
+  const LargeVector<std::uint8_t> active = s.Active.AsVector();
   Remesher remesher(s, this->TheField.get(), false, this->Threads);
   s.Velocity.Fill(Vector());
   this->ActivateAll();

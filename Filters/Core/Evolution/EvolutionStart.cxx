@@ -150,7 +150,7 @@ void SurfaceEvolution::Implementation::LayGrid()
 namespace
 {
 /** Keeps the edges whose flips made the face; from the second round on others about it, too. */
-void KeepAbout(const std::array<int, 3>& face, const std::vector<std::array<int, 3>>& faces,
+void KeepAbout(const std::array<int, 3>& face, const LargeVector<Triangle>& faces,
   const SurfaceMesh& old, int round, KeptEdges& kept)
 {
   const int olds = old.Size();
@@ -214,7 +214,7 @@ void SurfaceEvolution::Implementation::DivideOnce()
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   const int olds = s.Mesh.Size();
   this->Threads.EndPhase("Order");
-  const std::vector<std::array<int, 3>> faces = volumic::Divide(s.Mesh, nullptr, this->Threads);
+  const LargeVector<Triangle> faces = volumic::Divide(s.Mesh, nullptr, this->Threads);
   this->Threads.EndPhase("Division");
   std::vector<Proximity::FacePair> intersections = this->FindIntersections();
   if (intersections.empty())

@@ -69,7 +69,7 @@ EdgeLengths LengthsOf(const IndexedSurface& surface)
 IndexedSurface WithoutUnusedPoints(const IndexedSurface& surface)
 {
   IndexedSurface result;
-  std::vector<int> place(surface.Points.size(), -1);
+  LargeVector<int> place(surface.Points.size(), -1);
   result.Triangles.reserve(surface.Triangles.size());
   for (Triangle t : surface.Triangles)
   {
@@ -90,7 +90,7 @@ IndexedSurface WithoutUnusedPoints(const IndexedSurface& surface)
 /** Whether no point has more neighbours than a ring can take. */
 bool FitsRings(const IndexedSurface& surface)
 {
-  std::vector<int> valence(surface.Points.size(), 0);
+  LargeVector<int> valence(surface.Points.size(), 0);
   for (const Triangle& t : surface.Triangles)
   {
     for (int corner : t)

@@ -197,7 +197,7 @@ SurfaceResult SurfaceEvolution::Result() const
   result.Residual.resize(first.back());
   result.Motionless.resize(first.back());
   result.Held.resize(first.back());
-  std::vector<int> index(n, -1); // As ToIndexed numbers them.
+  LargeVector<int> index(n, -1); // As ToIndexed numbers them.
   ForBlocks(threads, n, ResultBlock,
     [&](std::size_t block, std::size_t begin, std::size_t end)
     {

@@ -103,11 +103,11 @@ struct HistoryRow
 /** The surface as handed out: compact, workspace coordinates. */
 struct SurfaceResult : IndexedSurface
 {
-  std::vector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
-  std::vector<float> Residual;                ///< Field minus iso-value, per point.
-  std::vector<unsigned char> Motionless;      ///< 1 where frozen, per point.
-  std::vector<unsigned char> Held;            ///< Per point, see RemainingContacts.
-  std::vector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
+  LargeVector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
+  LargeVector<float> Residual;                ///< Field minus iso-value, per point.
+  LargeVector<unsigned char> Motionless;      ///< 1 where frozen, per point.
+  LargeVector<unsigned char> Held;            ///< Per point, see RemainingContacts.
+  LargeVector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
   double Delta = 0.;                          ///< delta_h, workspace.
 };
 

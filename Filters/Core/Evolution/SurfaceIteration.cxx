@@ -242,7 +242,7 @@ void SurfaceIteration::CollectSuspects()
 void SurfaceIteration::UpdateChanged(std::vector<int> changed)
 {
   // Each once, in any order.
-  std::vector<float>& drift = this->State.Drift.AsVector();
+  LargeVector<float>& drift = this->State.Drift.AsVector();
   for (int v : changed)
   {
     drift[v] = 0;

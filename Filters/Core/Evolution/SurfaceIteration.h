@@ -125,7 +125,7 @@ private:
   const std::vector<int>* Visited = nullptr; ///< See BeginVisit; null: all vertices.
   std::vector<int> Active;
   std::vector<int> Working;            ///< See CollectWorking.
-  std::vector<std::uint8_t> IsWorking; ///< Whether that has it.
+  LargeVector<std::uint8_t> IsWorking; ///< Whether that has it.
   std::vector<int> Suspects;           ///< See CollectSuspects.
   int CollapsesSinceLabels = 0;
   int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.

@@ -30,7 +30,7 @@ public:
 
 private:
   std::vector<std::size_t> First; ///< Of each slab, and the end of the last.
-  std::vector<int> Vertices;
+  LargeVector<int> Vertices;
 };
 }
 

@@ -104,7 +104,7 @@ public:
   {
   }
 
-  std::vector<std::array<int, 3>> Run()
+  LargeVector<Triangle> Run()
   {
     this->AddCentres();
     this->AddMiddles();
@@ -147,10 +147,10 @@ private:
   Executor& Threads;
   const std::size_t Olds;
   EdgeSlots Slots;
-  std::vector<int> Centre; ///< New vertex of the face (v, ring[i], ring[i + 1]).
-  std::vector<int> Middle; ///< New vertex of the edge; None: it is flipped. Empty: all are.
-  std::vector<std::array<int, 3>> Faces;
-  std::vector<std::array<int, 2>> HalvedEdges;
+  LargeVector<int> Centre; ///< New vertex of the face (v, ring[i], ring[i + 1]).
+  LargeVector<int> Middle; ///< New vertex of the edge; None: it is flipped. Empty: all are.
+  LargeVector<Triangle> Faces;
+  LargeVector<std::array<int, 2>> HalvedEdges;
 };
 
 void SqrtThreeDivision::AddCentres()
@@ -158,7 +158,7 @@ void SqrtThreeDivision::AddCentres()
   const std::vector<std::size_t> first = FirstOfBlocks(this->Threads, this->Olds, BlockSize,
     [this](std::size_t begin, std::size_t end) { return this->Mesh.CountFaces(begin, end); });
   this->Faces.resize(first.back());
-  std::vector<Vector>& position = this->Mesh.Position;
+  LargeVector<Vector>& position = this->Mesh.Position;
   position.resize(this->Olds + this->Faces.size());
   ForBlocks(this->Threads, this->Olds, BlockSize,
     [&](std::size_t block, std::size_t begin, std::size_t end)
@@ -207,7 +207,7 @@ void SqrtThreeDivision::AddMiddles()
       return count;
     });
   this->HalvedEdges.resize(first.back());
-  std::vector<Vector>& position = this->Mesh.Position;
+  LargeVector<Vector>& position = this->Mesh.Position;
   const std::size_t before = position.size();
   position.resize(before + this->HalvedEdges.size());
   ForBlocks(this->Threads, this->Olds, BlockSize,
@@ -277,8 +277,7 @@ void SqrtThreeDivision::JoinOld(std::size_t vertex)
 }
 }
 
-std::vector<std::array<int, 3>> Divide(
-  SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
+LargeVector<Triangle> Divide(SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
 {
   return SqrtThreeDivision(mesh, kept, executor).Run();
 }

@@ -27,7 +27,7 @@ public:
   std::size_t Count() const { return this->First.back(); }
 
 private:
-  std::vector<std::size_t> First; ///< Six for each vertex are more than an int counts.
+  LargeVector<std::size_t> First; ///< Six for each vertex are more than an int counts.
 };
 
 /** Edges of a mesh that a division is to leave where they are. The mesh must stay as it is. */
@@ -52,7 +52,7 @@ public:
 private:
   const SurfaceMesh& Mesh;
   EdgeSlots Slots;
-  std::vector<std::uint8_t> Flags; ///< Both ends of an edge have one.
+  LargeVector<std::uint8_t> Flags; ///< Both ends of an edge have one.
 };
 
 /**
@@ -71,7 +71,7 @@ private:
  * @return the old faces: the centre of face i is the vertex with i plus the number of old ones.
  * The middles of edges come last. `mesh` must have no free places, `kept` be of a copy of it.
  */
-std::vector<std::array<int, 3>> Divide(SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
+LargeVector<Triangle> Divide(SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
   Executor& executor = OnThisThread());
 
 /** What Divide(mesh) has made the mesh from; that had so many vertices. */

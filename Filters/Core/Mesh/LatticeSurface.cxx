@@ -67,9 +67,9 @@ private:
 
   const IndexedSurface& Surface;
   LatticeInside Lattice;
-  std::vector<Triangle> Triangles;
-  std::vector<CutEdge> Edges;      ///< One per corner of the result.
-  std::vector<LatticePoint> Ends;  ///< Of the edges: their distance from the surface is needed.
+  LargeVector<Triangle> Triangles;
+  LargeVector<CutEdge> Edges;      ///< One per corner of the result.
+  LargeVector<LatticePoint> Ends;  ///< Of the edges: their distance from the surface is needed.
   std::unordered_map<Key, int> EdgeOf;
   std::unordered_map<std::int64_t, int> EndOf;
 };
@@ -213,8 +213,8 @@ int TetrahedraCutter::EndAt(const LatticePoint& p)
 IndexedSurface TetrahedraCutter::Finish(Executor& executor)
 {
   const TriangleTree tree(this->Surface);
-  std::vector<double> distance(this->Ends.size());
-  std::vector<Point> place(this->Ends.size());
+  LargeVector<double> distance(this->Ends.size());
+  LargeVector<Point> place(this->Ends.size());
   executor.For(this->Ends.size(), EndGrain,
     [&](std::size_t begin, std::size_t end)
     {

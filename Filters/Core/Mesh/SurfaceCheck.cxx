@@ -172,7 +172,7 @@ Point PlaceIn(const IndexedSurface& surface, const Triangle& t)
 
 /** How often the components other than one wind round a place of it. */
 int WindingNumber(const TriangleTree& tree, const IndexedSurface& surface,
-  const std::vector<int>& componentOf, int component, const Point& place)
+  const LargeVector<int>& componentOf, int component, const Point& place)
 {
   int winding = 0;
   tree.Traverse(

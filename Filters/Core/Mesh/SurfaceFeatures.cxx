@@ -132,7 +132,7 @@ class Components
 public:
   Components(const IndexedSurface& surface, Executor& executor);
 
-  std::vector<int> OfTriangle;
+  LargeVector<int> OfTriangle;
   std::vector<int> FirstTriangle; ///< Of each component.
   std::vector<int> Vertices;      ///< Their number.
 
@@ -140,7 +140,7 @@ private:
   void FindRoots(const IndexedSurface& surface, Executor& executor);
   void Number(const IndexedSurface& surface, Executor& executor);
 
-  std::vector<int> Root; ///< Of a point's component, the smallest point in it.
+  LargeVector<int> Root; ///< Of a point's component, the smallest point in it.
 };
 
 Components::Components(const IndexedSurface& surface, Executor& executor)
@@ -176,7 +176,7 @@ void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
 void Components::Number(const IndexedSurface& surface, Executor& executor)
 {
   // By the place of the root: its number.
-  std::vector<int> number(this->Root.size(), NoComponent);
+  LargeVector<int> number(this->Root.size(), NoComponent);
   for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
   {
     int& c = number[this->Root[surface.Triangles[i][0]]];

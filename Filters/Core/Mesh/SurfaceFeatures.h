@@ -26,7 +26,7 @@ struct ComponentFeatures
 struct SurfaceFeatures
 {
   std::vector<ComponentFeatures> Components; ///< 0 = largest area.
-  std::vector<int> ComponentOfTriangle;
+  LargeVector<int> ComponentOfTriangle;
   double Area = 0.;
   double Volume = 0.;
   int EulerCharacteristic = 0;

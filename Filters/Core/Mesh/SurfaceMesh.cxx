@@ -156,7 +156,7 @@ std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
 {
   IndexedSurface surface;
-  std::vector<int> place(this->Rings.size(), -1);
+  LargeVector<int> place(this->Rings.size(), -1);
   const std::vector<std::size_t> firstPoint = FirstAlive(*this, executor);
   surface.Points.resize(firstPoint.back());
   ForBlocks(executor, this->Rings.size(), VertexBlock,
@@ -194,8 +194,8 @@ using DirectedEdge = std::pair<int, int>;
 /** For each vertex the directed edges (b, c) that its triangles have opposite to it. */
 struct OppositeEdges
 {
-  std::vector<int> Start; ///< Of those of each vertex, and the end of the last.
-  std::vector<DirectedEdge> Edges;
+  LargeVector<int> Start; ///< Of those of each vertex, and the end of the last.
+  LargeVector<DirectedEdge> Edges;
 
   explicit OppositeEdges(const IndexedSurface& surface) : Start(surface.Points.size() + 1, 0)
   {
@@ -208,7 +208,7 @@ struct OppositeEdges
     }
     std::partial_sum(this->Start.begin(), this->Start.end(), this->Start.begin());
     this->Edges.resize(this->Start.back());
-    std::vector<int> fill(this->Start.begin(), this->Start.end() - 1);
+    LargeVector<int> fill(this->Start.begin(), this->Start.end() - 1);
     for (const Triangle& t : surface.Triangles)
     {
       for (int k = 0; k < 3; ++k)
@@ -261,7 +261,7 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
   const std::size_t n = surface.Points.size();
   OppositeEdges opposite(surface);
   const int first = this->Size();
-  std::vector<Ring> rings(n); // Nothing is added before all is found to be sound.
+  LargeVector<Ring> rings(n); // Nothing is added before all is found to be sound.
   const auto find = [&](std::size_t begin, std::size_t end)
   {
     for (std::size_t v = begin; v < end; ++v)
@@ -308,11 +308,11 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
-  std::vector<int> place(this->Rings.size(), -1);
-  std::vector<Vector> position;
+  LargeVector<int> place(this->Rings.size(), -1);
+  LargeVector<Vector> position;
   position.reserve(WithRoomToGrow(order.size()));
   position.resize(order.size());
-  std::vector<Ring> rings;
+  LargeVector<Ring> rings;
   rings.reserve(WithRoomToGrow(order.size()));
   rings.resize(order.size());
   ForBlocks(executor, order.size(), VertexBlock,
@@ -390,7 +390,7 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
   const auto bits = [cell](float x, float from)
   { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
   const std::vector<std::size_t> first = FirstAlive(mesh, executor);
-  std::vector<std::pair<std::uint64_t, int>> keys(first.back());
+  LargeVector<std::pair<std::uint64_t, int>> keys(first.back());
   ForBlocks(executor, n, VertexBlock,
     [&](std::size_t block, std::size_t begin, std::size_t end)
     {

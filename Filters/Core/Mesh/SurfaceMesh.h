@@ -5,6 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Vector.h"
 
 #include <cstddef>
@@ -91,8 +92,8 @@ struct VertexPlaces
 class SurfaceMesh
 {
 public:
-  std::vector<Vector> Position;
-  std::vector<Ring> Rings;
+  LargeVector<Vector> Position;
+  LargeVector<Ring> Rings;
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }

@@ -60,7 +60,7 @@ TriangleTree::TriangleTree(const IndexedSurface& surface)
   : Surface(surface), Order(surface.Triangles.size())
 {
   std::iota(this->Order.begin(), this->Order.end(), 0);
-  std::vector<Point> centres;
+  LargeVector<Point> centres;
   centres.reserve(surface.Triangles.size());
   for (const Triangle& t : surface.Triangles)
   {
@@ -78,7 +78,7 @@ TriangleTree::TriangleTree(const IndexedSurface& surface)
   }
 }
 
-int TriangleTree::Build(int begin, int end, const std::vector<Point>& centres)
+int TriangleTree::Build(int begin, int end, const LargeVector<Point>& centres)
 {
   const int at = static_cast<int>(this->Nodes.size());
   Node node{ Bounds(), begin, end, -1, 0 };

@@ -72,11 +72,11 @@ private:
   /** The tree is balanced: this serves any number of triangles that an int counts. */
   static constexpr int MaximumDepth = 64;
 
-  int Build(int begin, int end, const std::vector<Point>& centres);
+  int Build(int begin, int end, const LargeVector<Point>& centres);
 
   const IndexedSurface& Surface;
-  std::vector<int> Order; ///< The triangles, those of a node side by side.
-  std::vector<Node> Nodes;
+  LargeVector<int> Order; ///< The triangles, those of a node side by side.
+  LargeVector<Node> Nodes;
 };
 }
 

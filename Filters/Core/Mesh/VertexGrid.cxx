@@ -18,6 +18,9 @@ namespace
  */
 constexpr double MaximumNumberOfBricks = 1 << 24;
 constexpr double MaximumNumberOfCells = 4294967295.;
+/** Bricks that are allocated at once; they take 2 KiB each. */
+constexpr std::size_t FewBricks = 32;
+constexpr std::size_t ManyBricks = 1 << 15;
 /** What cells grow by until they are few enough. */
 constexpr float CellGrowth = 1.25f;
 /** Vertices that one thread sorts into layers at a time. */
@@ -54,7 +57,8 @@ void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
   const auto places =
     static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
   this->Made.clear();
-  this->Bricks = std::make_unique<std::atomic<Brick*>[]>(places); // All null.
+  this->NumberMade = 0;
+  this->Bricks = LargeVector<std::atomic<Brick*>>(places); // All null.
   this->Next.clear();
   this->Cell.clear();
 }
@@ -71,8 +75,15 @@ VertexGrid::Brick* VertexGrid::MakeBrick(std::size_t number)
   Brick* brick = this->Bricks[number].load(std::memory_order_relaxed);
   if (!brick)
   {
-    this->Made.push_back(std::make_unique<Brick>());
-    brick = this->Made.back().get();
+    if (this->Made.empty() || this->Made.back().size() == this->Made.back().capacity())
+    {
+      const std::size_t n = std::max(FewBricks, this->NumberMade);
+      this->Made.emplace_back();
+      this->Made.back().reserve(std::min(n, ManyBricks));
+    }
+    this->Made.back().emplace_back();
+    ++this->NumberMade;
+    brick = &this->Made.back().back();
     brick->fill(-1);
     this->Bricks[number].store(brick, std::memory_order_release);
   }
@@ -158,7 +169,7 @@ private:
 };
 }
 
-void VertexGrid::InsertAll(const std::vector<Vector>& positions,
+void VertexGrid::InsertAll(const LargeVector<Vector>& positions,
   const std::function<bool(int v)>& isThere, Executor& executor)
 {
   this->Resize(positions.size());
@@ -176,7 +187,7 @@ void VertexGrid::InsertAll(const std::vector<Vector>& positions,
 }
 
 void VertexGrid::MoveAll(
-  const std::vector<int>& vertices, const std::vector<Vector>& positions, Executor& executor)
+  const std::vector<int>& vertices, const LargeVector<Vector>& positions, Executor& executor)
 {
   if (vertices.size() < FewMoves)
   {

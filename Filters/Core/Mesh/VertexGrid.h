@@ -4,6 +4,7 @@
 #define volumicVertexGrid_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Vector.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -44,11 +44,11 @@ public:
 
   void Insert(int v, const Vector& position);
   /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
-  void InsertAll(const std::vector<Vector>& positions, const std::function<bool(int v)>& isThere,
+  void InsertAll(const LargeVector<Vector>& positions, const std::function<bool(int v)>& isThere,
     Executor& executor);
   /** Move() for each of them. */
   void MoveAll(
-    const std::vector<int>& vertices, const std::vector<Vector>& positions, Executor& executor);
+    const std::vector<int>& vertices, const LargeVector<Vector>& positions, Executor& executor);
   void Remove(int v);
   /** To be called after the vertex has moved. */
   void Move(int v, const Vector& position)
@@ -75,7 +75,7 @@ public:
   }
 
   /** Whether a vertex lies within `radius` of a point; `positions`: of all vertices. */
-  bool HasWithin(const Vector& position, float radius, const std::vector<Vector>& positions) const
+  bool HasWithin(const Vector& position, float radius, const LargeVector<Vector>& positions) const
   {
     bool found = false;
     this->Visit(position, radius,
@@ -105,7 +105,7 @@ public:
   }
 
   /** Bricks that there are, for tests of what it costs. */
-  std::size_t NumberOfBricks() const { return this->Made.size(); }
+  std::size_t NumberOfBricks() const { return this->NumberMade; }
 
 private:
   static constexpr int Bits = 3; ///< Of a coordinate within a brick.
@@ -197,11 +197,12 @@ private:
   Brick* MakeBrick(std::size_t number);
   void Link(int v, std::uint32_t cell);
 
-  std::unique_ptr<std::atomic<Brick*>[]> Bricks; ///< Null where no vertex has been.
-  std::vector<std::unique_ptr<Brick>> Made;
+  LargeVector<std::atomic<Brick*>> Bricks; ///< Null where no vertex has been.
+  std::vector<LargeVector<Brick>> Made;    ///< Each with room for as many as all before.
+  std::size_t NumberMade = 0;              ///< Bricks in use.
   std::mutex Making; ///< Held while a brick is made.
-  std::vector<int> Next;
-  std::vector<std::uint32_t> Cell;
+  LargeVector<int> Next;
+  LargeVector<std::uint32_t> Cell;
   int Size[3] = { 1, 1, 1 };
   int BricksAlong[2] = { 1, 1 };
   float Low[3] = { 0, 0, 0 };

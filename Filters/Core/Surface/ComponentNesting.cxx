@@ -43,7 +43,7 @@ Point PositionOf(const SurfaceMesh& mesh, int v)
 using PartialVolume = std::pair<int, SignedVolume>;
 
 /** Of the faces whose smallest vertex is in a range, by label. `roots`: a vertex of each. */
-std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const std::vector<int>& labels,
+std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, std::size_t begin, std::size_t end)
 {
   std::vector<PartialVolume> volumes;
@@ -71,7 +71,7 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const std::vector<
  * A ray from the first vertex of each component, by Y. `labels`: of the vertices, `roots`: the
  * first vertex of each label.
  */
-std::vector<Ray> CastRays(const SurfaceMesh& mesh, const std::vector<int>& labels,
+std::vector<Ray> CastRays(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
@@ -104,7 +104,7 @@ std::vector<Ray> CastRays(const SurfaceMesh& mesh, const std::vector<int>& label
 }
 
 /** Finds the crossings with the faces that have v as their smallest vertex. */
-void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int v,
+void FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels, int v,
   const std::vector<Ray>& rays, std::vector<Crossing>& crossings)
 {
   const Ring& ring = mesh.Rings[v];
@@ -143,7 +143,7 @@ void FindCrossings(const SurfaceMesh& mesh, const std::vector<int>& labels, int 
  * times.
  */
 std::vector<std::vector<int>> ComponentsAround(const SurfaceMesh& mesh,
-  const std::vector<int>& labels, const std::vector<Ray>& rays, Executor& executor)
+  const LargeVector<int>& labels, const std::vector<Ray>& rays, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<Crossing>> crossings((n + CrossedBlock - 1) / CrossedBlock);
@@ -184,7 +184,7 @@ std::vector<std::vector<int>> ComponentsAround(const SurfaceMesh& mesh,
 }
 }
 
-std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const std::vector<int>& labels,
+std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor)
 {
   const std::vector<Ray> rays = CastRays(mesh, labels, roots, executor);

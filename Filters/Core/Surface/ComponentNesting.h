@@ -19,7 +19,7 @@ namespace volumic
  * @param roots  the smallest vertex of each
  * @return their roots, those within fewer others first. The same for any executor.
  */
-std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const std::vector<int>& labels,
+std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor);
 }
 

@@ -65,7 +65,7 @@ private:
 
   std::vector<SmallComponent> Watched;
   std::vector<int> Stack;
-  std::vector<std::uint8_t> IsSeen; ///< LabelSmall; clear between its calls.
+  LargeVector<std::uint8_t> IsSeen; ///< LabelSmall; clear between its calls.
   std::vector<int> AllSeen;
   DisjointSets Joined;                                   ///< Vertices that edges join.
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.

@@ -180,7 +180,7 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
 class FirstPair
 {
 public:
-  FirstPair(const SurfaceState& state, const std::vector<std::uint8_t>& listed, int v, int w)
+  FirstPair(const SurfaceState& state, const LargeVector<std::uint8_t>& listed, int v, int w)
     : State(state)
     , Listed(listed)
     , V(std::min(v, w))
@@ -216,13 +216,13 @@ private:
   }
 
   const SurfaceState& State;
-  const std::vector<std::uint8_t>& Listed;
+  const LargeVector<std::uint8_t>& Listed;
   int V;
   int W;
 };
 
 /** Adds the faces that intersect. @return the room that the rest has for certain. */
-float TestStars(const SurfaceState& state, const std::vector<std::uint8_t>& listed,
+float TestStars(const SurfaceState& state, const LargeVector<std::uint8_t>& listed,
   const StarFaces& first, const StarFaces& second,
   std::vector<Proximity::FacePair>& intersections, std::vector<int>& tight)
 {
@@ -280,7 +280,7 @@ void Proximity::FindNear(
   state.Grid.Visit(p, radius, [&](int w) { visited.push_back(w); });
   visited.resize((visited.size() + Lanes::Count - 1) / Lanes::Count * Lanes::Count, v);
   block.Near.clear();
-  const std::vector<Vector>& place = state.Mesh.Position;
+  const LargeVector<Vector>& place = state.Mesh.Position;
   const VectorLanes from = AllLanes(p);
   const Lanes most(radius * radius);
   for (std::size_t i = 0; i < visited.size(); i += Lanes::Count)

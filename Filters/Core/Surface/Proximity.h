@@ -74,7 +74,7 @@ private:
   std::vector<Block> Blocks;
   std::vector<ClosePair> AllPairs;
   std::vector<FacePair> AllIntersections;
-  std::vector<std::uint8_t> Listed;
+  LargeVector<std::uint8_t> Listed;
 };
 }
 

@@ -34,7 +34,7 @@ RemainingContacts FindRemainingContacts(
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<std::array<int, 2>>> blocks((n + size - 1) / size);
   RemainingContacts contacts;
-  contacts.Held = std::vector<std::uint8_t>(n);
+  contacts.Held.resize(n);
   ForBlocks(executor, n, size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
@@ -77,7 +77,7 @@ RemainingContacts FindRemainingContacts(
       }
       std::sort(blocks[b].begin(), blocks[b].end());
     });
-  contacts.Pairs = Joined(executor, blocks); // Sorted, as blocks are.
+  Concatenate(executor, blocks, contacts.Pairs); // Sorted, as blocks are.
   return contacts;
 }
 }

@@ -25,12 +25,12 @@ struct RemainingContacts
    * different components (Documentation/differences.md, Constraints: what is nearer along the
    * surface is only bent). Mesh indices (v, w), v < w, sorted.
    */
-  std::vector<std::array<int, 2>> Pairs;
+  LargeVector<std::array<int, 2>> Pairs;
   /**
    * Per vertex, 1 where eq. (1) is kept at the cost of the place: such a vertex, with the opposite
    * normal, is less than 1.15 lambda delta away, and the isopotential more than 0.1 delta.
    */
-  std::vector<std::uint8_t> Held;
+  LargeVector<std::uint8_t> Held;
 };
 
 /**

@@ -5,6 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/Grow.h"
+#include "Core/Common/ScratchMemory.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -89,9 +90,9 @@ public:
   const T& operator[](std::size_t v) const { return this->Values[v]; }
   std::size_t Size() const { return this->Values.size(); }
   void Fill(const T& value) { std::fill(this->Values.begin(), this->Values.end(), value); }
-  void Assign(const std::vector<T>& values) { this->Values = values; } ///< As many as there are.
-  std::vector<T>& AsVector() { return this->Values; } ///< Not to be resized.
-  const std::vector<T>& AsVector() const { return this->Values; }
+  void Assign(const LargeVector<T>& values) { this->Values = values; } ///< As many as there are.
+  LargeVector<T>& AsVector() { return this->Values; } ///< Not to be resized.
+  const LargeVector<T>& AsVector() const { return this->Values; }
 
   void Reset(std::size_t n) override
   {
@@ -112,7 +113,7 @@ private:
   T Initial;
   T OfNewVertices{};
   bool Inherits;
-  std::vector<T> Values;
+  LargeVector<T> Values;
 };
 }
 

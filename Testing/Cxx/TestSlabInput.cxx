@@ -1,0 +1,502 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// With a limit of memory a filter asks for its image slab by slab; what it makes of it is the same
+// bits.
+#include "SurfaceTestTools.h"
+#include "vtkImagePyramid.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
+#include <vtkImageAlgorithm.h>
+#include <vtkImageData.h>
+#include <vtkImageFlip.h>
+#include <vtkImageShiftScale.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMatrix3x3.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+constexpr std::array<int, 6> Whole = { -20, 123, 7, 150, 3, 130 };
+constexpr double Spacing[3] = { 0.5, 0.5, 0.75 };
+constexpr double Origin[3] = { 10.0, -5.0, 2.0 };
+constexpr double Direction[9] = { 0, 1, 0, -1, 0, 0, 0, 0, 1 };
+/** MiB: slabs have a sixty-fourth of it. */
+constexpr int Limit = 640;
+/** Floats of a voxel: so many that there are several slabs. */
+constexpr int Components = 4;
+
+/** What the source makes beside the voxels. */
+struct Scene
+{
+  bool HasNaNs = false;
+  bool AreCells = false;   ///< The voxels are cells, not points.
+  bool HasGhosts = false;  ///< Some points and some cells are hidden.
+  bool IsNamed = true;
+  bool HasOther = true;    ///< Another array.
+  bool GivesParts = true;
+  int FailingSlab = -1;    ///< counted from 0
+  int WrongSlab = -1;      ///< of another type
+};
+
+/** A ball in an image that is turned, shifted and does not begin at 0, with other arrays. */
+class BallSource : public vtkImageAlgorithm
+{
+public:
+  static BallSource* New();
+  vtkTypeMacro(BallSource, vtkImageAlgorithm);
+
+  Scene Made;
+  std::vector<std::array<int, 2>> Slices; ///< that were asked for
+
+protected:
+  BallSource() { this->SetNumberOfInputPorts(0); }
+
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    vtkInformation* info = output->GetInformationObject(0);
+    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), Whole.data(), 6);
+    vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, Components);
+    info->Set(vtkDataObject::SPACING(), Spacing, 3);
+    info->Set(vtkDataObject::ORIGIN(), Origin, 3);
+    info->Set(vtkDataObject::DIRECTION(), Direction, 9);
+    if (this->Made.GivesParts)
+    {
+      info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+    }
+    return 1;
+  }
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    std::array<int, 6> extent = Whole;
+    if (this->Made.GivesParts)
+    {
+      output->GetInformationObject(0)->Get(
+        vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
+    }
+    const int number = static_cast<int>(this->Slices.size());
+    this->Slices.push_back({ extent[4], extent[5] });
+    if (number == this->Made.FailingSlab)
+    {
+      vtkErrorMacro("the disk has gone.");
+      return 0;
+    }
+    this->Fill(vtkImageData::GetData(output), extent, number == this->Made.WrongSlab);
+    return 1;
+  }
+
+private:
+  void Fill(vtkImageData* image, const std::array<int, 6>& extent, bool isWrong);
+};
+
+vtkStandardNewMacro(BallSource);
+
+double ValueAt(int i, int j, int k)
+{
+  const double x = i - 50.3;
+  const double y = j - 70.1;
+  const double z = k - 60.7;
+  return 100.0 - std::sqrt(x * x + y * y + z * z) + 3.0 * std::sin(0.7 * i + 1.3 * j * k);
+}
+
+void BallSource::Fill(vtkImageData* image, const std::array<int, 6>& extent, bool isWrong)
+{
+  image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
+  image->SetSpacing(Spacing);
+  image->SetOrigin(Origin);
+  image->SetDirectionMatrix(Direction);
+  const int isCell = this->Made.AreCells ? 1 : 0;
+  const auto voxels = vtk::TakeSmartPointer(
+    isWrong ? static_cast<vtkDataArray*>(vtkUnsignedCharArray::New()) : vtkFloatArray::New());
+  vtkNew<vtkFloatArray> other;
+  voxels->SetName(this->Made.IsNamed ? "Ball" : nullptr);
+  voxels->SetNumberOfComponents(Components);
+  other->SetName("Other");
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  const int hidden = isCell ? static_cast<int>(vtkDataSetAttributes::HIDDENCELL)
+                            : static_cast<int>(vtkDataSetAttributes::HIDDENPOINT);
+  for (int k = extent[4]; k <= extent[5] - isCell; ++k)
+  {
+    for (int j = extent[2]; j <= extent[3] - isCell; ++j)
+    {
+      for (int i = extent[0]; i <= extent[1] - isCell; ++i)
+      {
+        const double value = ValueAt(i, j, k);
+        const bool isNaN = this->Made.HasNaNs && (i + 2 * j + 3 * k) % 97 == 0;
+        voxels->InsertNextTuple4(1.0, 2.0,
+          isNaN ? std::numeric_limits<float>::quiet_NaN() : value, value * 0.5);
+        other->InsertNextValue(static_cast<float>(i + j + k));
+        ghosts->InsertNextValue(static_cast<unsigned char>((i * j + k) % 31 == 0 ? hidden : 0));
+      }
+    }
+  }
+  vtkDataSetAttributes* attributes = image->GetPointData();
+  attributes = isCell ? static_cast<vtkDataSetAttributes*>(image->GetCellData()) : attributes;
+  if (this->Made.HasOther)
+  {
+    attributes->AddArray(other);
+  }
+  attributes->SetScalars(voxels);
+  if (this->Made.HasGhosts)
+  {
+    attributes->AddArray(ghosts);
+    vtkNew<vtkUnsignedCharArray> cells; // in which some lie between slabs, whatever their size
+    cells->SetName(vtkDataSetAttributes::GhostArrayName());
+    for (int k = extent[4]; k < extent[5] && !isCell; ++k)
+    {
+      for (int c = 0; c < (extent[1] - extent[0]) * (extent[3] - extent[2]); ++c)
+      {
+        cells->InsertNextValue(c % 900 < 300 ? vtkDataSetAttributes::HIDDENCELL : 0);
+      }
+    }
+    image->GetCellData()->AddArray(isCell ? ghosts : cells);
+  }
+}
+
+vtkSmartPointer<BallSource> SourceOf(const Scene& scene)
+{
+  auto source = vtkSmartPointer<BallSource>::New();
+  source->Made = scene;
+  return source;
+}
+
+void ExpectSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
+{
+  ASSERT_EQ(a->GetNumberOfArrays(), b->GetNumberOfArrays());
+  for (int n = 0; n < a->GetNumberOfArrays(); ++n)
+  {
+    vtkDataArray* one = a->GetArray(n);
+    vtkDataArray* two = one->GetName() ? b->GetArray(one->GetName()) : b->GetArray(n);
+    ASSERT_TRUE(two);
+    ASSERT_EQ(one->GetDataType(), two->GetDataType());
+    ASSERT_EQ(one->GetNumberOfComponents(), two->GetNumberOfComponents());
+    ASSERT_EQ(one->GetNumberOfTuples(), two->GetNumberOfTuples());
+    const auto bytes = static_cast<std::size_t>(one->GetNumberOfValues()) *
+      static_cast<std::size_t>(one->GetDataTypeSize());
+    EXPECT_EQ(std::memcmp(one->GetVoidPointer(0), two->GetVoidPointer(0), bytes), 0)
+      << (one->GetName() ? one->GetName() : "unnamed");
+  }
+}
+
+void ExpectSamePyramids(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
+{
+  ASSERT_EQ(a->GetNumberOfBlocks(), b->GetNumberOfBlocks());
+  for (unsigned int h = 0; h < a->GetNumberOfBlocks(); ++h)
+  {
+    SCOPED_TRACE(h);
+    auto* one = vtkImageData::SafeDownCast(a->GetBlock(h));
+    auto* two = vtkImageData::SafeDownCast(b->GetBlock(h));
+    for (int i = 0; i < 6; ++i)
+    {
+      EXPECT_EQ(one->GetExtent()[i], two->GetExtent()[i]);
+      EXPECT_EQ(one->GetSpacing()[i / 2], two->GetSpacing()[i / 2]);
+      EXPECT_EQ(one->GetOrigin()[i / 2], two->GetOrigin()[i / 2]);
+      EXPECT_EQ(one->GetDirectionMatrix()->GetData()[i], two->GetDirectionMatrix()->GetData()[i]);
+    }
+    ExpectSameArrays(one->GetPointData(), two->GetPointData());
+    vtkDataArray* ghosts = one->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName());
+    if (ghosts)
+    {
+      ExpectSameArrays(one->GetCellData(), two->GetCellData());
+    }
+    EXPECT_STREQ(one->GetPointData()->GetScalars()->GetName(),
+      two->GetPointData()->GetScalars()->GetName());
+  }
+}
+
+/** Pyramids of what the source, or a filter behind it, gives, with a limit and without. */
+void ExpectSamePyramids(const Scene& scene, int component,
+  const std::function<vtkSmartPointer<vtkAlgorithm>(vtkAlgorithm*)>& behind = {})
+{
+  std::array<vtkSmartPointer<vtkImagePyramid>, 2> pyramids;
+  for (int limited = 0; limited < 2; ++limited)
+  {
+    const auto source = SourceOf(scene);
+    const vtkSmartPointer<vtkAlgorithm> last = behind ? behind(source) : source.Get();
+    auto& pyramid = pyramids[limited];
+    pyramid = vtkSmartPointer<vtkImagePyramid>::New();
+    pyramid->SetInputConnection(last->GetOutputPort());
+    pyramid->SetSelectedComponent(component);
+    pyramid->SetMemoryLimit(limited ? Limit : 0);
+    const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
+    pyramid->Update();
+    EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_EQ(warnings.Has("NaN"), scene.HasNaNs) << warnings.Get();
+    EXPECT_FALSE(warnings.Has("whole"));
+    if (!limited)
+    {
+      EXPECT_EQ(source->Slices.size(), 1u);
+      continue;
+    }
+    EXPECT_GT(source->Slices.size(), 3u);
+    // Each slice once, but where what is between two matters.
+    const int shared = scene.HasGhosts || scene.AreCells ? 0 : 1;
+    std::vector<std::array<int, 2>> slices = source->Slices;
+    std::sort(slices.begin(), slices.end());
+    for (std::size_t n = 1; n < slices.size(); ++n)
+    {
+      EXPECT_EQ(slices[n][0], slices[n - 1][1] + shared);
+    }
+    EXPECT_EQ(slices.front()[0], Whole[4]);
+    EXPECT_EQ(slices.back()[1], Whole[5]);
+  }
+  ExpectSamePyramids(pyramids[0]->GetOutput(), pyramids[1]->GetOutput());
+}
+}
+
+TEST(SlabInput, GivesTheSamePyramid)
+{
+  ExpectSamePyramids(Scene(), 2);
+}
+
+TEST(SlabInput, KnowsNaNsAndMagnitudes)
+{
+  Scene scene;
+  scene.HasNaNs = true;
+  ExpectSamePyramids(scene, -1);
+}
+
+TEST(SlabInput, KnowsWhatIsHiddenAlsoBetweenSlabs)
+{
+  Scene scene;
+  scene.HasGhosts = true;
+  ExpectSamePyramids(scene, 2);
+}
+
+TEST(SlabInput, TakesAnArrayWithoutAName)
+{
+  Scene scene;
+  scene.IsNamed = false;
+  ExpectSamePyramids(scene, 3);
+}
+
+TEST(SlabInput, ComesThroughFiltersThatStream)
+{
+  Scene scene;
+  scene.HasOther = false; // Filters pass other arrays with the whole only.
+  ExpectSamePyramids(scene, 2,
+    [](vtkAlgorithm* source) -> vtkSmartPointer<vtkAlgorithm>
+    {
+      auto filter = vtkSmartPointer<vtkImageShiftScale>::New();
+      filter->SetInputConnection(source->GetOutputPort());
+      filter->SetScale(10.0);
+      filter->SetOutputScalarTypeToInt();
+      return filter;
+    });
+  ExpectSamePyramids(scene, 2,
+    [](vtkAlgorithm* source) -> vtkSmartPointer<vtkAlgorithm>
+    {
+      auto filter = vtkSmartPointer<vtkImageFlip>::New(); // from its other end
+      filter->SetInputConnection(source->GetOutputPort());
+      filter->SetFilteredAxis(2);
+      return filter;
+    });
+}
+
+TEST(SlabInput, IsTheWholeWhereTheSourceGivesNoParts)
+{
+  Scene scene;
+  scene.GivesParts = false;
+  const auto source = SourceOf(scene);
+  vtkNew<vtkImagePyramid> limited;
+  limited->SetInputConnection(source->GetOutputPort());
+  limited->SetSelectedComponent(2);
+  limited->SetMemoryLimit(Limit);
+  const MessagesOf warnings(limited, vtkCommand::WarningEvent);
+  limited->Update();
+  EXPECT_TRUE(warnings.Has("Input port 0: the image is in memory as a whole (")) << warnings.Get();
+  EXPECT_TRUE(warnings.Has("MiB), which counts to Memory Limit: BallSource cannot give it slab"));
+  const std::string first = warnings.Get();
+  limited->Modified();
+  limited->Update();
+  EXPECT_EQ(warnings.Get(), first) << "it is told once";
+  EXPECT_EQ(source->Slices.size(), 1u);
+  vtkImageData* level0 = Level(limited->GetOutput(), 0);
+  EXPECT_EQ(level0->GetPointData()->GetArray("Other"),
+    source->GetOutput()->GetPointData()->GetArray("Other"))
+    << "it is shared";
+  vtkNew<vtkImagePyramid> usual;
+  usual->SetInputData(source->GetOutput());
+  usual->SetSelectedComponent(2);
+  usual->Update();
+  ExpectSamePyramids(usual->GetOutput(), limited->GetOutput());
+  // Where it may be let go, it goes to scratch memory.
+  source->ReleaseDataFlagOn();
+  limited->Modified();
+  limited->Update();
+  EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
+  ExpectSamePyramids(usual->GetOutput(), limited->GetOutput());
+}
+
+TEST(SlabInput, IsNotAskedForAgainWhereItIsAtHand)
+{
+  const auto source = SourceOf(Scene());
+  source->Update();
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(source->GetOutput());
+  pyramid->SetMemoryLimit(Limit);
+  const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
+  pyramid->Update();
+  EXPECT_EQ(warnings.Get(), "") << "who gives data knows that they are in memory";
+  EXPECT_EQ(Level(pyramid->GetOutput(), 0)->GetPointData()->GetArray("Other"),
+    source->GetOutput()->GetPointData()->GetArray("Other"));
+  pyramid->SetInputConnection(source->GetOutputPort());
+  pyramid->Update();
+  EXPECT_EQ(source->Slices.size(), 1u);
+}
+
+TEST(SlabInput, TellsOfAFailureAndWorksAgain)
+{
+  for (const bool isWrong : { false, true })
+  {
+    for (const int slab : { 1, 3 })
+    {
+      Scene scene;
+      (isWrong ? scene.WrongSlab : scene.FailingSlab) = slab;
+      const auto source = SourceOf(scene);
+      vtkNew<vtkImagePyramid> pyramid;
+      pyramid->SetInputConnection(source->GetOutputPort());
+      pyramid->SetSelectedComponent(2);
+      pyramid->SetMemoryLimit(Limit);
+      const MessagesOf errors(pyramid);
+      const MessagesOf executive(source->GetExecutive());
+      pyramid->Update();
+      EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::UserError);
+      EXPECT_TRUE(errors.Has(isWrong ? "or of another type than in the slices before them"
+                                     : "BallSource failed: the disk has gone."))
+        << errors.Get();
+      EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
+      source->Made = Scene();
+      source->Modified();
+      pyramid->Update();
+      EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+      EXPECT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 2u);
+    }
+  }
+}
+
+TEST(SlabInput, CanBeCancelled)
+{
+  const auto source = SourceOf(Scene());
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputConnection(source->GetOutputPort());
+  pyramid->SetMemoryLimit(Limit);
+  ProgressListener listener(pyramid);
+  listener.StopAt = 0.3;
+  pyramid->Update();
+  EXPECT_EQ(listener.Texts.count("Reading the image"), 1u);
+  EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_LT(source->Slices.back()[1], Whole[5]);
+  listener.StopAt = 2.0;
+  pyramid->Modified();
+  pyramid->Update();
+  EXPECT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 2u);
+}
+
+TEST(SlabInput, IsRefusedWithALimitThatIsNone)
+{
+  const auto source = SourceOf(Scene());
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputConnection(source->GetOutputPort());
+  const auto expectError = [&](int limit, const char* directory, const char* text)
+  {
+    pyramid->SetMemoryLimit(limit);
+    pyramid->SetScratchDirectory(directory);
+    const MessagesOf errors(pyramid);
+    pyramid->Update();
+    EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::UserError);
+    EXPECT_TRUE(errors.Has(text)) << errors.Get();
+    EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
+  };
+  expectError(-3, "", "Memory Limit is -3; it must be 0 (none) or a number of MiB.");
+  expectError(1, "", "Memory Limit is 1 MiB");
+  expectError(Limit, "/no/such/folder", "Scratch Directory /no/such/folder");
+  pyramid->SetScratchDirectory("");
+  pyramid->Update();
+  EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 2u);
+}
+
+namespace
+{
+template <class Filter>
+vtkSmartPointer<Filter> SurfaceFrom(BallSource* source, double isoValue, int limit)
+{
+  auto filter = vtkSmartPointer<Filter>::New();
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetIsoValue(isoValue);
+  filter->SetSelectedComponent(2);
+  filter->SetFinestLevel(2);
+  filter->SetMemoryLimit(limit);
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+  return filter;
+}
+}
+
+TEST(SlabInput, GivesTheSameSurfaces)
+{
+  Scene cells;
+  cells.AreCells = true;
+  cells.HasGhosts = true;
+  const double otsu = std::nan("");
+  for (const Scene& scene : { Scene(), cells })
+  {
+    const auto whole = SourceOf(scene);
+    const auto slabs = SourceOf(scene);
+    EXPECT_TRUE(AreSameSurfaces(SurfaceFrom<vtkVolumeToSurface>(whole, otsu, 0)->GetOutput(),
+      SurfaceFrom<vtkVolumeToSurface>(slabs, otsu, Limit)->GetOutput()));
+    EXPECT_GT(slabs->Slices.size(), 3u);
+  }
+  const auto slabs = SourceOf(Scene());
+  EXPECT_TRUE(
+    AreSameSurfaces(SurfaceFrom<vtkDeformableSurface>(SourceOf(Scene()), 50.0, 0)->GetOutput(),
+      SurfaceFrom<vtkDeformableSurface>(slabs, 50.0, Limit)->GetOutput()));
+  EXPECT_GT(slabs->Slices.size(), 3u);
+}
+
+TEST(SlabInput, IsNotAskedForWhereARunGoesOn)
+{
+  const auto whole = SourceOf(Scene());
+  const auto slabs = SourceOf(Scene());
+  const auto usual = SurfaceFrom<vtkVolumeToSurface>(whole, 50.0, 0);
+  const auto limited = SurfaceFrom<vtkVolumeToSurface>(slabs, 50.0, Limit);
+  const std::size_t asked = slabs->Slices.size();
+  for (const int level : { 3, 1 })
+  {
+    usual->SetFinestLevel(level);
+    usual->Update();
+    limited->SetFinestLevel(level);
+    limited->Update();
+    EXPECT_TRUE(AreSameSurfaces(usual->GetOutput(), limited->GetOutput())) << level;
+    EXPECT_EQ(slabs->Slices.size(), asked) << level;
+  }
+  limited->SetFriction(3.5);
+  limited->Update();
+  EXPECT_EQ(slabs->Slices.size(), 2 * asked) << "each slab once more";
+}
