@@ -203,6 +203,12 @@ TEST(ContentHash, IsAnotherOneForAnyOtherContent)
     bytes[place] = 0;
   }
   expectNew(bytes.size());
+  for (std::size_t place = 0; place < 37; ++place)
+  {
+    bytes[place] = 1;
+    expectNew(37);
+    bytes[place] = 0;
+  }
 }
 
 TEST(ContentHash, IsTheSameForAnyExecutor)
