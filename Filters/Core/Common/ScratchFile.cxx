@@ -145,9 +145,9 @@ bool IsMemory(const std::string& directory)
 std::size_t FreeRoom(const std::string& directory)
 {
   struct statfs system{};
-  return statfs(directory.c_str(), &system) == 0
+  return statfs(directory.c_str(), &system) == 0 && system.f_blocks > 0
     ? static_cast<std::size_t>(system.f_bavail) * static_cast<std::size_t>(system.f_bsize)
-    : 0;
+    : SIZE_MAX;
 }
 
 void* MapScratchFile(const std::string& directory, std::size_t bytes)
@@ -158,7 +158,8 @@ void* MapScratchFile(const std::string& directory, std::size_t bytes)
   if (file.Descriptor >= 0)
   {
     WriteInPlace(file.Descriptor);
-    error = Reserve(file.Descriptor, size);
+    // Not tried where it cannot be had: all would be taken for a moment, and others fail.
+    error = size > FreeRoom(directory) ? ENOSPC : Reserve(file.Descriptor, size);
     if (error == EFBIG)
     {
       throw ScratchFull(Join("Scratch Directory ", directory, " can't take a file of ",
@@ -213,7 +214,9 @@ void CallAtForks(void (*before)(), void (*inParent)(), void (*inChild)())
 
 void AskForPromptTurns()
 {
-  // Short turns come sooner, from Linux 6.12 on; the C library has neither type nor function yet.
+  // Those of high priority come sooner, where that is allowed, and short ones, from Linux 6.12 on;
+  // the C library has neither type nor function yet.
+  constexpr int high = -10;
   struct
   {
     std::uint32_t Size;
@@ -224,9 +227,13 @@ void AskForPromptTurns()
     std::uint64_t Runtime; ///< Of a turn, ns.
     std::uint64_t Deadline;
     std::uint64_t Period;
-  } turns = { 48, 0, 0, getpriority(PRIO_PROCESS, 0), 0, 100000, 0, 0 };
+  } turns = { 48, 0, 0, high, 0, 100000, 0, 0 };
   static_assert(sizeof turns == 48, "as the system has it");
-  syscall(SYS_sched_setattr, 0, &turns, 0); // Older systems refuse, or take no notice.
+  if (syscall(SYS_sched_setattr, 0, &turns, 0) != 0)
+  {
+    turns.Nice = getpriority(PRIO_PROCESS, 0);
+    syscall(SYS_sched_setattr, 0, &turns, 0); // Older systems refuse, or take no notice.
+  }
 }
 
 ResidentMemoryMeter::ResidentMemoryMeter()

@@ -39,7 +39,7 @@ std::string CheckedScratchDirectory(const std::string& given);
 /** Whether its files are memory themselves (tmpfs), so that nothing is won. */
 bool IsMemory(const std::string& directory);
 
-/** Bytes that a user may still fill in the file system of a directory; 0 where it is not known. */
+/** Bytes that a user may still fill in the file system of a directory; all where it is unknown. */
 std::size_t FreeRoom(const std::string& directory);
 
 /**

@@ -16,12 +16,13 @@ namespace volumic
 namespace
 {
 /**
- * How far below the limit dropping begins, and by how much it goes on: what threads may fill until
- * the governor gets its turn.
+ * How far below the limit dropping begins, and, by half, how far it goes: what threads may fill
+ * until the governor gets its turn. On a machine with seven times more to do than processors that
+ * were 170 MiB, with a limit of 400.
  */
 std::size_t HeadroomOf(std::size_t limit)
 {
-  return std::min(std::max(limit / 8, 32 * Mebibyte), 512 * Mebibyte);
+  return std::min(std::max(limit / 4, 32 * Mebibyte), 512 * Mebibyte);
 }
 }
 
@@ -282,7 +283,7 @@ ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter)
   const std::size_t headroom = HeadroomOf(limit);
   const ResidentMemory memory = meter.Read();
   this->Record(memory);
-  return memory.All > limit - headroom ? this->Drop(meter, limit - 2 * headroom) : memory;
+  return memory.All > limit - headroom ? this->Drop(meter, limit - headroom - headroom / 2) : memory;
 }
 
 void ScratchStore::Start()
