@@ -5,6 +5,7 @@
 #include "CheckEnumeration.h"
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "InitialSurfaces.h"
 #include "InputPoints.h"
@@ -190,7 +191,19 @@ void SurfaceSegmentation::Run()
         this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found,
         *this->Threads);
     };
-    this->Threads->Run([this] { this->RunLevels(); });
+    try
+    {
+      this->Threads->Run([this] { this->RunLevels(); });
+    }
+    catch (const ScratchFull&)
+    {
+      // Whose disk is full wants nothing to be left on it.
+      if (this->Left)
+      {
+        this->Left->Remove();
+      }
+      throw;
+    }
   }
   const bool isOver = this->Found.HasAtRest(this->Choice.Last) && !this->Request.IsStep;
   if (this->Left && isOver && !this->Request.Checkpoints.Stay)

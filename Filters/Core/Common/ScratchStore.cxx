@@ -145,7 +145,7 @@ void* ScratchStore::Map(std::size_t bytes)
         Mebibytes(bytes), " MiB more: ", Mebibytes(this->Mapped), " of ",
         Mebibytes(options.Room), " MiB are taken. Allow more, or raise Memory Limit."));
     }
-    this->Keep(this->Governing->Meter);
+    this->Keep(this->Governing->Meter, bytes); // It will be filled at once, mostly.
     directory = options.Directory;
     this->CountMapped(bytes); // Before the file is made: several threads may ask at once.
   }
@@ -277,13 +277,16 @@ ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t 
   return before;
 }
 
-ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter)
+ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter, std::size_t toCome)
 {
   const std::size_t limit = this->SmallestLimit();
   const std::size_t headroom = HeadroomOf(limit);
+  const std::size_t ahead = std::min(toCome, headroom);
   const ResidentMemory memory = meter.Read();
   this->Record(memory);
-  return memory.All > limit - headroom ? this->Drop(meter, limit - headroom - headroom / 2) : memory;
+  return memory.All + ahead > limit - headroom
+    ? this->Drop(meter, limit - std::min(limit, headroom + headroom / 2 + ahead))
+    : memory;
 }
 
 void ScratchStore::Start()

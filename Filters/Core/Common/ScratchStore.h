@@ -62,8 +62,8 @@ private:
   void Record(const ResidentMemory& memory);
   /** Until so much is resident, once around at most. @return what is resident then. */
   ResidentMemory Drop(const ResidentMemoryMeter& meter, std::size_t goal);
-  /** Drops what must be, as things are. @return what is resident then. */
-  ResidentMemory Keep(const ResidentMemoryMeter& meter);
+  /** Drops what must be, with so many bytes to come at once. @return what is resident then. */
+  ResidentMemory Keep(const ResidentMemoryMeter& meter, std::size_t toCome = 0);
   void Start();
   void Stop(std::unique_lock<std::mutex>& lock);
   void Govern(Governor& governor);
