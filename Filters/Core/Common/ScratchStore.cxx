@@ -22,7 +22,7 @@ namespace
  */
 std::size_t HeadroomOf(std::size_t limit)
 {
-  return std::min(std::max(limit / 4, 32 * Mebibyte), 512 * Mebibyte);
+  return std::min(std::max(limit / 5 * 2, 32 * Mebibyte), 1024 * Mebibyte);
 }
 }
 
@@ -220,19 +220,26 @@ void ScratchStore::Prefetch(const void* begin, std::size_t bytes)
   }
 }
 
-void ScratchStore::KeepIfDue()
+namespace
+{
+std::int64_t Microseconds()
 {
   using namespace std::chrono;
+  return duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
+}
+}
+
+void ScratchStore::KeepIfDue()
+{
   constexpr std::int64_t interval = 100;
-  const std::int64_t now =
-    duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
-  std::int64_t last = this->LastKept.load(std::memory_order_relaxed);
-  if (now - last < interval || !this->LastKept.compare_exchange_strong(last, now))
+  const auto isDue = [this] { return Microseconds() - this->LastKept >= interval; };
+  // Who drops pages may have lost its processor to those who fill them: they wait for it.
+  if (!this->IsKeeping && !isDue())
   {
-    return; // Another thread does it.
+    return;
   }
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  if (this->Governing)
+  if (this->Governing && isDue())
   {
     this->Keep(this->Governing->Meter);
   }
@@ -282,11 +289,16 @@ ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter, std::size_t 
   const std::size_t limit = this->SmallestLimit();
   const std::size_t headroom = HeadroomOf(limit);
   const std::size_t ahead = std::min(toCome, headroom);
-  const ResidentMemory memory = meter.Read();
+  this->IsKeeping = true;
+  ResidentMemory memory = meter.Read();
   this->Record(memory);
-  return memory.All + ahead > limit - headroom
-    ? this->Drop(meter, limit - std::min(limit, headroom + headroom / 2 + ahead))
-    : memory;
+  if (memory.All + ahead > limit - headroom)
+  {
+    memory = this->Drop(meter, limit - std::min(limit, headroom + headroom / 4 + ahead));
+  }
+  this->LastKept = Microseconds();
+  this->IsKeeping = false;
+  return memory;
 }
 
 void ScratchStore::Start()

@@ -73,6 +73,7 @@ private:
   std::vector<ScratchLimit*> Limits;
   std::atomic<std::size_t> NumberOfLimits{ 0 };
   std::atomic<std::int64_t> LastKept{ 0 }; ///< Microseconds of the steady clock.
+  std::atomic<bool> IsKeeping{ false };    ///< Pages are being dropped, if any must be.
   std::map<std::uintptr_t, std::size_t> Arrays; ///< Bytes by address.
   std::atomic<std::size_t> NumberOfArrays{ 0 };
   std::size_t Mapped = 0;  ///< Bytes, of arrays that are being made, too.
