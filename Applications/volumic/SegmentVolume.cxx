@@ -188,7 +188,8 @@ void WriteOutputs(const ToolOptions& options, const ReportInput& results, Progre
   std::string failures;
   for (const std::string& name : options.Surfaces)
   {
-    Attempt(failures, [&] { WriteSurface(filter->GetOutput(), name, { remark, options.PieceSize, style }); });
+    Attempt(failures,
+      [&] { WriteSurface(filter->GetOutput(), name, { remark, options.PieceSize, style }); });
   }
   const auto writeSurfaces = [&](vtkMultiBlockDataSet* blocks, const std::string& name,
                                const std::string& prefix, int (*numbers)(vtkPolyData*))

@@ -115,7 +115,8 @@ void WriteStl(const SurfaceFile& file)
   vtkNew<vtkUnsignedCharArray> head;
   for (std::size_t i = 0; i < 80; ++i)
   {
-    head->InsertNextValue(i < file.Remark.size() ? static_cast<unsigned char>(file.Remark[i]) : ' ');
+    head->InsertNextValue(
+      i < file.Remark.size() ? static_cast<unsigned char>(file.Remark[i]) : ' ');
   }
   writer->SetBinaryHeader(head);
   RunWriter(writer.Get(), file.Line);
