@@ -4,6 +4,7 @@
 // Levels that are large, block by block: see SweepOptions and SurfaceBlocks. What happens in a block
 // is what happens to the whole surface of a small level, but that all else keeps still.
 
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Surface/SurfacePolish.h"
 
@@ -83,6 +84,10 @@ void SurfaceEvolution::Implementation::VisitBlocks(
       const double share = static_cast<double>(done) / static_cast<double>(order.size());
       return visits.From + share * (visits.To - visits.From);
     };
+    if (i + 1 < order.size() && HasMemoryLimit())
+    {
+      blocks.Prefetch(order[i + 1]); // The disk reads while the processors work on this one.
+    }
     this->Visit.From = shareOf(i);
     this->Visit.To = shareOf(i + 1);
     visits.Visit(blocks.Open(order[i]));

@@ -171,6 +171,22 @@ SurfaceBlocks::~SurfaceBlocks()
   }
 }
 
+void SurfaceBlocks::Prefetch(int block) const
+{
+  // They follow each other but for a few that came later, whose places are anywhere.
+  const std::vector<int>& vertices = this->Vertices[block];
+  const std::size_t few = vertices.size() / 32;
+  if (vertices.size() > 2 * few)
+  {
+    const int first = vertices[few];
+    const int last = vertices[vertices.size() - 1 - few];
+    if (first < last && last - first < 2 * static_cast<int>(vertices.size()))
+    {
+      this->State.Prefetch(first, last);
+    }
+  }
+}
+
 bool SurfaceBlocks::HasActive(int block) const
 {
   const std::vector<int>& vertices = this->Vertices[block];

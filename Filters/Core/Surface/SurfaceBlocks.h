@@ -40,6 +40,9 @@ public:
   /** Ends the visit: vertices that have left the block are others' from now on. */
   void Close();
 
+  /** Asks for what most of a block's vertices know, before a visit. */
+  void Prefetch(int block) const;
+
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
 

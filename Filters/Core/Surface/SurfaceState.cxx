@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfaceState.h"
 
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Surface/StarShape.h"
 
 #include <algorithm>
@@ -34,6 +35,14 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
     this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
   }
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
+}
+
+void SurfaceState::Prefetch(int first, int last) const
+{
+  const auto count = static_cast<std::size_t>(last - first);
+  PrefetchLarge(this->Mesh.Position.data() + first, count * sizeof(Vector));
+  PrefetchLarge(this->Mesh.Rings.data() + first, count * sizeof(Ring));
+  this->Properties.Prefetch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
 }
 
 void SurfaceState::Lend(VertexPlaces& places, std::size_t n)

@@ -128,6 +128,8 @@ public:
   void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
 
+  /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
+  void Prefetch(int first, int last) const;
   /** Gives n free places away, with room for what their vertices will know. */
   void Lend(VertexPlaces& places, std::size_t n);
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */

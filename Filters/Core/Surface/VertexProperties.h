@@ -24,6 +24,8 @@ public:
   virtual void Resize(std::size_t n) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
+  /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
+  virtual void Prefetch(std::size_t first, std::size_t last) const = 0;
 };
 
 /**
@@ -48,6 +50,13 @@ public:
     for (VertexPropertyBase* property : this->All)
     {
       property->Resize(n);
+    }
+  }
+  void Prefetch(std::size_t first, std::size_t last) const
+  {
+    for (const VertexPropertyBase* property : this->All)
+    {
+      property->Prefetch(first, last);
     }
   }
   /** Threads may do so at the same time where there is room for the vertices. */
@@ -100,6 +109,10 @@ public:
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
+  void Prefetch(std::size_t first, std::size_t last) const override
+  {
+    PrefetchLarge(this->Values.data() + first, (last - first) * sizeof(T));
+  }
   void Add(std::size_t v, std::size_t parent) override
   {
     if (v >= this->Values.size())
