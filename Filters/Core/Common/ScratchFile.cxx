@@ -171,6 +171,8 @@ void* MapScratchFile(const std::string& directory, std::size_t bytes)
                               : MAP_FAILED;
     if (memory != MAP_FAILED)
     {
+      // Else a look at one voxel may take 2 MiB, and a few hundred looks all that is free.
+      madvise(memory, size, MADV_NOHUGEPAGE);
       return memory;
     }
     error = error == 0 ? errno : error;
