@@ -165,7 +165,8 @@
  * @par
  * Two runs at a time never share a checkpoint: the second of the same volume and settings leaves
  * none, which is a warning. Where one cannot be written, as the disk is full, that is a warning,
- * too, and the run goes on.
+ * too, and the run goes on; where the run itself ends as the disk is full, it takes its checkpoint
+ * with it.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and

@@ -231,16 +231,3 @@ TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
   EXPECT_TRUE(blocks.HasActive(1));
   EXPECT_FALSE(blocks.HasActive(0));
 }
-
-TEST(SurfaceBlocks, AskForNothingThatIsNotThere)
-{
-  // It is a hint: nothing changes, also for blocks without vertices or with changed ones.
-  LiveSurface state(MakeSphere({ 0, 0, 0 }, 20, 1.5));
-  SurfaceBlocks blocks(state, 9.f, Thread);
-  const std::map<int, int> before = Visited(blocks);
-  for (const int block : blocks.Order())
-  {
-    blocks.Prefetch(block);
-  }
-  EXPECT_EQ(Visited(blocks), before);
-}

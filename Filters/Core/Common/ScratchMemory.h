@@ -48,10 +48,11 @@ struct ScratchStatistics
  *
  * The limit is that of the process. Where several are alive, the smallest limit counts, and new
  * arrays go to the directory of the last one. A thread looks at the resident memory of the process
- * every few ms and drops pages before it gets to the limit, one array after another, round and
- * round; the system keeps them in its cache while it can, so that most come back without the disk.
- * What is no large array cannot be dropped: where that alone passes the limit, the run goes on
- * beyond it, and Warnings() says so.
+ * every few ms, and so do threads that work (KeepMemoryLimit); they drop pages from 3/5 of it on,
+ * one array after another, round and round; the system keeps them in its cache while it can, so
+ * that most come back without the disk.
+ * What is no large array cannot be dropped: where that alone passes the limit, or threads fill it
+ * faster than it is emptied, the run goes on beyond it, and Warnings() says so.
  *
  * A process that is forked off can read the arrays, and free them, but not write them, which its
  * parent would see; its own are on the heap until it sets a limit itself.

@@ -23,10 +23,13 @@ namespace volumic
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
  * recovery), GivenSurface.cxx makes a given one ready, EvolutionRun.cxx iterates until it rests and
- * regularises it, EvolutionHistory.cxx tells of it.
+ * regularises it, EvolutionSweeps.cxx does so block by block, EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation
 {
+  /** Of a regularisation, the passes; the rest is the polish. */
+  static constexpr double PassesShare = 0.6;
+
   SurfaceOptions Options;
   Executor& Threads;
   Monitor& Listener;
@@ -45,7 +48,7 @@ struct SurfaceEvolution::Implementation
   std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< Of all laps since the last level.
   bool Stopped = false;     ///< By the monitor.
-  bool InSweeps = false;    ///< The level evolves block by block, see SurfaceSweeps.
+  bool InSweeps = false;    ///< The level evolves block by block: EvolutionSweeps.cxx.
   struct
   {
     int Sweep = 0;  ///< From 1; 0: the level evolves as a whole.

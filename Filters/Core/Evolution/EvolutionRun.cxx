@@ -28,8 +28,6 @@ constexpr double TypicalIterations = 80.;
 /** Share of a level's progress that is left to what comes before and after its iterations. */
 constexpr double ShareBefore = 0.1;
 constexpr double ShareAfter = 0.2;
-/** Of a regularisation, the passes; the rest is the polish. */
-constexpr double PassesShare = 0.6;
 
 /** Of a level, in [0, 1]. */
 double FractionOf(Monitor::Activity doing, double share, double iterations)

@@ -21,8 +21,6 @@ constexpr int SweptIterations = RestCriterion::Interval;
 /** Sweeps, and passes in each block, of the regularisation: as many passes as elsewhere. */
 constexpr int RegularisingSweeps = 3;
 constexpr int SweptPasses = 4;
-/** Shares of the regularisation's progress: see EvolutionRun.cxx. */
-constexpr double PassesShare = 0.6;
 /** Sweeps between two looks for components that are inside out. */
 constexpr int InsideOutSweeps = 2;
 
