@@ -7,6 +7,7 @@
 
 set(volumic_core_sources
   Common/CheckedFile.cxx
+  Common/Communicator.cxx
   Common/ContentHash.cxx
   Common/FreeMemory.cxx
   Common/MeasuredExecutor.cxx
@@ -77,6 +78,7 @@ set(volumic_core_headers
   Common/Blocks.h
   Common/Box.h
   Common/CheckedFile.h
+  Common/Communicator.h
   Common/ContentHash.h
   Common/DisjointSets.h
   Common/Executor.h
