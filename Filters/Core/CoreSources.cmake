@@ -46,6 +46,7 @@ set(volumic_core_sources
   Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
+  Surface/RankBlocks.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
@@ -62,6 +63,7 @@ set(volumic_core_sources
   Evolution/EdgeLengthPlan.cxx
   Evolution/EvolutionCheckpoint.cxx
   Evolution/EvolutionHistory.cxx
+  Evolution/EvolutionRanks.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
   Evolution/EvolutionSweeps.cxx
@@ -140,6 +142,7 @@ set(volumic_core_headers
   Surface/NewFaces.h
   Surface/NormalCone.h
   Surface/Proximity.h
+  Surface/RankBlocks.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
   Surface/SizingField.h
