@@ -62,6 +62,7 @@ set(volumic_core_sources
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
   Evolution/EvolutionCheckpoint.cxx
+  Evolution/EvolutionDivision.cxx
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRanks.cxx
   Evolution/EvolutionRun.cxx

@@ -79,17 +79,18 @@ struct RunOnRanks
         if (ranks.Rank() > 0)
         {
           evolution.SetRanks(&ranks);
-          evolution.Help(fine.Image, 0);
+          evolution.Divide(fine.Image, 0);
+          evolution.Run();
           EXPECT_TRUE(evolution.Result().Points.empty());
           return;
         }
         evolution.StartEnclosing(coarse.Image, 1);
         evolution.Run();
-        evolution.Divide(fine.Image, 0);
         if (count > 1)
         {
           evolution.SetRanks(&ranks);
         }
+        evolution.Divide(fine.Image, 0);
         evolution.Run();
         this->Surface = evolution.Result();
         this->Rows = evolution.History();

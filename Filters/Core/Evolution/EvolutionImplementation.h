@@ -10,6 +10,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
+#include "Core/Mesh/Division.h"
 #include "Core/Surface/RankBlocks.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
@@ -24,7 +25,7 @@ namespace volumic
 {
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
- * recovery), GivenSurface.cxx makes a given one ready, EvolutionRun.cxx iterates until it rests and
+ * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready, EvolutionRun.cxx iterates until it rests and
  * regularises it, EvolutionSweeps.cxx does so block by block, EvolutionRanks.cxx on several ranks,
  * EvolutionHistory.cxx tells of it.
  */
@@ -104,10 +105,23 @@ struct SurfaceEvolution::Implementation
   void Enter(const LevelImage& image, int level);
   void Reset();
   void Recover();
+  void FindGridBox(const SurfaceMesh& mesh);
   void LayGrid();
+  void Append(const IndexedSurface& surface);
+  bool HasEdgeTooLong() const;
   void SplitLongEdges();
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
+  void KeepEdgesAbout(const std::vector<Proximity::FacePair>& pairs,
+    const LargeVector<Triangle>& faces, const SurfaceMesh& old, int round, KeptEdges& kept);
+  // The same for a level in sweeps.
+  SurfaceBlocks::Frame FrameOfLevel() const;
+  bool DivideInBlocks();
+  void SpreadMesh();
+  void LayGridInBlocks();
+  std::vector<int> OwnVertices() const;
+  std::vector<Proximity::FacePair> FindIntersectionsInBlocks();
+  void SplitLongEdgesInBlocks();
   void Take(const IndexedSurface& surface);
   void TakeRemeshed(const IndexedSurface& surface);
   IndexedSurface Remesh(const IndexedSurface& surface);
@@ -119,7 +133,6 @@ struct SurfaceEvolution::Implementation
     HistoryRow& row, Dynamics& dynamics, Remesher& remesher, SurfaceIteration::Mode mode);
   void IterateOnce(Dynamics& dynamics, Remesher& remesher);
   void DecideOnSweeps();
-  float BlockSide() const;
   void BeginSweeps();
   void EndSweeps();
   void AddPlaces();

@@ -61,38 +61,35 @@ void SurfaceEvolution::Implementation::DecideOnSweeps()
     this->State.Mesh.NumberOfVertices() > this->Options.Sweeps.MostVertices;
 }
 
-float SurfaceEvolution::Implementation::BlockSide() const
+SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
 {
-  return static_cast<float>(this->Options.Sweeps.BlockSide) * this->State.Sizing.Smallest();
+  const LevelImage& image = this->TheField->Image();
+  std::array<double, 3> extent;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    extent[axis] = image.Size[axis] * image.Step[axis];
+  }
+  return SurfaceBlocks::FrameOf(
+    extent, this->Options.Sweeps.BlockSide * this->State.Sizing.Smallest());
 }
 
 void SurfaceEvolution::Implementation::BeginSweeps()
 {
   SurfaceState& s = this->State;
-  SurfaceBlocks::Frame frame;
-  if (this->IsFirstRank())
+  if (this->Blocks)
   {
-    frame = SurfaceBlocks::FrameOf(s.Mesh, this->BlockSide(), this->Threads);
+    return; // It has come here in blocks.
   }
   if (this->AreRanks())
   {
-    frame = BroadcastValue(*this->Ranks, frame);
     s.Sizing = BroadcastValue(*this->Ranks, s.Sizing);
   }
-  this->Blocks = std::make_unique<SurfaceBlocks>(s, frame, this->Threads);
+  this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
   if (this->AreRanks())
   {
-    std::vector<int> counts;
-    for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
-    {
-      counts.push_back(static_cast<int>(this->Blocks->ListOf(block).size()));
-    }
-    MessageWriter writer;
-    writer.AddArray(RankBlocks::ChooseOwners(frame, counts, this->Ranks->NumberOfRanks()));
-    const Message owners = this->Ranks->Broadcast(writer.Take());
-    this->OnRanks = std::make_unique<RankBlocks>(s, *this->Blocks, *this->Ranks);
-    this->OnRanks->SetOwners(MessageReader(owners).TakeVector<int>());
     this->Iteration.Forget();
+    this->OnRanks = std::make_unique<RankBlocks>(s, *this->Blocks, *this->Ranks);
+    this->OnRanks->ChooseOwners(s.Mesh);
     this->OnRanks->Scatter(this->GridLow, this->GridHigh);
   }
 }

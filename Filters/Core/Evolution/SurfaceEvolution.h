@@ -164,14 +164,13 @@ public:
   StopReason Run();
 
   /**
-   * From now on levels evolve on several ranks, of which this is one: Run() on rank 0, Help() on the
-   * others; null: alone again. Only levels in sweeps (SweepOptions), which AreInSweeps() tells. The
-   * surface is the same bits as on one rank.
+   * From now on it is one of those on several ranks, which evolve one surface: all of them call
+   * Divide() to a level in sweeps and Run() there, at the same time. Rank 0 alone has a surface
+   * before and after. The surface is the same bits as on one rank. Null: alone again.
    */
   void SetRanks(Communicator* ranks);
+  /** Whether a level of so many voxels evolves in sweeps (SweepOptions). */
   static bool AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size);
-  /** Instead of start, division and Run() on the others; afterwards they have no surface. */
-  StopReason Help(const LevelImage& image, int level);
 
   /**
    * For the levels to come: before its final regularisation, delta is changed by small steps, as

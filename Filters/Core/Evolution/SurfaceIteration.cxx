@@ -67,14 +67,15 @@ void SurfaceIteration::EndVisit()
   this->Forget();
 }
 
-std::vector<Proximity::FacePair> SurfaceIteration::FindIntersections()
+std::vector<Proximity::FacePair> SurfaceIteration::FindIntersections(
+  const std::vector<int>& vertices)
 {
   std::vector<Proximity::FacePair> found;
-  for (std::size_t begin = 0; begin < this->Active.size(); begin += ExaminedPart)
+  for (std::size_t begin = 0; begin < vertices.size(); begin += ExaminedPart)
   {
-    const std::size_t end = std::min(this->Active.size(), begin + ExaminedPart);
-    const std::vector<int> part(this->Active.begin() + static_cast<std::ptrdiff_t>(begin),
-      this->Active.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::size_t end = std::min(vertices.size(), begin + ExaminedPart);
+    const std::vector<int> part(vertices.begin() + static_cast<std::ptrdiff_t>(begin),
+      vertices.begin() + static_cast<std::ptrdiff_t>(end));
     this->Near.Clear();
     this->Near.Examine(this->State, part, this->Threads);
     found.insert(found.end(), this->Near.Intersections().begin(), this->Near.Intersections().end());
@@ -116,11 +117,12 @@ void SurfaceIteration::UpdateActive()
   this->State.UpdateShape(this->Active, this->Threads);
 }
 
-void SurfaceIteration::SplitLongEdges()
+std::vector<int> SurfaceIteration::SplitLongEdges(std::vector<int> vertices)
 {
   Remesher remesher(this->State, nullptr, false, this->Threads);
-  remesher.Split(this->Active);
+  remesher.Split(vertices);
   this->UpdateChanged(remesher.TakeChanged());
+  return vertices;
 }
 
 void SurfaceIteration::ClearMarks()

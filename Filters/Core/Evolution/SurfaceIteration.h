@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -77,7 +78,11 @@ public:
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
   void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
   /** The same for intersections alone, in little memory; some may be named more than once. */
-  std::vector<Proximity::FacePair> FindIntersections();
+  std::vector<Proximity::FacePair> FindIntersections()
+  {
+    return this->FindIntersections(this->Active);
+  }
+  std::vector<Proximity::FacePair> FindIntersections(const std::vector<int>& vertices);
   const std::vector<Proximity::FacePair>& Intersections() const
   {
     return this->Near.Intersections();
@@ -86,7 +91,9 @@ public:
   const std::vector<int>& ActiveVertices() const { return this->Active; }
 
   /** Splits all edges of the active vertices that are too long. */
-  void SplitLongEdges();
+  void SplitLongEdges() { this->Active = this->SplitLongEdges(std::move(this->Active)); }
+  /** The same for those of a list. @return the list, and the new ones. */
+  std::vector<int> SplitLongEdges(std::vector<int> vertices);
 
   /**
    * Counts and times of phases go to the row; SurfaceState::Counts are those of this iteration.

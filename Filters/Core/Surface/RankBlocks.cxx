@@ -119,6 +119,22 @@ std::vector<int> RankBlocks::ChooseOwners(
   return choice.Owners(vertices.size());
 }
 
+void RankBlocks::ChooseOwners(const SurfaceMesh& mesh)
+{
+  std::vector<int> counts(static_cast<std::size_t>(this->Blocks.NumberOfBlocks()), 0);
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      ++counts[this->Blocks.BlockAt(mesh.Position[v])];
+    }
+  }
+  MessageWriter writer;
+  writer.AddArray(ChooseOwners(this->Blocks.GetFrame(), counts, this->Ranks.NumberOfRanks()));
+  const Message owners = this->Ranks.Broadcast(writer.Take());
+  this->SetOwners(MessageReader(owners).TakeVector<int>());
+}
+
 void RankBlocks::SetOwners(std::vector<int> owners)
 {
   this->Owners = std::move(owners);
@@ -222,56 +238,70 @@ void RankBlocks::Exchange()
   }
 }
 
-void RankBlocks::Scatter(const Vector& low, const Vector& high)
+Message RankBlocks::SendParts(const SurfaceMesh& mesh,
+  const std::function<void(MessageWriter&, const std::vector<int>&)>& write)
 {
-  struct Sizes
+  if (this->Ranks.Rank() != 0)
   {
-    std::size_t Places;
-    int Vertices;
-    int Characteristic;
-    Vector Low;
-    Vector High;
-  };
-  SurfaceState& s = this->State;
-  const bool isFirst = this->Ranks.Rank() == 0;
-  const Sizes sizes = BroadcastValue(this->Ranks,
-    Sizes{ s.Mesh.Rings.size(), s.Mesh.NumberOfVertices(), s.EulerCharacteristic, low, high });
+    return this->Ranks.Exchange(std::vector<Message>(this->Touched.size()), { 0 }).front();
+  }
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      this->CollectNear(mesh.Position[v], v);
+    }
+  }
   Message own;
-  if (isFirst)
+  for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
   {
-    for (int v = 0; v < s.Mesh.Size(); ++v)
+    // One after the other: all together are as much as the surface.
+    MessageWriter writer;
+    write(writer, std::exchange(this->Touched[rank], {}));
+    if (rank == 0)
     {
-      if (s.Mesh.IsAlive(v))
-      {
-        this->CollectNear(s.Mesh.Position[v], v);
-      }
+      own = writer.Take();
+      continue;
     }
-    for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
-    {
-      // One after the other: all together are as much as the surface.
-      MessageWriter writer;
-      s.Write(writer, std::exchange(this->Touched[rank], {}));
-      std::vector<Message> messages(this->Touched.size());
-      (rank == 0 ? own : messages[rank]) = writer.Take();
-      if (rank > 0)
-      {
-        this->Ranks.Exchange(std::move(messages), { rank });
-      }
-    }
-  }
-  else
-  {
     std::vector<Message> messages(this->Touched.size());
-    own = this->Ranks.Exchange(std::move(messages), { 0 }).front();
+    messages[rank] = writer.Take();
+    this->Ranks.Exchange(std::move(messages), { rank });
   }
+  return own;
+}
+
+void RankBlocks::BeginParts(const Sizes& sizes)
+{
   this->Low = sizes.Low;
   this->High = sizes.High;
   this->Blocks.ForgetVertices();
-  s.Remake(sizes.Places, sizes.Vertices, sizes.Low, sizes.High);
+  this->State.Remake(sizes.Places, sizes.Vertices, sizes.Low, sizes.High);
+  this->State.EulerCharacteristic = this->KnownCharacteristic = sizes.Characteristic;
+  this->KnownVertices = sizes.Vertices;
+}
+
+void RankBlocks::Scatter(const Vector& low, const Vector& high)
+{
+  SurfaceState& s = this->State;
+  const Sizes sizes = BroadcastValue(this->Ranks,
+    Sizes{ s.Mesh.Rings.size(), s.Mesh.NumberOfVertices(), s.EulerCharacteristic, low, high });
+  const Message own = this->SendParts(s.Mesh,
+    [&s](MessageWriter& writer, const std::vector<int>& vertices) { s.Write(writer, vertices); });
+  this->BeginParts(sizes);
   MessageReader reader(own);
   this->Blocks.AddOthers(s.Read(reader));
-  s.EulerCharacteristic = this->KnownCharacteristic = sizes.Characteristic;
-  this->KnownVertices = sizes.Vertices;
+}
+
+void RankBlocks::ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high)
+{
+  const Sizes sizes = BroadcastValue(this->Ranks,
+    Sizes{ mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic(), low, high });
+  const Message own = this->SendParts(mesh,
+    [&mesh](MessageWriter& writer, const std::vector<int>& vertices)
+    { SurfaceState::WriteMesh(mesh, writer, vertices); });
+  this->BeginParts(sizes);
+  MessageReader reader(own);
+  this->Blocks.Take(this->State.ReadMesh(reader));
 }
 
 void RankBlocks::Gather()

@@ -7,6 +7,8 @@
 #include "Core/Common/Communicator.h"
 #include "Core/Surface/SurfaceBlocks.h"
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace volumic
@@ -33,6 +35,8 @@ public:
   static std::vector<int> ChooseOwners(
     const SurfaceBlocks::Frame& frame, const std::vector<int>& vertices, int ranks);
 
+  /** The same on all ranks, of a mesh that is whole on rank 0. */
+  void ChooseOwners(const SurfaceMesh& mesh);
   void SetOwners(std::vector<int> owners);
   int OwnerOf(int block) const { return this->Owners[block]; }
   bool IsOwn(int block) const { return this->Owners[block] == this->Ranks.Rank(); }
@@ -44,6 +48,8 @@ public:
    * box of the grid, on rank 0.
    */
   void Scatter(const Vector& low, const Vector& high);
+  /** The same for a mesh of which nothing else is known. */
+  void ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
   /** Back again: rank 0 has all vertices, the others none. */
   void Gather();
 
@@ -62,6 +68,17 @@ public:
   double AddUp(std::vector<double> ofBlocks);
 
 private:
+  struct Sizes
+  {
+    std::size_t Places;
+    int Vertices;
+    int Characteristic;
+    Vector Low; ///< Of the grid.
+    Vector High;
+  };
+  Message SendParts(const SurfaceMesh& mesh,
+    const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
+  void BeginParts(const Sizes& sizes);
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
   float Halo() const { return SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest(); }

@@ -3,7 +3,6 @@
 #include "Core/Surface/SurfaceBlocks.h"
 
 #include "Core/Common/Blocks.h"
-#include "Core/Mesh/SurfaceMeasures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +36,13 @@ std::vector<int> EvenFirst(int count)
 }
 }
 
-SurfaceBlocks::Frame SurfaceBlocks::FrameOf(
-  const SurfaceMesh& mesh, float side, Executor& executor)
+SurfaceBlocks::Frame SurfaceBlocks::FrameOf(const std::array<double, 3>& extent, double side)
 {
-  const Box bounds = BoundsOf(mesh, executor);
-  const Vector extent = bounds.High - bounds.Low;
-  const float along[3] = { extent.X, extent.Y, extent.Z };
   Frame frame;
-  frame.Low = bounds.Low;
-  frame.Side = side;
   for (int axis = 0; axis < 3; ++axis)
   {
-    frame.Size[axis] = std::max(1, static_cast<int>(std::ceil(along[axis] / side)));
+    frame.Size[axis] = std::max(1, static_cast<int>(std::lround(extent[axis] / side)));
+    frame.Side[axis] = static_cast<float>(extent[axis] / frame.Size[axis]);
   }
   return frame;
 }
@@ -69,7 +63,7 @@ std::array<int, 3> SurfaceBlocks::PlaceOf(const Vector& position) const
   std::array<int, 3> places;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const float place = std::floor(along[axis] / this->TheFrame.Side);
+    const float place = std::floor(along[axis] / this->TheFrame.Side[axis]);
     places[axis] = static_cast<int>(
       std::clamp(place, 0.f, static_cast<float>(this->TheFrame.Size[axis] - 1)));
   }
@@ -104,7 +98,7 @@ Box SurfaceBlocks::BoxOf(int block) const
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto at = [&](int k)
-    { return origins[axis] + this->TheFrame.Side * static_cast<float>(k); };
+    { return origins[axis] + this->TheFrame.Side[axis] * static_cast<float>(k); };
     low[axis] = place[axis] == 0 ? -endless : at(place[axis]);
     high[axis] = place[axis] == this->TheFrame.Size[axis] - 1 ? endless : at(place[axis] + 1);
   }
@@ -339,6 +333,15 @@ void SurfaceBlocks::ForgetVertices()
   {
     vertices = std::vector<int>();
   }
+}
+
+void SurfaceBlocks::Take(const std::vector<int>& vertices)
+{
+  for (const int v : vertices)
+  {
+    this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
+  }
+  this->AddOthers(vertices);
 }
 
 void SurfaceBlocks::AddOthers(const std::vector<int>& vertices)

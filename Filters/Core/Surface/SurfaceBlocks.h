@@ -31,12 +31,13 @@ public:
   /** Where the blocks lie; the outermost go on without end. */
   struct Frame
   {
-    Vector Low;
-    float Side = 1.f; ///< Of a block, workspace; more than twice the halo where there are ranks.
+    Vector Low; ///< Where the first one begins: the corner of the image.
+    /** Of a block, workspace; more than twice the halo where there are ranks. */
+    std::array<float, 3> Side = { 1.f, 1.f, 1.f };
     std::array<int, 3> Size = { 1, 1, 1 };
   };
-  /** About all vertices. */
-  static Frame FrameOf(const SurfaceMesh& mesh, float side, Executor& executor);
+  /** Of an image, workspace, in as many blocks as bring their sides nearest to one. */
+  static Frame FrameOf(const std::array<double, 3>& extent, double side);
 
   /** How far about a block a visit may read, in delta: it writes within half of it. */
   static constexpr float HaloInDelta = 24.f;
@@ -97,6 +98,8 @@ public:
   const std::vector<int>& ListOf(int block) const { return this->Vertices[block]; }
   /** Of all blocks; their places stay. */
   void ForgetVertices();
+  /** New vertices, not of a visit: their blocks have them from now on. */
+  void Take(const std::vector<int>& vertices);
   /** Vertices that have come from elsewhere, with their block. */
   void AddOthers(const std::vector<int>& vertices);
   const Frame& GetFrame() const { return this->TheFrame; }

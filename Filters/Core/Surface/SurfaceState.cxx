@@ -78,7 +78,8 @@ void SurfaceState::Remake(std::size_t n, int vertices, const Vector& low, const 
   this->Grid.Lengthen(n);
 }
 
-void SurfaceState::Write(MessageWriter& message, const std::vector<int>& vertices) const
+void SurfaceState::WriteMesh(
+  const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices)
 {
   message.AddArray(vertices);
   std::vector<Vector> positions;
@@ -86,17 +87,55 @@ void SurfaceState::Write(MessageWriter& message, const std::vector<int>& vertice
   positions.reserve(vertices.size());
   for (const int v : vertices)
   {
-    positions.push_back(this->Mesh.Position[v]);
-    const Ring& ring = this->Mesh.Rings[v];
+    positions.push_back(mesh.Position[v]);
+    const Ring& ring = mesh.Rings[v];
     rings.push_back(ring.Count);
     rings.insert(rings.end(), ring.Item, ring.Item + ring.Count);
   }
   message.AddArray(positions);
   message.AddArray(rings);
+}
+
+void SurfaceState::Write(MessageWriter& message, const std::vector<int>& vertices) const
+{
+  WriteMesh(this->Mesh, message, vertices);
   this->Properties.Write(message, vertices);
 }
 
 std::vector<int> SurfaceState::Read(MessageReader& message)
+{
+  std::vector<int> vertices = this->ReadConnectivity(message);
+  this->Properties.Read(message, vertices);
+  return vertices;
+}
+
+std::vector<int> SurfaceState::ReadMesh(MessageReader& message)
+{
+  std::vector<int> vertices = this->ReadConnectivity(message);
+  this->Properties.Initialise(vertices);
+  for (const int v : vertices)
+  {
+    this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
+  }
+  return vertices;
+}
+
+void SurfaceState::AddAppended(const std::vector<int>& vertices, Executor& executor)
+{
+  this->Properties.Resize(this->Mesh.Rings.size());
+  this->Grid.Resize(this->Mesh.Rings.size());
+  int faces = 0;
+  for (const int v : vertices)
+  {
+    this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
+    this->Grid.Insert(v, this->Mesh.Position[v]);
+    faces += this->Mesh.Rings[v].Count; // Each is seen from three corners; E = 3 F / 2.
+  }
+  this->EulerCharacteristic += static_cast<int>(vertices.size()) - faces / 6;
+  this->UpdateShape(vertices, executor);
+}
+
+std::vector<int> SurfaceState::ReadConnectivity(MessageReader& message)
 {
   const std::vector<int> vertices = message.TakeVector<int>();
   const std::vector<Vector> positions = message.TakeVector<Vector>();
@@ -120,7 +159,6 @@ std::vector<int> SurfaceState::Read(MessageReader& message)
       this->Grid.Insert(v, positions[i]);
     }
   }
-  this->Properties.Read(message, vertices);
   return vertices;
 }
 

@@ -143,6 +143,12 @@ public:
   void Write(MessageWriter& message, const std::vector<int>& vertices) const;
   /** Takes them in, in the place of what was known of them. @return them */
   std::vector<int> Read(MessageReader& message);
+  /** The same for some of a mesh of which nothing else is known: they are as after Reset(). */
+  static void WriteMesh(
+    const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices);
+  std::vector<int> ReadMesh(MessageReader& message);
+  /** After SurfaceMesh::Append: they are as after Reset(), but that they have a shape. */
+  void AddAppended(const std::vector<int>& vertices, Executor& executor);
   /** Forgets a vertex that another rank has removed. */
   void Forget(int v);
 
@@ -180,6 +186,8 @@ public:
   }
 
 private:
+  std::vector<int> ReadConnectivity(MessageReader& message);
+
   std::vector<int> Stack;
 };
 }

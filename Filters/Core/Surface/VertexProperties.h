@@ -27,6 +27,8 @@ public:
   virtual void Lengthen(std::size_t n) = 0;
   /** Forgets all values: n places without one. */
   virtual void Remake(std::size_t n) = 0;
+  /** Some vertices have the initial value. */
+  virtual void Initialise(const std::vector<int>& vertices) = 0;
   /** The values of some vertices, in their order, and what they are on another rank. */
   virtual void Write(MessageWriter& message, const std::vector<int>& vertices) const = 0;
   virtual void Read(MessageReader& message, const std::vector<int>& vertices) = 0;
@@ -72,6 +74,13 @@ public:
     for (VertexPropertyBase* property : this->All)
     {
       property->Remake(n);
+    }
+  }
+  void Initialise(const std::vector<int>& vertices)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Initialise(vertices);
     }
   }
   void Write(MessageWriter& message, const std::vector<int>& vertices) const
@@ -147,6 +156,13 @@ public:
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
   void Lengthen(std::size_t n) override { LengthenZeroed(this->Values, n); }
   void Remake(std::size_t n) override { MakeZeroed(this->Values, n); }
+  void Initialise(const std::vector<int>& vertices) override
+  {
+    for (const int v : vertices)
+    {
+      this->Values[v] = this->Initial;
+    }
+  }
   void Write(MessageWriter& message, const std::vector<int>& vertices) const override
   {
     std::vector<T> values;
