@@ -105,7 +105,7 @@ private:
       this->All->Arrived.wait(lock, [&queue] { return !queue.empty(); });
       Take(queue, bytes, count);
     }
-    int ReceiveFromAny(void* bytes, std::size_t count) override
+    void ReceiveFromAny(void* bytes, std::size_t count) override
     {
       std::unique_lock<std::mutex> lock(this->All->Lock);
       int found = -1;
@@ -119,7 +119,6 @@ private:
           return found >= 0;
         });
       Take(this->All->From(found, this->Own), bytes, count);
-      return found;
     }
 
   private:

@@ -180,9 +180,9 @@ void Communicator::EndRun(const Message& reason)
   while (lacks() || (this->Rank() == 0 && done + 1 < this->NumberOfRanks()))
   {
     Header header;
-    const int from = this->ReceiveFromAny(&header, sizeof(header));
-    this->Drop(from, header.Bytes);
-    this->HasFailed[static_cast<std::size_t>(from)] |= header.Is == Failure;
+    this->ReceiveFromAny(&header, sizeof(header));
+    this->Drop(header.From, header.Bytes);
+    this->HasFailed[static_cast<std::size_t>(header.From)] |= header.Is == Failure;
     done += header.Is == Done;
   }
   // Nobody begins anew before all are here.

@@ -65,8 +65,8 @@ protected:
   virtual void Send(int to, const void* bytes, std::size_t count) = 0;
   /** From another rank, as many bytes as have been sent at once. */
   virtual void Receive(int from, void* bytes, std::size_t count) = 0;
-  /** From whichever rank sends next. @return that rank. */
-  virtual int ReceiveFromAny(void* bytes, std::size_t count) = 0;
+  /** From whichever rank sends next; the header tells which. */
+  virtual void ReceiveFromAny(void* bytes, std::size_t count) = 0;
 
 private:
   enum Kind : int
@@ -100,7 +100,7 @@ public:
 protected:
   void Send(int, const void*, std::size_t) override {}
   void Receive(int, void*, std::size_t) override {}
-  int ReceiveFromAny(void*, std::size_t) override { return 0; }
+  void ReceiveFromAny(void*, std::size_t) override {}
 };
 
 /** Puts values and arrays of plain types into a message. */
