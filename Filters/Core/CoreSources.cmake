@@ -23,6 +23,7 @@ set(volumic_core_sources
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
   Image/ValidReduction.cxx
+  Image/VoxelPieces.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
   Mesh/Division.cxx
@@ -112,8 +113,10 @@ set(volumic_core_headers
   Image/RowKernels.h
   Image/ThickPart.h
   Image/ValidReduction.h
+  Image/VoxelBox.h
   Image/VoxelNumbers.h
   Image/VoxelParts.h
+  Image/VoxelPieces.h
   Image/VoxelRows.h
   Image/VoxelValues.h
   Mesh/CellSurface.h
