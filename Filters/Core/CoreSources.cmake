@@ -43,9 +43,12 @@ set(volumic_core_sources
   Mesh/VertexRemoval.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
+  Surface/ConnectedVertices.cxx
   Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
+  Surface/RankComponents.cxx
+  Surface/RankMeasures.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
