@@ -84,6 +84,7 @@ set(volumic_core_headers
   Common/Communicator.h
   Common/ContentHash.h
   Common/DisjointSets.h
+  Common/ExactSum.h
   Common/Executor.h
   Common/FreeMemory.h
   Common/Grow.h
@@ -93,6 +94,7 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
+  Common/RankLists.h
   Common/Refuse.h
   Common/ScratchFile.h
   Common/ScratchMemory.h
@@ -138,11 +140,15 @@ set(volumic_core_headers
   Mesh/VertexRemoval.h
   Surface/ComponentNesting.h
   Surface/ComponentWatch.h
+  Surface/ConnectedVertices.h
   Surface/EditCells.h
   Surface/FaceShape.h
   Surface/NewFaces.h
   Surface/NormalCone.h
   Surface/Proximity.h
+  Surface/RankComponents.h
+  Surface/RankMeasures.h
+  Surface/RankPart.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
   Surface/SizingField.h

@@ -227,7 +227,7 @@ TEST(RankComponents, DeleteSmallOnesThatMustGo)
   ComponentWatch watch;
   watch.Label(expected.State, expected.Alone);
   ASSERT_TRUE(watch.DeleteDegenerate(expected.State));
-  ASSERT_EQ(watch.NumberOfComponents(), 3) << "a tiny one and a cavity on the wrong side, four points";
+  ASSERT_EQ(watch.NumberOfComponents(), 3) << "of four points, or tiny and on the wrong side";
   const int before = scene.State.EulerCharacteristic;
   scene.OnRanks(
     [&](const RankPart& part, SurfaceState& state)
