@@ -47,8 +47,8 @@ set(volumic_core_sources
   Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
+  Surface/RankBlocks.cxx
   Surface/RankComponents.cxx
-  Surface/RankMeasures.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
@@ -65,6 +65,7 @@ set(volumic_core_sources
   Evolution/EdgeLengthPlan.cxx
   Evolution/EvolutionCheckpoint.cxx
   Evolution/EvolutionHistory.cxx
+  Evolution/EvolutionRanks.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
   Evolution/EvolutionSweeps.cxx
@@ -146,8 +147,8 @@ set(volumic_core_headers
   Surface/NewFaces.h
   Surface/NormalCone.h
   Surface/Proximity.h
+  Surface/RankBlocks.h
   Surface/RankComponents.h
-  Surface/RankMeasures.h
   Surface/RankPart.h
   Surface/RemainingContacts.h
   Surface/Remesher.h

@@ -144,7 +144,9 @@ void SurfaceEvolution::Implementation::LayGrid()
   const float delta = s.Sizing.Largest();
   const Vector margin(2 * delta, 2 * delta, 2 * delta);
   this->Iteration.Forget();
-  s.Reset(low - margin, high + margin, this->Threads);
+  this->GridLow = low - margin;
+  this->GridHigh = high + margin;
+  s.Reset(this->GridLow, this->GridHigh, this->Threads);
 }
 
 namespace
@@ -258,7 +260,10 @@ void SurfaceEvolution::Implementation::ActivateAll()
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        s.Active[v] = s.Mesh.IsAlive(static_cast<int>(v));
+        if (s.Mesh.IsAlive(static_cast<int>(v)))
+        {
+          s.Active[v] = 1;
+        }
       }
     });
 }

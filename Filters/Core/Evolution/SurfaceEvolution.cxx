@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace volumic
@@ -120,6 +121,26 @@ void SurfaceEvolution::StartSurface(
 StopReason SurfaceEvolution::Run()
 {
   return this->Self->Run();
+}
+
+void SurfaceEvolution::SetRanks(Communicator* ranks)
+{
+  this->Self->Ranks = ranks;
+}
+
+bool SurfaceEvolution::AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size)
+{
+  const std::int64_t voxels = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
+  return voxels > options.Sweeps.MostVoxels;
+}
+
+StopReason SurfaceEvolution::Help(const LevelImage& image, int level)
+{
+  Implementation& self = *this->Self;
+  self.Enter(image, level);
+  self.State.Mesh.Clear();
+  self.InSweeps = true;
+  return self.Run();
 }
 
 void SurfaceEvolution::SetMeanEdgeLength(double length)

@@ -4,6 +4,7 @@
 #define volumicSurfaceEvolution_h
 
 #include "Core/Common/CheckedFile.h"
+#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
@@ -161,6 +162,16 @@ public:
    * stop, wherever it was asked, the reason is Cancelled.
    */
   StopReason Run();
+
+  /**
+   * From now on levels evolve on several ranks, of which this is one: Run() on rank 0, Help() on the
+   * others; null: alone again. Only levels in sweeps (SweepOptions), which AreInSweeps() tells. The
+   * surface is the same bits as on one rank.
+   */
+  void SetRanks(Communicator* ranks);
+  static bool AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size);
+  /** Instead of start, division and Run() on the others; afterwards they have no surface. */
+  StopReason Help(const LevelImage& image, int level);
 
   /**
    * For the levels to come: before its final regularisation, delta is changed by small steps, as

@@ -43,10 +43,11 @@ void SurfaceIteration::Forget()
   this->Recheck.Clear();
 }
 
-void SurfaceIteration::BeginVisit(const std::vector<int>& vertices)
+void SurfaceIteration::BeginVisit(const std::vector<int>& vertices, const Box& about)
 {
   SurfaceState& s = this->State;
   this->Visited = &vertices;
+  this->About = about;
   this->Forget();
   this->CollectActive();
   // The pairs of those that were near others, from when they were examined, are forgotten.
@@ -86,7 +87,7 @@ void SurfaceIteration::Label()
 {
   if (this->Visited)
   {
-    this->Watch.LabelSmall(this->State, *this->Visited);
+    this->Watch.LabelSmall(this->State, *this->Visited, this->About);
   }
   else
   {
@@ -303,6 +304,13 @@ void SurfaceIteration::RollBack()
       back = this->Working; // All that has moved: the mesh before, which was free of them.
     }
     SortUnique(back);
+    if (this->Visited)
+    {
+      // What keeps still need not be examined, and further out there may be nothing to look at.
+      back.erase(std::remove_if(back.begin(), back.end(),
+                   [this](int v) { return this->IsWorking[v] == 0; }),
+        back.end());
+    }
     examined = back;
     for (int v : back)
     {

@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceIteration_h
 #define volumicSurfaceIteration_h
 
+#include "Core/Common/Box.h"
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/Dynamics.h"
 #include "Core/Evolution/SurfaceEvolution.h"
@@ -48,8 +49,9 @@ public:
    * active; the list may grow between two calls. What happens to components that are not small is
    * left to EndVisit's caller: LabelComponents(), DeleteInsideOut(). The vertices must have a shape
    * that is up to date.
+   * @param about what may be looked at
    */
-  void BeginVisit(const std::vector<int>& vertices);
+  void BeginVisit(const std::vector<int>& vertices, const Box& about);
   /** On all vertices again. */
   void EndVisit();
   /** The active vertices and those beside them, and what the last iteration has made or changed. */
@@ -123,6 +125,7 @@ private:
   Proximity Recheck; ///< Of what has been rolled back.
   ComponentWatch Watch;
   const std::vector<int>* Visited = nullptr; ///< See BeginVisit; null: all vertices.
+  Box About; ///< See BeginVisit.
   std::vector<int> Active;
   std::vector<int> Working;            ///< See CollectWorking.
   LargeVector<std::uint8_t> IsWorking; ///< Whether that has it.

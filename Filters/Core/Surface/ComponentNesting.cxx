@@ -29,7 +29,8 @@ using PartialVolume = std::pair<int, ExactSum>;
 
 /** Of the faces whose smallest vertex is in a range, by label. */
 std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<Vector>& origins, std::size_t begin, std::size_t end)
+  const MarkedVertices* part, const std::vector<Vector>& origins, std::size_t begin,
+  std::size_t end)
 {
   std::vector<PartialVolume> volumes;
   std::unordered_map<int, std::size_t> places;
@@ -37,11 +38,11 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
   mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
-      const int label = labels[a];
-      if (label < 0)
+      if (part && !part->Has(a))
       {
         return;
       }
+      const int label = labels[a];
       if (volumes.empty() || volumes[place].first != label)
       {
         const auto found = places.emplace(label, volumes.size());
@@ -94,19 +95,19 @@ void AddCrossings(const SurfaceMesh& mesh, int v, int component,
 }
 
 std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<Vector>& origins, Executor& executor)
+  const MarkedVertices* part, const std::vector<Vector>& origins, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<PartialVolume>> parts((n + CrossedBlock - 1) / CrossedBlock);
   ForBlocks(executor, n, CrossedBlock,
     [&](std::size_t b, std::size_t begin, std::size_t end)
-    { parts[b] = VolumesOf(mesh, labels, origins, begin, end); });
+    { parts[b] = VolumesOf(mesh, labels, part, origins, begin, end); });
   std::vector<ExactSum> volumes(origins.size());
   for (const std::vector<PartialVolume>& ofBlock : parts)
   {
-    for (const PartialVolume& part : ofBlock)
+    for (const PartialVolume& volume : ofBlock)
     {
-      volumes[part.first].Add(part.second);
+      volumes[volume.first].Add(volume.second);
     }
   }
   return volumes;
@@ -128,18 +129,19 @@ std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
 }
 
 std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<int>& components, const std::vector<ComponentRay>& rays, Executor& executor)
+  const MarkedVertices* part, const std::vector<int>& components,
+  const std::vector<ComponentRay>& rays, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<RayCrossing>> blocks((n + CrossedBlock - 1) / CrossedBlock);
   ForBlocks(executor, n, CrossedBlock,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
-      for (std::size_t v = begin; v < end; ++v)
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (labels[v] >= 0)
+        if (part ? part->Has(v) : mesh.IsAlive(v))
         {
-          AddCrossings(mesh, static_cast<int>(v), components[labels[v]], rays, blocks[b]);
+          AddCrossings(mesh, v, components[labels[v]], rays, blocks[b]);
         }
       }
       KeepOdd(blocks[b]);
@@ -207,7 +209,8 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
   std::vector<int> components(roots.size());
   std::iota(components.begin(), components.end(), 0);
   const std::vector<ComponentRay> rays =
-    CastRays(roots, places, VolumesOfFaces(mesh, labels, places, executor));
-  return JudgeFromOutsideIn(rays, FindCrossings(mesh, labels, components, rays, executor));
+    CastRays(roots, places, VolumesOfFaces(mesh, labels, nullptr, places, executor));
+  return JudgeFromOutsideIn(
+    rays, FindCrossings(mesh, labels, nullptr, components, rays, executor));
 }
 }

@@ -7,6 +7,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Mesh/SurfaceMesh.h"
+#include "Core/Surface/ConnectedVertices.h"
 
 #include <vector>
 
@@ -25,7 +26,7 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
   const std::vector<int>& roots, Executor& executor);
 
 // What it is made of, for ranks that each have a part of the surface (RankComponents): the faces of
-// a part are those whose smallest vertex is labelled, and so whole.
+// a part are those whose smallest vertex is marked. Null: all are.
 
 /** From the first vertex of a component along x. */
 struct ComponentRay
@@ -47,13 +48,9 @@ struct RayCrossing
   }
 };
 
-/**
- * The sums of what SignedVolume::OfFace says of the faces of each label.
- * @param labels  by vertex, negative where it is none of the part's
- * @param origins by label
- */
+/** The sums of what SignedVolume::OfFace says of the part's faces. @param origins by label */
 std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<Vector>& origins, Executor& executor);
+  const MarkedVertices* part, const std::vector<Vector>& origins, Executor& executor);
 
 /** A ray of each component, by Y. @param roots,places,volumes of each label */
 std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
@@ -61,11 +58,11 @@ std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
 
 /**
  * The crossings of the part's faces with the rays of other components, sorted.
- * @param labels     by vertex, negative where it is none of the part's
  * @param components the label, among all components, of each label of the part
  */
 std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<int>& components, const std::vector<ComponentRay>& rays, Executor& executor);
+  const MarkedVertices* part, const std::vector<int>& components,
+  const std::vector<ComponentRay>& rays, Executor& executor);
 
 /** Of the crossings of several parts those that there are an odd number of, sorted, each once. */
 void KeepOdd(std::vector<RayCrossing>& crossings);

@@ -96,7 +96,7 @@ void ComponentWatch::WatchSmallOnes(
     });
 }
 
-bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v)
+bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v, const Box& within)
 {
   this->Stack.assign(1, v);
   this->IsSeen[v] = 1;
@@ -104,7 +104,8 @@ bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v)
   for (std::size_t i = 0; i < this->Stack.size() && this->Stack.size() <= SmallSize; ++i)
   {
     const Ring& ring = mesh.Rings[this->Stack[i]];
-    for (int k = 0; k < ring.Count; ++k)
+    isSmall = isSmall && within.Contains(mesh.Position[this->Stack[i]]);
+    for (int k = 0; k < ring.Count && isSmall; ++k)
     {
       const int w = ring.Item[k];
       if (this->IsSeen[w] == 0)
@@ -131,13 +132,14 @@ bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v)
   return isSmall;
 }
 
-void ComponentWatch::LabelSmall(SurfaceState& state, const std::vector<int>& vertices)
+void ComponentWatch::LabelSmall(
+  SurfaceState& state, const std::vector<int>& vertices, const Box& within)
 {
   this->Watched.clear();
   this->IsSeen.resize(state.Mesh.Rings.size(), 0);
   for (const int v : vertices)
   {
-    if (!state.Mesh.IsAlive(v) || this->IsSeen[v] != 0 || !this->IsSmall(state.Mesh, v))
+    if (!state.Mesh.IsAlive(v) || this->IsSeen[v] != 0 || !this->IsSmall(state.Mesh, v, within))
     {
       continue;
     }

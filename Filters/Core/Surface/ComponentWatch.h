@@ -3,6 +3,7 @@
 #ifndef volumicComponentWatch_h
 #define volumicComponentWatch_h
 
+#include "Core/Common/Box.h"
 #include "Core/Surface/ConnectedVertices.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -27,9 +28,10 @@ public:
 
   /**
    * The same for a part of the surface: the small components that have a vertex in a list, or grow
-   * to it from there, get labels of their own and are watched; the others are left as they are.
+   * to it from there, and lie in a box get labels of their own and are watched; the others are left
+   * as they are.
    */
-  void LabelSmall(SurfaceState& state, const std::vector<int>& vertices);
+  void LabelSmall(SurfaceState& state, const std::vector<int>& vertices, const Box& within);
 
   /**
    * Deletes those of the small components that must go; every vertex must have its label.
@@ -60,7 +62,7 @@ private:
   void WatchSmallOnes(
     const SurfaceState& state, const std::vector<int>& sizes, Executor& executor);
   /** Whether a component is a small one; if so, its vertices are in Stack. Marks what it sees. */
-  bool IsSmall(const SurfaceMesh& mesh, int v);
+  bool IsSmall(const SurfaceMesh& mesh, int v, const Box& within);
   /** Finds the vertices that the component has now, in Stack. @return false if it has none. */
   bool FindVertices(SurfaceState& state, const SmallComponent& small);
 

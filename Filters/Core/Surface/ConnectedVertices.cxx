@@ -21,9 +21,27 @@ constexpr int MarkOfRoot(int label)
   return -2 - label;
 }
 
+/** All of a surface: rings name nothing else. */
+struct WholeSurface
+{
+  const SurfaceMesh& Mesh;
+  bool Has(int v) const { return this->Mesh.IsAlive(v); }
+  static constexpr bool HasNeighbour(int) { return true; }
+  static void LabelNone(int& label) { label = ConnectedVertices::None; }
+};
+
+struct PartOfSurface
+{
+  const MarkedVertices& Vertices;
+  bool Has(int v) const { return this->Vertices.Has(v); }
+  bool HasNeighbour(int v) const { return this->Vertices.Has(v); }
+  static void LabelNone(int&) {}
+};
+
 /** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
-void LabelOthers(
-  LargeVector<int>& labels, int begin, int end, std::vector<std::atomic<int>>& sizes)
+template <typename Part>
+void LabelOthers(const Part& part, LargeVector<int>& labels, int begin, int end,
+  std::vector<std::atomic<int>>& sizes)
 {
   // Mostly neighbours follow each other: they are added up before the others are told.
   int label = 0;
@@ -38,7 +56,7 @@ void LabelOthers(
   for (int v = begin; v < end; ++v)
   {
     const int root = labels[v];
-    if (root < 0)
+    if (root < 0 || !part.Has(v))
     {
       continue;
     }
@@ -54,22 +72,6 @@ void LabelOthers(
   }
   add();
 }
-
-/** All of a surface: rings name nothing else. */
-struct WholeSurface
-{
-  const SurfaceMesh& Mesh;
-  bool Has(int v) const { return this->Mesh.IsAlive(v); }
-  static constexpr bool HasNeighbour(int) { return true; }
-};
-
-struct PartOfSurface
-{
-  const SurfaceMesh& Mesh;
-  const LargeVector<std::uint8_t>& IsIn;
-  bool Has(int v) const { return this->IsIn[v] != 0 && this->Mesh.IsAlive(v); }
-  bool HasNeighbour(int v) const { return this->Has(v); }
-};
 
 /** Where a neighbour is, seen from a vertex of a block. */
 enum class Side
@@ -87,10 +89,10 @@ void ConnectedVertices::Label(
   this->LabelPart(mesh, WholeSurface{ mesh }, labels, executor);
 }
 
-void ConnectedVertices::Label(const SurfaceMesh& mesh, const LargeVector<std::uint8_t>& isIn,
+void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& part,
   LargeVector<int>& labels, Executor& executor)
 {
-  this->LabelPart(mesh, PartOfSurface{ mesh, isIn }, labels, executor);
+  this->LabelPart(mesh, PartOfSurface{ part }, labels, executor);
 }
 
 template <typename Part>
@@ -106,7 +108,12 @@ void ConnectedVertices::LabelPart(
       std::size_t roots = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        labels[v] = part.Has(v) ? this->Joined.FindRoot(v) : None;
+        if (!part.Has(v))
+        {
+          Part::LabelNone(labels[v]);
+          continue;
+        }
+        labels[v] = this->Joined.FindRoot(v);
         roots += labels[v] == v;
       }
       return roots;
@@ -118,18 +125,19 @@ void ConnectedVertices::LabelPart(
       std::size_t label = first[b];
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (labels[v] == v)
+        if (labels[v] == v && part.Has(v))
         {
           labels[v] = MarkOfRoot(static_cast<int>(label));
           this->SmallestOnes[label++] = v;
         }
       }
     });
-  this->CountAndLabel(labels, n, executor);
+  this->CountAndLabel(part, labels, n, executor);
 }
 
+template <typename Part>
 void ConnectedVertices::CountAndLabel(
-  LargeVector<int>& labels, std::size_t n, Executor& executor)
+  const Part& part, LargeVector<int>& labels, std::size_t n, Executor& executor)
 {
   std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
   for (std::atomic<int>& size : sizes)
@@ -138,7 +146,7 @@ void ConnectedVertices::CountAndLabel(
   }
   ForBlocks(executor, n, JoinedBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
-    { LabelOthers(labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
+    { LabelOthers(part, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
   for (std::size_t label = 0; label < this->SmallestOnes.size(); ++label)
   {
     labels[this->SmallestOnes[label]] = static_cast<int>(label);
@@ -152,7 +160,7 @@ void ConnectedVertices::JoinVertices(
 {
   // First within blocks, side by side, then across their borders.
   const std::size_t n = mesh.Rings.size();
-  this->Joined.Resize(n);
+  this->Joined.MakeRoom(n);
   this->Borders.resize((n + JoinedBlock - 1) / JoinedBlock);
   ForBlocks(executor, n, JoinedBlock,
     [&](std::size_t b, std::size_t begin, std::size_t end)
@@ -160,11 +168,11 @@ void ConnectedVertices::JoinVertices(
       this->Borders[b].clear();
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        this->Joined.MakeSet(v);
         if (!part.Has(v))
         {
           continue;
         }
+        this->Joined.MakeSet(v);
         int root = v;
         const Ring& ring = mesh.Rings[v];
         Side before = Side::Later;

@@ -16,13 +16,24 @@
 namespace volumic
 {
 /**
+ * Vertices with a mark. Where the others take no memory (MakeZeroed) it stays so: what is told of a
+ * part says nothing of others.
+ */
+struct MarkedVertices
+{
+  const LargeVector<std::uint8_t>& Marks; ///< By vertex; 0 where there is none.
+  std::uint8_t Mark;
+  bool Has(int v) const { return this->Marks[v] == this->Mark; }
+};
+
+/**
  * The sets of vertices that edges join: the components of a surface, or, of a part of it, what of
  * them the part has. The same for any executor; O(vertices).
  */
 class ConnectedVertices
 {
 public:
-  /** In the place of a label: of what takes no part. */
+  /** In the place of a label: where there is no vertex. */
   static constexpr int None = -1;
 
   /**
@@ -30,9 +41,9 @@ public:
    * @param labels by vertex, as many as there are; None where there is none
    */
   void Label(const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor);
-  /** The same for the alive vertices that isIn marks, by vertex, and the edges between them. */
-  void Label(const SurfaceMesh& mesh, const LargeVector<std::uint8_t>& isIn,
-    LargeVector<int>& labels, Executor& executor);
+  /** The same for some alive vertices and the edges between them; the others' labels stay. */
+  void Label(const SurfaceMesh& mesh, const MarkedVertices& part, LargeVector<int>& labels,
+    Executor& executor);
 
   /** By label: its smallest vertex. */
   const std::vector<int>& Roots() const { return this->SmallestOnes; }
@@ -45,7 +56,8 @@ private:
     Executor& executor);
   template <typename Part>
   void JoinVertices(const SurfaceMesh& mesh, const Part& part, Executor& executor);
-  void CountAndLabel(LargeVector<int>& labels, std::size_t n, Executor& executor);
+  template <typename Part>
+  void CountAndLabel(const Part& part, LargeVector<int>& labels, std::size_t n, Executor& executor);
 
   DisjointSets Joined;
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.

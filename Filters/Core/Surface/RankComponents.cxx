@@ -99,25 +99,35 @@ void SortUnique(std::vector<T>& values)
 }
 }
 
-void RankComponents::Mark(const SurfaceState& state, bool isOwn, Executor& executor)
+void RankComponents::Mark(const SurfaceState& state, Executor& executor)
 {
   const std::size_t n = state.Mesh.Rings.size();
-  this->Marks.resize(n);
-  ForBlocks(executor, n, VertexBlock,
+  if (this->Marks.size() < n)
+  {
+    MakeZeroed(this->Marks, n);
+    MakeZeroed(this->Labels, n);
+  }
+  ForBlocks(executor, this->Marks.size(), VertexBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      for (std::size_t v = begin; v < end; ++v)
       {
-        this->Marks[v] = state.Mesh.IsAlive(v) && this->Part.IsOwn(v) == isOwn;
+        const bool isAlive = v < n && state.Mesh.IsAlive(static_cast<int>(v));
+        if (isAlive)
+        {
+          this->Marks[v] = this->Part.IsOwn(static_cast<int>(v)) ? Own : Others;
+        }
+        else if (this->Marks[v] != 0)
+        {
+          this->Marks[v] = 0;
+        }
       }
     });
 }
 
 void RankComponents::FindOwnSets(const SurfaceState& state, Executor& executor)
 {
-  this->Mark(state, true, executor);
-  this->OwnLabels.resize(state.Mesh.Rings.size());
-  this->Connected.Label(state.Mesh, this->Marks, this->OwnLabels, executor);
+  this->Connected.Label(state.Mesh, this->OwnOnes(), this->Labels, executor);
   this->Sets.clear();
   for (std::size_t set = 0; set < this->Connected.Roots().size(); ++set)
   {
@@ -137,16 +147,16 @@ std::vector<RankComponents::Name> RankComponents::NameBorders(
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        const int set = this->OwnLabels[v];
-        if (set == ConnectedVertices::None)
+        if (this->Marks[v] != Own)
         {
           continue;
         }
+        const int set = this->Labels[v];
         const std::size_t before = blocks[b].size();
         const Ring& ring = state.Mesh.Rings[v];
         for (int i = 0; i < ring.Count; ++i)
         {
-          if (this->OwnLabels[ring.Item[i]] == ConnectedVertices::None)
+          if (this->Marks[ring.Item[i]] != Own)
           {
             blocks[b].push_back({ ring.Item[i], set });
           }
@@ -166,17 +176,14 @@ std::vector<RankComponents::Name> RankComponents::NameBorders(
 std::vector<int> RankComponents::FindOthersSets(
   const SurfaceState& state, const std::vector<Name>& borders, Executor& executor)
 {
-  this->Mark(state, false, executor);
-  this->OthersLabels.resize(state.Mesh.Rings.size());
-  this->Connected.Label(state.Mesh, this->Marks, this->OthersLabels, executor);
+  this->Connected.Label(state.Mesh, this->OthersOnes(), this->Labels, executor);
   const std::vector<int>& roots = this->Connected.Roots();
   std::vector<int> setOf(roots.size(), ConnectedVertices::None);
   for (const Name& name : borders)
   {
-    const int label = this->OthersLabels[name.Vertex];
-    if (label != ConnectedVertices::None)
+    if (this->Marks[name.Vertex] == Others)
     {
-      setOf[label] = name.Set;
+      setOf[this->Labels[name.Vertex]] = name.Set;
     }
   }
   for (std::size_t label = 0; label < roots.size(); ++label)
@@ -201,9 +208,9 @@ void RankComponents::NameAsked(const SurfaceState& state, std::vector<Name>& nam
   const int size = state.Mesh.Size();
   for (const int v : GatherListsOnAll(this->Part.Ranks, asked))
   {
-    if (v < size && this->OwnLabels[v] != ConnectedVertices::None)
+    if (v < size && this->Marks[v] == Own)
     {
-      names.push_back({ v, this->OwnLabels[v] });
+      names.push_back({ v, this->Labels[v] });
     }
   }
 }
@@ -281,6 +288,7 @@ void RankComponents::FindWholes(const std::vector<Name>& names)
 
 void RankComponents::Label(SurfaceState& state, Executor& executor)
 {
+  this->Mark(state, executor);
   this->FindOwnSets(state, executor);
   std::vector<Name> names = this->NameBorders(state, executor);
   const std::vector<int> setOfOthers = this->FindOthersSets(state, names, executor);
@@ -291,11 +299,12 @@ void RankComponents::Label(SurfaceState& state, Executor& executor)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        const int others = this->OthersLabels[v];
-        const int set =
-          others == ConnectedVertices::None ? this->OwnLabels[v] : setOfOthers[others];
-        state.Component[v] =
-          set == ConnectedVertices::None ? ConnectedVertices::None : this->Wholes[set].Label;
+        if (this->Marks[v] != 0)
+        {
+          const int label = this->Labels[v];
+          state.Component[v] =
+            this->Wholes[this->Marks[v] == Own ? label : setOfOthers[label]].Label;
+        }
       }
     });
 }
@@ -306,8 +315,12 @@ bool RankComponents::DeleteDegenerate(SurfaceState& state)
   std::vector<VertexRecord> parts;
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
-    const int set = this->OwnLabels[v];
-    if (state.Mesh.IsAlive(v) && set >= 0 && this->Wholes[set].Size <= ComponentWatch::SmallSize)
+    if (this->Marks[v] != Own || !state.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const int set = this->Labels[v];
+    if (this->Wholes[set].Size <= ComponentWatch::SmallSize)
     {
       const bool isWhole = this->Wholes[set].Size == this->Sets[set].Size;
       (isWhole ? whole : parts)
@@ -341,8 +354,9 @@ std::vector<int> RankComponents::FindInsideOut(const SurfaceState& state, Execut
     int Label;
     ExactSum Sum;
   };
+  const MarkedVertices ownOnes = this->OwnOnes();
   const std::vector<ExactSum> sums =
-    VolumesOfFaces(state.Mesh, this->OwnLabels, places, executor);
+    VolumesOfFaces(state.Mesh, this->Labels, &ownOnes, places, executor);
   std::vector<Volume> own;
   for (std::size_t set = 0; set < sums.size(); ++set)
   {
@@ -361,8 +375,8 @@ std::vector<int> RankComponents::FindInsideOut(const SurfaceState& state, Execut
     volumes[part.Label].Add(part.Sum);
   }
   const std::vector<ComponentRay> rays = BroadcastList(ranks, CastRays(roots, places, volumes));
-  std::vector<RayCrossing> crossings =
-    GatherLists(ranks, FindCrossings(state.Mesh, this->OwnLabels, labels, rays, executor));
+  std::vector<RayCrossing> crossings = GatherLists(
+    ranks, FindCrossings(state.Mesh, this->Labels, &ownOnes, labels, rays, executor));
   KeepOdd(crossings);
   return BroadcastList(ranks,
     ranks.Rank() == 0 ? JudgeFromOutsideIn(rays, crossings) : std::vector<int>());
@@ -426,7 +440,7 @@ void RankComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
     {
       continue;
     }
-    const bool isOwn = this->OwnLabels[v] != ConnectedVertices::None;
+    const bool isOwn = this->Marks[v] == Own;
     Removal& removal = removals[placeOf[label]];
     if (isOwn)
     {
@@ -447,13 +461,10 @@ void RankComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
   }
   for (std::size_t i = 0; i < roots.size(); ++i)
   {
-    if (isRootHere[i])
-    {
-      const int characteristic = whole[i].Vertices - static_cast<int>(whole[i].Neighbours / 6);
-      state.EulerCharacteristic -= characteristic;
-      ++state.Counts.Removed;
-      state.Counts.RemovedGenus += 1 - characteristic / 2;
-    }
+    const int characteristic = whole[i].Vertices - static_cast<int>(whole[i].Neighbours / 6);
+    state.EulerCharacteristic -= isRootHere[i] ? characteristic : 0;
+    ++state.Counts.Removed;
+    state.Counts.RemovedGenus += 1 - characteristic / 2;
   }
   this->Components -= static_cast<int>(roots.size());
 }

@@ -21,7 +21,11 @@ namespace volumic
  *
  * What a rank has of a component is labelled there; sizes, places and the vertices along borders go
  * to rank 0, which finds the components, and tells each rank those of its own. So messages go with
- * the borders and the number of components.
+ * the borders and the number of components. Places that no vertex has are not written.
+ *
+ * Of what is deleted SurfaceState::Counts tell on all ranks. The number of vertices falls by what
+ * was a rank's own, the Euler characteristic where the first vertex of a component was: the changes
+ * of all ranks are those of the surface (RankBlocks::ShareCounts).
  */
 class RankComponents
 {
@@ -53,6 +57,9 @@ public:
   std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor);
 
 private:
+  static constexpr std::uint8_t Own = 1;
+  static constexpr std::uint8_t Others = 2;
+
   /** What a rank has of a component: a set of own vertices that edges join. */
   struct OwnSet
   {
@@ -83,7 +90,9 @@ private:
     Vector Place; ///< Of the root.
   };
 
-  void Mark(const SurfaceState& state, bool isOwn, Executor& executor);
+  void Mark(const SurfaceState& state, Executor& executor);
+  MarkedVertices OwnOnes() const { return { this->Marks, Own }; }
+  MarkedVertices OthersOnes() const { return { this->Marks, Others }; }
   void FindOwnSets(const SurfaceState& state, Executor& executor);
   std::vector<Name> NameBorders(const SurfaceState& state, Executor& executor) const;
   std::vector<int> FindOthersSets(
@@ -96,13 +105,13 @@ private:
 
   const RankPart Part;
   ConnectedVertices Connected;
-  LargeVector<std::uint8_t> Marks;
-  LargeVector<int> OwnLabels;    ///< By vertex: its own set, or ConnectedVertices::None.
-  LargeVector<int> OthersLabels; ///< The same for sets of vertices that others own.
-  std::vector<OwnSet> Sets;      ///< Those of own vertices, then those that others are asked for.
-  std::size_t NumberOfOwn = 0;   ///< Of these.
-  std::vector<Whole> Wholes;     ///< Of each set.
-  std::vector<Whole> All;        ///< On rank 0: by label.
+  LargeVector<std::uint8_t> Marks; ///< By vertex: whose it is; zeroed.
+  /** By vertex: the own set, or that of vertices that others own. */
+  LargeVector<int> Labels;
+  std::vector<OwnSet> Sets;    ///< Those of own vertices, then those that others are asked for.
+  std::size_t NumberOfOwn = 0; ///< Of these.
+  std::vector<Whole> Wholes;   ///< Of each set.
+  std::vector<Whole> All;      ///< On rank 0: by label.
   int Components = 0;
 };
 }
