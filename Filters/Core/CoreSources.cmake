@@ -44,10 +44,12 @@ set(volumic_core_sources
   Mesh/VertexRemoval.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
+  Surface/ConnectedVertices.cxx
   Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RankBlocks.cxx
+  Surface/RankComponents.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
@@ -85,6 +87,7 @@ set(volumic_core_headers
   Common/Communicator.h
   Common/ContentHash.h
   Common/DisjointSets.h
+  Common/ExactSum.h
   Common/Executor.h
   Common/FreeMemory.h
   Common/Grow.h
@@ -94,6 +97,7 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
+  Common/RankLists.h
   Common/Refuse.h
   Common/ScratchFile.h
   Common/ScratchMemory.h
@@ -141,12 +145,15 @@ set(volumic_core_headers
   Mesh/VertexRemoval.h
   Surface/ComponentNesting.h
   Surface/ComponentWatch.h
+  Surface/ConnectedVertices.h
   Surface/EditCells.h
   Surface/FaceShape.h
   Surface/NewFaces.h
   Surface/NormalCone.h
   Surface/Proximity.h
   Surface/RankBlocks.h
+  Surface/RankComponents.h
+  Surface/RankPart.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
   Surface/SizingField.h

@@ -4,11 +4,10 @@
 #define volumicComponentWatch_h
 
 #include "Core/Common/Box.h"
-#include "Core/Common/DisjointSets.h"
+#include "Core/Surface/ConnectedVertices.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace volumic
@@ -21,6 +20,9 @@ namespace volumic
 class ComponentWatch
 {
 public:
+  /** Components up to this many vertices are watched. */
+  static constexpr int SmallSize = 400;
+
   /** Labels components afresh, by their smallest vertex. Call after merges and cuts. */
   void Label(SurfaceState& state, Executor& executor);
 
@@ -57,7 +59,6 @@ private:
     bool IsPositive = true;    ///< Of the volume, when it was labelled.
   };
 
-  void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
   void WatchSmallOnes(
     const SurfaceState& state, const std::vector<int>& sizes, Executor& executor);
   /** Whether a component is a small one; if so, its vertices are in Stack. Marks what it sees. */
@@ -69,9 +70,7 @@ private:
   std::vector<int> Stack;
   LargeVector<std::uint8_t> IsSeen; ///< LabelSmall; clear between its calls.
   std::vector<int> AllSeen;
-  DisjointSets Joined;                                   ///< Vertices that edges join.
-  std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.
-  std::vector<int> Roots; ///< The smallest vertex of each label, when last labelled.
+  ConnectedVertices Connected; ///< As last labelled.
   int Components = 0;
 };
 }
