@@ -11,6 +11,7 @@
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
 #include "Core/Surface/RankBlocks.h"
+#include "Core/Surface/RankComponents.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -55,6 +56,7 @@ struct SurfaceEvolution::Implementation
   std::unique_ptr<SurfaceBlocks> Blocks; ///< While it does.
   Communicator* Ranks = nullptr;         ///< Null: alone.
   std::unique_ptr<RankBlocks> OnRanks;   ///< While the surface is in parts: EvolutionRanks.cxx.
+  std::unique_ptr<RankComponents> OfRanks; ///< Once there have been ranks.
   int Visiting = NoBlock;                ///< The block that is being visited.
   Vector GridLow, GridHigh;              ///< As the grid was laid last.
   struct
@@ -145,7 +147,8 @@ struct SurfaceEvolution::Implementation
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
-  void OnFirstRank(const std::function<void()>& work);
+  RankComponents& ComponentsOfRanks();
+  void TakeComponents(bool areChecked);
   void LabelComponents();
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
@@ -155,6 +158,8 @@ struct SurfaceEvolution::Implementation
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(Dynamics& dynamics);
   void DeleteInsideOut();
+  void DeleteThoseInsideOut();
+  void DeleteDegenerate();
   void FinishRow();
   void FindMissing();
   void Regularise(Dynamics& dynamics);

@@ -64,6 +64,7 @@ public:
 private:
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
+  bool IsNearOwn(const Vector& position) const;
   float Halo() const { return SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest(); }
 
   SurfaceState& State;
