@@ -12,6 +12,7 @@
 #include "Core/Image/Field.h"
 #include "Core/Mesh/Division.h"
 #include "Core/Surface/RankBlocks.h"
+#include "Core/Surface/RankComponents.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -56,6 +57,7 @@ struct SurfaceEvolution::Implementation
   std::unique_ptr<SurfaceBlocks> Blocks; ///< While it does.
   Communicator* Ranks = nullptr;         ///< Null: alone.
   std::unique_ptr<RankBlocks> OnRanks;   ///< While the surface is in parts: EvolutionRanks.cxx.
+  std::unique_ptr<RankComponents> OfRanks; ///< Once there have been ranks.
   int Visiting = NoBlock;                ///< The block that is being visited.
   Vector GridLow, GridHigh;              ///< As the grid was laid last.
   struct
@@ -158,7 +160,8 @@ struct SurfaceEvolution::Implementation
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
-  void OnFirstRank(const std::function<void()>& work);
+  RankComponents& ComponentsOfRanks();
+  void TakeComponents(bool areChecked);
   void LabelComponents();
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
@@ -168,6 +171,8 @@ struct SurfaceEvolution::Implementation
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(Dynamics& dynamics);
   void DeleteInsideOut();
+  void DeleteThoseInsideOut();
+  void DeleteDegenerate();
   void FinishRow();
   void FindMissing();
   void Regularise(Dynamics& dynamics);

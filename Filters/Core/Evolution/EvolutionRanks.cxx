@@ -101,27 +101,52 @@ void SurfaceEvolution::Implementation::AddUpSinceEvolved()
   }
 }
 
-void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& work)
+RankComponents& SurfaceEvolution::Implementation::ComponentsOfRanks()
 {
-  if (!this->OnRanks)
+  if (!this->OfRanks)
   {
-    work();
-    return;
+    this->OfRanks = std::make_unique<RankComponents>(
+      RankPart{ *this->Ranks, [this](int v) { return this->OnRanks->IsOwnVertex(v); } });
   }
-  this->Iteration.Forget();
-  this->OnRanks->Gather();
-  if (this->Ranks->Rank() == 0)
-  {
-    work();
-  }
-  this->State.Counts = BroadcastValue(*this->Ranks, this->State.Counts);
-  this->Iteration.Remember(BroadcastValue(*this->Ranks, this->Iteration.Remembered()));
-  this->Iteration.Forget();
-  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+  return *this->OfRanks;
+}
+
+void SurfaceEvolution::Implementation::TakeComponents(bool areChecked)
+{
+  this->OnRanks->ShareCounts();
+  this->Iteration.TakeComponents(this->OfRanks->NumberOfComponents(), areChecked);
 }
 
 void SurfaceEvolution::Implementation::LabelComponents()
 {
-  this->OnFirstRank([this] { this->Iteration.LabelComponents(); });
+  if (!this->OnRanks)
+  {
+    this->Iteration.LabelComponents();
+    return;
+  }
+  this->ComponentsOfRanks().Label(this->State, this->Threads);
+  this->TakeComponents(false);
+}
+
+void SurfaceEvolution::Implementation::DeleteDegenerate()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.DeleteDegenerate();
+    return;
+  }
+  this->ComponentsOfRanks().DeleteDegenerate(this->State);
+  this->TakeComponents(false);
+}
+
+void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.DeleteInsideOut();
+    return;
+  }
+  this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
+  this->TakeComponents(true);
 }
 }
