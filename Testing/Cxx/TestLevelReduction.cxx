@@ -121,6 +121,80 @@ TEST(LevelReduction, IsTheProductOfTheOperatorsAlongTheAxes)
   }
 }
 
+namespace
+{
+/** The voxels of a box. */
+template <typename T>
+std::vector<T> VoxelsIn(const VoxelBox& box, const std::vector<T>& voxels, const VoxelBox& all)
+{
+  std::vector<T> part;
+  ForRowsOf(box, all,
+    [&](std::int64_t first, std::int64_t count)
+    { part.insert(part.end(), voxels.begin() + first, voxels.begin() + first + count); });
+  return part;
+}
+
+/** Boxes at the borders, in the middle, of one voxel, and of all. */
+std::vector<VoxelBox> BoxesOf(const VoxelBox& all)
+{
+  const auto [x, y, z] = all.End;
+  return { all, { { 0, 0, 0 }, { 1, 1, 1 } }, { { x - 1, y - 1, z - 1 }, { x, y, z } },
+    { { 3, y / 3, 1 }, { x - 2, y / 2, z - 1 } }, { { 0, y / 2, z / 2 }, { x / 2, y, z } },
+    { { x / 2, 0, 0 }, { x, y / 2, z / 2 } } };
+}
+}
+
+TEST(LevelReduction, GivesPartsOfALevelTheSameBits)
+{
+  const auto levels = TwoLevels({ 61, 203, 23 }, { 1, 1, 2.5 });
+  const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
+  const VoxelBox all = LevelPart::VoxelsOf(levels[0]);
+  SequentialExecutor executor;
+  const auto whole = Reduce(voxels, levels, executor);
+  for (const VoxelBox& box : BoxesOf(LevelPart::VoxelsOf(levels[1])))
+  {
+    const VoxelBox source = SourceOf(box, levels[0], levels[1]);
+    EXPECT_EQ(source.CommonWith(all), source);
+    const auto input = VoxelsIn(source, voxels, all);
+    std::vector<float> part(box.Count());
+    EXPECT_TRUE(ReduceLevel(input.data(), LevelPart(levels[0], source), part.data(),
+      LevelPart(levels[1], box), executor, GoOn));
+    EXPECT_EQ(part, VoxelsIn(box, whole, LevelPart::VoxelsOf(levels[1])));
+  }
+}
+
+TEST(ValidReduction, GivesPartsOfALevelTheSameBits)
+{
+  const auto levels = TwoLevels({ 30, 41, 22 });
+  const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
+  std::vector<std::uint8_t> marks(voxels.size(), 1);
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    marks[i] = i % 7 == 0 || i < marks.size() / 3 ? 0 : 1;
+  }
+  const auto reduce = [&](const VoxelBox& source, const VoxelBox& box)
+  {
+    const VoxelBox all = LevelPart::VoxelsOf(levels[0]);
+    const auto input = VoxelsIn(source, voxels, all);
+    const auto part = VoxelsIn(source, marks, all);
+    const LargeVector<std::uint8_t> valid(part.begin(), part.end());
+    std::vector<float> made(box.Count());
+    SequentialExecutor executor;
+    EXPECT_TRUE(ReduceValidVoxels(input.data(), valid, LevelPart(levels[0], source), made.data(),
+      LevelPart(levels[1], box), executor, GoOn));
+    // As bits: NaN is not equal to itself.
+    std::vector<std::uint32_t> bits(made.size());
+    std::memcpy(bits.data(), made.data(), made.size() * sizeof(float));
+    return bits;
+  };
+  const VoxelBox all = LevelPart::VoxelsOf(levels[1]);
+  const auto whole = reduce(LevelPart::VoxelsOf(levels[0]), all);
+  for (const VoxelBox& box : BoxesOf(all))
+  {
+    EXPECT_EQ(reduce(SourceOf(box, levels[0], levels[1]), box), VoxelsIn(box, whole, all));
+  }
+}
+
 template <typename T>
 class LevelReductionOf : public ::testing::Test
 {

@@ -4,6 +4,7 @@
 #define volumicSurfaceEvolution_h
 
 #include "Core/Common/CheckedFile.h"
+#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
@@ -161,6 +162,15 @@ public:
    * stop, wherever it was asked, the reason is Cancelled.
    */
   StopReason Run();
+
+  /**
+   * From now on it is one of those on several ranks, which evolve one surface: all of them call
+   * Divide() to a level in sweeps and Run() there, at the same time. Rank 0 alone has a surface
+   * before and after. The surface is the same bits as on one rank. Null: alone again.
+   */
+  void SetRanks(Communicator* ranks);
+  /** Whether a level of so many voxels evolves in sweeps (SweepOptions). */
+  static bool AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size);
 
   /**
    * For the levels to come: before its final regularisation, delta is changed by small steps, as

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same steps
+// at the same time; what needs the whole surface is done on rank 0.
+
+#include "Core/Evolution/EvolutionImplementation.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace volumic
+{
+void SurfaceEvolution::Implementation::VisitBlocksOnRanks(const BlockVisits& visits)
+{
+  std::size_t visited = 0;
+  for (const std::vector<int>& ofColour : this->Blocks->ByColour())
+  {
+    for (const int block : ofColour)
+    {
+      if (!this->OnRanks->IsOwn(block) || this->Stopped ||
+        (visits.OnlyActive && !this->Blocks->HasActive(block)))
+      {
+        continue;
+      }
+      this->OnRanks->BeginVisit(block);
+      this->VisitBlock(block, visited, visits);
+      this->OnRanks->EndVisit(block);
+    }
+    visited += ofColour.size();
+    this->OnRanks->Exchange();
+    this->AgreeOnStop();
+  }
+  this->OnRanks->ShareCounts();
+}
+
+bool SurfaceEvolution::Implementation::IsOnAnyRank(bool isHere)
+{
+  return this->OnRanks ? this->Ranks->IsAny(isHere) : isHere;
+}
+
+void SurfaceEvolution::Implementation::AgreeOnStop()
+{
+  this->Stopped = this->IsOnAnyRank(this->Stopped);
+}
+
+void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
+{
+  if (!this->OnRanks)
+  {
+    return;
+  }
+  struct Sums
+  {
+    int Counts[8];
+    double TimeStep;
+  };
+  for (SweptRow& swept : rows)
+  {
+    HistoryRow& row = swept.Row;
+    int* const counts[8] = { &row.ActiveVertices, &row.Merges, &row.Cuts, &row.Splits,
+      &row.Collapses, &row.Flips, &row.Deletions, &row.DeletedGenus };
+    Sums own;
+    for (int i = 0; i < 8; ++i)
+    {
+      own.Counts[i] = *counts[i];
+      *counts[i] = 0;
+    }
+    own.TimeStep = row.TimeStep;
+    for (const Sums& ofRank : GatherValues(*this->Ranks, own))
+    {
+      for (int i = 0; i < 8; ++i)
+      {
+        *counts[i] += ofRank.Counts[i];
+      }
+      row.TimeStep = std::max(row.TimeStep, ofRank.TimeStep);
+    }
+    struct Changes
+    {
+      int Vertices;
+      int EulerCharacteristic;
+    };
+    const Changes here{ swept.Vertices, swept.EulerCharacteristic };
+    swept.Vertices = swept.EulerCharacteristic = 0;
+    for (const Changes& ofRank : GatherValues(*this->Ranks, here))
+    {
+      swept.Vertices += ofRank.Vertices;
+      swept.EulerCharacteristic += ofRank.EulerCharacteristic;
+    }
+    this->OnRanks->Share(swept.KineticEnergy);
+  }
+}
+
+void SurfaceEvolution::Implementation::AddUpSinceEvolved()
+{
+  const EditCounts own = this->SinceEvolved;
+  this->SinceEvolved = EditCounts();
+  for (const EditCounts& ofRank : GatherValues(*this->Ranks, own))
+  {
+    this->SinceEvolved += ofRank;
+  }
+}
+
+void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& work)
+{
+  if (!this->OnRanks)
+  {
+    work();
+    return;
+  }
+  this->Iteration.Forget();
+  this->OnRanks->Gather();
+  if (this->Ranks->Rank() == 0)
+  {
+    work();
+  }
+  this->State.Counts = BroadcastValue(*this->Ranks, this->State.Counts);
+  this->Iteration.Remember(BroadcastValue(*this->Ranks, this->Iteration.Remembered()));
+  this->Iteration.Forget();
+  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+}
+
+void SurfaceEvolution::Implementation::LabelComponents()
+{
+  this->OnFirstRank([this] { this->Iteration.LabelComponents(); });
+}
+}
