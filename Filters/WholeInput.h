@@ -50,13 +50,17 @@ inline void AskForNothing(vtkInformation* info)
 
 /**
  * Whether this is the first process of a parallel run, or the only one. It makes the whole
- * output; the others have none, as they would only repeat it.
+ * output; the others have none, as they would only repeat it. Some filters (vtkCleanPolyData) have
+ * the others ask for one of no pieces.
  */
 inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
 {
   const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
-  return output->GetInformationObject(port)->Get(
-           vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) <= 0;
+  vtkInformation* info = output->GetInformationObject(port);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const bool isOfNone = info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
+    info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == 0;
+  return !isOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
 }
 
 /**
