@@ -19,6 +19,7 @@ set(volumic_core_sources
   Image/EdgeAttraction.cxx
   Image/Field.cxx
   Image/LevelReduction.cxx
+  Image/PieceReduction.cxx
   Image/PointAttraction.cxx
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
@@ -112,6 +113,7 @@ set(volumic_core_headers
   Image/ImageMargin.h
   Image/LevelImage.h
   Image/LevelReduction.h
+  Image/PieceReduction.h
   Image/PointAttraction.h
   Image/PyramidGeometry.h
   Image/RowKernels.h

@@ -36,6 +36,16 @@ struct VoxelBox
       : static_cast<std::int64_t>(this->Length(0)) * this->Length(1) * this->Length(2);
   }
 
+  bool Contains(const std::array<int, 3>& voxel) const
+  {
+    bool isInside = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      isInside = isInside && voxel[axis] >= this->First[axis] && voxel[axis] < this->End[axis];
+    }
+    return isInside;
+  }
+
   /** The number of a voxel of the image among those of the box, x fastest. */
   std::int64_t NumberOf(int i, int j, int k) const
   {
