@@ -51,6 +51,18 @@ unsigned long ErrorCodeOf(const std::exception& error)
   return isGivenWrong ? vtkErrorCode::UserError : vtkErrorCode::UnknownError;
 }
 
+std::string ReasonOf(const AlgorithmError& error)
+{
+  return (error.Code == vtkErrorCode::UserError ? 'U' : 'O') + error.Text;
+}
+
+AlgorithmError ErrorOf(const OtherRankFailed& failure)
+{
+  const std::string reason = failure.what();
+  return { reason.front() == 'U' ? vtkErrorCode::UserError : vtkErrorCode::UnknownError,
+    reason.substr(1) };
+}
+
 void InitializeOutputs(vtkInformationVector* outputs)
 {
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)

@@ -3,6 +3,8 @@
 #ifndef volumicAlgorithmErrors_h
 #define volumicAlgorithmErrors_h
 
+#include "Core/Common/Communicator.h"
+
 #include <exception>
 #include <functional>
 #include <string>
@@ -29,6 +31,19 @@ std::string UpdateAndCollectErrors(vtkAlgorithm* algorithm);
  * std::invalid_argument (what was given is wrong), else vtkErrorCode::UnknownError (memory).
  */
 unsigned long ErrorCodeOf(const std::exception& error);
+
+/** An error as SetErrorCode and vtkErrorMacro get it. */
+struct AlgorithmError
+{
+  unsigned long Code;
+  std::string Text;
+};
+
+/** What Communicator::Fail() tells the other ranks, so that they report the same error. */
+std::string ReasonOf(const AlgorithmError& error);
+
+/** What that was made of. */
+AlgorithmError ErrorOf(const OtherRankFailed& failure);
 
 /**
  * Leaves all outputs initialised, after an error: no data half made, and none of the field data

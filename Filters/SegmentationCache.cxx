@@ -80,7 +80,8 @@ SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
   return inputs;
 }
 
-void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter)
+void SegmentationCache::Keep(
+  std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks)
 {
   this->Drop();
   bool areReleased = filter->GetReleaseDataFlag() != 0;
@@ -93,7 +94,12 @@ void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgori
     return; // They must not stay because of us.
   }
   this->Time = filter->GetMTime();
+  this->Ranks = ranks;
   this->InputsOfRun = InputsOf(filter);
+  if (!run)
+  {
+    return;
+  }
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
   this->PlannedEnd = run->GetSettings().End.FinestLevel;
   this->Recovery = run->HasRecovery();
@@ -123,9 +129,9 @@ void SegmentationCache::IgnoreChange(vtkMTimeType before, vtkMTimeType after)
   }
 }
 
-bool SegmentationCache::IsValidFor(vtkAlgorithm* filter) const
+bool SegmentationCache::IsValidFor(vtkAlgorithm* filter, int ranks) const
 {
-  return this->Time != 0 && this->Time == filter->GetMTime() &&
+  return this->Time != 0 && this->Time == filter->GetMTime() && this->Ranks == ranks &&
     this->InputsOfRun == InputsOf(filter);
 }
 

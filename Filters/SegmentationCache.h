@@ -32,15 +32,19 @@ public:
   SegmentationCache();
   ~SegmentationCache();
 
-  /** It is valid until the filter, or one of its inputs, is modified. */
-  void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter);
+  /**
+   * It is valid until the filter, or one of its inputs, is modified.
+   * @param run   null on ranks whose results another one has; these ask for IsValidFor() only
+   * @param ranks that have made it
+   */
+  void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks);
   void Drop();
 
   /** The filter was modified, from one MTime to another, by what does not matter to the run. */
   void IgnoreChange(vtkMTimeType before, vtkMTimeType after);
 
-  /** Whether neither the filter nor its inputs have changed otherwise. */
-  bool IsValidFor(vtkAlgorithm* filter) const;
+  /** Whether neither the filter nor its inputs have changed otherwise, nor the number of ranks. */
+  bool IsValidFor(vtkAlgorithm* filter, int ranks) const;
 
   /** The results of a run that would end where asked, null where there are none. */
   const SegmentationResults* ResultsFor(const SegmentationEnd& end) const;
@@ -62,6 +66,7 @@ private:
   std::unique_ptr<SurfaceSegmentation> Run;
   std::unique_ptr<SegmentationResults> Results; ///< Those of Run where there is one.
   vtkMTimeType Time = 0; ///< 0: nothing is kept
+  int Ranks = 1;
   Inputs InputsOfRun;
   bool EndIsPlanned = false;
   int PlannedEnd = 0;

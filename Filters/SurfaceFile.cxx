@@ -15,9 +15,12 @@
 #include <vtkStringArray.h>
 #include <vtkType.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace volumic
 {
@@ -29,12 +32,72 @@ std::size_t BytesOf(vtkDataArray* array)
     static_cast<std::size_t>(array->GetDataTypeSize());
 }
 
-void WriteArray(CheckedWriter& file, vtkAbstractArray* array)
+/** Writes into a message as CheckedWriter does into a file. */
+class MessageFile
+{
+public:
+  void Write(const void* bytes, std::size_t count)
+  {
+    const char* begin = static_cast<const char*>(bytes);
+    this->Content.insert(this->Content.end(), begin, begin + count);
+  }
+  template <typename T>
+  void Put(const T& value)
+  {
+    this->Write(&value, sizeof(T));
+  }
+  void PutText(const std::string& text)
+  {
+    this->Put<std::uint64_t>(text.size());
+    this->Write(text.data(), text.size());
+  }
+
+  Message Content;
+};
+
+/** Reads that again. */
+class ReadMessageFile
+{
+public:
+  explicit ReadMessageFile(const Message& content)
+    : Content(content)
+  {
+  }
+  void Read(void* bytes, std::size_t count)
+  {
+    if (count > this->Content.size() - this->Place)
+    {
+      throw std::logic_error("A message of another process is shorter than expected.");
+    }
+    std::copy_n(this->Content.data() + this->Place, count, static_cast<char*>(bytes));
+    this->Place += count;
+  }
+  template <typename T>
+  T Get()
+  {
+    T value;
+    this->Read(&value, sizeof(T));
+    return value;
+  }
+  std::string GetText()
+  {
+    std::string text(this->Get<std::uint64_t>(), ' ');
+    this->Read(text.data(), text.size());
+    return text;
+  }
+
+private:
+  const Message& Content;
+  std::size_t Place = 0;
+};
+
+template <typename File>
+void WriteArray(File& file, vtkAbstractArray* array)
 {
   file.PutText(array->GetName() ? array->GetName() : "");
-  file.Put<std::int32_t>(array->GetDataType());
-  file.Put<std::int32_t>(array->GetNumberOfComponents());
-  file.Put<std::int64_t>(array->GetNumberOfTuples());
+  file.template Put<std::int32_t>(array->GetDataType());
+  file.template Put<std::int32_t>(array->GetNumberOfComponents());
+  file.template Put<std::int64_t>(array->GetNumberOfTuples());
   if (auto* texts = vtkStringArray::SafeDownCast(array))
   {
     for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
@@ -48,17 +111,18 @@ void WriteArray(CheckedWriter& file, vtkAbstractArray* array)
   }
 }
 
-vtkSmartPointer<vtkAbstractArray> ReadArray(CheckedReader& file)
+template <typename File>
+vtkSmartPointer<vtkAbstractArray> ReadArray(File& file)
 {
   const std::string name = file.GetText();
-  const auto type = file.Get<std::int32_t>();
+  const auto type = file.template Get<std::int32_t>();
   auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
   if (!name.empty())
   {
     array->SetName(name.c_str());
   }
-  array->SetNumberOfComponents(file.Get<std::int32_t>());
-  array->SetNumberOfTuples(file.Get<std::int64_t>());
+  array->SetNumberOfComponents(file.template Get<std::int32_t>());
+  array->SetNumberOfTuples(file.template Get<std::int64_t>());
   if (auto* texts = vtkStringArray::SafeDownCast(array))
   {
     for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
@@ -73,31 +137,34 @@ vtkSmartPointer<vtkAbstractArray> ReadArray(CheckedReader& file)
   return array;
 }
 
-void WriteArrays(CheckedWriter& file, vtkFieldData* arrays)
+template <typename File>
+void WriteArrays(File& file, vtkFieldData* arrays)
 {
-  file.Put<std::int32_t>(arrays->GetNumberOfArrays());
+  file.template Put<std::int32_t>(arrays->GetNumberOfArrays());
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
     WriteArray(file, arrays->GetAbstractArray(i));
   }
 }
 
-void ReadArrays(CheckedReader& file, vtkFieldData* arrays)
+template <typename File>
+void ReadArrays(File& file, vtkFieldData* arrays)
 {
-  const auto count = file.Get<std::int32_t>();
+  const auto count = file.template Get<std::int32_t>();
   for (int i = 0; i < count; ++i)
   {
     arrays->AddArray(ReadArray(file));
   }
 }
 
-vtkSmartPointer<vtkDataArray> ReadNumbers(CheckedReader& file)
+template <typename File>
+vtkSmartPointer<vtkDataArray> ReadNumbers(File& file)
 {
   return vtkDataArray::SafeDownCast(ReadArray(file));
 }
-}
 
-void WriteSurfaceTo(CheckedWriter& file, vtkPolyData* surface)
+template <typename File>
+void Write(File& file, vtkPolyData* surface)
 {
   WriteArray(file, surface->GetPoints()->GetData());
   WriteArray(file, surface->GetPolys()->GetOffsetsArray());
@@ -109,7 +176,8 @@ void WriteSurfaceTo(CheckedWriter& file, vtkPolyData* surface)
   file.PutText(normals ? normals->GetName() : "");
 }
 
-vtkSmartPointer<vtkPolyData> ReadSurfaceFrom(CheckedReader& file)
+template <typename File>
+vtkSmartPointer<vtkPolyData> Read(File& file)
 {
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
@@ -124,6 +192,33 @@ vtkSmartPointer<vtkPolyData> ReadSurfaceFrom(CheckedReader& file)
   ReadArrays(file, surface->GetCellData());
   ReadArrays(file, surface->GetFieldData());
   surface->GetPointData()->SetActiveNormals(file.GetText().c_str());
+  return surface;
+}}
+
+void WriteSurfaceTo(CheckedWriter& file, vtkPolyData* surface)
+{
+  Write(file, surface);
+}
+
+vtkSmartPointer<vtkPolyData> ReadSurfaceFrom(CheckedReader& file)
+{
+  return Read(file);
+}
+
+Message MessageOf(vtkPolyData* surface)
+{
+  MessageFile file;
+  Write(file, surface);
+  vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
+  file.PutText(ids ? ids->GetName() : "");
+  return std::move(file.Content);
+}
+
+vtkSmartPointer<vtkPolyData> SurfaceFrom(const Message& message)
+{
+  ReadMessageFile file(message);
+  vtkSmartPointer<vtkPolyData> surface = Read(file);
+  surface->GetPointData()->SetActiveGlobalIds(file.GetText().c_str());
   return surface;
 }
 }

@@ -4,6 +4,7 @@
 #define volumicSurfaceFile_h
 
 #include "Core/Common/CheckedFile.h"
+#include "Core/Common/Communicator.h"
 
 #include <vtkSmartPointer.h>
 
@@ -19,6 +20,12 @@ void WriteSurfaceTo(CheckedWriter& file, vtkPolyData* surface);
 
 /** What that wrote. @throws FileError. */
 vtkSmartPointer<vtkPolyData> ReadSurfaceFrom(CheckedReader& file);
+
+/** The same for another rank; global ids of points stay such. @throws std::bad_alloc. */
+Message MessageOf(vtkPolyData* surface);
+
+/** What that was made of. @throws std::bad_alloc. */
+vtkSmartPointer<vtkPolyData> SurfaceFrom(const Message& message);
 }
 
 #endif

@@ -4,11 +4,13 @@
 
 #include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
+#include "ControllerRanks.h"
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
 #include "Deadline.h"
 #include "InputImage.h"
 #include "PrefixErrors.h"
+#include "RankOutputs.h"
 #include "SegmentationCache.h"
 #include "SegmentationResults.h"
 #include "SegmentationSettings.h"
@@ -73,6 +75,7 @@ vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInt
   this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkDeformableSurface::~vtkDeformableSurface() = default;
@@ -139,6 +142,21 @@ vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
 }
 
 //------------------------------------------------------------------------------
+void vtkDeformableSurface::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Internals->Controller != controller)
+  {
+    this->Internals->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkDeformableSurface::GetController()
+{
+  return this->Internals->Controller;
+}
+
+//------------------------------------------------------------------------------
 bool vtkDeformableSurface::GetNeedsUpdate()
 {
   vtkInternals& internals = *this->Internals;
@@ -193,11 +211,12 @@ int vtkDeformableSurface::RequestUpdateExtent(
 {
   volumic::AskForWholeInputs(request, input, 3, output);
   const vtkInternals& internals = *this->Internals;
+  const auto ranks = volumic::RanksOf(internals.Controller, request, output);
   if (internals.Settings.End.MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(
       volumic::LimitedMemory::BytesOf(internals.Settings.End.MemoryLimit),
-      !internals.Cache.IsValidFor(this));
+      !internals.Cache.IsValidFor(this, ranks->NumberOfRanks()));
   }
   return 1;
 }
@@ -285,9 +304,14 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
 //------------------------------------------------------------------------------
 bool vtkDeformableSurface::ShowPyramidProgress(double share, const char* text)
 {
-  this->SetProgressText(text);
-  this->UpdateProgress(PyramidShare * share);
-  return !volumic::IsAbortRequested(this) && !this->Internals->Limit.IsOver();
+  return this->Internals->Alone->GoOn(PyramidShare * share, text) &&
+    !this->Internals->Limit.IsOver();
+}
+
+//------------------------------------------------------------------------------
+bool vtkDeformableSurface::IsStopped()
+{
+  return volumic::IsAbortRequested(this) || this->Internals->Alone->IsStoppedByOthers();
 }
 
 //------------------------------------------------------------------------------
@@ -315,39 +339,37 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   { this->Internals->Checkpoint = checkpoint; };
   const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
   request.Progress = [this, before](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(before + (1.0 - before) * share);
-    return !volumic::IsAbortRequested(this);
-  };
+  { return this->Internals->Alone->GoOn(before + (1.0 - before) * share, text); };
   request.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
   return request;
 }
 
 //------------------------------------------------------------------------------
-bool vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, bool isKept)
+void vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, bool isKept)
 {
   const volumic::SegmentationSettings& settings = this->Internals->Settings;
-  const bool isWatched = settings.End.ShowLevels && this->Internals->IsWatched;
+  // Whoever asks whether a finer level is still to come asks one rank only: the others would not
+  // run again.
+  const bool isWatched = settings.End.ShowLevels && this->Internals->IsWatched &&
+    this->Internals->Ranks->NumberOfRanks() == 1;
   if (!isWatched || std::exchange(this->Internals->GoesToTheEnd, false))
   {
-    return false;
+    return;
   }
   const volumic::SegmentationCache& cache = this->Internals->Cache;
   if (!isKept || !cache.CanGoOn())
   {
     request.End.Preview = true;
     request.IsStep = !settings.End.Preview;
-    return request.IsStep;
+    return;
   }
   const int next = cache.EndOfRun() - 1;
   if (settings.EdgeLength != 0.0 || next <= std::max(settings.End.FinestLevel, 0))
   {
-    return false;
+    return;
   }
   request.End.FinestLevel = next;
   request.IsStep = true;
-  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -388,26 +410,18 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::RunOrGoOn(
-  vtkInformationVector** input, vtkInformationVector* output)
+vtkDeformableSurface::Course vtkDeformableSurface::ChooseCourse(bool isKept,
+  volumic::SegmentationRequest& request, std::unique_ptr<volumic::SurfaceSegmentation>& run,
+  vtkInformationVector* output)
 {
-  const volumic::SegmentationSettings& settings = this->Internals->Settings;
-  volumic::SegmentationCache& cache = this->Internals->Cache;
-  const bool isKept = cache.IsValidFor(this);
-  // ParaView leaves the flag of an earlier run as it is.
-  volumic::ForgetAbort(this);
-  this->SetErrorCode(vtkErrorCode::NoError);
-  this->Internals->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
-  volumic::SegmentationRequest request = this->RequestAsSet(input);
-  this->Internals->IsOnTheWay = false;
   if (isKept && this->ShowKept(request, output))
   {
-    return;
+    return Course::IsShown;
   }
-  const bool isStep = this->ChooseStep(request, isKept);
-  std::unique_ptr<volumic::SurfaceSegmentation> run = isKept ? cache.TakeRun() : nullptr;
+  this->ChooseStep(request, isKept);
+  volumic::SegmentationCache& cache = this->Internals->Cache;
+  run = isKept ? cache.TakeRun() : nullptr;
   cache.Drop();
-  this->Internals->Checkpoint.reset();
   if (run)
   {
     run->Renew(request);
@@ -415,61 +429,126 @@ void vtkDeformableSurface::RunOrGoOn(
   if (!run || !run->CanServe())
   {
     run.reset(); // Not the levels of both at a time.
-    run = this->NewRun(request, vtkDataObject::GetData(input[0]));
   }
-  if (!run)
+  return run ? Course::GoesOn : Course::BeginsAnew;
+}
+
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::RunOrGoOn(
+  vtkInformationVector** input, vtkInformationVector* output)
+{
+  const volumic::SegmentationSettings& settings = this->Internals->Settings;
+  volumic::SegmentationCache& cache = this->Internals->Cache;
+  volumic::Communicator& ranks = *this->Internals->Ranks;
+  volumic::FirstRankWork& alone = *this->Internals->Alone;
+  // What has changed on one rank has changed for all.
+  const bool isKept = !ranks.IsAny(!cache.IsValidFor(this, ranks.NumberOfRanks()));
+  // ParaView leaves the flag of an earlier run as it is.
+  volumic::ForgetAbort(this);
+  this->SetErrorCode(vtkErrorCode::NoError);
+  this->Internals->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
+  volumic::SegmentationRequest request = this->RequestAsSet(input);
+  this->Internals->IsOnTheWay = false;
+  std::unique_ptr<volumic::SurfaceSegmentation> run; // At rank 0; the others never have one.
+  auto course = Course::IsShown;
+  alone.Run([&] { course = this->ChooseCourse(isKept, request, run, output); });
+  course = volumic::BroadcastValue(ranks, course);
+  if (course == Course::IsShown)
   {
-    const bool isAborted = volumic::IsAbortRequested(this) || !request.Limit.IsOver();
+    return;
+  }
+  cache.Drop();
+  this->Internals->Checkpoint.reset();
+  if (course == Course::BeginsAnew)
+  {
+    alone.Run([&] { run = this->NewRun(request, vtkDataObject::GetData(input[0])); });
+  }
+  if (!volumic::BroadcastValue(ranks, run != nullptr))
+  {
+    const bool isAborted = this->IsStopped() || !request.Limit.IsOver();
     FillByNothing(output, isAborted, settings.Profile);
     return;
   }
-  run->Run();
-  run->Results().FillOutputs(run->EndsAt(), output);
-  const bool isCutOff = request.Limit.IsOver() || volumic::IsAbortRequested(this);
-  const bool isFinest =
-    run->EndsAt() <= settings.End.FinestLevel && settings.EdgeLength == 0.0;
-  if (isStep && isFinest)
+  alone.Run([&] { run->Run(); });
+  if (run)
   {
-    run->Results().WarnOf(
-      run->EndsAt(), run->HasRecovery() && !settings.End.Preview, request.Warn);
+    this->ShowRun(*run, request, output);
   }
-  cache.Keep(std::move(run), this);
+  cache.Keep(std::move(run), this, ranks.NumberOfRanks());
   volumic::GiveBackFreeMemory();
-  this->Internals->IsOnTheWay = isStep && !isCutOff && !isFinest;
+}
+
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::ShowRun(const volumic::SurfaceSegmentation& run,
+  const volumic::SegmentationRequest& request, vtkInformationVector* output)
+{
+  const volumic::SegmentationSettings& settings = this->Internals->Settings;
+  run.Results().FillOutputs(run.EndsAt(), output);
+  const bool isCutOff = request.Limit.IsOver() || this->IsStopped();
+  const bool isFinest =
+    run.EndsAt() <= settings.End.FinestLevel && settings.EdgeLength == 0.0;
+  if (request.IsStep && isFinest)
+  {
+    run.Results().WarnOf(
+      run.EndsAt(), run.HasRecovery() && !settings.End.Preview, request.Warn);
+  }
+  this->Internals->IsOnTheWay = request.IsStep && !isCutOff && !isFinest;
+}
+
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::EndByError(
+  const volumic::AlgorithmError& error, vtkInformationVector* output)
+{
+  this->Internals->Ranks->Fail(volumic::ReasonOf(error));
+  this->ForgetRun();
+  volumic::InitializeOutputs(output);
+  this->SetErrorCode(error.Code);
+  vtkErrorMacro(<< error.Text);
 }
 
 //------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!volumic::IsFirstProcess(request, outputVector))
+  this->Internals->Ranks =
+    volumic::RanksOf(this->Internals->Controller, request, outputVector);
+  volumic::Communicator& ranks = *this->Internals->Ranks;
+  if (ranks.NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, outputVector))
   {
     this->SetErrorCode(vtkErrorCode::NoError);
     return 1;
   }
+  const auto show = [this](double share, const std::string& text)
+  {
+    this->SetProgressText(text.c_str());
+    this->UpdateProgress(share);
+    return !volumic::IsAbortRequested(this);
+  };
+  this->Internals->Alone = std::make_unique<volumic::FirstRankWork>(ranks, show);
   try
   {
     this->RunOrGoOn(inputVector, outputVector);
+    volumic::ScatterOutputs(ranks, request, outputVector);
     for (const std::string& warning : this->Internals->Memory.TakeWarnings())
     {
       vtkWarningMacro(<< warning);
     }
+    ranks.IsAny(false); // Who is through with it here hears of no failure any more.
   }
   catch (const std::bad_alloc& error)
   {
-    this->ForgetRun();
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro(
-      "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
-      "coarser level, or crop the image.");
+    this->EndByError({ volumic::ErrorCodeOf(error),
+                       "Input port 0: the memory does not suffice for the surface. Set Finest "
+                       "Level to a coarser level, or crop the image." },
+      outputVector);
+  }
+  catch (const volumic::OtherRankFailed& failure)
+  {
+    this->EndByError(volumic::ErrorOf(failure), outputVector);
   }
   catch (const std::exception& error)
   {
-    this->ForgetRun();
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro(<< error.what());
+    this->EndByError({ volumic::ErrorCodeOf(error), error.what() }, outputVector);
   }
   const vtkMTimeType before = this->GetMTime();
   volumic::ForgetAbort(this);

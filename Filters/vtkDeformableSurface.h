@@ -192,9 +192,11 @@ class vtkImageData;
 class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
+class vtkMultiProcessController;
 class vtkTable;
 namespace volumic
 {
+struct AlgorithmError;
 struct SegmentationRequest;
 struct SegmentationVolume;
 class SurfaceSegmentation;
@@ -700,6 +702,15 @@ public:
   virtual int GetSnapshotInterval();
   ///@}
 
+  ///@{
+  /**
+   * The processes that make a surface together, see Processes. Default: the global controller of
+   * the program, null where it has none.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  virtual vtkMultiProcessController* GetController();
+  ///@}
+
   /** The initial surface or the centres of the seeds: port 1. */
   void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
 
@@ -751,14 +762,29 @@ private:
   class vtkInternals;
   /// What a run is asked for by the properties and the inputs.
   volumic::SegmentationRequest RequestAsSet(vtkInformationVector** input);
-  /// Makes it a request for the next level to be shown, if it is not the last one. @return whether.
-  bool ChooseStep(volumic::SegmentationRequest& request, bool isKept);
+  /// Makes it a request for the next level to be shown, if it is not the last one.
+  void ChooseStep(volumic::SegmentationRequest& request, bool isKept);
   /// Fills the outputs with what is kept. @return whether it is all that is asked for.
   bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
   /// A run from the start; null where the making of its levels was stopped.
   std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
     const volumic::SegmentationRequest& request, vtkDataObject* input);
+  enum class Course
+  {
+    IsShown, ///< It was kept.
+    GoesOn,
+    BeginsAnew
+  };
+  /// At rank 0. @param run gets the one that goes on, if there is one
+  Course ChooseCourse(bool isKept, volumic::SegmentationRequest& request,
+    std::unique_ptr<volumic::SurfaceSegmentation>& run, vtkInformationVector* output);
+  /// On all ranks; the outputs are filled at rank 0.
   void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
+  void ShowRun(const volumic::SurfaceSegmentation& run,
+    const volumic::SegmentationRequest& request, vtkInformationVector* output);
+  /// Whether this rank or another one was asked to stop.
+  bool IsStopped();
+  void EndByError(const volumic::AlgorithmError& error, vtkInformationVector* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties, and what is kept of the last run
 
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;

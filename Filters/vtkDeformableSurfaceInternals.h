@@ -3,12 +3,17 @@
 #ifndef vtkDeformableSurfaceInternals_h
 #define vtkDeformableSurfaceInternals_h
 
+#include "Core/Common/Communicator.h"
 #include "Deadline.h"
+#include "FirstRankWork.h"
 #include "LimitedMemory.h"
 #include "SegmentationCache.h"
 #include "SegmentationCheckpoint.h"
 #include "SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
+
+#include <vtkMultiProcessController.h>
+#include <vtkSmartPointer.h>
 
 #include <memory>
 
@@ -21,6 +26,9 @@ public:
   volumic::SegmentationCache Cache;       ///< of the last run
   volumic::Deadline Limit;                ///< of the run
   std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  std::unique_ptr<volumic::Communicator> Ranks;   ///< of the run that is under way
+  std::unique_ptr<volumic::FirstRankWork> Alone;  ///< what rank 0 does of it without the others
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
   bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
