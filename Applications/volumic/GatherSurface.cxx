@@ -20,7 +20,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace tool
 {
@@ -65,12 +67,59 @@ std::vector<vtkIdType> GatherNumbers(const Ranks& ranks, vtkIdType number)
   return numbers;
 }
 
-/** Makes room for elements of a whole; ids are of no use where all is together. */
+/** Arrays like those of a piece, for a whole; what tells the ids is of no use in it. */
 void Prepare(vtkDataSetAttributes* whole, vtkDataSetAttributes* piece, vtkIdType count)
 {
-  whole->CopyGlobalIdsOff();
-  whole->CopyAllocate(piece, count);
-  whole->SetNumberOfTuples(count);
+  for (int i = 0; i < piece->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* given = piece->GetArray(i);
+    if (given && given != piece->GetGlobalIds() &&
+      given->GetName() != std::string(vtkDataSetAttributes::GhostArrayName()))
+    {
+      const auto array = vtkSmartPointer<vtkDataArray>::Take(given->NewInstance());
+      array->SetName(given->GetName());
+      array->SetNumberOfComponents(given->GetNumberOfComponents());
+      array->SetNumberOfTuples(count);
+      const int index = whole->AddArray(array);
+      if (const int role = piece->IsArrayAnAttribute(i); role >= 0)
+      {
+        whole->SetActiveAttribute(index, role);
+      }
+    }
+  }
+}
+
+/** Puts values of a piece to their places. What comes from another rank may have another order. */
+void Copy(vtkDataSetAttributes* piece, vtkIdList* ids, vtkDataSetAttributes* whole)
+{
+  vtkNew<vtkIdList> all;
+  all->SetNumberOfIds(ids->GetNumberOfIds());
+  std::iota(all->begin(), all->end(), vtkIdType(0));
+  for (int i = 0; i < whole->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = whole->GetArray(i);
+    vtkDataArray* given = piece->GetArray(array->GetName());
+    if (!given || given->GetDataType() != array->GetDataType() ||
+      given->GetNumberOfComponents() != array->GetNumberOfComponents())
+    {
+      throw Failure(std::string("the pieces of the ranks differ in their array ") +
+        array->GetName());
+    }
+    array->InsertTuples(ids, all, given);
+  }
+}
+
+/** Which elements of the whole those of a piece are; from `next` on, if nothing tells. */
+vtkSmartPointer<vtkIdList> IdsOf(vtkDataSetAttributes* piece, vtkIdType count, vtkIdType next)
+{
+  auto ids = vtkSmartPointer<vtkIdList>::New();
+  ids->SetNumberOfIds(count);
+  vtkDataArray* told = piece->GetGlobalIds();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    ids->SetId(i, told ? static_cast<vtkIdType>(told->GetComponent(i, 0)) : next + i);
+  }
+  return ids;
 }
 
 //------------------------------------------------------------------------------
@@ -78,7 +127,7 @@ void Prepare(vtkDataSetAttributes* whole, vtkDataSetAttributes* piece, vtkIdType
 class Whole
 {
 public:
-  explicit Whole(const SurfaceSize& size) : Size(size), IsThere(size.Vertices, false) {}
+  explicit Whole(const SurfaceSize& size) : Size(size), IsThere(static_cast<std::size_t>(size.Vertices), false) {}
 
   void Add(vtkPolyData* piece);
 
@@ -87,7 +136,6 @@ public:
 
 private:
   void Start(vtkPolyData* piece);
-  void AddTriangles(vtkPolyData* piece);
 
   SurfaceSize Size;
   vtkSmartPointer<vtkPolyData> Surface;
@@ -109,46 +157,40 @@ void Whole::Start(vtkPolyData* piece)
   this->Corners->SetNumberOfValues(3 * this->Size.Triangles);
 }
 
-void Whole::Add(vtkPolyData* given)
+void Whole::Add(vtkPolyData* piece)
 {
-  if (TrianglesIn(given) == 0)
+  const vtkIdType count = TrianglesIn(piece);
+  if (count == 0)
   {
     return;
   }
-  vtkNew<vtkPolyData> piece; // whose arrays may be left out
-  piece->ShallowCopy(given);
-  piece->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-  piece->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
   if (!this->Surface)
   {
     this->Start(piece);
   }
-  const vtkIdType count = piece->GetNumberOfPoints();
-  vtkPoints* points = this->Surface->GetPoints();
-  for (vtkIdType p = 0; p < count; ++p)
+  const auto points = IdsOf(piece->GetPointData(), PointsIn(piece), 0);
+  for (const vtkIdType id : *points)
   {
-    const vtkIdType id = IdOf(piece->GetPointData(), p);
     this->IsThere[static_cast<std::size_t>(id)] = true;
-    points->SetPoint(id, piece->GetPoint(p));
-    this->Surface->GetPointData()->CopyData(piece->GetPointData(), p, id);
   }
-  this->AddTriangles(piece);
-}
+  vtkNew<vtkIdList> all;
+  all->SetNumberOfIds(PointsIn(piece));
+  std::iota(all->begin(), all->end(), vtkIdType(0));
+  this->Surface->GetPoints()->InsertPoints(points, all, piece->GetPoints());
+  Copy(piece->GetPointData(), points, this->Surface->GetPointData());
 
-void Whole::AddTriangles(vtkPolyData* piece)
-{
-  vtkCellData* data = piece->GetCellData();
+  const auto triangles = IdsOf(piece->GetCellData(), count, this->NextTriangle);
   vtkNew<vtkIdList> corners;
-  for (vtkIdType t = 0; t < piece->GetNumberOfPolys(); ++t, ++this->NextTriangle)
+  for (vtkIdType t = 0; t < count; ++t)
   {
-    const vtkIdType id = data->GetGlobalIds() ? IdOf(data, t) : this->NextTriangle;
     piece->GetPolys()->GetCellAtId(t, corners);
     for (int k = 0; k < 3; ++k)
     {
-      this->Corners->SetValue(3 * id + k, IdOf(piece->GetPointData(), corners->GetId(k)));
+      this->Corners->SetValue(3 * triangles->GetId(t) + k, points->GetId(corners->GetId(k)));
     }
-    this->Surface->GetCellData()->CopyData(data, t, id);
   }
+  Copy(piece->GetCellData(), triangles, this->Surface->GetCellData());
+  this->NextTriangle += count;
 }
 
 vtkSmartPointer<vtkPolyData> Whole::Take()
