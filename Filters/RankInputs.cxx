@@ -36,15 +36,32 @@ bool HasPolygons(vtkPolyData* data)
 }
 
 /** Where points are all that there is, those that are not another rank's. */
-vtkSmartPointer<vtkIdList> OwnPoints(vtkPolyData* piece)
+vtkSmartPointer<vtkPolyData> OwnPointsOf(vtkPolyData* piece)
 {
-  auto own = vtkSmartPointer<vtkIdList>::New();
+  vtkNew<vtkIdList> ids;
   vtkUnsignedCharArray* types = piece->GetPointGhostArray();
   for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
   {
     if (!types || !(types->GetValue(p) & vtkDataSetAttributes::DUPLICATEPOINT))
     {
-      own->InsertNextId(p);
+      ids->InsertNextId(p);
+    }
+  }
+  auto own = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(piece->GetPoints()->GetDataType());
+  piece->GetPoints()->GetPoints(ids, points);
+  own->SetPoints(points);
+  for (const char* name : ArraysInUse)
+  {
+    if (vtkDataArray* numbers = piece->GetPointData()->GetArray(name))
+    {
+      auto selected = vtkSmartPointer<vtkDataArray>::Take(numbers->NewInstance());
+      selected->SetName(name);
+      selected->SetNumberOfComponents(numbers->GetNumberOfComponents());
+      selected->SetNumberOfTuples(ids->GetNumberOfIds());
+      numbers->GetTuples(ids, selected);
+      own->GetPointData()->AddArray(selected);
     }
   }
   return own;
@@ -53,20 +70,13 @@ vtkSmartPointer<vtkIdList> OwnPoints(vtkPolyData* piece)
 /** Points, cells and the arrays in use of what is this rank's own. */
 vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece)
 {
+  if (piece->GetNumberOfCells() == 0)
+  {
+    return OwnPointsOf(piece);
+  }
   auto own = vtkSmartPointer<vtkPolyData>::New();
   own->ShallowCopy(piece);
-  if (own->GetNumberOfCells() == 0)
-  {
-    const vtkSmartPointer<vtkIdList> ids = OwnPoints(piece);
-    vtkNew<vtkPoints> points;
-    points->SetDataType(piece->GetPoints()->GetDataType());
-    piece->GetPoints()->GetPoints(ids, points);
-    own->SetPoints(points);
-    own->GetPointData()->CopyAllOn();
-    own->GetPointData()->CopyAllocate(piece->GetPointData());
-    own->GetPointData()->CopyData(piece->GetPointData(), ids);
-  }
-  else if (own->GetCellGhostArray())
+  if (own->GetCellGhostArray())
   {
     own->RemoveGhostCells();
   }

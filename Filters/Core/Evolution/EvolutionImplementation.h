@@ -56,6 +56,7 @@ struct SurfaceEvolution::Implementation
   bool InSweeps = false;    ///< The level evolves block by block: EvolutionSweeps.cxx.
   std::unique_ptr<SurfaceBlocks> Blocks; ///< While it does.
   Communicator* Ranks = nullptr;         ///< Null: alone.
+  std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
   std::unique_ptr<RankBlocks> OnRanks;   ///< While the surface is in parts: EvolutionRanks.cxx.
   std::unique_ptr<RankComponents> OfRanks; ///< Once there have been ranks.
   int Visiting = NoBlock;                ///< The block that is being visited.
@@ -155,6 +156,8 @@ struct SurfaceEvolution::Implementation
   // On several ranks: EvolutionRanks.cxx.
   bool AreRanks() const { return this->Ranks && this->Ranks->NumberOfRanks() > 1; }
   bool IsFirstRank() const { return !this->AreRanks() || this->Ranks->Rank() == 0; }
+  void ShareBlocks(const SurfaceMesh& mesh);
+  VoxelBox OwnVoxels() const;
   void VisitBlocksOnRanks(const BlockVisits& visits);
   void AgreeOnStop();
   bool IsOnAnyRank(bool isHere);
@@ -164,6 +167,7 @@ struct SurfaceEvolution::Implementation
   RankComponents& ComponentsOfRanks();
   void TakeComponents(bool areChecked);
   void LabelComponents();
+  void OnFirstRank(const std::function<void()>& work);
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
   double KineticEnergy() const;

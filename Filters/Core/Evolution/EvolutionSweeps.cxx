@@ -84,14 +84,14 @@ void SurfaceEvolution::Implementation::BeginSweeps()
   {
     s.Sizing = BroadcastValue(*this->Ranks, s.Sizing);
   }
-  this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
-  if (this->AreRanks())
+  if (!this->AreRanks())
   {
-    this->Iteration.Forget();
-    this->OnRanks = std::make_unique<RankBlocks>(s, *this->Blocks, *this->Ranks);
-    this->OnRanks->ChooseOwners(s.Mesh);
-    this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+    this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
+    return;
   }
+  this->Iteration.Forget();
+  this->ShareBlocks(s.Mesh);
+  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
 }
 
 void SurfaceEvolution::Implementation::EndSweeps()
