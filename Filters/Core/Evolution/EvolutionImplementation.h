@@ -163,7 +163,6 @@ struct SurfaceEvolution::Implementation
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
-  void OnFirstRank(const std::function<void()>& work);
   RankComponents& ComponentsOfRanks();
   void TakeComponents(bool areChecked);
   void LabelComponents();

@@ -145,25 +145,6 @@ void SurfaceEvolution::Implementation::AddUpSinceEvolved()
   }
 }
 
-void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& work)
-{
-  if (!this->OnRanks)
-  {
-    work();
-    return;
-  }
-  this->Iteration.Forget();
-  this->OnRanks->Gather();
-  if (this->Ranks->Rank() == 0)
-  {
-    work();
-  }
-  this->State.Counts = BroadcastValue(*this->Ranks, this->State.Counts);
-  this->Iteration.Remember(BroadcastValue(*this->Ranks, this->Iteration.Remembered()));
-  this->Iteration.Forget();
-  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
-}
-
 RankComponents& SurfaceEvolution::Implementation::ComponentsOfRanks()
 {
   if (!this->OfRanks)

@@ -3,9 +3,11 @@
 #include "Core/Evolution/LostBoundary.h"
 
 #include "Core/Common/Blocks.h"
+#include "Core/Common/RankLists.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numeric>
@@ -80,6 +82,14 @@ void LostBoundary::Add(const LostBoundary& other)
     this->Patches.push_back({ patch.Voxel, patch.Area, this->Parts + patch.Part });
   }
   this->Parts += other.Parts;
+}
+
+void LostBoundary::Gather(Communicator& ranks)
+{
+  this->Patches = GatherLists(ranks, this->Patches);
+  // In the order in which one rank finds them, as they are added up in.
+  std::sort(this->Patches.begin(), this->Patches.end(),
+    [](const Patch& a, const Patch& b) { return a.Voxel < b.Voxel; });
 }
 
 LostBoundary::Missing LostBoundary::MissedBy(
