@@ -7,7 +7,6 @@
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numeric>
@@ -86,10 +85,8 @@ void LostBoundary::Add(const LostBoundary& other)
 
 void LostBoundary::Gather(Communicator& ranks)
 {
+  // In another order than on one rank: sums of so many floats of like size are exact in doubles.
   this->Patches = GatherLists(ranks, this->Patches);
-  // In the order in which one rank finds them, as they are added up in.
-  std::sort(this->Patches.begin(), this->Patches.end(),
-    [](const Patch& a, const Patch& b) { return a.Voxel < b.Voxel; });
 }
 
 LostBoundary::Missing LostBoundary::MissedBy(
