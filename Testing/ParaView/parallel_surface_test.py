@@ -12,7 +12,7 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
+import threading
 import unittest
 
 import numpy
@@ -72,16 +72,25 @@ def connect_to_server():
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
+    # Without the variables by which this process itself is one of MPI.
+    environment = {name: value for name, value in os.environ.items()
+                   if not name.startswith(("OMPI_", "OPAL_", "ORTE_", "PMIX_"))}
     server = subprocess.Popen(
         [os.environ["VOLUMIC_MPIRUN"], "--allow-run-as-root", "--oversubscribe", "-n", str(SERVER),
          testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
-        preexec_fn=testing.end_with_parent)
-    deadline = time.monotonic() + 60
-    while not simple.Connect("localhost", port):
-        if time.monotonic() > deadline or server.poll() is not None:
-            raise RuntimeError("no connection to pvserver")
-        time.sleep(0.5)
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
+        env=environment, preexec_fn=testing.end_with_parent)
+    said = []
+    for line in server.stdout:
+        said.append(line)
+        if "Accepting connection" in line:
+            break
+    else:
+        raise RuntimeError("pvserver ended: " + "".join(said))
+    # What it says later, such as errors that tests provoke, is for nobody.
+    threading.Thread(target=server.stdout.read, daemon=True).start()
+    if not simple.Connect("localhost", port):
+        raise RuntimeError("no connection to pvserver")
     return server
 
 
@@ -128,6 +137,7 @@ class ParallelSurfaceTest(unittest.TestCase):
     def tearDownClass(cls):
         if SERVER:
             simple.Disconnect()
+            cls.server.terminate()
             cls.server.wait(30)
 
     def tearDown(self):
