@@ -11,6 +11,7 @@
 #include "InputImage.h"
 #include "PrefixErrors.h"
 #include "RankInputs.h"
+#include "RankLevel.h"
 #include "RankOutputs.h"
 #include "SegmentationCache.h"
 #include "SegmentationResults.h"
@@ -358,6 +359,12 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   request.Progress = [this, before](double share, const std::string& text)
   { return this->Internals->Alone->GoOn(before + (1.0 - before) * share, text); };
   request.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
+  if (this->Internals->Ranks->NumberOfRanks() > 1)
+  {
+    request.Ranks = this->Internals->Ranks.get();
+    request.Together = [this](const std::function<void()>& part)
+    { this->Internals->Alone->Together(part); };
+  }
   return request;
 }
 
@@ -486,7 +493,8 @@ void vtkDeformableSurface::RunOrGoOn(
     FillByNothing(output, isAborted, settings.Profile);
     return;
   }
-  alone.Run([&] { run->Run(); });
+  alone.Run([&] { run->Run(); },
+    [&] { volumic::HelpWithLevel(ranks, [this] { return !volumic::IsAbortRequested(this); }); });
   if (run)
   {
     this->ShowRun(*run, request, output);

@@ -4,6 +4,7 @@
 
 #include "Announcer.h"
 #include "ParseNumbers.h"
+#include "Ranks.h"
 #include "ReadVolume.h"
 #include "RunFilter.h"
 #include "ToolErrors.h"
@@ -139,31 +140,90 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   return loaded;
 }
 
-vtkSmartPointer<vtkImageData> LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
-  vtkImagePyramid* holder, const Announcer& announcer)
+namespace
 {
-  const int component = filter->GetSelectedComponent();
-  const LoadedVoxels loaded =
-    LoadVoxels(options.Volume, options.Array, filter, holder, announcer);
-  const vtkSmartPointer<vtkImageData> image = loaded.Image;
-  if (options.Spacing)
-  {
-    image->SetSpacing(options.Spacing->data());
-  }
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  const int* size = image->GetDimensions();
-  const double* spacing = image->GetSpacing();
+/** @param components that the file has */
+void Announce(const ToolOptions& options, const VolumeFacts& facts, int components, int component,
+  const Announcer& announcer)
+{
   const auto times = [](auto a, auto b, auto c)
   { return NumberText(a) + " x " + NumberText(b) + " x " + NumberText(c); };
-  const std::array<double, 2> range = RangeOf(scalars, component);
-  const int components = loaded.Components;
+  const std::array<int, 3> size = facts.Size();
   const std::string taken = components == 1
     ? ""
-    : (component < 0 ? "magnitude" : "component " + NumberText(component)) + " of " +
-      NumberText(components) + " components (--component), ";
+    : ", " + (component < 0 ? "magnitude" : "component " + NumberText(component)) + " of " +
+      NumberText(components) + " components (--component)";
+  const std::string range = facts.Range[0] > facts.Range[1]
+    ? ""
+    : ", " + NumberText(facts.Range[0]) + " to " + NumberText(facts.Range[1]);
   announcer.Say(options.Volume + ": " + times(size[0], size[1], size[2]) + " voxels of " +
-    times(spacing[0], spacing[1], spacing[2]) + ", " + scalars->GetDataTypeAsString() + ", " +
-    taken + NumberText(range[0]) + " to " + NumberText(range[1]));
-  return image;
+    times(facts.Spacing[0], facts.Spacing[1], facts.Spacing[2]) + ", " +
+    vtkImageScalarTypeNameMacro(facts.Type) + taken + range);
+}
+
+/** By this rank. */
+LoadedVolume LoadWhole(const ToolOptions& options, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer)
+{
+  const LoadedVoxels loaded =
+    LoadVoxels(options.Volume, options.Array, filter, holder, announcer);
+  LoadedVolume volume;
+  volume.Image = loaded.Image;
+  if (options.Spacing)
+  {
+    volume.Image->SetSpacing(options.Spacing->data());
+  }
+  const int component = filter->GetSelectedComponent();
+  volume.Facts = FactsOf(volume.Image, component);
+  Announce(options, volume.Facts, loaded.Components, component, announcer);
+  return volume;
+}
+
+/** Whether each rank will read its part. @param part given what to read, if so */
+bool ReadsParts(const ToolOptions& options, vtkDeformableSurface* filter, VolumePart* part,
+  Ranks& ranks)
+{
+  if (!options.Edges.empty() || !options.WrittenVolume.empty())
+  {
+    return false;
+  }
+  bool isOpen = false;
+  ranks.Together(
+    [&]
+    {
+      const vtkSmartPointer<vtkAlgorithm> reader =
+        OpenParts(options.Volume, options.Array, filter->GetScratchDirectory());
+      isOpen = reader &&
+        part->SetReader(reader, options.Volume, options.Array,
+          options.Spacing ? options.Spacing->data() : nullptr);
+    });
+  return !ranks.IsAny(!isOpen);
+}
+}
+
+LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer, Ranks& ranks)
+{
+  if (ranks.IsOne())
+  {
+    return LoadWhole(options, filter, holder, announcer);
+  }
+  LoadedVolume volume;
+  const auto part = vtkSmartPointer<VolumePart>::New();
+  part->SetComponent(filter->GetSelectedComponent());
+  if (ReadsParts(options, filter, part, ranks))
+  {
+    volume.Facts = part->Facts();
+    Announce(options, volume.Facts, volume.Facts.Components, filter->GetSelectedComponent(),
+      announcer);
+  }
+  else
+  {
+    ranks.OnFirst([&] { volume = LoadWhole(options, filter, holder, announcer); });
+    part->SetWhole(ranks, volume.Image);
+    volume.Facts = part->Facts();
+  }
+  volume.Part = part;
+  return volume;
 }
 }

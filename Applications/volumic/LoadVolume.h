@@ -3,6 +3,8 @@
 #ifndef volumicLoadVolume_h
 #define volumicLoadVolume_h
 
+#include "VolumePart.h"
+
 #include <vtkSmartPointer.h>
 
 #include <string>
@@ -14,18 +16,30 @@ class vtkImagePyramid;
 namespace tool
 {
 class Announcer;
+class Ranks;
 struct ToolOptions;
+
+/** The volume of the command line. */
+struct LoadedVolume
+{
+  vtkSmartPointer<vtkImageData> Image; ///< All of it; null where each rank reads a part.
+  vtkSmartPointer<VolumePart> Part;    ///< What gives each rank its part; null on one rank.
+  VolumeFacts Facts;                   ///< Without the range where each rank reads a part.
+};
 
 /**
  * Read the volume of the command line, choose its array, set its spacing, and tell what it is.
  * Where the memory is limited it is read slab by slab into scratch memory; the voxels are those of
  * the selected component then.
- * @param filter of which the component and the memory limit are taken
+ *
+ * With many ranks each reads its part when its filter asks for it, or else the first reads it all:
+ * what is of no kind to be read in parts, what is to be written again, and with a map of edges.
+ * @param filter of which the component and the memory limit are taken; a map of edges becomes its
  * @param holder a pyramid for this purpose: the scratch memory lasts as long as it does
  * @throws Failure if it cannot be read or lacks the array.
  */
-vtkSmartPointer<vtkImageData> LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
-  vtkImagePyramid* holder, const Announcer& announcer);
+LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer, Ranks& ranks);
 
 /** A volume whose active scalars are the array that is wanted. */
 struct LoadedVoxels
@@ -34,7 +48,7 @@ struct LoadedVoxels
   int Components = 1; ///< that the file has; with a limit the image has the selected one
 };
 
-/** The part that reads: any volume. */
+/** The part that reads: any volume, by this rank. */
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
 }

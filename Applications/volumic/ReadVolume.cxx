@@ -307,11 +307,10 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
     });
 }
 
-OpenedVolume OpenVolume(
+vtkSmartPointer<vtkAlgorithm> OpenParts(
   const std::string& name, const std::string& array, const std::string& scratch)
 {
-  OpenedVolume opened;
-  opened.Source = NameFailures(name,
+  return NameFailures(name,
     [&]() -> vtkSmartPointer<vtkAlgorithm>
     {
       if (std::filesystem::is_directory(name))
@@ -328,6 +327,13 @@ OpenedVolume OpenVolume(
       return files.empty() ? nullptr
                            : NewSlabSource(OpenSlices({ files, IsDicom(files.front()) }));
     });
+}
+
+OpenedVolume OpenVolume(
+  const std::string& name, const std::string& array, const std::string& scratch)
+{
+  OpenedVolume opened;
+  opened.Source = OpenParts(name, array, scratch);
   if (!opened.Source)
   {
     const vtkSmartPointer<vtkImageData> image = ReadVolume(name);

@@ -4,14 +4,11 @@
 
 #include "JsonWriter.h"
 #include "ParseNumbers.h"
-#include "VolumeImage.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
 #include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -19,6 +16,7 @@
 #include <vtkVersion.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 
@@ -31,22 +29,22 @@ namespace
 void WriteInput(JsonWriter& json, const ReportInput& input)
 {
   double numbers[3];
-  vtkDataArray* scalars = input.Volume->GetPointData()->GetScalars();
+  const VolumeFacts& volume = input.Volume;
   json.Name("input");
   json.BeginObject();
   json.Member("name", input.VolumeName);
-  std::copy_n(input.Volume->GetDimensions(), 3, numbers);
+  const std::array<int, 3> size = volume.Size();
+  std::copy_n(size.begin(), 3, numbers);
   json.Numbers("dimensions", numbers, 3);
-  json.Numbers("spacing", input.Volume->GetSpacing(), 3);
-  json.Numbers("origin", input.Volume->GetOrigin(), 3);
-  json.Member("scalar_type", scalars->GetDataTypeAsString());
-  json.Numbers(
-    "range", RangeOf(scalars, input.Filters.Surface->GetSelectedComponent()).data(), 2);
+  json.Numbers("spacing", volume.Spacing.data(), 3);
+  json.Numbers("origin", volume.Origin.data(), 3);
+  json.Member("scalar_type", vtkImageScalarTypeNameMacro(volume.Type));
+  json.Numbers("range", volume.Range.data(), 2);
   json.EndObject();
 }
 
 /** Size and shape of a surface, from its field data. */
-void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface)
+void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize& size)
 {
   static const char* const facts[][2] = { { "components", "NumberOfComponents" },
     { "genus", "Genus" }, { "euler_characteristic", "EulerCharacteristic" }, { "area", "Area" },
@@ -61,8 +59,8 @@ void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface)
       json.Member(name, values->GetComponent(0, 0));
     }
   }
-  json.Member("vertices", static_cast<double>(surface->GetNumberOfPoints()));
-  json.Member("triangles", static_cast<double>(surface->GetNumberOfPolys()));
+  json.Member("vertices", static_cast<double>(size.Vertices));
+  json.Member("triangles", static_cast<double>(size.Triangles));
   json.Member("stop_reason", StopReason(surface));
 }
 
@@ -123,24 +121,27 @@ double SecondsOf(vtkTable* history, const Counts& counts)
  * The visited levels from the coarsest to the finest; the surface may have vanished at one. Their
  * seconds add up to those of the run.
  */
-void WriteLevels(JsonWriter& json, vtkMultiBlockDataSet* levels, vtkTable* history)
+void WriteLevels(JsonWriter& json, const ReportInput& input)
 {
-  std::map<double, vtkPolyData*, std::greater<double>> surfaces;
+  vtkMultiBlockDataSet* levels = input.Filters.Surface->GetLevels();
+  vtkTable* history = input.Filters.Surface->GetHistory();
+  std::map<double, unsigned int, std::greater<double>> blocks;
   for (unsigned int block = 0; block < levels->GetNumberOfBlocks(); ++block)
   {
     auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(block));
     if (surface)
     {
       // The last block may be level -1.
-      surfaces[surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0)] = surface;
+      blocks[surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0)] = block;
     }
   }
   json.Name("levels");
   json.BeginArray();
-  for (const auto& [level, surface] : surfaces)
+  for (const auto& [level, block] : blocks)
   {
     json.BeginObject();
-    WriteSurfaceFacts(json, surface);
+    WriteSurfaceFacts(
+      json, vtkPolyData::SafeDownCast(levels->GetBlock(block)), input.LevelSizes.at(block));
     const double own = level;
     json.Member("seconds", SecondsOf(history, [own](double of) { return of == own; }));
     json.EndObject();
@@ -203,14 +204,19 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   WriteInput(json, input);
   json.Member("iso_value", filter->GetIsoValue());
   json.Member("finished", input.IsFinished);
-  WriteSurfaceFacts(json, surface);
+  WriteSurfaceFacts(json, surface, input.Size);
   WriteComponents(json, surface);
-  WriteLevels(json, filter->GetLevels(), filter->GetHistory());
+  WriteLevels(json, input);
   WriteSeconds(json, input);
   json.Name("memory");
   json.BeginObject();
   json.Member("reader", input.ReaderMemory);
   json.Member("peak", PeakMemory());
+  if (!input.PeaksByRank.empty())
+  {
+    json.Numbers("peak_by_rank", input.PeaksByRank.data(),
+      static_cast<int>(input.PeaksByRank.size()));
+  }
   json.EndObject();
   WriteProperties(json, input.Filters);
   json.Name("warnings");

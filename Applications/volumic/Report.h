@@ -3,16 +3,15 @@
 #ifndef volumicReport_h
 #define volumicReport_h
 
+#include "GatherSurface.h"
 #include "SurfaceProperties.h"
+#include "VolumePart.h"
 
 #include <iosfwd>
 #include <string>
 #include <vector>
 
-class vtkImageData;
-class vtkMultiBlockDataSet;
 class vtkPolyData;
-class vtkTable;
 
 namespace tool
 {
@@ -23,13 +22,17 @@ namespace tool
 struct ReportInput
 {
   std::string VolumeName;
-  vtkImageData* Volume = nullptr;
+  VolumeFacts Volume;
   FilterPair Filters;
+  std::string StopReason; ///< of the surface
   bool IsFinished = false;
   double PyramidSeconds = 0.0;
   double SurfaceSeconds = 0.0;
   double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings;
+  SurfaceSize Size;                    ///< of the surface, of all ranks
+  std::vector<SurfaceSize> LevelSizes; ///< by block of the levels
+  std::vector<double> PeaksByRank;     ///< PeakMemory() of each, where there are many
 };
 
 /** Write the report as JSON. Lengths, areas and volumes are in world units. */

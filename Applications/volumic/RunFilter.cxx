@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunFilter.h"
 
+#include "Ranks.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
@@ -11,6 +12,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <functional>
 
 namespace tool
 {
@@ -43,20 +45,9 @@ public:
 
   ProgressLine* Line = nullptr;
 };
-}
 
-void CatchInterrupts()
-{
-  std::signal(SIGINT, Interrupt);
-  std::signal(SIGTERM, Interrupt);
-}
-
-bool WasInterrupted()
-{
-  return interrupted != 0;
-}
-
-FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
+FilterRun Run(vtkAlgorithm* filter, const std::string& title, ProgressStyle style,
+  const std::function<void()>& update)
 {
   VtkMessages messages;
   messages.ListenTo(filter);
@@ -66,7 +57,7 @@ FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyl
   const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
 
   const auto started = std::chrono::steady_clock::now();
-  filter->Update();
+  update();
   FilterRun run;
   run.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   filter->RemoveObserver(tag);
@@ -77,5 +68,32 @@ FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyl
     throw Failure(messages.Errors.front());
   }
   return run;
+}
+}
+
+void CatchInterrupts(const Ranks& ranks)
+{
+  std::signal(SIGINT, Interrupt);
+  std::signal(SIGTERM, Interrupt);
+  if (!ranks.IsOne())
+  {
+    std::signal(SIGUSR1, Interrupt);
+  }
+}
+
+bool WasInterrupted()
+{
+  return interrupted != 0;
+}
+
+FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
+{
+  return Run(filter, title, style, [filter] { filter->Update(); });
+}
+
+FilterRun RunFilter(
+  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, const Ranks& ranks)
+{
+  return Run(filter, title, style, [filter, &ranks] { ranks.Update(filter); });
 }
 }

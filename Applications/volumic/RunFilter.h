@@ -12,6 +12,8 @@ class vtkAlgorithm;
 
 namespace tool
 {
+class Ranks;
+
 struct FilterRun
 {
   double Seconds = 0.0;
@@ -21,15 +23,20 @@ struct FilterRun
 
 /**
  * From here on Ctrl-C (SIGINT) and SIGTERM set the AbortExecute of the filter that runs, so that it
- * hands over what it has; the second one ends the program at once, as usual.
+ * hands over what it has; the second one ends the program at once, as usual. With many ranks SIGUSR1
+ * does so too: mpirun hands it on, and does not kill the ranks a second later.
  */
-void CatchInterrupts();
+void CatchInterrupts(const Ranks& ranks);
 
 /** Whether there was such a signal. */
 bool WasInterrupted();
 
 /** Update the filter, showing its progress. @throws Failure with the errors that it reports. */
 FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style);
+
+/** By all ranks together, of which each gets its piece; errors are those of this rank. */
+FilterRun RunFilter(
+  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, const Ranks& ranks);
 }
 
 #endif

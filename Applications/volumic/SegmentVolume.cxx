@@ -3,40 +3,32 @@
 #include "SegmentVolume.h"
 
 #include "Announcer.h"
-#include "InputFiles.h"
+#include "GatherSurface.h"
 #include "LoadVolume.h"
-#include "OutputChecks.h"
 #include "ParseNumbers.h"
-#include "ReadStart.h"
-#include "ReadVolume.h"
+#include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
+#include "SurfaceInputs.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
+#include "WriteOutputs.h"
 #include "WriteResults.h"
 
 #include <vtkCommand.h>
-#include <vtkDataArray.h>
-#include <vtkDataObject.h>
 #include <vtkDeformableSurface.h>
-#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkImagePyramid.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkOtsuThreshold.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkVolumeToSurface.h>
 
-#include <algorithm>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -44,226 +36,94 @@ namespace tool
 {
 namespace
 {
-/** Whether the surfaces go into one .vtm rather than into a folder. */
-bool IsBlocks(const std::string& name)
+/** What a run works on and with. */
+struct Job
 {
-  return std::filesystem::path(name).extension() == ".vtm";
+  const ToolOptions& Options;
+  vtkImagePyramid* Pyramid;
+  vtkDeformableSurface* Filter;
+  Ranks& All;
+  const Announcer Says;
+  LoadedVolume Volume;
+};
+
+/** Of too little memory is said for which volume, and what helps. */
+[[noreturn]] void ThrowNamed(const ToolOptions& options, const std::string& text)
+{
+  throw Failure(text.find("memory") == std::string::npos
+      ? text
+      : options.Volume + ": not enough memory to segment it; " +
+        "a coarser level (--finest 1), or the volume cropped or resampled, needs less");
 }
 
-/** All that can be known to be wrong before the work begins. */
-void CheckFiles(const ToolOptions& options)
-{
-  std::vector<OutputName> outputs;
-  for (const std::string& name : options.Surfaces)
-  {
-    CheckSurfaceName(name);
-    outputs.push_back(
-      { name, HasPieces(name) ? OutputName::Kind::Blocks : OutputName::Kind::File, "" });
-  }
-  for (const auto& [name, prefix] :
-    { std::pair{ options.Levels, "level" }, std::pair{ options.Snapshots, "snapshot" } })
-  {
-    outputs.push_back(
-      { name, IsBlocks(name) ? OutputName::Kind::Blocks : OutputName::Kind::Folder, prefix });
-  }
-  if (!options.WrittenVolume.empty())
-  {
-    CheckVolumeName(options.WrittenVolume);
-  }
-  outputs.push_back({ options.WrittenVolume, OutputName::Kind::File, "" });
-  outputs.push_back({ options.History, OutputName::Kind::File, "" });
-  outputs.push_back({ options.Report == "-" ? "" : options.Report, OutputName::Kind::File, "" });
-  outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
-                  [](const OutputName& output) { return output.Name.empty(); }),
-    outputs.end());
-
-  std::vector<std::string> inputs = FilesOfVolume(options.Volume);
-  for (const std::string& file : FilesOfVolume(options.Edges))
-  {
-    inputs.push_back(file);
-  }
-  for (const std::string& file :
-    { options.Seeds, options.InitialSurface, options.AttractingPoints })
-  {
-    inputs.push_back(file);
-  }
-  CheckOutputs(outputs, inputs);
-}
-
-void SetStart(const ToolOptions& options, vtkDeformableSurface* filter)
-{
-  const bool isChosen = options.HasProperty("Initialization");
-  for (const auto& place : options.SeedPositions)
-  {
-    filter->AddSeedPosition(place[0], place[1], place[2]);
-  }
-  for (const auto& place : options.AttractingPositions)
-  {
-    filter->AddAttractingPosition(place[0], place[1], place[2]);
-  }
-  if (!options.Seeds.empty())
-  {
-    filter->SetInitialSurfaceData(ReadSeeds(options.Seeds));
-  }
-  if (!options.Seeds.empty() || !options.SeedPositions.empty())
-  {
-    if (!isChosen)
-    {
-      filter->SetInitializationToSeeds();
-    }
-  }
-  else if (!options.InitialSurface.empty())
-  {
-    filter->SetInitialSurfaceData(ReadSurface(options.InitialSurface));
-    if (!isChosen)
-    {
-      filter->SetInitializationToInputSurface();
-    }
-  }
-  if (!options.AttractingPoints.empty())
-  {
-    filter->SetAttractingPointsData(ReadAttractingPoints(options.AttractingPoints));
-  }
-}
-
-/** Hand the map of edges to the filter, as a second array of the volume. */
-void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter,
-  vtkImagePyramid* holder, const Announcer& announcer)
-{
-  if (options.Edges.empty())
-  {
-    return;
-  }
-  std::string name = options.Edges;
-  vtkPointData* points = volume->GetPointData();
-  if (!points->HasArray(name.c_str()))
-  {
-    const vtkSmartPointer<vtkImageData> edges =
-      LoadVoxels(options.Edges, "", filter, holder, announcer).Image;
-    if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
-    {
-      throw Failure(options.Edges + ": its size differs from the volume's");
-    }
-    name = "Edges";
-    while (points->HasArray(name.c_str()))
-    {
-      name += "_";
-    }
-    edges->GetPointData()->GetScalars()->SetName(name.c_str());
-    points->AddArray(edges->GetPointData()->GetScalars());
-  }
-  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name.c_str());
-  if (!options.HasProperty("EdgeAttractionWeight"))
-  {
-    filter->SetEdgeAttractionWeight(2.0);
-  }
-}
-
-/** The last block of the levels may be level -1. */
-int LevelOf(vtkPolyData* surface)
-{
-  return static_cast<int>(surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0));
-}
-
-/** Run what writes an output. The failure of one must not take the others with it. */
-template <class Write>
-void Attempt(std::string& failures, const Write& write)
-{
-  try
-  {
-    write();
-  }
-  catch (const Failure& failure)
-  {
-    failures += (failures.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
-  }
-}
-
-/** @throws Failure if not all could be written, with a line for each file. */
-void WriteOutputs(const ToolOptions& options, const ReportInput& results, ProgressStyle style)
-{
-  vtkDeformableSurface* filter = results.Filters.Surface;
-  const std::string remark = std::string("volumic " VOLUMIC_VERSION) +
-    (results.IsFinished ? "" : ", UNFINISHED: " + StopReason(filter->GetOutput()));
-  std::string failures;
-  for (const std::string& name : options.Surfaces)
-  {
-    Attempt(failures,
-      [&] { WriteSurface(filter->GetOutput(), name, { remark, options.PieceSize, style }); });
-  }
-  const auto writeSurfaces = [&](vtkMultiBlockDataSet* blocks, const std::string& name,
-                               const std::string& prefix, int (*numbers)(vtkPolyData*))
-  {
-    if (IsBlocks(name))
-    {
-      WriteBlocks(blocks, name, style);
-    }
-    else if (!name.empty())
-    {
-      WriteFolder(blocks, name, prefix, style, numbers);
-    }
-  };
-  Attempt(failures, [&] { writeSurfaces(filter->GetLevels(), options.Levels, "level", LevelOf); });
-  Attempt(failures,
-    [&] { writeSurfaces(filter->GetSnapshots(), options.Snapshots, "snapshot", nullptr); });
-  if (!options.History.empty())
-  {
-    Attempt(failures, [&] { WriteTable(filter->GetHistory(), options.History); });
-  }
-  std::ostringstream report;
-  WriteReport(report, results);
-  if (options.Report == "-")
-  {
-    std::cout << report.str();
-  }
-  else if (!options.Report.empty())
-  {
-    Attempt(failures, [&] { WriteText(report.str(), options.Report); });
-  }
-  if (!failures.empty())
-  {
-    throw Failure(failures);
-  }
-}
-
-/**
- * Run a filter; of too little memory, whoever told of it, is said for which volume and what helps.
- */
+/** Run a filter on all ranks; what fails is told on all of them. */
 FilterRun RunOnVolume(
-  const ToolOptions& options, vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
+  const Job& job, vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
 {
-  const std::string help =
-    "a coarser level (--finest 1), or the volume cropped or resampled, needs less";
+  FilterRun run;
+  std::string failure;
   try
   {
-    return RunFilter(filter, title, style);
+    run = RunFilter(filter, title, style, job.All);
   }
   catch (const std::bad_alloc&)
   {
-    throw Failure(options.Volume + ": not enough memory to segment it; " + help);
+    if (!job.All.IsOne())
+    {
+      throw; // The other ranks are in the filter yet.
+    }
+    failure = "memory";
   }
-  catch (const Failure& failure)
+  catch (const Failure& error)
   {
-    const std::string text = failure.what();
-    throw Failure(text.find("memory") == std::string::npos
-        ? text
-        : options.Volume + ": not enough memory to segment it; " + help);
+    failure = error.what();
   }
+  if (job.Volume.Part)
+  {
+    // Why voxels are missing, before what follows from it.
+    job.All.Together(
+      [&]
+      {
+        if (!job.Volume.Part->FailureOfReading().empty())
+        {
+          throw Failure(job.Volume.Part->FailureOfReading());
+        }
+      });
+  }
+  job.All.Together(
+    [&]
+    {
+      if (!failure.empty())
+      {
+        ThrowNamed(job.Options, failure);
+      }
+    });
+  run.IsInterrupted = job.All.IsAny(run.IsInterrupted);
+  return run;
+}
+
+/** Both kinds of filters have the methods, but not by what they have in common. */
+template <class Filter>
+void SetInput(const Job& job, Filter* filter)
+{
+  job.Volume.Part ? filter->SetInputConnection(job.Volume.Part->GetOutputPort())
+                  : filter->SetInputData(job.Volume.Image);
 }
 
 /**
  * Gives the surface's filter its levels: a pyramid that is run here, or, where the length of the
  * edges decides on the pyramid, the volume. @return the run of the pyramid, if there was one.
  */
-FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImagePyramid* pyramid,
-  vtkDeformableSurface* filter, ProgressStyle style)
+FilterRun GiveLevels(const Job& job)
 {
+  vtkImagePyramid* pyramid = job.Pyramid;
+  vtkDeformableSurface* filter = job.Filter;
   if (auto* whole = vtkVolumeToSurface::SafeDownCast(filter))
   {
     whole->SetNumberOfLevels(pyramid->GetNumberOfLevels());
     whole->SetMinimumLevelSize(pyramid->GetMinimumLevelSize());
     whole->SetReductionFactor(pyramid->GetReductionFactor());
-    whole->SetInputData(volume);
+    SetInput(job, whole);
     return FilterRun();
   }
   pyramid->SetSelectedComponent(filter->GetSelectedComponent());
@@ -271,20 +131,17 @@ FilterRun GiveLevels(const ToolOptions& options, vtkImageData* volume, vtkImageP
   pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
   pyramid->SetMemoryLimit(filter->GetMemoryLimit());
   pyramid->SetScratchDirectory(filter->GetScratchDirectory());
-  pyramid->SetInputData(volume);
-  const FilterRun run = RunOnVolume(options, pyramid, "Building the pyramid", style);
+  SetInput(job, pyramid);
+  const FilterRun run = RunOnVolume(job, pyramid, "Building the pyramid", job.Says.Style);
   if (run.IsInterrupted)
   {
-    throw Failure("interrupted before there was a surface; nothing is written");
+    job.All.ThrowOnAll("interrupted before there was a surface; nothing is written");
   }
   filter->SetInputConnection(pyramid->GetOutputPort());
   pyramid->ReleaseDataFlagOn(); // The surface lets go of each level as it leaves it.
   return run;
 }
-}
 
-namespace
-{
 /** Says, as soon as it is known, where a run with --resume goes on from. */
 class ResumeTeller : public vtkCommand
 {
@@ -319,103 +176,120 @@ private:
 };
 
 /** One that was stopped on its way may go on. */
-void RemoveCheckpointOfEnded(vtkDeformableSurface* filter, const std::string& reason)
+void RemoveCheckpointOfEnded(const Job& job, const std::string& reason)
 {
-  if (reason != "cancelled" && reason != "time limit")
+  if (reason != "cancelled" && reason != "time limit" && job.All.IsFirst())
   {
-    filter->RemoveCheckpoint();
+    job.Filter->RemoveCheckpoint();
   }
+}
+
+/** The value that the options don't tell. */
+void TakeOtsuThreshold(const Job& job)
+{
+  vtkNew<vtkOtsuThreshold> otsu;
+  SetInput(job, otsu.Get());
+  otsu->SetSelectedComponent(job.Filter->GetSelectedComponent());
+  RunOnVolume(job, otsu, "Otsu's threshold", ProgressStyle::None);
+  job.Filter->SetIsoValue(job.All.Broadcast(otsu->GetThreshold()));
+  job.Says.Say("iso-value " + NumberText(job.Filter->GetIsoValue()) +
+    " by Otsu's threshold; choose another one with --iso");
+}
+
+/** Run the filters. @param results given their times and warnings */
+void FindSurface(const Job& job, ReportInput& results)
+{
+  CatchInterrupts(job.All);
+  job.Filter->LeaveCheckpoints(); // Until all is written.
+  const FilterRun pyramidRun = GiveLevels(job);
+  vtkNew<ResumeTeller> teller;
+  teller->Says = &job.Says;
+  job.Filter->AddObserver(vtkCommand::ProgressEvent, teller);
+  const FilterRun run =
+    RunOnVolume(job, job.Filter, "Evolving the surface", job.Says.Style);
+  teller->Tell(job.Filter);
+  for (const FilterRun& each : { pyramidRun, run })
+  {
+    for (const std::string& warning : each.Warnings)
+    {
+      job.Says.Say("warning: " + warning);
+    }
+  }
+  results.StopReason = job.All.Broadcast(StopReason(job.Filter->GetOutput()));
+  results.PyramidSeconds = pyramidRun.Seconds;
+  results.SurfaceSeconds = run.Seconds;
+  results.Warnings = run.Warnings;
+  results.Size = SizeOf(job.All, job.Filter->GetOutput());
+  results.IsFinished = results.StopReason == "converged" || results.StopReason == "limit cycle";
+  if (results.Size.Triangles > 0)
+  {
+    return;
+  }
+  RemoveCheckpointOfEnded(job, results.StopReason);
+  if (results.StopReason == "time limit")
+  {
+    job.All.ThrowOnAll("the time limit came before there was a surface; nothing is written");
+  }
+  if (run.IsInterrupted)
+  {
+    job.All.ThrowOnAll("interrupted before there was a surface; nothing is written");
+  }
+  job.All.ThrowOnAll("the surface vanished: is the object where the image is " +
+    std::string(job.Filter->GetObjectIsBright() ? "above " : "below ") +
+    NumberText(job.Filter->GetIsoValue()) + "? (--iso, --dark)");
 }
 }
 
-ExitCode SegmentVolume(
-  const ToolOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter)
+ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
+  vtkDeformableSurface* filter, Ranks& ranks)
 {
-  const Announcer announcer(options);
-  CheckFiles(options);
+  Job job = { options, pyramid, filter, ranks, Announcer(options), LoadedVolume() };
+  ranks.OnFirst([&] { CheckFiles(options); });
   const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
-  const vtkSmartPointer<vtkImageData> volume = LoadVolume(options, filter, holder, announcer);
-  const double readerMemory = PeakMemory();
+  job.Volume = LoadVolume(options, filter, holder, job.Says, ranks);
+  ReportInput results;
+  results.ReaderMemory = PeakMemory();
   const int component = filter->GetSelectedComponent();
-  if (filter->GetMemoryLimit() > 0)
+  if (filter->GetMemoryLimit() > 0 && !(job.Volume.Part && job.Volume.Part->IsInParts()))
   {
     filter->SetSelectedComponent(-1); // The volume has no other.
   }
   if (!options.WrittenVolume.empty())
   {
-    WriteVolume(volume, options.WrittenVolume, announcer.Style);
+    ranks.OnFirst(
+      [&] { WriteVolume(job.Volume.Image, options.WrittenVolume, job.Says.Style); });
   }
   if (!options.WantsSurface())
   {
     return Success;
   }
-  SetStart(options, filter);
+  SetStart(options, filter, ranks);
   const vtkNew<vtkImagePyramid> edgesHolder;
-  SetEdges(options, volume, filter, edgesHolder, announcer);
+  SetEdges(options, job.Volume.Image, filter, edgesHolder, job.Says, ranks);
   if (!options.HasProperty("IsoValue"))
   {
-    vtkNew<vtkOtsuThreshold> otsu;
-    otsu->SetInputData(volume);
-    otsu->SetSelectedComponent(filter->GetSelectedComponent());
-    RunOnVolume(options, otsu, "Otsu's threshold", ProgressStyle::None);
-    filter->SetIsoValue(otsu->GetThreshold());
-    announcer.Say("iso-value " + NumberText(filter->GetIsoValue()) +
-      " by Otsu's threshold; choose another one with --iso");
+    TakeOtsuThreshold(job);
   }
   if (!options.HasProperty("SnapshotInterval") && !options.Snapshots.empty())
   {
     filter->SetSnapshotInterval(10);
   }
-
-  CatchInterrupts();
-  filter->LeaveCheckpoints(); // Until all is written.
-  const FilterRun pyramidRun = GiveLevels(options, volume, pyramid, filter, announcer.Style);
-  vtkNew<ResumeTeller> teller;
-  teller->Says = &announcer;
-  filter->AddObserver(vtkCommand::ProgressEvent, teller);
-  const FilterRun run = RunOnVolume(options, filter, "Evolving the surface", announcer.Style);
-  teller->Tell(filter);
-  for (const FilterRun& each : { pyramidRun, run })
-  {
-    for (const std::string& warning : each.Warnings)
-    {
-      announcer.Say("warning: " + warning);
-    }
-  }
-
-  vtkPolyData* surface = filter->GetOutput();
-  const std::string reason = StopReason(surface);
-  if (surface->GetNumberOfPolys() == 0)
-  {
-    RemoveCheckpointOfEnded(filter, reason);
-    if (reason == "time limit")
-    {
-      throw Failure("the time limit came before there was a surface; nothing is written");
-    }
-    throw Failure(run.IsInterrupted ? "interrupted before there was a surface; nothing is written"
-                                    : "the surface vanished: is the object where the image is " +
-          std::string(filter->GetObjectIsBright() ? "above " : "below ") +
-          NumberText(filter->GetIsoValue()) + "? (--iso, --dark)");
-  }
+  FindSurface(job, results);
   filter->SetSelectedComponent(component); // as it was chosen
-  ReportInput results;
-  results.ReaderMemory = readerMemory;
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
-  results.Volume = volume;
+  results.Volume = job.Volume.Part ? job.Volume.Part->FactsOfAll(ranks) : job.Volume.Facts;
   results.Filters = { pyramid, filter };
-  results.IsFinished = reason == "converged" || reason == "limit cycle";
-  results.PyramidSeconds = pyramidRun.Seconds;
-  results.SurfaceSeconds = run.Seconds;
-  results.Warnings = run.Warnings;
-  WriteOutputs(options, results, announcer.Style);
-  RemoveCheckpointOfEnded(filter, reason);
+  WriteOutputs(options, results, job.Says.Style, ranks);
+  RemoveCheckpointOfEnded(job, results.StopReason);
 
-  announcer.Say(std::to_string(surface->GetNumberOfPoints()) + " vertices after " +
-    std::to_string(filter->GetHistory()->GetNumberOfRows()) + " iterations: " + reason);
-  if (!results.IsFinished)
+  job.Says.Say(std::to_string(results.Size.Vertices) + " vertices after " +
+    std::to_string(filter->GetHistory()->GetNumberOfRows()) +
+    " iterations: " + results.StopReason);
+  if (!results.IsFinished && ranks.IsFirst())
   {
     const bool canGoOn = !filter->GetCheckpointFolder().empty();
-    std::cerr << "volumic: unfinished (" << reason << "); the surface as it is was written"
+    std::cerr << "volumic: unfinished (" << results.StopReason
+              << "); the surface as it is was written"
               << (canGoOn ? "; the same command with --resume goes on" : "") << "\n";
   }
   return results.IsFinished ? Success : Unfinished;

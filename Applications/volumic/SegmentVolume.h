@@ -10,6 +10,7 @@ class vtkImagePyramid;
 
 namespace tool
 {
+class Ranks;
 struct ToolOptions;
 
 /**
@@ -17,11 +18,12 @@ struct ToolOptions;
  * the options ask for.
  * @param pyramid, filter with their properties set; the second is a vtkVolumeToSurface where the
  * length of the edges decides on the pyramid.
- * @return Success or Unfinished.
+ * @param ranks all of which call this; the first one reads and writes what has no parts.
+ * @return Success or Unfinished, the same on all ranks.
  * @throws Failure where a file cannot be read or written, or the surface vanished.
  */
-ExitCode SegmentVolume(
-  const ToolOptions& options, vtkImagePyramid* pyramid, vtkDeformableSurface* filter);
+ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
+  vtkDeformableSurface* filter, Ranks& ranks);
 }
 
 #endif

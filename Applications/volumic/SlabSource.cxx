@@ -10,11 +10,16 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstring>
 #include <exception>
 #include <utility>
 
@@ -22,6 +27,64 @@ namespace tool
 {
 namespace
 {
+/** As many slices are read at a time where parts of them are wanted. */
+constexpr std::size_t BytesAtATime = std::size_t(16) << 20;
+
+/** Copies rows of slices that have been read. @param first the slice that `slab` begins with */
+void CopyPart(vtkDataArray* slab, const std::array<int, 3>& size, int first, int count,
+  const int* extent, vtkDataArray* part)
+{
+  const auto voxel = static_cast<std::size_t>(slab->GetDataTypeSize()) *
+    static_cast<std::size_t>(slab->GetNumberOfComponents());
+  const auto row = static_cast<std::size_t>(extent[1] - extent[0] + 1);
+  const auto rows = static_cast<std::size_t>(extent[3] - extent[2] + 1);
+  const char* from = static_cast<const char*>(slab->GetVoidPointer(0));
+  char* to = static_cast<char*>(part->GetVoidPointer(0));
+  for (int z = 0; z < count; ++z)
+  {
+    for (std::size_t y = 0; y < rows; ++y)
+    {
+      const std::size_t begin =
+        (static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) +
+          static_cast<std::size_t>(extent[2]) + y) * static_cast<std::size_t>(size[0]) +
+        static_cast<std::size_t>(extent[0]);
+      const std::size_t place = (static_cast<std::size_t>(first + z - extent[4]) * rows + y) * row;
+      std::memcpy(to + place * voxel, from + begin * voxel, row * voxel);
+    }
+  }
+}
+
+/** The values of an extent; of slices of which parts are wanted, some are in memory at a time. */
+vtkSmartPointer<vtkDataArray> ReadPart(SlabReader& reader, const int* extent)
+{
+  const std::array<int, 3>& size = reader.Size;
+  const int slices = extent[5] - extent[4] + 1;
+  if (extent[1] - extent[0] + 1 == size[0] && extent[3] - extent[2] + 1 == size[1])
+  {
+    return reader.Read(extent[4], slices);
+  }
+  const std::size_t slice = static_cast<std::size_t>(size[0]) *
+    static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(reader.Components) *
+    sizeof(double);
+  const auto most = static_cast<int>(std::max<std::size_t>(1, BytesAtATime / slice));
+  vtkSmartPointer<vtkDataArray> part;
+  for (int z = extent[4]; z <= extent[5]; z += most)
+  {
+    const int count = std::min(most, extent[5] - z + 1);
+    const vtkSmartPointer<vtkDataArray> slab = reader.Read(z, count);
+    if (!part)
+    {
+      part.TakeReference(slab->NewInstance());
+      part->SetName(slab->GetName());
+      part->SetNumberOfComponents(slab->GetNumberOfComponents());
+      part->SetNumberOfTuples(static_cast<vtkIdType>(extent[1] - extent[0] + 1) *
+        (extent[3] - extent[2] + 1) * slices);
+    }
+    CopyPart(slab, size, z, count, extent, part);
+  }
+  return part;
+}
+
 class SlabSource : public vtkImageAlgorithm
 {
 public:
@@ -43,6 +106,11 @@ protected:
     info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
     vtkDataObject::SetPointDataActiveScalarInfo(
       info, this->Reader->Type, this->Reader->Components);
+    const vtkNew<vtkImageData> placed;
+    PlaceImage(placed, this->Reader->Placement);
+    info->Set(vtkDataObject::SPACING(), placed->GetSpacing(), 3);
+    info->Set(vtkDataObject::ORIGIN(), placed->GetOrigin(), 3);
+    info->Set(vtkDataObject::DIRECTION(), placed->GetDirectionMatrix()->GetData(), 9);
     return 1;
   }
 
@@ -53,12 +121,9 @@ protected:
     info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
     try
     {
-      // Slices are whole, whatever part of them is asked for.
-      const std::array<int, 3>& size = this->Reader->Size;
-      const vtkSmartPointer<vtkDataArray> values =
-        this->Reader->Read(extent[4], extent[5] - extent[4] + 1);
+      const vtkSmartPointer<vtkDataArray> values = ReadPart(*this->Reader, extent);
       vtkImageData* image = vtkImageData::GetData(info);
-      image->SetExtent(0, size[0] - 1, 0, size[1] - 1, extent[4], extent[5]);
+      image->SetExtent(extent);
       PlaceImage(image, this->Reader->Placement);
       const std::string& name = this->Reader->ArrayName;
       if (!name.empty() || !values->GetName())

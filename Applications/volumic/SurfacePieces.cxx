@@ -83,6 +83,18 @@ void SetTriangles(
   piece->SetPolys(triangles);
 }
 
+/** What the points are called in the whole surface, of which this one may be a part. */
+void NameByWhole(vtkPolyData* surface, vtkIdTypeArray* points)
+{
+  if (vtkDataArray* ids = surface->GetPointData()->GetGlobalIds())
+  {
+    for (vtkIdType i = 0; i < points->GetNumberOfTuples(); ++i)
+    {
+      points->SetValue(i, static_cast<vtkIdType>(ids->GetComponent(points->GetValue(i), 0)));
+    }
+  }
+}
+
 vtkSmartPointer<vtkPolyData> MakePiece(vtkPolyData* surface, vtkIdType begin, vtkIdType end)
 {
   auto piece = vtkSmartPointer<vtkPolyData>::New();
@@ -103,6 +115,7 @@ vtkSmartPointer<vtkPolyData> MakePiece(vtkPolyData* surface, vtkIdType begin, vt
   piece->SetPoints(points);
   piece->GetPointData()->CopyAllocate(surface->GetPointData(), size);
   piece->GetPointData()->CopyData(surface->GetPointData(), from, to);
+  NameByWhole(surface, ids);
   piece->GetPointData()->SetGlobalIds(ids);
   piece->GetCellData()->CopyAllocate(surface->GetCellData(), end - begin);
   piece->GetCellData()->CopyData(surface->GetCellData(), 0, end - begin, begin);
@@ -152,50 +165,77 @@ void Describe(
   os << "    </" << element << ">\n";
 }
 
-/** What names the pieces, and tells what arrays they have: those of `piece`. */
-std::string Summary(vtkPolyData* piece, const std::vector<std::string>& sources)
+/** What is told of the arrays of a piece, which those of all pieces are. */
+std::string DescribeArrays(vtkPolyData* piece)
 {
   std::ostringstream os;
   os.imbue(std::locale::classic());
   vtkDataArray* normals = piece->GetPointData()->GetNormals();
   const std::string roles = (normals ? " Normals=\"" + Escaped(normals->GetName()) + "\"" : "") +
     " GlobalIds=\"GlobalIds\"";
-  os << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"0.1\">\n"
-     << "  <PPolyData GhostLevel=\"0\">\n";
   Describe(os, "PPointData", roles, piece->GetPointData());
   Describe(os, "PCellData", "", piece->GetCellData());
   os << "    <PPoints>\n";
   Describe(os, piece->GetPoints()->GetData());
   os << "    </PPoints>\n";
-  for (const std::string& source : sources)
-  {
-    os << "    <Piece Source=\"" << Escaped(source) << "\"/>\n";
-  }
-  os << "  </PPolyData>\n</VTKFile>\n";
   return os.str();
 }
+
+std::string PieceName(const std::string& stem, int number)
+{
+  return stem + "_" + std::to_string(number) + ".vtp";
+}
+
+fs::path FolderOf(const std::string& path)
+{
+  return fs::path(path).replace_extension();
+}
+}
+
+int NumberOfPieces(vtkPolyData* surface, int size)
+{
+  return static_cast<int>((surface->GetNumberOfPolys() + size - 1) / size);
+}
+
+std::string WritePieceFiles(
+  vtkPolyData* surface, const std::string& path, int size, int first, ProgressLine& line)
+{
+  const vtkIdType triangles = surface->GetNumberOfPolys();
+  const fs::path folder = FolderOf(path);
+  std::string arrays;
+  for (vtkIdType begin = 0; begin < triangles; begin += size, ++first)
+  {
+    line.Show(static_cast<double>(begin) / static_cast<double>(triangles), "");
+    const vtkSmartPointer<vtkPolyData> piece =
+      MakePiece(surface, begin, std::min(triangles, begin + size));
+    const std::string place = (folder / PieceName(folder.filename().string(), first)).string();
+    ProgressLine noLine("", ProgressStyle::None);
+    WriteVtp(piece, place, noLine);
+    CheckXml(place);
+    arrays = DescribeArrays(piece);
+  }
+  return arrays;
+}
+
+void WritePieceList(const std::string& path, const std::string& arrays, int pieces)
+{
+  const std::string stem = FolderOf(path).filename().string();
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"0.1\">\n"
+                     "  <PPolyData GhostLevel=\"0\">\n" +
+    arrays;
+  for (int number = 0; number < pieces; ++number)
+  {
+    text += "    <Piece Source=\"" + Escaped(stem + "/" + PieceName(stem, number)) + "\"/>\n";
+  }
+  text += "  </PPolyData>\n</VTKFile>\n";
+  WriteBytes(path, text.data(), text.size());
 }
 
 void WritePieces(vtkPolyData* surface, const std::string& path, int size, ProgressLine& line)
 {
-  const vtkIdType triangles = surface->GetNumberOfPolys();
-  const fs::path folder = fs::path(path).replace_extension();
-  const std::string stem = folder.filename().string();
-  fs::create_directory(folder);
-  std::vector<std::string> sources;
-  vtkSmartPointer<vtkPolyData> piece;
-  for (vtkIdType begin = 0; begin < triangles; begin += size)
-  {
-    line.Show(static_cast<double>(begin) / static_cast<double>(triangles), "");
-    piece = MakePiece(surface, begin, std::min(triangles, begin + size));
-    const std::string name = stem + "_" + std::to_string(sources.size()) + ".vtp";
-    const std::string place = (folder / name).string();
-    ProgressLine noLine("", ProgressStyle::None);
-    WriteVtp(piece, place, noLine);
-    CheckXml(place);
-    sources.push_back(stem + "/" + name);
-  }
-  const std::string text = Summary(piece ? piece.Get() : surface, sources);
-  WriteBytes(path, text.data(), text.size());
+  fs::create_directory(FolderOf(path));
+  const std::string arrays = WritePieceFiles(surface, path, size, 0, line);
+  WritePieceList(
+    path, arrays.empty() ? DescribeArrays(surface) : arrays, NumberOfPieces(surface, size));
 }
 }

@@ -6,6 +6,7 @@
 #include "ProgressLine.h"
 
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -20,6 +21,22 @@ namespace tool
  * @throws Failure without the file's name.
  */
 void WritePieces(vtkPolyData* surface, const std::string& path, int size, ProgressLine& line);
+
+// The parts of that, for surfaces of which each rank has some triangles, and GlobalIds of its own.
+
+/** How many pieces there will be. */
+int NumberOfPieces(vtkPolyData* surface, int size);
+
+/**
+ * Write the pieces into the folder beside `path`, which is there.
+ * @param first the number of the first of them
+ * @return what the .pvtp tells of their arrays; empty: there is no piece.
+ */
+std::string WritePieceFiles(
+  vtkPolyData* surface, const std::string& path, int size, int first, ProgressLine& line);
+
+/** Write the .pvtp itself. @param arrays as WritePieceFiles has told of any piece */
+void WritePieceList(const std::string& path, const std::string& arrays, int pieces);
 }
 
 #endif

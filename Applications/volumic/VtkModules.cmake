@@ -7,6 +7,7 @@
 # With ParaView, all of its own VTK was found already.
 if (NOT ParaView_FOUND)
   find_package(VTK REQUIRED
-    COMPONENTS FiltersCore ImagingCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML zlib
-    OPTIONAL_COMPONENTS IOHDF IOMINC)
+    COMPONENTS FiltersCore ImagingCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
+      ParallelCore zlib
+    OPTIONAL_COMPONENTS IOHDF IOMINC ParallelMPI mpi)
 endif ()

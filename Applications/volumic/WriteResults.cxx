@@ -6,6 +6,7 @@
 #include "CheckWritten.h"
 #include "FileGrowth.h"
 #include "OutputFiles.h"
+#include "Ranks.h"
 #include "RunWriter.h"
 #include "StreamedWriters.h"
 #include "SurfacePieces.h"
@@ -30,11 +31,15 @@
 #include <vtkXMLMultiBlockDataWriter.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <new>
+#include <vector>
 
 namespace tool
 {
@@ -54,6 +59,24 @@ std::string TitleOf(const std::string& name)
   return "Writing " + fs::path(name).filename().string();
 }
 
+/** @param beside the folder, which is of no interest to the user */
+[[noreturn]] void ThrowWithout(
+  const std::string& beside, const std::string& name, const std::exception& error)
+{
+  std::string reason = ReasonOf(error);
+  for (std::size_t at = reason.find(beside); !beside.empty() && at != std::string::npos;
+       at = reason.find(beside))
+  {
+    reason.erase(at, beside.size());
+  }
+  throw Failure(name + ": " + reason);
+}
+
+std::string FolderAbout(const std::string& path)
+{
+  return fs::path(path).parent_path().string() + "/";
+}
+
 /** Have `write` write to a path beside the file, which takes the file's place if all went well. */
 template <class Write>
 void WriteBeside(const std::string& name, const Write& write)
@@ -62,19 +85,13 @@ void WriteBeside(const std::string& name, const Write& write)
   try
   {
     OutputFile file(name);
-    beside = fs::path(file.Path()).parent_path().string() + "/";
+    beside = FolderAbout(file.Path());
     write(file.Path());
     file.Publish();
   }
   catch (const std::exception& error)
   {
-    std::string reason = ReasonOf(error);
-    for (std::size_t at = reason.find(beside); !beside.empty() && at != std::string::npos;
-         at = reason.find(beside))
-    {
-      reason.erase(at, beside.size()); // the place is of no interest to the user
-    }
-    throw Failure(name + ": " + reason);
+    ThrowWithout(beside, name, error);
   }
 }
 
@@ -293,6 +310,70 @@ void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWr
       if (format->Check)
       {
         format->Check(path, surface);
+      }
+    });
+}
+
+void WriteSurfaceOfRanks(
+  vtkPolyData* part, const std::string& name, const SurfaceWriting& writing, Ranks& ranks)
+{
+  std::unique_ptr<OutputFile> file; // of the first rank
+  std::string path;
+  const auto together = [&](const std::function<void()>& work)
+  {
+    ranks.Together(
+      [&]
+      {
+        try
+        {
+          work();
+        }
+        catch (const std::exception& error)
+        {
+          ThrowWithout(path.empty() ? path : FolderAbout(path), name, error);
+        }
+      });
+  };
+  together(
+    [&]
+    {
+      if (ranks.IsFirst())
+      {
+        file = std::make_unique<OutputFile>(name);
+        path = file->Path();
+        fs::create_directory(fs::path(path).replace_extension());
+      }
+    });
+  path = ranks.Broadcast(std::move(path));
+  const int own = NumberOfPieces(part, writing.PieceSize);
+  int first = 0;
+  int all = 0;
+  const std::vector<std::string> numbers = ranks.GatherOnAll(std::to_string(own));
+  for (int rank = 0; rank < ranks.Count(); ++rank)
+  {
+    const int number = std::atoi(numbers[static_cast<std::size_t>(rank)].c_str());
+    first += rank < ranks.Rank() ? number : 0;
+    all += number;
+  }
+  std::string arrays;
+  together(
+    [&]
+    {
+      ProgressLine line(TitleOf(name), writing.Style);
+      arrays = WritePieceFiles(part, path, writing.PieceSize, first, line);
+    });
+  for (const std::string& told : ranks.GatherOnAll(arrays))
+  {
+    arrays = arrays.empty() ? told : arrays;
+  }
+  together(
+    [&]
+    {
+      if (file)
+      {
+        WritePieceList(path, arrays, all);
+        CheckXml(path);
+        file->Publish();
       }
     });
 }

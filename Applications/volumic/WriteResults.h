@@ -14,6 +14,8 @@ class vtkTable;
 
 namespace tool
 {
+class Ranks;
+
 // All write beside the file, which takes its place when it is whole (see OutputFiles.h), and throw
 // a Failure that names the file if that cannot be. What is large shows its progress.
 
@@ -36,6 +38,13 @@ struct SurfaceWriting
  * a place for them (.vtp, .pvtp, .vtk).
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing);
+
+/**
+ * Write a surface that HasPieces, of which each rank has a part: each writes its own pieces, into a
+ * folder that all ranks see. All ranks call this.
+ */
+void WriteSurfaceOfRanks(
+  vtkPolyData* part, const std::string& name, const SurfaceWriting& writing, Ranks& ranks);
 
 /** @throws UsageError if the name of a volume to write does not end in .vti. */
 void CheckVolumeName(const std::string& name);

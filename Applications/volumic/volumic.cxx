@@ -4,6 +4,7 @@
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
 #include "InputFiles.h"
+#include "Ranks.h"
 #include "SegmentVolume.h"
 #include "SurfaceProperties.h"
 #include "ToolErrors.h"
@@ -20,14 +21,14 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 
 namespace
 {
 using namespace tool;
 
-ExitCode Run(int argc, char* argv[])
+ExitCode Run(const ToolOptions& options, Ranks& ranks)
 {
-  const ToolOptions options = ParseOptions(argc, argv);
   vtkNew<vtkImagePyramid> pyramid;
   vtkSmartPointer<vtkDeformableSurface> filter = vtkSmartPointer<vtkDeformableSurface>::New();
   if (options.HasProperty("EdgeLength"))
@@ -55,10 +56,10 @@ ExitCode Run(int argc, char* argv[])
     case ToolOptions::Task::Segment:
       break;
   }
-  ApplyProperties(options, filters);
+  ranks.Together([&] { ApplyProperties(options, filters); });
   try
   {
-    return SegmentVolume(options, pyramid, filter);
+    return SegmentVolume(options, pyramid, filter, ranks);
   }
   catch (const std::bad_alloc&)
   {
@@ -76,6 +77,50 @@ ExitCode Run(int argc, char* argv[])
       "crop it, or resample it to fewer voxels");
   }
 }
+
+/** What the options ask for, by all ranks; only the first one says something. */
+int RunAndTell(ToolOptions options, Ranks& ranks)
+{
+  options.Quiet = options.Quiet || !ranks.IsFirst();
+  ExitCode code = RuntimeFailure;
+  std::string words;
+  try
+  {
+    code = Run(options, ranks);
+    ranks.OnFirst(
+      []
+      {
+        if (!std::cout.flush())
+        {
+          throw Failure("the standard output cannot be written; is its disk full?");
+        }
+      });
+    return code;
+  }
+  catch (const UsageError& error)
+  {
+    words = std::string(error.what()) + "\nTry 'volumic --help'.";
+    code = UsageFailure;
+  }
+  catch (const std::bad_alloc&)
+  {
+    words = "not enough memory";
+  }
+  catch (const std::exception& error)
+  {
+    words = error.what();
+  }
+  const bool isOfAll = ranks.HaveAgreed();
+  if (ranks.IsFirst() || !isOfAll)
+  {
+    std::cerr << "volumic: " << words << "\n";
+  }
+  if (!isOfAll)
+  {
+    ranks.Abort(code);
+  }
+  return code;
+}
 }
 
 int main(int argc, char* argv[])
@@ -86,27 +131,24 @@ int main(int argc, char* argv[])
   {
     vtkSMPTools::SetBackend("Sequential");
   }
+  ToolOptions options;
   try
   {
-    const ExitCode code = Run(argc, argv);
-    if (!std::cout.flush())
+    options = ParseOptions(argc, argv);
+  }
+  catch (const UsageError& error)
+  {
+    if (Ranks::IsFirstByEnvironment())
     {
-      throw Failure("the standard output cannot be written; is its disk full?");
+      std::cerr << "volumic: " << error.what() << "\nTry 'volumic --help'.\n";
     }
-    return code;
+    return UsageFailure;
   }
-  catch (const tool::UsageError& error)
+  const bool worksTogether = options.Task == ToolOptions::Task::Segment;
+  if (!worksTogether && !Ranks::IsFirstByEnvironment())
   {
-    std::cerr << "volumic: " << error.what() << "\nTry 'volumic --help'.\n";
-    return tool::UsageFailure;
+    return Success;
   }
-  catch (const std::bad_alloc&)
-  {
-    std::cerr << "volumic: not enough memory\n";
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "volumic: " << error.what() << "\n";
-  }
-  return tool::RuntimeFailure;
+  Ranks ranks(argc, argv, worksTogether);
+  return RunAndTell(std::move(options), ranks);
 }

@@ -145,7 +145,7 @@ TEST(RankComponents, LabelAsOneDoes)
       EXPECT_EQ(components.NumberOfComponents(), watch.NumberOfComponents());
       for (int v = 0; v < state.Mesh.Size(); ++v)
       {
-        if (state.Mesh.IsAlive(v))
+        if (state.Mesh.IsAlive(v) && part.IsOwn(v))
         {
           EXPECT_EQ(state.Component[v], whole.Component[v]) << v;
         }
@@ -198,7 +198,7 @@ TEST(RankComponents, DeleteThoseThatAreInsideOut)
         static_cast<int>(own - AliveOnes(state, &part).size()))
         << "each place is its owner's to give away";
       ExpectSame(expected.State, part, state, before);
-      for (const int v : AliveOnes(state))
+      for (const int v : AliveOnes(state, &part))
       {
         EXPECT_EQ(state.Component[v], expected.State.Component[v]);
       }

@@ -261,20 +261,19 @@ void SurfaceEvolution::Implementation::SpreadMesh()
   // One that is whole on rank 0, and of which nothing is known but the mesh.
   SurfaceState& s = this->State;
   this->Iteration.Forget();
-  SurfaceBlocks::Frame frame = this->FrameOfLevel();
   if (!this->AreRanks())
   {
     this->Blocks.reset();
     this->LayGrid();
-    this->Blocks = std::make_unique<SurfaceBlocks>(s, frame, this->Threads);
+    this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
     return;
   }
   const SurfaceMesh whole = std::exchange(s.Mesh, SurfaceMesh());
   this->FindGridBox(whole);
-  this->OnRanks.reset();
-  this->Blocks = std::make_unique<SurfaceBlocks>(s, frame, this->Threads);
-  this->OnRanks = std::make_unique<RankBlocks>(s, *this->Blocks, *this->Ranks);
-  this->OnRanks->ChooseOwners(whole);
+  if (!this->OnRanks)
+  {
+    this->ShareBlocks(whole);
+  }
   this->OnRanks->ScatterMesh(whole, this->GridLow, this->GridHigh);
 }
 

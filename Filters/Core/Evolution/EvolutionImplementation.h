@@ -12,6 +12,7 @@
 #include "Core/Image/Field.h"
 #include "Core/Mesh/Division.h"
 #include "Core/Surface/RankBlocks.h"
+#include "Core/Surface/RankComponents.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -55,7 +56,9 @@ struct SurfaceEvolution::Implementation
   bool InSweeps = false;    ///< The level evolves block by block: EvolutionSweeps.cxx.
   std::unique_ptr<SurfaceBlocks> Blocks; ///< While it does.
   Communicator* Ranks = nullptr;         ///< Null: alone.
+  std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
   std::unique_ptr<RankBlocks> OnRanks;   ///< While the surface is in parts: EvolutionRanks.cxx.
+  std::unique_ptr<RankComponents> OfRanks; ///< Once there have been ranks.
   int Visiting = NoBlock;                ///< The block that is being visited.
   Vector GridLow, GridHigh;              ///< As the grid was laid last.
   struct
@@ -153,13 +156,17 @@ struct SurfaceEvolution::Implementation
   // On several ranks: EvolutionRanks.cxx.
   bool AreRanks() const { return this->Ranks && this->Ranks->NumberOfRanks() > 1; }
   bool IsFirstRank() const { return !this->AreRanks() || this->Ranks->Rank() == 0; }
+  void ShareBlocks(const SurfaceMesh& mesh);
+  VoxelBox OwnVoxels() const;
   void VisitBlocksOnRanks(const BlockVisits& visits);
   void AgreeOnStop();
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
-  void OnFirstRank(const std::function<void()>& work);
+  RankComponents& ComponentsOfRanks();
+  void TakeComponents(bool areChecked);
   void LabelComponents();
+  void OnFirstRank(const std::function<void()>& work);
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
   double KineticEnergy() const;
@@ -168,6 +175,8 @@ struct SurfaceEvolution::Implementation
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(Dynamics& dynamics);
   void DeleteInsideOut();
+  void DeleteThoseInsideOut();
+  void DeleteDegenerate();
   void FinishRow();
   void FindMissing();
   void Regularise(Dynamics& dynamics);

@@ -7,10 +7,54 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <memory>
 
 namespace volumic
 {
+void SurfaceEvolution::Implementation::ShareBlocks(const SurfaceMesh& mesh)
+{
+  this->Blocks =
+    std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
+  this->OnRanks = std::make_unique<RankBlocks>(this->State, *this->Blocks, *this->Ranks);
+  this->OnRanks->ChooseOwners(mesh);
+  if (this->NeedVoxels)
+  {
+    this->NeedVoxels(this->OwnVoxels());
+  }
+}
+
+VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
+{
+  // Those of the blocks, and of the halo, which is further than any vertex gets.
+  const LevelImage& image = this->TheField->Image();
+  const float halo = SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest();
+  VoxelBox voxels;
+  for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
+  {
+    if (!this->OnRanks->IsOwn(block))
+    {
+      continue;
+    }
+    const Box box = this->Blocks->BoxOf(block).Grown(halo);
+    const float low[3] = { box.Low.X, box.Low.Y, box.Low.Z };
+    const float high[3] = { box.High.X, box.High.Y, box.High.Z };
+    VoxelBox ofBlock;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double size = image.Size[axis];
+      const double step = image.Step[axis];
+      ofBlock.First[axis] =
+        static_cast<int>(std::clamp(std::floor(low[axis] / step), 0., size));
+      ofBlock.End[axis] =
+        static_cast<int>(std::clamp(std::ceil(high[axis] / step) + 1., 0., size));
+    }
+    voxels = voxels.With(ofBlock);
+  }
+  return voxels;
+}
+
 void SurfaceEvolution::Implementation::VisitBlocksOnRanks(const BlockVisits& visits)
 {
   std::size_t visited = 0;
@@ -101,6 +145,54 @@ void SurfaceEvolution::Implementation::AddUpSinceEvolved()
   }
 }
 
+RankComponents& SurfaceEvolution::Implementation::ComponentsOfRanks()
+{
+  if (!this->OfRanks)
+  {
+    this->OfRanks = std::make_unique<RankComponents>(
+      RankPart{ *this->Ranks, [this](int v) { return this->OnRanks->IsOwnVertex(v); } });
+  }
+  return *this->OfRanks;
+}
+
+void SurfaceEvolution::Implementation::TakeComponents(bool areChecked)
+{
+  this->OnRanks->ShareCounts();
+  this->Iteration.TakeComponents(this->OfRanks->NumberOfComponents(), areChecked);
+}
+
+void SurfaceEvolution::Implementation::LabelComponents()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.LabelComponents();
+    return;
+  }
+  this->ComponentsOfRanks().Label(this->State, this->Threads);
+  this->TakeComponents(false);
+}
+
+void SurfaceEvolution::Implementation::DeleteDegenerate()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.DeleteDegenerate();
+    return;
+  }
+  this->ComponentsOfRanks().DeleteDegenerate(this->State);
+  this->TakeComponents(false);
+}
+
+void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.DeleteInsideOut();
+    return;
+  }
+  this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
+  this->TakeComponents(true);
+}
 void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& work)
 {
   if (!this->OnRanks)
@@ -114,14 +206,7 @@ void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& 
   {
     work();
   }
-  this->State.Counts = BroadcastValue(*this->Ranks, this->State.Counts);
-  this->Iteration.Remember(BroadcastValue(*this->Ranks, this->Iteration.Remembered()));
   this->Iteration.Forget();
   this->OnRanks->Scatter(this->GridLow, this->GridHigh);
-}
-
-void SurfaceEvolution::Implementation::LabelComponents()
-{
-  this->OnFirstRank([this] { this->Iteration.LabelComponents(); });
 }
 }

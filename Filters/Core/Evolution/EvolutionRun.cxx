@@ -344,12 +344,8 @@ void SurfaceEvolution::Implementation::PolishAll()
 void SurfaceEvolution::Implementation::DeleteInsideOut()
 {
   this->State.Counts = EditCounts();
-  this->OnFirstRank(
-    [this]
-    {
-      this->Iteration.DeleteInsideOut();
-      this->SinceEvolved.Removed += this->State.Counts.Removed;
-    });
+  this->DeleteThoseInsideOut();
+  this->SinceEvolved.Removed += this->IsFirstRank() ? this->State.Counts.Removed : 0;
 }
 
 void SurfaceEvolution::Implementation::FindMissing()

@@ -84,14 +84,14 @@ void SurfaceEvolution::Implementation::BeginSweeps()
   {
     s.Sizing = BroadcastValue(*this->Ranks, s.Sizing);
   }
-  this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
-  if (this->AreRanks())
+  if (!this->AreRanks())
   {
-    this->Iteration.Forget();
-    this->OnRanks = std::make_unique<RankBlocks>(s, *this->Blocks, *this->Ranks);
-    this->OnRanks->ChooseOwners(s.Mesh);
-    this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+    this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
+    return;
   }
+  this->Iteration.Forget();
+  this->ShareBlocks(s.Mesh);
+  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
 }
 
 void SurfaceEvolution::Implementation::EndSweeps()
@@ -257,7 +257,7 @@ void SurfaceEvolution::Implementation::RunSweep(Dynamics& dynamics, Remesher& re
   if (this->Visit.Sweep % InsideOutSweeps == 0 &&
     this->IsOnAnyRank(this->Iteration.IsUnchecked()))
   {
-    this->OnFirstRank([this] { this->Iteration.DeleteInsideOut(); });
+    this->DeleteThoseInsideOut();
   }
   Add(rows.back().Row, s.Counts);
   rows.back().Vertices += s.Mesh.NumberOfVertices() - before;
@@ -348,13 +348,8 @@ void SurfaceEvolution::Implementation::PolishInSweeps()
   this->LabelComponents();
   if (this->IsOnAnyRank(hasCut))
   {
-    this->OnFirstRank(
-      [this]
-      {
-        this->Iteration.LabelComponents();
-        this->Iteration.DeleteDegenerate();
-        this->SinceEvolved.Removed += this->State.Counts.Removed;
-      });
+    this->DeleteDegenerate();
+    this->SinceEvolved.Removed += this->IsFirstRank() ? s.Counts.Removed : 0;
   }
 }
 }

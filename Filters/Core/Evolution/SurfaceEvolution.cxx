@@ -123,9 +123,11 @@ StopReason SurfaceEvolution::Run()
   return this->Self->Run();
 }
 
-void SurfaceEvolution::SetRanks(Communicator* ranks)
+void SurfaceEvolution::SetRanks(
+  Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels)
 {
   this->Self->Ranks = ranks;
+  this->Self->NeedVoxels = std::move(needVoxels);
 }
 
 bool SurfaceEvolution::AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size)

@@ -111,6 +111,12 @@ public:
   void DeleteDegenerate() { this->Watch.DeleteDegenerate(this->State); }
   void DeleteInsideOut();
   int NumberOfComponents() const { return this->Watch.NumberOfComponents(); }
+  /** What others have found (RankComponents). @param areChecked none is inside out */
+  void TakeComponents(int number, bool areChecked)
+  {
+    this->Watch.TakeNumber(number);
+    this->Unchecked = areChecked ? 0 : this->Unchecked;
+  }
 
 private:
   void CollectActive();

@@ -102,6 +102,12 @@ std::vector<VoxelPieces::Part> VoxelPieces::PartsFor(int rank, const VoxelBox& w
 void VoxelPieces::Fetch(Communicator& ranks, const void* voxels, std::size_t bytes,
   const VoxelBox& wanted, void* fetched) const
 {
+  this->FetchInto(ranks, voxels, bytes, wanted, wanted, fetched);
+}
+
+void VoxelPieces::FetchInto(Communicator& ranks, const void* voxels, std::size_t bytes,
+  const VoxelBox& wanted, const VoxelBox& place, void* fetched) const
+{
   const std::vector<VoxelBox> all = GatherValues(ranks, wanted);
   int count = 0;
   for (const VoxelBox& box : all)
@@ -115,7 +121,7 @@ void VoxelPieces::Fetch(Communicator& ranks, const void* voxels, std::size_t byt
     {
       parts.push_back(PartOf(box, bytes, this->BytesAtATime, n));
     }
-    this->FetchOnce(ranks, static_cast<const char*>(voxels), bytes, parts, wanted,
+    this->FetchOnce(ranks, static_cast<const char*>(voxels), bytes, parts, place,
       static_cast<char*>(fetched));
   }
 }

@@ -49,6 +49,10 @@ public:
   void Fetch(Communicator& ranks, const void* voxels, std::size_t bytes, const VoxelBox& wanted,
     void* fetched) const;
 
+  /** The same where `fetched` has room for a larger box, of which other voxels stay as they are. */
+  void FetchInto(Communicator& ranks, const void* voxels, std::size_t bytes,
+    const VoxelBox& wanted, const VoxelBox& place, void* fetched) const;
+
   template <typename T>
   void Fetch(Communicator& ranks, const T* voxels, const VoxelBox& wanted, T* fetched) const
   {

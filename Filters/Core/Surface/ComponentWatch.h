@@ -50,6 +50,8 @@ public:
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);
 
   int NumberOfComponents() const { return this->Components; }
+  /** Of a surface in parts, that others have counted. */
+  void TakeNumber(int components) { this->Components = components; }
 
 private:
   struct SmallComponent

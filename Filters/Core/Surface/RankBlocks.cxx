@@ -173,6 +173,14 @@ void RankBlocks::CollectNear(const Vector& position, int v)
     });
 }
 
+bool RankBlocks::IsNearOwn(const Vector& position) const
+{
+  bool isNear = false;
+  this->Blocks.VisitNear(
+    position, this->Halo(), [&](int block) { isNear = isNear || this->IsOwn(block); });
+  return isNear;
+}
+
 void RankBlocks::CollectZone(int block)
 {
   const Box zone = this->Blocks.BoxOf(block).Grown(0.5f * this->Halo());
@@ -233,7 +241,13 @@ void RankBlocks::Exchange()
       {
         this->State.Forget(v);
       }
-      this->Blocks.AddOthers(this->State.Read(reader));
+      // What has left the halo would not be told of any more.
+      std::vector<int> come = this->State.Read(reader);
+      const auto near = std::stable_partition(come.begin(), come.end(),
+        [this](int v) { return this->IsNearOwn(this->State.Mesh.Position[v]); });
+      std::for_each(near, come.end(), [this](int v) { this->State.Forget(v); });
+      come.erase(near, come.end());
+      this->Blocks.AddOthers(come);
     }
   }
 }

@@ -81,6 +81,7 @@ private:
   void BeginParts(const Sizes& sizes);
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
+  bool IsNearOwn(const Vector& position) const;
   float Halo() const { return SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest(); }
 
   SurfaceState& State;

@@ -112,14 +112,11 @@ void RankComponents::Mark(const SurfaceState& state, Executor& executor)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        const bool isAlive = v < n && state.Mesh.IsAlive(static_cast<int>(v));
-        if (isAlive)
+        const bool isOwn = v < n && state.Mesh.IsAlive(static_cast<int>(v)) &&
+          this->Part.IsOwn(static_cast<int>(v));
+        if (isOwn != (this->Marks[v] == Own))
         {
-          this->Marks[v] = this->Part.IsOwn(static_cast<int>(v)) ? Own : Others;
-        }
-        else if (this->Marks[v] != 0)
-        {
-          this->Marks[v] = 0;
+          this->Marks[v] = isOwn ? Own : 0;
         }
       }
     });
@@ -134,7 +131,6 @@ void RankComponents::FindOwnSets(const SurfaceState& state, Executor& executor)
     const int root = this->Connected.Roots()[set];
     this->Sets.push_back({ root, this->Connected.Sizes()[set], state.Mesh.Position[root] });
   }
-  this->NumberOfOwn = this->Sets.size();
 }
 
 std::vector<RankComponents::Name> RankComponents::NameBorders(
@@ -171,48 +167,6 @@ std::vector<RankComponents::Name> RankComponents::NameBorders(
   std::vector<Name> names = Joined(executor, blocks);
   SortUnique(names);
   return names;
-}
-
-std::vector<int> RankComponents::FindOthersSets(
-  const SurfaceState& state, const std::vector<Name>& borders, Executor& executor)
-{
-  this->Connected.Label(state.Mesh, this->OthersOnes(), this->Labels, executor);
-  const std::vector<int>& roots = this->Connected.Roots();
-  std::vector<int> setOf(roots.size(), ConnectedVertices::None);
-  for (const Name& name : borders)
-  {
-    if (this->Marks[name.Vertex] == Others)
-    {
-      setOf[this->Labels[name.Vertex]] = name.Set;
-    }
-  }
-  for (std::size_t label = 0; label < roots.size(); ++label)
-  {
-    if (setOf[label] == ConnectedVertices::None)
-    {
-      setOf[label] = static_cast<int>(this->Sets.size());
-      this->Sets.push_back({ roots[label], 0, state.Mesh.Position[roots[label]] });
-    }
-  }
-  return setOf;
-}
-
-void RankComponents::NameAsked(const SurfaceState& state, std::vector<Name>& names) const
-{
-  std::vector<int> asked;
-  for (std::size_t set = this->NumberOfOwn; set < this->Sets.size(); ++set)
-  {
-    asked.push_back(this->Sets[set].Root);
-    names.push_back({ this->Sets[set].Root, static_cast<int>(set) });
-  }
-  const int size = state.Mesh.Size();
-  for (const int v : GatherListsOnAll(this->Part.Ranks, asked))
-  {
-    if (v < size && this->Marks[v] == Own)
-    {
-      names.push_back({ v, this->Labels[v] });
-    }
-  }
 }
 
 std::vector<Message> RankComponents::JoinSets(const std::vector<Message>& ofRanks)
@@ -290,20 +244,15 @@ void RankComponents::Label(SurfaceState& state, Executor& executor)
 {
   this->Mark(state, executor);
   this->FindOwnSets(state, executor);
-  std::vector<Name> names = this->NameBorders(state, executor);
-  const std::vector<int> setOfOthers = this->FindOthersSets(state, names, executor);
-  this->NameAsked(state, names);
-  this->FindWholes(names);
+  this->FindWholes(this->NameBorders(state, executor));
   ForBlocks(executor, state.Mesh.Rings.size(), VertexBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        if (this->Marks[v] != 0)
+        if (this->Marks[v] == Own)
         {
-          const int label = this->Labels[v];
-          state.Component[v] =
-            this->Wholes[this->Marks[v] == Own ? label : setOfOthers[label]].Label;
+          state.Component[v] = this->Wholes[this->Labels[v]].Label;
         }
       }
     });
@@ -344,7 +293,7 @@ std::vector<int> RankComponents::FindInsideOut(const SurfaceState& state, Execut
   Communicator& ranks = this->Part.Ranks;
   std::vector<Vector> places;
   std::vector<int> labels;
-  for (std::size_t set = 0; set < this->NumberOfOwn; ++set)
+  for (std::size_t set = 0; set < this->Sets.size(); ++set)
   {
     places.push_back(this->Wholes[set].Place);
     labels.push_back(this->Wholes[set].Label);
@@ -412,46 +361,44 @@ void RankComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
   {
     return;
   }
-  const std::vector<int> labels = this->LabelsOf(roots);
-  std::vector<int> placeOf(static_cast<std::size_t>(this->Components), ConnectedVertices::None);
-  for (std::size_t i = 0; i < labels.size(); ++i)
-  {
-    placeOf.resize(std::max(placeOf.size(), static_cast<std::size_t>(labels[i]) + 1),
-      ConnectedVertices::None); // Labels stay when others are deleted.
-    placeOf[labels[i]] = static_cast<int>(i);
-  }
   struct Removal
   {
-    int Place;
+    int Label;
+    int Place; ///< Among the roots.
     int Vertices;
     std::int64_t Neighbours;
   };
-  std::vector<Removal> removals(roots.size());
-  for (std::size_t i = 0; i < roots.size(); ++i)
+  std::vector<Removal> removals; // By label.
+  for (const int label : this->LabelsOf(roots))
   {
-    removals[i] = { static_cast<int>(i), 0, 0 };
+    removals.push_back({ label, static_cast<int>(removals.size()), 0, 0 });
   }
+  std::sort(removals.begin(), removals.end(),
+    [](const Removal& a, const Removal& b) { return a.Label < b.Label; });
   std::vector<char> isRootHere(roots.size(), 0);
-  VertexPlaces others;
+  std::vector<int> removed;
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
-    const int label = state.Mesh.IsAlive(v) ? state.Component[v] : ConnectedVertices::None;
-    if (label < 0 || label >= static_cast<int>(placeOf.size()) || placeOf[label] < 0)
+    if (this->Marks[v] != Own || !state.Mesh.IsAlive(v))
     {
       continue;
     }
-    const bool isOwn = this->Marks[v] == Own;
-    Removal& removal = removals[placeOf[label]];
-    if (isOwn)
+    const int label = this->Wholes[this->Labels[v]].Label;
+    const auto removal = std::lower_bound(removals.begin(), removals.end(), label,
+      [](const Removal& r, int wanted) { return r.Label < wanted; });
+    if (removal != removals.end() && removal->Label == label)
     {
-      ++removal.Vertices;
-      removal.Neighbours += state.Mesh.Rings[v].Count;
-      isRootHere[removal.Place] |= v == roots[removal.Place];
+      ++removal->Vertices;
+      removal->Neighbours += state.Mesh.Rings[v].Count;
+      isRootHere[removal->Place] |= v == roots[removal->Place];
+      removed.push_back(v);
+      state.RemoveVertex(v);
+      state.Mesh.RemoveVertex(v);
     }
-    state.Component[v] = ConnectedVertices::None;
-    state.RemoveVertex(v);
-    // The place of another rank's is its owner's to give away.
-    state.Mesh.RemoveVertex(v, isOwn ? nullptr : &others);
+  }
+  for (const int v : GatherListsOnAll(this->Part.Ranks, removed))
+  {
+    state.Forget(v); // Where it is another rank's.
   }
   std::vector<Removal> whole(roots.size());
   for (const Removal& part : GatherListsOnAll(this->Part.Ranks, removals))

@@ -21,7 +21,8 @@ namespace volumic
  *
  * What a rank has of a component is labelled there; sizes, places and the vertices along borders go
  * to rank 0, which finds the components, and tells each rank those of its own. So messages go with
- * the borders and the number of components. Places that no vertex has are not written.
+ * the borders and the number of components. Places that no vertex has are not written, and of
+ * vertices of other ranks only those are looked at that are neighbours of own ones.
  *
  * Of what is deleted SurfaceState::Counts tell on all ranks. The number of vertices falls by what
  * was a rank's own, the Euler characteristic where the first vertex of a component was: the changes
@@ -35,7 +36,7 @@ public:
   {
   }
 
-  /** Labels, in SurfaceState::Component, all vertices that the rank has, its own or not. */
+  /** Labels, in SurfaceState::Component, the rank's own vertices. */
   void Label(SurfaceState& state, Executor& executor);
 
   /** When last labelled, less those deleted since. */
@@ -57,14 +58,13 @@ public:
   std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor);
 
 private:
-  static constexpr std::uint8_t Own = 1;
-  static constexpr std::uint8_t Others = 2;
+  static constexpr std::uint8_t Own = 1; ///< Mark.
 
   /** What a rank has of a component: a set of own vertices that edges join. */
   struct OwnSet
   {
     int Root; ///< Its smallest vertex, and
-    int Size; ///< 0: the root is another rank's, of a component that this one has no other part of.
+    int Size;
     Vector Place; ///< Of the root.
   };
   /** A set is of the same component as all others, of any rank, that name the same vertex. */
@@ -92,12 +92,8 @@ private:
 
   void Mark(const SurfaceState& state, Executor& executor);
   MarkedVertices OwnOnes() const { return { this->Marks, Own }; }
-  MarkedVertices OthersOnes() const { return { this->Marks, Others }; }
   void FindOwnSets(const SurfaceState& state, Executor& executor);
   std::vector<Name> NameBorders(const SurfaceState& state, Executor& executor) const;
-  std::vector<int> FindOthersSets(
-    const SurfaceState& state, const std::vector<Name>& borders, Executor& executor);
-  void NameAsked(const SurfaceState& state, std::vector<Name>& names) const;
   void FindWholes(const std::vector<Name>& names);
   std::vector<Message> JoinSets(const std::vector<Message>& ofRanks);
   std::vector<int> LabelsOf(const std::vector<int>& roots) const;
@@ -105,13 +101,11 @@ private:
 
   const RankPart Part;
   ConnectedVertices Connected;
-  LargeVector<std::uint8_t> Marks; ///< By vertex: whose it is; zeroed.
-  /** By vertex: the own set, or that of vertices that others own. */
-  LargeVector<int> Labels;
-  std::vector<OwnSet> Sets;    ///< Those of own vertices, then those that others are asked for.
-  std::size_t NumberOfOwn = 0; ///< Of these.
-  std::vector<Whole> Wholes;   ///< Of each set.
-  std::vector<Whole> All;      ///< On rank 0: by label.
+  LargeVector<std::uint8_t> Marks; ///< By vertex: Own or 0.
+  LargeVector<int> Labels;         ///< By vertex that is own: the set.
+  std::vector<OwnSet> Sets;
+  std::vector<Whole> Wholes; ///< Of each set.
+  std::vector<Whole> All;    ///< On rank 0: by label.
   int Components = 0;
 };
 }
