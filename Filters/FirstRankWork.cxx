@@ -10,6 +10,13 @@ namespace
 {
 /** Several times a second, as progress is shown; a word to all ranks takes less than a millisecond. */
 constexpr std::chrono::milliseconds Interval(100);
+
+/** What rank 0 has to say to those that wait. */
+enum class Word
+{
+  Progress, ///< How far it is, follows.
+  Help      ///< A part is for all.
+};
 }
 
 FirstRankWork::FirstRankWork(Communicator& ranks, Show show)
@@ -17,11 +24,12 @@ FirstRankWork::FirstRankWork(Communicator& ranks, Show show)
 {
 }
 
-void FirstRankWork::Run(const std::function<void()>& work)
+void FirstRankWork::Run(
+  const std::function<void()>& work, const std::function<void()>& help)
 {
   if (this->Ranks.Rank() != 0)
   {
-    this->Wait();
+    this->Wait(help);
     return;
   }
   this->OthersWait = this->Ranks.NumberOfRanks() > 1;
@@ -41,6 +49,20 @@ void FirstRankWork::Run(const std::function<void()>& work)
   }
 }
 
+void FirstRankWork::Together(const std::function<void()>& part)
+{
+  const bool othersWait = std::exchange(this->OthersWait, false);
+  if (othersWait)
+  {
+    MessageWriter writer;
+    writer.Add(Word::Help);
+    this->Ranks.Broadcast(writer.Take());
+  }
+  part();
+  this->OthersWait = othersWait;
+  this->Told = Clock::now();
+}
+
 bool FirstRankWork::GoOn(double share, const std::string& text)
 {
   const bool goesOn = this->ShowHere(share, text);
@@ -55,13 +77,14 @@ bool FirstRankWork::GoOn(double share, const std::string& text)
 bool FirstRankWork::Tell(double share, const std::string& text)
 {
   MessageWriter writer;
+  writer.Add(Word::Progress);
   writer.Add(share);
   writer.AddArray(text);
   this->Ranks.Broadcast(writer.Take());
   return this->Ranks.IsAny(false);
 }
 
-void FirstRankWork::Wait()
+void FirstRankWork::Wait(const std::function<void()>& help)
 {
   for (;;)
   {
@@ -71,6 +94,11 @@ void FirstRankWork::Wait()
       return;
     }
     MessageReader reader(message);
+    if (reader.Take<Word>() == Word::Help)
+    {
+      help();
+      continue;
+    }
     const double share = reader.Take<double>();
     std::string text;
     reader.TakeArray(text);

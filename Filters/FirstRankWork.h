@@ -26,8 +26,12 @@ public:
   /**
    * All ranks call it; it returns on all when the work is done. What the work throws must become
    * Communicator::Fail(), then the others leave it, too.
+   * @param help what the others do for rank 0, while it is in Together()
    */
-  void Run(const std::function<void()>& work);
+  void Run(const std::function<void()>& work, const std::function<void()>& help = {});
+
+  /** From within the work at rank 0: a part that all ranks do, this one so, the others by `help`. */
+  void Together(const std::function<void()>& part);
 
   /**
    * From within the work at rank 0, as often as it likes; outside of Run(), on any rank, without a
@@ -40,7 +44,7 @@ public:
 
 private:
   using Clock = std::chrono::steady_clock;
-  void Wait();
+  void Wait(const std::function<void()>& help);
   bool Tell(double share, const std::string& text);
 
   Communicator& Ranks;

@@ -329,6 +329,23 @@ void PyramidLevels::ReleaseCoarserThan(int level)
   }
 }
 
+bool AreLevels(const std::vector<vtkImageData*>& images)
+{
+  try
+  {
+    for (std::size_t h = 1; h < images.size(); ++h)
+    {
+      CheckPlace(images[0], images[h], static_cast<unsigned int>(h));
+      CheckShrinks(images[h - 1], images[h], static_cast<unsigned int>(h));
+    }
+  }
+  catch (const std::invalid_argument&)
+  {
+    return false;
+  }
+  return images.size() > 1;
+}
+
 vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
 {
   std::vector<vtkImageData*> images;
@@ -339,19 +356,7 @@ vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
     {
       return nullptr;
     }
-    try
-    {
-      if (h > 0)
-      {
-        CheckPlace(images[0], images[h], h);
-        CheckShrinks(images[h - 1], images[h], h);
-      }
-    }
-    catch (const std::invalid_argument&)
-    {
-      return nullptr;
-    }
   }
-  return images.size() > 1 ? images[0] : nullptr;
+  return AreLevels(images) ? images[0] : nullptr;
 }
 }

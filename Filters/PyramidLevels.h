@@ -122,6 +122,9 @@ private:
   mutable std::vector<std::optional<std::array<double, 2>>> Ranges; ///< by level, once asked for
 };
 
+/** Whether they are the levels of a pyramid (two at least), by their sizes and places. */
+bool AreLevels(const std::vector<vtkImageData*>& images);
+
 /** Level 0 if the blocks are the levels of a pyramid (two at least), else null. */
 vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks);
 }

@@ -16,6 +16,7 @@ class vtkPolyData;
 
 namespace volumic
 {
+class Communicator;
 class SegmentationCheckpoint;
 
 /** Whether a run leaves what another process can go on from; see SegmentationCheckpoint. */
@@ -46,6 +47,9 @@ struct SegmentationRequest
   Deadline::Clock::time_point Started = Deadline::Clock::now();
   ProgressMonitor::Callback Progress;
   std::function<void(const std::string& text)> Warn;
+  /** Does a part of the run on all ranks (FirstRankWork::Together); empty: there is one rank. */
+  std::function<void(const std::function<void()>& part)> Together;
+  Communicator* Ranks = nullptr; ///< these
 };
 }
 

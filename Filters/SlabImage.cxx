@@ -3,8 +3,8 @@
 #include "SlabImage.h"
 
 #include "Core/Common/Refuse.h"
-#include "Core/Common/ScratchMemory.h"
 #include "ImageVoxels.h"
+#include "LargeArray.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellData.h>
@@ -23,21 +23,6 @@ namespace volumic
 {
 namespace
 {
-/** An array like this one, with room for so many tuples. */
-vtkSmartPointer<vtkDataArray> NewArray(vtkDataArray* like, vtkIdType tuples)
-{
-  vtkSmartPointer<vtkDataArray> array;
-  array.TakeReference(vtkDataArray::CreateDataArray(like->GetDataType()));
-  array->SetName(like->GetName());
-  array->SetNumberOfComponents(like->GetNumberOfComponents());
-  const vtkIdType values = tuples * like->GetNumberOfComponents();
-  const auto width = static_cast<std::size_t>(array->GetDataTypeSize());
-  void* memory = AllocateLarge(static_cast<std::size_t>(values) * width);
-  array->SetVoidArray(memory, values, 0, vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
-  array->SetArrayFreeFunction([](void* given) { FreeLarge(given); });
-  return array;
-}
-
 /** Copies all tuples to where they belong. */
 void CopyTuples(vtkDataArray* from, vtkDataArray* to, vtkIdType first)
 {
@@ -103,7 +88,7 @@ void SlabImage::Begin(vtkImageData* slab)
   for (int i = 0; i < slab->GetPointData()->GetNumberOfArrays(); ++i)
   {
     const vtkSmartPointer<vtkDataArray> numbers = NumbersOf(slab, i);
-    this->Arrays.emplace_back(numbers ? NewArray(numbers, points) : nullptr);
+    this->Arrays.emplace_back(numbers ? NewLargeArrayLike(numbers, points) : nullptr);
     if (numbers)
     {
       this->Arrays.back()->SetName(slab->GetPointData()->GetArray(i)->GetName());
@@ -117,7 +102,7 @@ void SlabImage::Begin(vtkImageData* slab)
   if (vtkDataArray* ghosts = CellGhostsOf(slab))
   {
     const vtkIdType cells = Cells(e[0], e[1]) * Cells(e[2], e[3]) * Cells(e[4], e[5]);
-    this->CellGhosts = NewArray(ghosts, cells);
+    this->CellGhosts = NewLargeArrayLike(ghosts, cells);
     this->Whole->GetCellData()->AddArray(this->CellGhosts);
   }
 }

@@ -209,6 +209,11 @@ Message MessageOf(vtkPolyData* surface)
 {
   MessageFile file;
   Write(file, surface);
+  for (vtkCellArray* cells : { surface->GetVerts(), surface->GetLines(), surface->GetStrips() })
+  {
+    WriteArray(file, cells->GetOffsetsArray());
+    WriteArray(file, cells->GetConnectivityArray());
+  }
   vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
   file.PutText(ids ? ids->GetName() : "");
   return std::move(file.Content);
@@ -218,6 +223,16 @@ vtkSmartPointer<vtkPolyData> SurfaceFrom(const Message& message)
 {
   ReadMessageFile file(message);
   vtkSmartPointer<vtkPolyData> surface = Read(file);
+  const auto readCells = [&file]
+  {
+    auto cells = vtkSmartPointer<vtkCellArray>::New();
+    const vtkSmartPointer<vtkDataArray> offsets = ReadNumbers(file);
+    cells->SetData(offsets, ReadNumbers(file));
+    return cells;
+  };
+  surface->SetVerts(readCells());
+  surface->SetLines(readCells());
+  surface->SetStrips(readCells());
   surface->GetPointData()->SetActiveGlobalIds(file.GetText().c_str());
   return surface;
 }

@@ -10,6 +10,7 @@
 #include "InitialSurfaces.h"
 #include "InputPoints.h"
 #include "PrefixErrors.h"
+#include "RankLevel.h"
 #include "SurfaceOutput.h"
 
 #include <vtkNew.h>
@@ -271,23 +272,52 @@ void SurfaceSegmentation::RunLevels()
       this->Evolution->SetMeanEdgeLength(
         this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit());
     }
-    if (level == this->Choice.Coarsest)
-    {
-      this->Start(*this->Evolution, image);
-    }
-    else if (!this->Evolution->Divide(image, level))
+    StopReason reason = StopReason::Cancelled;
+    if (!this->EvolveOn(image, level, reason))
     {
       this->KeepStoppedSurface(level);
       break;
     }
-    GiveBackFreeMemory();
-    this->Snapshots.TakeIfDue(
-      *this->Evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
-    this->GoesOn = this->RunLevel(level);
+    this->GoesOn = this->KeepLevel(level, reason);
     this->Reached = level;
     this->LeaveCheckpoint(level);
   }
   this->Found.SetRows(this->Evolution->History());
+}
+
+bool SurfaceSegmentation::MayBeShared(int level, const LevelImage& image) const
+{
+  // Snapshots, mean edges, and what attracts are for the whole surface, on one rank.
+  return this->Request.Together && level < this->Choice.Coarsest && level >= 0 &&
+    SurfaceEvolution::AreInSweeps(this->Settings.Options, image.Size) &&
+    this->Settings.SnapshotInterval == 0 && this->Settings.EdgeLength == 0.0 &&
+    !this->Levels.HasPoints() && !this->Levels.HasEdges();
+}
+
+bool SurfaceSegmentation::EvolveOn(const LevelImage& image, int level, StopReason& reason)
+{
+  SurfaceEvolution& evolution = *this->Evolution;
+  if (this->MayBeShared(level, image))
+  {
+    bool isDivided = false;
+    const SharedLevel shared{ this->Settings.Options, level, this->Settings.End.NumberOfThreads };
+    this->Request.Together(
+      [&] { isDivided = EvolveOnRanks(*this->Request.Ranks, shared, image, evolution, reason); });
+    return isDivided;
+  }
+  if (level == this->Choice.Coarsest)
+  {
+    this->Start(evolution, image);
+  }
+  else if (!evolution.Divide(image, level))
+  {
+    return false;
+  }
+  GiveBackFreeMemory();
+  this->Snapshots.TakeIfDue(
+    evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
+  reason = evolution.Run();
+  return true;
 }
 
 void SurfaceSegmentation::PrepareCheckpoint()
@@ -350,9 +380,8 @@ void SurfaceSegmentation::LeaveCheckpoint(int level)
   }
 }
 
-bool SurfaceSegmentation::RunLevel(int level)
+bool SurfaceSegmentation::KeepLevel(int level, StopReason reason)
 {
-  const StopReason reason = this->Evolution->Run();
   GiveBackFreeMemory();
   SegmentationResults::Level result;
   result.IsAtRest = reason != StopReason::Cancelled;

@@ -70,7 +70,9 @@ private:
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   void Begin();
   void RunLevels();
-  bool RunLevel(int level);
+  bool MayBeShared(int level, const LevelImage& image) const;
+  bool EvolveOn(const LevelImage& image, int level, StopReason& reason);
+  bool KeepLevel(int level, StopReason reason);
   void PrepareCheckpoint();
   void Resume();
   void LeaveCheckpoint(int level);

@@ -50,13 +50,53 @@ inline void AskForNothing(vtkInformation* info)
 
 /**
  * Whether this is the first process of a parallel run, or the only one. It makes the whole
- * output; the others have none, as they would only repeat it.
+ * output; the others have none, as they would only repeat it. Some filters (vtkCleanPolyData) have
+ * the others ask for one of no pieces.
  */
 inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output)
 {
   const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+  vtkInformation* info = output->GetInformationObject(port);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const bool isOfNone = info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
+    info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == 0;
+  return !isOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
+}
+
+/** Of an output that someone asks for, layers beyond a piece. */
+inline int GhostLevelsAskedOf(vtkInformation* request, vtkInformationVector* output)
+{
+  const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
   return output->GetInformationObject(port)->Get(
-           vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) <= 0;
+    vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+}
+
+/**
+ * RequestUpdateExtent of a filter whose processes work together: each asks for its piece. Sources
+ * that cannot give pieces give the first process all.
+ */
+inline void AskForPieces(
+  vtkInformation* request, vtkInformationVector** input, int ports, vtkInformationVector* output)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const int outputPort = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+  vtkInformation* asked = output->GetInformationObject(outputPort);
+  for (int port = 0; port < ports; ++port)
+  {
+    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = input[port]->GetInformationObject(i);
+      if (info->Has(Pipeline::WHOLE_EXTENT()))
+      {
+        int extent[6];
+        info->Get(Pipeline::WHOLE_EXTENT(), extent);
+        info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+      }
+      info->CopyEntry(asked, Pipeline::UPDATE_PIECE_NUMBER());
+      info->CopyEntry(asked, Pipeline::UPDATE_NUMBER_OF_PIECES());
+      info->CopyEntry(asked, Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+    }
+  }
 }
 
 /**

@@ -10,6 +10,8 @@
 #include "Deadline.h"
 #include "InputImage.h"
 #include "PrefixErrors.h"
+#include "RankInputs.h"
+#include "RankLevel.h"
 #include "RankOutputs.h"
 #include "SegmentationCache.h"
 #include "SegmentationResults.h"
@@ -34,6 +36,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
 #include <algorithm>
@@ -209,9 +212,19 @@ int vtkDeformableSurface::GetResumedLevel()
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForWholeInputs(request, input, 3, output);
   const vtkInternals& internals = *this->Internals;
   const auto ranks = volumic::RanksOf(internals.Controller, request, output);
+  // Ranks that work together ask for what is their own of surfaces and points.
+  const bool areMany = ranks->NumberOfRanks() > 1;
+  volumic::AskForWholeInputs(request, input, areMany ? 1 : 3, output);
+  for (int port = 1; areMany && port < 3; ++port)
+  {
+    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      input[port]->GetInformationObject(i)->Set(
+        vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
   if (internals.Settings.End.MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(
@@ -327,8 +340,13 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   }
   request.Limit = volumic::Deadline(request.Started, limit);
   this->Internals->Limit = request.Limit;
-  request.InitialSurface = vtkPolyData::GetData(input[1]);
-  request.AttractingPoints = vtkPolyData::GetData(input[2]);
+  vtkInternals& internals = *this->Internals;
+  internals.InitialSurface =
+    volumic::JoinPieces(*internals.Ranks, vtkPolyData::GetData(input[1]));
+  internals.AttractingPoints =
+    volumic::JoinPieces(*internals.Ranks, vtkPolyData::GetData(input[2]));
+  request.InitialSurface = internals.InitialSurface;
+  request.AttractingPoints = internals.AttractingPoints;
   request.EdgeSelection = this->GetInputArrayInformation(1);
   request.Checkpoints.AreLeft =
     request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
@@ -341,6 +359,12 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   request.Progress = [this, before](double share, const std::string& text)
   { return this->Internals->Alone->GoOn(before + (1.0 - before) * share, text); };
   request.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
+  if (this->Internals->Ranks->NumberOfRanks() > 1)
+  {
+    request.Ranks = this->Internals->Ranks.get();
+    request.Together = [this](const std::function<void()>& part)
+    { this->Internals->Alone->Together(part); };
+  }
   return request;
 }
 
@@ -469,7 +493,8 @@ void vtkDeformableSurface::RunOrGoOn(
     FillByNothing(output, isAborted, settings.Profile);
     return;
   }
-  alone.Run([&] { run->Run(); });
+  alone.Run([&] { run->Run(); },
+    [&] { volumic::HelpWithLevel(ranks, [this] { return !volumic::IsAbortRequested(this); }); });
   if (run)
   {
     this->ShowRun(*run, request, output);
@@ -550,6 +575,8 @@ int vtkDeformableSurface::RequestData(
   {
     this->EndByError({ volumic::ErrorCodeOf(error), error.what() }, outputVector);
   }
+  this->Internals->InitialSurface = nullptr;
+  this->Internals->AttractingPoints = nullptr;
   const vtkMTimeType before = this->GetMTime();
   volumic::ForgetAbort(this);
   this->Internals->Cache.IgnoreChange(before, this->GetMTime());

@@ -13,6 +13,7 @@
 #include "vtkDeformableSurface.h"
 
 #include <vtkMultiProcessController.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <memory>
@@ -29,6 +30,8 @@ public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<volumic::Communicator> Ranks;   ///< of the run that is under way
   std::unique_ptr<volumic::FirstRankWork> Alone;  ///< what rank 0 does of it without the others
+  vtkSmartPointer<vtkPolyData> InitialSurface;   ///< of the run, of all ranks
+  vtkSmartPointer<vtkPolyData> AttractingPoints; ///< likewise
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
   bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.

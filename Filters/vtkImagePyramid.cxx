@@ -3,37 +3,31 @@
 #include "vtkImagePyramid.h"
 
 #include "AlgorithmErrors.h"
+#include "ControllerRanks.h"
+#include "Core/Common/Join.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "HostThreads.h"
 #include "ImageVoxels.h"
 #include "InputImage.h"
 #include "LimitedMemory.h"
-#include "LevelVoxels.h"
+#include "PyramidBlocks.h"
 #include "SlabInput.h"
-#include "ValidVoxels.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
 
-#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDemandDrivenPipeline.h>
-#include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
-#include <vtkFieldData.h>
-#include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkStringArray.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -47,92 +41,6 @@ vtkStandardNewMacro(vtkImagePyramid);
 
 namespace
 {
-std::vector<volumic::LevelGeometry> Plan(
-  vtkImageData* image, const volumic::PyramidOptions& options)
-{
-  const int* size = image->GetDimensions();
-  const double* spacing = image->GetSpacing();
-  return volumic::PlanPyramid(
-    { size[0], size[1], size[2] }, { spacing[0], spacing[1], spacing[2] }, options);
-}
-
-void AddLevelFieldData(vtkImageData* image, int level, double unit)
-{
-  vtkNew<vtkIntArray> levelArray;
-  levelArray->SetName("Level");
-  levelArray->InsertNextValue(level);
-  vtkNew<vtkDoubleArray> unitArray;
-  unitArray->SetName("Unit");
-  unitArray->InsertNextValue(unit);
-  // Not into the input's own field data, which a shallow copy may share.
-  vtkNew<vtkFieldData> fieldData;
-  fieldData->ShallowCopy(image->GetFieldData());
-  fieldData->AddArray(levelArray);
-  fieldData->AddArray(unitArray);
-  image->SetFieldData(fieldData);
-}
-
-void AddLevel(vtkMultiBlockDataSet* pyramid, int level, vtkImageData* image, double unit)
-{
-  AddLevelFieldData(image, level, unit);
-  pyramid->SetBlock(level, image);
-  pyramid->GetMetaData(level)->Set(
-    vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
-}
-
-vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* input, const char* name, vtkDataArray* voxels,
-  const volumic::LevelGeometry& geometry)
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetExtent(0, static_cast<int>(geometry.Size[0]) - 1, 0,
-    static_cast<int>(geometry.Size[1]) - 1, 0, static_cast<int>(geometry.Size[2]) - 1);
-  image->SetSpacing(geometry.Spacing.data());
-  image->SetDirectionMatrix(input->GetDirectionMatrix());
-  const int* extent = input->GetExtent();
-  double origin[3];
-  input->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], origin);
-  image->SetOrigin(origin);
-  voxels->SetName(name);
-  image->GetPointData()->SetScalars(voxels);
-  return image;
-}
-
-struct Settings
-{
-  volumic::PyramidOptions Levels;
-  bool NaNIsBackground;
-  int NumberOfThreads;
-};
-
-/** @return whether all levels were finished. */
-bool BuildPyramid(vtkImageData* input, vtkDataArray* voxels, const Settings& settings,
-  const volumic::PyramidProgress& progress, vtkMultiBlockDataSet* pyramid,
-  volumic::ValidVoxels& valid)
-{
-  const std::vector<volumic::LevelGeometry> levels = Plan(input, settings.Levels);
-  std::vector<vtkSmartPointer<vtkDataArray>> made;
-
-  volumic::HostThreads threads(settings.NumberOfThreads);
-  threads.Run(
-    [&]
-    {
-      const vtkSmartPointer<vtkDataArray> contiguous = volumic::ContiguousVoxels(voxels);
-      valid = volumic::FindValidVoxels(
-        voxels, contiguous, input, settings.NaNIsBackground, threads);
-      volumic::CheckAnyIsValid(voxels, valid);
-      made = volumic::MakeLevelVoxels(contiguous, valid, levels, threads, progress);
-    });
-
-  // No voxel is copied, but where one component was selected, which takes the place of the array.
-  AddLevel(pyramid, 0, volumic::WithVoxels(input, voxels), levels[0].Unit);
-  for (std::size_t h = 1; h <= made.size(); ++h)
-  {
-    AddLevel(pyramid, static_cast<int>(h),
-      MakeImage(input, voxels->GetName(), made[h - 1], levels[h]), levels[h].Unit);
-  }
-  return made.size() + 1 == levels.size();
-}
-
 volumic::PyramidOptions OptionsOf(
   double reductionFactor, int numberOfLevels, int minimumLevelSize)
 {
@@ -142,18 +50,6 @@ volumic::PyramidOptions OptionsOf(
   options.MinimumLevelSize = minimumLevelSize;
   return options;
 }
-
-void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numberOfNaNs)
-{
-  vtkNew<vtkIdTypeArray> nans;
-  nans->SetName("NaNVoxels");
-  nans->InsertNextValue(static_cast<vtkIdType>(numberOfNaNs));
-  pyramid->GetFieldData()->AddArray(nans);
-  vtkNew<vtkStringArray> reason;
-  reason->SetName("StopReason");
-  reason->InsertNextValue(isComplete ? "complete" : "cancelled");
-  pyramid->GetFieldData()->AddArray(reason);
-}
 }
 
 //------------------------------------------------------------------------------
@@ -161,6 +57,7 @@ void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numbe
 class vtkImagePyramid::vtkInternals
 {
 public:
+  vtkSmartPointer<vtkMultiProcessController> Controller;
   std::string ScratchDirectory;
   volumic::LimitedMemory Memory; ///< as the last run had it
   bool HasToldOfWhole = false;
@@ -179,6 +76,7 @@ vtkImagePyramid::vtkImagePyramid() : Internals(std::make_unique<vtkInternals>())
   this->MemoryLimit = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkImagePyramid::~vtkImagePyramid() = default;
@@ -208,6 +106,21 @@ void vtkImagePyramid::SetScratchDirectory(const char* directory)
 const char* vtkImagePyramid::GetScratchDirectory()
 {
   return this->Internals->ScratchDirectory.c_str();
+}
+
+//------------------------------------------------------------------------------
+void vtkImagePyramid::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Internals->Controller != controller)
+  {
+    this->Internals->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkImagePyramid::GetController()
+{
+  return this->Internals->Controller;
 }
 
 //------------------------------------------------------------------------------
@@ -275,6 +188,12 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
+  const auto ranks = volumic::RanksOf(this->Internals->Controller, request, output);
+  if (ranks->NumberOfRanks() > 1)
+  {
+    volumic::AskForPieces(request, input, 1, output);
+    return 1;
+  }
   volumic::AskForWholeInputs(request, input, 1, output);
   if (this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
   {
@@ -321,34 +240,36 @@ bool vtkImagePyramid::ShowProgress(double share, const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-void vtkImagePyramid::MakeLevels(
-  vtkDataObject* input, vtkSmartPointer<vtkImageData>& image, vtkMultiBlockDataSet* output)
+volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(volumic::Communicator& ranks,
+  vtkDataObject* input, int ghostLevels, vtkSmartPointer<vtkImageData>& image)
 {
-  int component = -1;
-  image = this->ReadInput(input, component);
-  vtkNew<vtkMultiBlockDataSet> pyramid;
-  volumic::ValidVoxels valid;
-  bool isComplete = false;
+  int component = this->SelectedComponent;
+  const bool isAlone = ranks.NumberOfRanks() == 1;
+  if (!isAlone)
+  {
+    image = volumic::PieceOfImage(ranks, input);
+  }
+  else if (!(image = this->ReadInput(input, component)))
+  {
+    return volumic::StoppedPyramidBlocks();
+  }
   vtkSmartPointer<vtkDataArray> voxels;
   if (image)
   {
     voxels = volumic::SelectComponent(
       volumic::ChooseArray(this->GetInputArrayInformation(0), image), component);
-    Settings settings;
-    settings.Levels =
-      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
-    settings.NaNIsBackground = this->NaNIsBackground;
-    settings.NumberOfThreads = this->NumberOfThreads;
-    const auto progress = [this](double share, const std::string& text)
-    { return this->ShowProgress(share, text); };
-    isComplete = BuildPyramid(image, voxels, settings, progress, pyramid, valid);
   }
-  AddFacts(pyramid, isComplete, valid.NaNs);
-  output->ShallowCopy(pyramid);
-  if (valid.NaNs > 0)
-  {
-    vtkWarningMacro("Input port 0: " << volumic::DescribeNaNs(voxels, image, valid));
-  }
+  const volumic::PyramidImage level0(ranks, image, voxels);
+  image = level0.Pieces.Frame();
+  volumic::PyramidRequest request;
+  request.Levels =
+    OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
+  request.NaNIsBackground = this->NaNIsBackground;
+  request.NumberOfThreads = this->NumberOfThreads;
+  request.GhostLevels = ghostLevels;
+  request.Progress = [this](double share, const std::string& text)
+  { return this->ShowProgress(share, text); };
+  return volumic::MakePyramidBlocks(ranks, level0, request);
 }
 
 //------------------------------------------------------------------------------
@@ -356,18 +277,34 @@ int vtkImagePyramid::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  // In a parallel run the first process holds the pyramid; the others would only repeat it.
-  if (!volumic::IsFirstProcess(request, outputVector))
+  const auto ranks = volumic::RanksOf(this->Internals->Controller, request, outputVector);
+  // Of processes that don't work together the first one holds the pyramid; the others would only
+  // repeat it.
+  if (ranks->NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
+  const auto fail = [&](const std::exception& error, const std::string& text)
+  {
+    ranks->Fail(text);
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
+    vtkErrorMacro("Input port 0: " << text);
+  };
   vtkSmartPointer<vtkImageData> image;
   try
   {
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
-    this->MakeLevels(
-      vtkDataObject::GetData(inputVector[0]), image, vtkMultiBlockDataSet::GetData(outputVector));
+    const volumic::PyramidBlocks pyramid =
+      this->MakeBlocks(*ranks, vtkDataObject::GetData(inputVector[0]),
+        volumic::GhostLevelsAskedOf(request, outputVector), image);
+    ranks->IsAny(false); // Whoever has failed tells it here at last.
+    vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
+    if (!pyramid.AboutNaNs.empty() && ranks->Rank() == 0)
+    {
+      vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
+    }
     for (const std::string& warning : this->Internals->Memory.TakeWarnings())
     {
       vtkWarningMacro(<< warning);
@@ -375,16 +312,12 @@ int vtkImagePyramid::RequestData(
   }
   catch (const std::bad_alloc& error)
   {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: the memory does not suffice for the pyramid of an image of "
-      << (image ? volumic::SizeOf(image) : "?") << " voxels.");
+    fail(error, volumic::Join("the memory does not suffice for the pyramid of an image of ",
+      image ? volumic::SizeOf(image) : "?", " voxels."));
   }
   catch (const std::exception& error)
   {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: " << error.what());
+    fail(error, error.what());
   }
   volumic::ForgetAbort(this);
   return 1;

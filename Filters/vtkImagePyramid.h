@@ -44,6 +44,15 @@
  * the coarser levels are the weighted means of the others alone, and NaN where these have less than
  * half of the weight.
  *
+ * @par Processes:
+ * Where each process of an MPI run asks for the piece of its own number, as in pvserver and
+ * pvbatch, each reads and reduces its piece of the image, and has its piece of each level: the
+ * same bits as on one process. Pieces of neighbours share a layer of voxels, and have further ones
+ * in their ghost arrays where ghost levels are asked for, as VTK cuts all images. A source that
+ * gives the first process all of the image is served as well. A block is null on processes for
+ * which its level has too few voxels. The field data of the whole are the same on all; an error of
+ * one process is reported by all.
+ *
  * @par Errors:
  * A message names the port, the array or the value, and the output is empty, when: the input is no
  * image (apply vtkResampleToImage to an AMR, rectilinear, structured or unstructured grid first),
@@ -80,6 +89,12 @@
 class vtkDataObject;
 class vtkImageData;
 class vtkMultiBlockDataSet;
+class vtkMultiProcessController;
+namespace volumic
+{
+class Communicator;
+struct PyramidBlocks;
+}
 
 class VTKFILTERSVOLUMIC_EXPORT vtkImagePyramid : public vtkImageAlgorithm
 {
@@ -171,6 +186,15 @@ public:
   const char* GetScratchDirectory();
   ///@}
 
+  ///@{
+  /**
+   * The processes that make a pyramid together, see Processes. Default: the global controller of
+   * the program, null where it has none.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
   /**
    * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where
    * they don't go together, which Update() tells by an error.
@@ -210,9 +234,9 @@ private:
   /// The image, whole or put together of slabs, and the component of it that is meant; null after a
   /// stop.
   vtkSmartPointer<vtkImageData> ReadInput(vtkDataObject* input, int& component);
-  /// Fills the output; `image` is known before there are levels.
-  void MakeLevels(
-    vtkDataObject* input, vtkSmartPointer<vtkImageData>& image, vtkMultiBlockDataSet* output);
+  /// By all ranks together. @param image gets the extent of the whole, once that is known
+  volumic::PyramidBlocks MakeBlocks(volumic::Communicator& ranks, vtkDataObject* input,
+    int ghostLevels, vtkSmartPointer<vtkImageData>& image);
   /// False asks to stop.
   bool ShowProgress(double share, const std::string& text);
 

@@ -19,10 +19,12 @@ set(volumic_core_sources
   Image/EdgeAttraction.cxx
   Image/Field.cxx
   Image/LevelReduction.cxx
+  Image/PieceReduction.cxx
   Image/PointAttraction.cxx
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
   Image/ValidReduction.cxx
+  Image/VoxelPieces.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
   Mesh/Division.cxx
@@ -43,9 +45,12 @@ set(volumic_core_sources
   Mesh/VertexRemoval.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
+  Surface/ConnectedVertices.cxx
   Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
+  Surface/RankBlocks.cxx
+  Surface/RankComponents.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
@@ -61,7 +66,9 @@ set(volumic_core_sources
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
   Evolution/EvolutionCheckpoint.cxx
+  Evolution/EvolutionDivision.cxx
   Evolution/EvolutionHistory.cxx
+  Evolution/EvolutionRanks.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
   Evolution/EvolutionSweeps.cxx
@@ -81,6 +88,7 @@ set(volumic_core_headers
   Common/Communicator.h
   Common/ContentHash.h
   Common/DisjointSets.h
+  Common/ExactSum.h
   Common/Executor.h
   Common/FreeMemory.h
   Common/Grow.h
@@ -90,6 +98,7 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
+  Common/RankLists.h
   Common/Refuse.h
   Common/ScratchFile.h
   Common/ScratchMemory.h
@@ -104,13 +113,16 @@ set(volumic_core_headers
   Image/ImageMargin.h
   Image/LevelImage.h
   Image/LevelReduction.h
+  Image/PieceReduction.h
   Image/PointAttraction.h
   Image/PyramidGeometry.h
   Image/RowKernels.h
   Image/ThickPart.h
   Image/ValidReduction.h
+  Image/VoxelBox.h
   Image/VoxelNumbers.h
   Image/VoxelParts.h
+  Image/VoxelPieces.h
   Image/VoxelRows.h
   Image/VoxelValues.h
   Mesh/CellSurface.h
@@ -135,11 +147,15 @@ set(volumic_core_headers
   Mesh/VertexRemoval.h
   Surface/ComponentNesting.h
   Surface/ComponentWatch.h
+  Surface/ConnectedVertices.h
   Surface/EditCells.h
   Surface/FaceShape.h
   Surface/NewFaces.h
   Surface/NormalCone.h
   Surface/Proximity.h
+  Surface/RankBlocks.h
+  Surface/RankComponents.h
+  Surface/RankPart.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
   Surface/SizingField.h

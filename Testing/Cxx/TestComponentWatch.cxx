@@ -17,6 +17,11 @@ using namespace volumic;
 
 namespace
 {
+const Box Everywhere{ Vector(-1e9f, -1e9f, -1e9f), Vector(1e9f, 1e9f, 1e9f) };
+}
+
+namespace
+{
 IndexedSurface Ball(const Point& centre, double radius, bool isCavity = false)
 {
   const IndexedSurface ball = DividedIcosahedron(centre, radius, 1.5);
@@ -340,7 +345,7 @@ TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)
   // One vertex of the first speck, and some of the large one, from which the search ends early.
   for (int round = 0; round < 2; ++round)
   {
-    watch.LabelSmall(state, { 5, 6, first / 2, first + 3, 700 });
+    watch.LabelSmall(state, { 5, 6, first / 2, first + 3, 700 }, Everywhere);
   }
   const int before = state.Mesh.NumberOfVertices();
   EXPECT_TRUE(watch.DeleteDegenerate(state));
@@ -348,7 +353,7 @@ TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)
   EXPECT_FALSE(state.Mesh.IsAlive(first));
   EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the list";
   EXPECT_FALSE(watch.DeleteDegenerate(state));
-  watch.LabelSmall(state, { first + size });
+  watch.LabelSmall(state, { first + size }, Everywhere);
   EXPECT_TRUE(watch.DeleteDegenerate(state));
 }
 
@@ -358,7 +363,7 @@ TEST(ComponentWatch, KeepsASmallOneOfAListOnTheRightSide)
   Fill(state, { Ball({ 0, 0, 0 }, 0.8) });
   state.FieldValue.Fill(1.f);
   ComponentWatch watch;
-  watch.LabelSmall(state, { 0 });
+  watch.LabelSmall(state, { 0 }, Everywhere);
   EXPECT_FALSE(watch.DeleteDegenerate(state));
   // Turned inside out since: its volume has changed its sign.
   for (int v = 0; v < state.Mesh.Size(); ++v)

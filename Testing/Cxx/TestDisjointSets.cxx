@@ -31,7 +31,7 @@ TEST(DisjointSets, AreMadeAfresh)
   DisjointSets sets(3);
   sets.Join(0, 1);
   sets.Join(1, 2);
-  sets.Resize(4);
+  sets.MakeRoom(4);
   for (int i = 0; i < 4; ++i)
   {
     sets.MakeSet(i);

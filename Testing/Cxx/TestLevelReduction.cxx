@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/AxisOperator.h"
 #include "Core/Image/LevelReduction.h"
+#include "Core/Image/PieceReduction.h"
 #include "Core/Image/ValidReduction.h"
+#include "ThreadRanks.h"
 
 #include <gtest/gtest.h>
 
@@ -119,6 +121,168 @@ TEST(LevelReduction, IsTheProductOfTheOperatorsAlongTheAxes)
     }
     EXPECT_NEAR(found[i], sum, 1e-10) << "voxel " << i;
   }
+}
+
+namespace
+{
+/** The voxels of a box. */
+template <typename T>
+std::vector<T> VoxelsIn(const VoxelBox& box, const std::vector<T>& voxels, const VoxelBox& all)
+{
+  std::vector<T> part;
+  ForRowsOf(box, all,
+    [&](std::int64_t first, std::int64_t count)
+    { part.insert(part.end(), voxels.begin() + first, voxels.begin() + first + count); });
+  return part;
+}
+
+/** NaN is not equal to itself. */
+std::vector<std::uint32_t> BitsOf(const std::vector<float>& values)
+{
+  std::vector<std::uint32_t> bits(values.size());
+  std::memcpy(bits.data(), values.data(), values.size() * sizeof(float));
+  return bits;
+}
+
+/** Boxes at the borders, in the middle, of one voxel, and of all. */
+std::vector<VoxelBox> BoxesOf(const VoxelBox& all)
+{
+  const auto [x, y, z] = all.End;
+  return { all, { { 0, 0, 0 }, { 1, 1, 1 } }, { { x - 1, y - 1, z - 1 }, { x, y, z } },
+    { { 3, y / 3, 1 }, { x - 2, y / 2, z - 1 } }, { { 0, y / 2, z / 2 }, { x / 2, y, z } },
+    { { x / 2, 0, 0 }, { x, y / 2, z / 2 } } };
+}
+}
+
+TEST(LevelReduction, GivesPartsOfALevelTheSameBits)
+{
+  const auto levels = TwoLevels({ 61, 203, 23 }, { 1, 1, 2.5 });
+  const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
+  const VoxelBox all = LevelPart::VoxelsOf(levels[0]);
+  SequentialExecutor executor;
+  const auto whole = Reduce(voxels, levels, executor);
+  for (const VoxelBox& box : BoxesOf(LevelPart::VoxelsOf(levels[1])))
+  {
+    const VoxelBox source = SourceOf(box, levels[0], levels[1]);
+    EXPECT_EQ(source.CommonWith(all), source);
+    const auto input = VoxelsIn(source, voxels, all);
+    std::vector<float> part(box.Count());
+    EXPECT_TRUE(ReduceLevel(input.data(), LevelPart(levels[0], source), part.data(),
+      LevelPart(levels[1], box), executor, GoOn));
+    EXPECT_EQ(part, VoxelsIn(box, whole, LevelPart::VoxelsOf(levels[1])));
+  }
+}
+
+TEST(ValidReduction, GivesPartsOfALevelTheSameBits)
+{
+  const auto levels = TwoLevels({ 30, 41, 22 });
+  const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
+  std::vector<std::uint8_t> marks(voxels.size(), 1);
+  for (std::size_t i = 0; i < marks.size(); ++i)
+  {
+    marks[i] = i % 7 == 0 || i < marks.size() / 3 ? 0 : 1;
+  }
+  const auto reduce = [&](const VoxelBox& source, const VoxelBox& box)
+  {
+    const VoxelBox all = LevelPart::VoxelsOf(levels[0]);
+    const auto input = VoxelsIn(source, voxels, all);
+    const auto part = VoxelsIn(source, marks, all);
+    const LargeVector<std::uint8_t> valid(part.begin(), part.end());
+    std::vector<float> made(box.Count());
+    SequentialExecutor executor;
+    EXPECT_TRUE(ReduceValidVoxels(input.data(), valid, LevelPart(levels[0], source), made.data(),
+      LevelPart(levels[1], box), executor, GoOn));
+    return BitsOf(made);
+  };
+  const VoxelBox all = LevelPart::VoxelsOf(levels[1]);
+  const auto whole = reduce(LevelPart::VoxelsOf(levels[0]), all);
+  for (const VoxelBox& box : BoxesOf(all))
+  {
+    EXPECT_EQ(reduce(SourceOf(box, levels[0], levels[1]), box), VoxelsIn(box, whole, all));
+  }
+}
+
+namespace
+{
+/** Cut along y and z; from five ranks on the last has nothing. */
+VoxelBox PieceOf(const VoxelBox& all, int rank, int count)
+{
+  const int parts = count < 5 ? count : count - 1;
+  VoxelBox piece = all;
+  const int axis = count < 4 ? 2 : 1;
+  const int z = count < 4 ? 0 : rank % 2;
+  const int n = count < 4 ? rank : rank / 2;
+  const int along = count < 4 ? parts : parts / 2;
+  piece.First[axis] = all.End[axis] * n / along;
+  piece.End[axis] = std::min(all.End[axis], all.End[axis] * (n + 1) / along + 1);
+  if (count >= 4)
+  {
+    piece.First[2] = z * all.End[2] / 2;
+    piece.End[2] = z == 0 ? all.End[2] / 2 + 1 : all.End[2];
+  }
+  return rank < parts ? piece : VoxelBox();
+}
+}
+
+TEST(PieceReduction, GivesRanksTheBitsOfTheWholeLevel)
+{
+  const auto levels = TwoLevels({ 40, 57, 33 });
+  const auto voxels = RandomVoxels<short>(levels[0].NumberOfVoxels());
+  std::vector<std::uint8_t> marks(voxels.size());
+  std::transform(voxels.begin(), voxels.end(), marks.begin(),
+    [](short voxel) { return static_cast<std::uint8_t>(voxel % 3 != 0); });
+  const VoxelBox below = LevelPart::VoxelsOf(levels[0]);
+  const VoxelBox above = LevelPart::VoxelsOf(levels[1]);
+  SequentialExecutor executor;
+  const auto whole = Reduce(voxels, levels, executor);
+  std::vector<float> valid(whole.size());
+  ReduceValidVoxels(voxels.data(), LargeVector<std::uint8_t>(marks.begin(), marks.end()),
+    levels[0], valid.data(), levels[1], executor, GoOn);
+  for (const int count : { 1, 2, 3, 4, 5 })
+  {
+    ThreadRanks::Run(count,
+      [&](Communicator& ranks)
+      {
+        const VoxelBox held = PieceOf(below, ranks.Rank(), count);
+        const auto values = VoxelsIn(held, voxels, below);
+        const auto heldMarks = VoxelsIn(held, marks, below);
+        const VoxelPieces pieces(ranks, held);
+        // The pieces above are not where those below are.
+        const VoxelBox box = PieceOf(above, (ranks.Rank() + 1) % count, count);
+        std::vector<float> made(static_cast<std::size_t>(box.Count()));
+        SequentialExecutor thread;
+        for (const bool haveAll : { true, false })
+        {
+          const MarkedVoxels<short> own = { values.data(), heldMarks.data(), haveAll };
+          // So few bytes that each rank makes several slabs.
+          EXPECT_TRUE(ReducePieces(ranks, pieces, own, levels[0], made.data(),
+            LevelPart(levels[1], box), thread, GoOn, 50000));
+          EXPECT_EQ(BitsOf(made), BitsOf(VoxelsIn(box, haveAll ? whole : valid, above)))
+            << count << " ranks";
+        }
+      });
+  }
+}
+
+TEST(PieceReduction, StopsOnAllRanksWhenOneIsAskedTo)
+{
+  const auto levels = TwoLevels({ 20, 20, 40 });
+  ThreadRanks::Run(3,
+    [&](Communicator& ranks)
+    {
+      const VoxelBox held = PieceOf(LevelPart::VoxelsOf(levels[0]), ranks.Rank(), 3);
+      const std::vector<float> values(static_cast<std::size_t>(held.Count()), 1.f);
+      const VoxelBox box = PieceOf(LevelPart::VoxelsOf(levels[1]), ranks.Rank(), 3);
+      std::vector<float> made(static_cast<std::size_t>(box.Count()));
+      MarkedVoxels<float> own;
+      own.Values = values.data();
+      int reports = 0;
+      const auto stopOnOne = [&](double) { return ++reports < 2 || ranks.Rank() != 1; };
+      SequentialExecutor thread;
+      EXPECT_FALSE(ReducePieces(ranks, VoxelPieces(ranks, held), own, levels[0], made.data(),
+        LevelPart(levels[1], box), thread, stopOnOne, 1000));
+      EXPECT_EQ(reports, 2);
+    });
 }
 
 template <typename T>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceEditor.h"
 #include "MeshInvariants.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -41,6 +43,18 @@ SurfaceMesh Balls(int n)
     mesh.Append(DividedIcosahedron({ 10. * i, 0, 0 }, 4., 1.5));
   }
   return mesh;
+}
+
+SurfaceBlocks::Frame FrameAbout(const SurfaceMesh& mesh, float side)
+{
+  const Box bounds = BoundsOf(mesh, Thread);
+  const Vector extent = bounds.High - bounds.Low;
+  SurfaceBlocks::Frame frame;
+  frame.Low = bounds.Low;
+  frame.Side = { side, side, side };
+  frame.Size = { static_cast<int>(std::ceil(extent.X / side)),
+    static_cast<int>(std::ceil(extent.Y / side)), static_cast<int>(std::ceil(extent.Z / side)) };
+  return frame;
 }
 
 std::map<int, int> Visited(SurfaceBlocks& blocks)
@@ -80,7 +94,7 @@ int BlockWith(SurfaceBlocks& blocks, int v)
 TEST(SurfaceBlocks, HaveEachVertexOnce)
 {
   LiveSurface state(MakeSphere({ 0, 0, 0 }, 20, 1.5));
-  SurfaceBlocks blocks(state, 9.f, Thread);
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 9.f), Thread);
   EXPECT_EQ(blocks.Order().size(), 125u);
   const std::map<int, int> visits = Visited(blocks);
   EXPECT_EQ(static_cast<int>(visits.size()), state.Mesh.NumberOfVertices());
@@ -93,10 +107,10 @@ TEST(SurfaceBlocks, HaveEachVertexOnce)
 TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
 {
   LiveSurface state(Balls(6));
-  SurfaceBlocks row(state, 10.f, Thread);
+  SurfaceBlocks row(state, FrameAbout(state.Mesh, 10.f), Thread);
   EXPECT_EQ(row.Order(), (std::vector<int>{ 0, 2, 1, 4, 3, 5 }));
   LiveSurface cube(MakeSphere({ 0, 0, 0 }, 20, 1.5));
-  SurfaceBlocks blocks(cube, 9.f, Thread);
+  SurfaceBlocks blocks(cube, FrameAbout(cube.Mesh, 9.f), Thread);
   std::vector<int> turn(125);
   for (int i = 0; i < 125; ++i)
   {
@@ -121,7 +135,7 @@ TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
 TEST(SurfaceBlocks, HandOverWhatLeavesThem)
 {
   LiveSurface state(Balls(4));
-  SurfaceBlocks blocks(state, 10.f, Thread);
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   blocks.Open(0);
   state.MoveTo(3, Vector(21, 0, 0));
   blocks.Close();
@@ -135,7 +149,7 @@ TEST(SurfaceBlocks, HandOverWhatLeavesThem)
 TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
 {
   LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, 10.f, Thread);
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   SurfaceEditor editor(state);
   const std::vector<int>& vertices = blocks.Open(1);
   const std::size_t before = vertices.size();
@@ -166,7 +180,7 @@ TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
 TEST(SurfaceBlocks, ForgetVerticesThatOthersHaveRemoved)
 {
   LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, 10.f, Thread);
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const std::vector<int> first = blocks.Open(0);
   blocks.Close();
   // During a visit of another one; its place is taken by that one's new vertex.
@@ -174,6 +188,7 @@ TEST(SurfaceBlocks, ForgetVerticesThatOthersHaveRemoved)
   SurfaceEditor editor(state);
   const int v = first.front();
   ASSERT_TRUE(editor.Collapse(v, state.Mesh.Rings[v].Item[0], EditTolerance::Loose).IsDone);
+  blocks.Close();
   const std::vector<int>& last = blocks.Open(2);
   const int place = [&]
   {
@@ -201,29 +216,29 @@ TEST(SurfaceBlocks, KeepTheirPlacesForThemselves)
   const int vertices = state.Mesh.NumberOfVertices();
   int freed = 0;
   {
-    SurfaceBlocks blocks(state, 10.f, Thread);
+    SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
     SurfaceEditor editor(state);
     const int v = blocks.Open(1).front();
     ASSERT_TRUE(editor.Collapse(v, state.Mesh.Rings[v].Item[0], EditTolerance::Loose).IsDone);
     blocks.Close();
     EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
-    EXPECT_EQ(state.Mesh.NumberOfFreePlaces(), 0u) << "nobody else's";
+    EXPECT_EQ(state.Mesh.FreePlaces().size(), 0u) << "nobody else's";
     blocks.Open(0);
-    EXPECT_EQ(state.Mesh.NumberOfFreePlaces(), 0u);
+    EXPECT_EQ(state.Mesh.FreePlaces().size(), 0u);
     blocks.Close();
     blocks.Open(1);
-    EXPECT_EQ(state.Mesh.NumberOfFreePlaces(), 1u);
-    freed = static_cast<int>(state.Mesh.NumberOfFreePlaces());
+    EXPECT_EQ(state.Mesh.FreePlaces().size(), 1u);
+    freed = static_cast<int>(state.Mesh.FreePlaces().size());
     blocks.Close();
   }
-  EXPECT_EQ(state.Mesh.NumberOfFreePlaces(), static_cast<std::size_t>(freed)) << "given back";
+  EXPECT_EQ(state.Mesh.FreePlaces().size(), static_cast<std::size_t>(freed)) << "given back";
   EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
 }
 
 TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
 {
   LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, 10.f, Thread);
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   state.Active.Fill(0);
   EXPECT_FALSE(blocks.HasActive(1));
   state.Active[blocks.Open(1).front()] = 1;

@@ -4,16 +4,14 @@
 #define volumicThreadRanks_h
 
 #include "Core/Common/Communicator.h"
+#include "MessageQueues.h"
 
-#include <condition_variable>
 #include <cstddef>
-#include <cstring>
-#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -28,7 +26,7 @@ public:
    */
   static void Run(int count, const std::function<void(Communicator& ranks)>& work)
   {
-    const auto queues = std::make_shared<Queues>(count);
+    const auto queues = std::make_shared<MessageQueues>(count);
     std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
     std::vector<std::thread> threads;
     for (int rank = 0; rank < count; ++rank)
@@ -62,77 +60,33 @@ public:
   }
 
 private:
-  struct Queues
-  {
-    explicit Queues(int count)
-      : Count(count)
-      , Sent(static_cast<std::size_t>(count) * static_cast<std::size_t>(count))
-    {
-    }
-    std::deque<Message>& From(int from, int to)
-    {
-      return this->Sent[static_cast<std::size_t>(from * this->Count + to)];
-    }
-    int Count;
-    std::mutex Lock;
-    std::condition_variable Arrived;
-    std::vector<std::deque<Message>> Sent;
-  };
-
   class Ranks final : public Communicator
   {
   public:
-    Ranks(std::shared_ptr<Queues> queues, int rank)
+    Ranks(std::shared_ptr<MessageQueues> queues, int rank)
       : All(std::move(queues))
       , Own(rank)
     {
     }
     int Rank() const override { return this->Own; }
-    int NumberOfRanks() const override { return this->All->Count; }
+    int NumberOfRanks() const override { return this->All->NumberOfRanks(); }
 
   protected:
     void Send(int to, const void* bytes, std::size_t count) override
     {
-      const char* begin = static_cast<const char*>(bytes);
-      const std::lock_guard<std::mutex> lock(this->All->Lock);
-      this->All->From(this->Own, to).emplace_back(begin, begin + count);
-      this->All->Arrived.notify_all();
+      this->All->Send(this->Own, to, bytes, count);
     }
     void Receive(int from, void* bytes, std::size_t count) override
     {
-      std::unique_lock<std::mutex> lock(this->All->Lock);
-      std::deque<Message>& queue = this->All->From(from, this->Own);
-      this->All->Arrived.wait(lock, [&queue] { return !queue.empty(); });
-      Take(queue, bytes, count);
+      this->All->Receive(from, this->Own, bytes, count);
     }
     void ReceiveFromAny(void* bytes, std::size_t count) override
     {
-      std::unique_lock<std::mutex> lock(this->All->Lock);
-      int found = -1;
-      this->All->Arrived.wait(lock,
-        [&]
-        {
-          for (int from = 0; from < this->All->Count && found < 0; ++from)
-          {
-            found = this->All->From(from, this->Own).empty() ? -1 : from;
-          }
-          return found >= 0;
-        });
-      Take(this->All->From(found, this->Own), bytes, count);
+      this->All->Receive(-1, this->Own, bytes, count);
     }
 
   private:
-    static void Take(std::deque<Message>& queue, void* bytes, std::size_t count)
-    {
-      const Message message = std::move(queue.front());
-      queue.pop_front();
-      if (message.size() != count)
-      {
-        throw std::logic_error("what is received is not what was sent");
-      }
-      std::memcpy(bytes, message.data(), count);
-    }
-    std::shared_ptr<Queues> All;
+    std::shared_ptr<MessageQueues> All;
     int Own;
   };
 };

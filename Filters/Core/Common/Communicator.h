@@ -103,6 +103,13 @@ protected:
   void ReceiveFromAny(void*, std::size_t) override {}
 };
 
+/** Who has no others to ask. */
+inline Communicator& OnThisRank()
+{
+  static SingleRank rank;
+  return rank;
+}
+
 /** Puts values and arrays of plain types into a message. */
 class MessageWriter
 {

@@ -3,6 +3,7 @@
 #ifndef volumicDisjointSets_h
 #define volumicDisjointSets_h
 
+#include "Core/Common/Grow.h"
 #include "Core/Common/ScratchMemory.h"
 
 #include <algorithm>
@@ -27,8 +28,14 @@ public:
     std::iota(this->Parent.begin(), this->Parent.end(), 0);
   }
 
-  /** Room for n integers; each is in no set before MakeSet. */
-  void Resize(std::size_t n) { this->Parent.resize(n); }
+  /** For integers below n; each is in no set, and takes no memory, before MakeSet. */
+  void MakeRoom(std::size_t n)
+  {
+    if (this->Parent.size() < n)
+    {
+      MakeZeroed(this->Parent, WithRoomToGrow(n));
+    }
+  }
 
   /** A set of its own for i, whatever it was in before. */
   void MakeSet(int i) { this->Parent[i] = i; }

@@ -192,6 +192,19 @@ void UnmapScratchFile(void* memory, std::size_t bytes) noexcept
   munmap(memory, WholePages(bytes));
 }
 
+void* MapZeroed(std::size_t bytes)
+{
+  const std::size_t size = WholePages(bytes);
+  void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE,
+    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED)
+  {
+    throw std::bad_alloc();
+  }
+  madvise(memory, size, MADV_NOHUGEPAGE); // Else each byte may take 2 MiB.
+  return memory;
+}
+
 void DropPages(void* memory, std::size_t bytes) noexcept
 {
   madvise(memory, bytes, MADV_DONTNEED);
@@ -294,6 +307,11 @@ void* MapScratchFile(const std::string&, std::size_t)
 
 void UnmapScratchFile(void*, std::size_t) noexcept
 {
+}
+
+void* MapZeroed(std::size_t)
+{
+  throw std::bad_alloc();
 }
 
 void DropPages(void*, std::size_t) noexcept

@@ -49,6 +49,11 @@ std::size_t FreeRoom(const std::string& directory);
  */
 void* MapScratchFile(const std::string& directory, std::size_t bytes);
 void UnmapScratchFile(void* memory, std::size_t bytes) noexcept;
+/**
+ * Zeros, in memory; pages that have not been written take none, even where there are more of them
+ * than the machine has. Unmapped as a file. @throws std::bad_alloc.
+ */
+void* MapZeroed(std::size_t bytes);
 
 /** Takes pages of a mapping out of the process; they come back when they are touched. */
 void DropPages(void* memory, std::size_t bytes) noexcept;

@@ -7,7 +7,12 @@
 #include "Core/Common/ScratchStore.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
 #include <new>
 
 #ifdef _WIN32
@@ -43,6 +48,88 @@ void FreeOnHeap(void* memory) noexcept
   std::free(memory);
 #endif
 }
+
+thread_local int NumberOfZeroed = 0;
+
+/** Memory that is zero and not there before it is written: its bytes, by address. */
+class ZeroedMemory
+{
+public:
+  static ZeroedMemory& Instance()
+  {
+    static ZeroedMemory* const memory = new ZeroedMemory; // Never ends, as ScratchStore.
+    return *memory;
+  }
+
+  void* Allocate(std::size_t bytes)
+  {
+    void* memory = MapZeroed(bytes);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Arrays.emplace(memory, bytes);
+    this->Count = this->Arrays.size();
+    return memory;
+  }
+
+  /** @return whether it was such memory. */
+  bool Free(void* memory) noexcept
+  {
+    if (this->Count.load(std::memory_order_acquire) == 0)
+    {
+      return false;
+    }
+    std::size_t bytes = 0;
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      const auto found = this->Arrays.find(memory);
+      if (found == this->Arrays.end())
+      {
+        return false;
+      }
+      bytes = found->second;
+      this->Arrays.erase(found);
+      this->Count = this->Arrays.size();
+    }
+    UnmapScratchFile(memory, bytes);
+    return true;
+  }
+
+private:
+  std::mutex Mutex;
+  std::map<void*, std::size_t> Arrays;
+  std::atomic<std::size_t> Count{ 0 };
+};
+
+void* AllocateZeroed(std::size_t bytes, std::size_t alignment)
+{
+  if (ScratchIsPossible && bytes >= ScratchMemory::LargeBytes)
+  {
+    return ZeroedMemory::Instance().Allocate(bytes);
+  }
+  void* memory = AllocateOnHeap(bytes, alignment);
+  std::memset(memory, 0, bytes);
+  return memory;
+}
+}
+
+ZeroedAllocations::ZeroedAllocations()
+{
+  ++NumberOfZeroed;
+}
+
+ZeroedAllocations::~ZeroedAllocations()
+{
+  --NumberOfZeroed;
+}
+
+bool ZeroedAllocations::AreOn()
+{
+  return NumberOfZeroed > 0;
+}
+
+bool IsAllZero(const void* begin, std::size_t bytes)
+{
+  const char* first = static_cast<const char*>(begin);
+  return bytes == 0 || (*first == 0 && std::memcmp(first, first + 1, bytes - 1) == 0);
 }
 
 ScratchMemory::ScratchMemory(const ScratchOptions& options)
@@ -106,15 +193,17 @@ void* AllocateLarge(std::size_t bytes, std::size_t alignment)
   {
     if (void* memory = ScratchStore::Instance().Map(bytes))
     {
-      return memory;
+      return memory; // Files begin as zeros.
     }
   }
-  return AllocateOnHeap(bytes, alignment);
+  return ZeroedAllocations::AreOn() ? AllocateZeroed(bytes, alignment)
+                                    : AllocateOnHeap(bytes, alignment);
 }
 
 void FreeLarge(void* memory) noexcept
 {
-  if (memory && !ScratchStore::Instance().Unmap(memory))
+  if (memory && !ScratchStore::Instance().Unmap(memory) &&
+    !ZeroedMemory::Instance().Free(memory))
   {
     FreeOnHeap(memory);
   }

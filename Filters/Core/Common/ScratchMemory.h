@@ -3,10 +3,13 @@
 #ifndef volumicScratchMemory_h
 #define volumicScratchMemory_h
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -96,6 +99,9 @@ void FreeLarge(void* memory) noexcept;
  */
 void PrefetchLarge(const void* begin, std::size_t bytes);
 
+/** Whether so many bytes are all zero. */
+bool IsAllZero(const void* begin, std::size_t bytes);
+
 /** Whether a limit is set, by anyone. */
 bool HasMemoryLimit();
 /**
@@ -103,6 +109,20 @@ bool HasMemoryLimit();
  * governor's turn may come late on a busy machine. Nothing without a limit.
  */
 void KeepMemoryLimit();
+
+/**
+ * While one is alive, arrays that this thread allocates are all zero, and take memory only where
+ * they are written: for arrays that have room for much more than they hold. See MakeZeroed.
+ */
+class ZeroedAllocations
+{
+public:
+  ZeroedAllocations();
+  ~ZeroedAllocations();
+  ZeroedAllocations(const ZeroedAllocations&) = delete;
+  ZeroedAllocations& operator=(const ZeroedAllocations&) = delete;
+  static bool AreOn();
+};
 
 template <typename T>
 struct LargeAllocator
@@ -118,6 +138,21 @@ struct LargeAllocator
     return static_cast<T*>(AllocateLarge(n * sizeof(T), alignof(T)));
   }
   void deallocate(T* memory, std::size_t) noexcept { FreeLarge(memory); }
+  /** In memory that is zero already nothing is written. */
+  template <typename U>
+  void construct(U* place)
+  {
+    if (!ZeroedAllocations::AreOn())
+    {
+      ::new (static_cast<void*>(place)) U();
+    }
+  }
+  template <typename U, typename First, typename... Others>
+  void construct(U* place, First&& first, Others&&... others)
+  {
+    ::new (static_cast<void*>(place))
+      U(std::forward<First>(first), std::forward<Others>(others)...);
+  }
   template <typename U>
   bool operator==(const LargeAllocator<U>&) const
   {
@@ -133,6 +168,39 @@ struct LargeAllocator
 /** A vector that may live in scratch memory. */
 template <typename T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
+
+/** Makes it n values of bytes that are all zero, of which none takes memory before it is written. */
+template <typename T>
+void MakeZeroed(LargeVector<T>& values, std::size_t n)
+{
+  values = LargeVector<T>();
+  const ZeroedAllocations zeroed;
+  values.reserve(n);
+  values.resize(n);
+}
+
+/** Lengthens it by such values; those that it has take as much memory as before. */
+template <typename T>
+void LengthenZeroed(LargeVector<T>& values, std::size_t n)
+{
+  if (n <= values.size())
+  {
+    return;
+  }
+  LargeVector<T> longer;
+  MakeZeroed(longer, n);
+  // Whole runs of zeros are not written: they may lie in memory that there is not.
+  constexpr std::size_t run = 4096 / sizeof(T) > 0 ? 4096 / sizeof(T) : 1;
+  for (std::size_t begin = 0; begin < values.size(); begin += run)
+  {
+    const std::size_t count = std::min(run, values.size() - begin);
+    if (!IsAllZero(values.data() + begin, count * sizeof(T)))
+    {
+      std::copy_n(values.data() + begin, count, longer.data() + begin);
+    }
+  }
+  values.swap(longer);
+}
 }
 
 #endif

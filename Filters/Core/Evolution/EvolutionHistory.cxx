@@ -100,19 +100,21 @@ void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
   row.IterationComponents = row.Components;
 }
 
-double SurfaceEvolution::Implementation::MeanEdgeLength() const
+double SurfaceEvolution::Implementation::MeanEdgeLength()
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  const double sum = SumOfBlocks(this->Threads, mesh.Rings.size(), SumBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      double block = 0;
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        block += this->State.EdgeLengthSum[v];
-      }
-      return block;
-    });
+  const double sum = this->Blocks
+    ? this->SumOfBlocksOf([this](int v) { return this->State.EdgeLengthSum[v]; })
+    : SumOfBlocks(this->Threads, mesh.Rings.size(), SumBlock,
+        [&](std::size_t begin, std::size_t end)
+        {
+          double block = 0;
+          for (std::size_t v = begin; v < end; ++v)
+          {
+            block += this->State.EdgeLengthSum[v];
+          }
+          return block;
+        });
   // Each edge is in two sums.
   const std::int64_t edges =
     NumberOfEdges(mesh.NumberOfVertices(), this->State.EulerCharacteristic);

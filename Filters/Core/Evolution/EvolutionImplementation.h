@@ -3,12 +3,16 @@
 #ifndef volumicEvolutionImplementation_h
 #define volumicEvolutionImplementation_h
 
+#include "Core/Common/Communicator.h"
 #include "Core/Evolution/CycleCriterion.h"
 #include "Core/Evolution/LostBoundary.h"
 #include "Core/Evolution/RestCriterion.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
+#include "Core/Mesh/Division.h"
+#include "Core/Surface/RankBlocks.h"
+#include "Core/Surface/RankComponents.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -22,8 +26,9 @@ namespace volumic
 {
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
- * recovery), GivenSurface.cxx makes a given one ready, EvolutionRun.cxx iterates until it rests and
- * regularises it, EvolutionSweeps.cxx does so block by block, EvolutionHistory.cxx tells of it.
+ * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready, EvolutionRun.cxx iterates until it rests and
+ * regularises it, EvolutionSweeps.cxx does so block by block, EvolutionRanks.cxx on several ranks,
+ * EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -49,6 +54,13 @@ struct SurfaceEvolution::Implementation
   double LevelSeconds = 0.; ///< Of all laps since the last level.
   bool Stopped = false;     ///< By the monitor.
   bool InSweeps = false;    ///< The level evolves block by block: EvolutionSweeps.cxx.
+  std::unique_ptr<SurfaceBlocks> Blocks; ///< While it does.
+  Communicator* Ranks = nullptr;         ///< Null: alone.
+  std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
+  std::unique_ptr<RankBlocks> OnRanks;   ///< While the surface is in parts: EvolutionRanks.cxx.
+  std::unique_ptr<RankComponents> OfRanks; ///< Once there have been ranks.
+  int Visiting = NoBlock;                ///< The block that is being visited.
+  Vector GridLow, GridHigh;              ///< As the grid was laid last.
   struct
   {
     int Sweep = 0;  ///< From 1; 0: the level evolves as a whole.
@@ -76,6 +88,7 @@ struct SurfaceEvolution::Implementation
     HistoryRow Row;
     int Vertices = 0; ///< How many more there are.
     int EulerCharacteristic = 0;
+    std::vector<double> KineticEnergy; ///< Of each block.
   };
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
@@ -95,10 +108,23 @@ struct SurfaceEvolution::Implementation
   void Enter(const LevelImage& image, int level);
   void Reset();
   void Recover();
+  void FindGridBox(const SurfaceMesh& mesh);
   void LayGrid();
+  void Append(const IndexedSurface& surface);
+  bool HasEdgeTooLong() const;
   void SplitLongEdges();
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
+  void KeepEdgesAbout(const std::vector<Proximity::FacePair>& pairs,
+    const LargeVector<Triangle>& faces, const SurfaceMesh& old, int round, KeptEdges& kept);
+  // The same for a level in sweeps.
+  SurfaceBlocks::Frame FrameOfLevel() const;
+  bool DivideInBlocks();
+  void SpreadMesh();
+  void LayGridInBlocks();
+  std::vector<int> OwnVertices() const;
+  std::vector<Proximity::FacePair> FindIntersectionsInBlocks();
+  void SplitLongEdgesInBlocks();
   void Take(const IndexedSurface& surface);
   void TakeRemeshed(const IndexedSurface& surface);
   IndexedSurface Remesh(const IndexedSurface& surface);
@@ -110,23 +136,47 @@ struct SurfaceEvolution::Implementation
     HistoryRow& row, Dynamics& dynamics, Remesher& remesher, SurfaceIteration::Mode mode);
   void IterateOnce(Dynamics& dynamics, Remesher& remesher);
   void DecideOnSweeps();
-  float BlockSide() const;
-  void VisitBlocks(SurfaceBlocks& blocks, const BlockVisits& visits);
-  void RunSweep(Dynamics& dynamics, Remesher& remesher, SurfaceBlocks& blocks);
+  void BeginSweeps();
+  void EndSweeps();
+  void AddPlaces();
+  Box AboutBlock() const;
+  bool VisitBlock(int block, std::size_t visited, const BlockVisits& visits);
+  void VisitBlocks(const BlockVisits& visits);
+  void RunSweep(Dynamics& dynamics, Remesher& remesher);
   void VisitToEvolve(const std::vector<int>& vertices, Dynamics& dynamics, Remesher& remesher,
-    SurfaceBlocks& blocks, std::vector<SweptRow>& rows);
+    std::vector<SweptRow>& rows);
+  double SumOfBlocksOf(const std::function<double(int v)>& ofVertex);
+  double Volume();
   void KeepSweptRows(std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic);
   void RunPasses(Dynamics& dynamics, Remesher& remesher);
-  void RegulariseInSweeps(Dynamics& dynamics, Remesher& remesher, SurfaceBlocks& blocks);
-  void PolishInSweeps(SurfaceBlocks& blocks);
+  void RegulariseInSweeps(Dynamics& dynamics, Remesher& remesher);
+  void PolishInSweeps();
+  void CopyActive(LargeVector<std::uint8_t>& active) const;
+
+  // On several ranks: EvolutionRanks.cxx.
+  bool AreRanks() const { return this->Ranks && this->Ranks->NumberOfRanks() > 1; }
+  bool IsFirstRank() const { return !this->AreRanks() || this->Ranks->Rank() == 0; }
+  void ShareBlocks(const SurfaceMesh& mesh);
+  VoxelBox OwnVoxels() const;
+  void VisitBlocksOnRanks(const BlockVisits& visits);
+  void AgreeOnStop();
+  bool IsOnAnyRank(bool isHere);
+  void AddUpRows(std::vector<SweptRow>& rows);
+  void AddUpSinceEvolved();
+  RankComponents& ComponentsOfRanks();
+  void TakeComponents(bool areChecked);
+  void LabelComponents();
+  void OnFirstRank(const std::function<void()>& work);
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
   double KineticEnergy() const;
   void FillRow(HistoryRow& row);
-  double MeanEdgeLength() const;
+  double MeanEdgeLength();
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(Dynamics& dynamics);
   void DeleteInsideOut();
+  void DeleteThoseInsideOut();
+  void DeleteDegenerate();
   void FinishRow();
   void FindMissing();
   void Regularise(Dynamics& dynamics);

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 
 namespace volumic
 {
@@ -118,11 +117,6 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges,
     this->Threads);
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
-  std::optional<SurfaceBlocks> blocks;
-  if (this->InSweeps)
-  {
-    blocks.emplace(s, this->BlockSide(), this->Threads);
-  }
   while (true)
   {
     this->Threads.EndPhase("Rest criterion");
@@ -140,19 +134,21 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     }
     if (this->InSweeps)
     {
-      this->RunSweep(dynamics, remesher, *blocks);
+      this->RunSweep(dynamics, remesher);
     }
     else
     {
       this->IterateOnce(dynamics, remesher);
     }
-    if (!this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.))
+    this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.);
+    this->AgreeOnStop();
+    if (this->Stopped)
     {
       return StopReason::Cancelled;
     }
     if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
     {
-      const double volume = EnclosedVolume(s.Mesh, this->Threads);
+      const double volume = this->Volume();
       const double limit =
         std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume));
       this->Rest.Add(volume);
@@ -254,25 +250,49 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = this->State;
-  const LargeVector<std::uint8_t> active = s.Active.AsVector();
+  LargeVector<std::uint8_t> active;
+  this->CopyActive(active);
   Remesher remesher(s, this->TheField.get(), false, this->Threads);
-  s.Velocity.Fill(Vector());
+  const auto forAll = [&s](auto&& work)
+  {
+    for (int v = 0; v < s.Mesh.Size(); ++v)
+    {
+      if (s.Mesh.IsAlive(v)) // Other places may take no memory.
+      {
+        work(v);
+      }
+    }
+  };
+  forAll([&s](int v) { s.Velocity[v] = Vector(); });
   this->ActivateAll();
   if (this->InSweeps)
   {
-    SurfaceBlocks blocks(s, this->BlockSide(), this->Threads);
-    this->RegulariseInSweeps(dynamics, remesher, blocks);
-    this->PolishInSweeps(blocks);
+    this->RegulariseInSweeps(dynamics, remesher);
+    this->PolishInSweeps();
   }
   else
   {
     this->RunPasses(dynamics, remesher);
     this->PolishAll();
   }
+  forAll(
+    [&](int v)
+    {
+      s.Active[v] = v >= static_cast<int>(active.size()) || active[v];
+      s.Velocity[v] = Vector();
+    });
+}
+
+void SurfaceEvolution::Implementation::CopyActive(LargeVector<std::uint8_t>& active) const
+{
+  const SurfaceState& s = this->State;
+  MakeZeroed(active, s.Mesh.Rings.size());
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
-    s.Active[v] = s.Mesh.IsAlive(v) && (v >= static_cast<int>(active.size()) || active[v]);
-    s.Velocity[v] = Vector();
+    if (s.Mesh.IsAlive(v) && s.Active[v])
+    {
+      active[v] = 1;
+    }
   }
 }
 
@@ -324,12 +344,16 @@ void SurfaceEvolution::Implementation::PolishAll()
 void SurfaceEvolution::Implementation::DeleteInsideOut()
 {
   this->State.Counts = EditCounts();
-  this->Iteration.DeleteInsideOut();
-  this->SinceEvolved.Removed += this->State.Counts.Removed;
+  this->DeleteThoseInsideOut();
+  this->SinceEvolved.Removed += this->IsFirstRank() ? this->State.Counts.Removed : 0;
 }
 
 void SurfaceEvolution::Implementation::FindMissing()
 {
+  if (!this->IsFirstRank())
+  {
+    return; // It has no surface any more.
+  }
   const LostBoundary::Missing missing =
     this->Lost.MissedBy(this->State, *this->TheField, this->Threads);
   this->LastLost.Missing = missing.Parts;
@@ -338,10 +362,15 @@ void SurfaceEvolution::Implementation::FindMissing()
 
 StopReason SurfaceEvolution::Implementation::Run()
 {
+  if (this->InSweeps)
+  {
+    this->BeginSweeps();
+  }
   const StopReason reason = this->Evolve();
   this->DeleteInsideOut();
   if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
+    this->EndSweeps();
     this->FinishRow();
     this->FindMissing();
     return reason;
@@ -351,10 +380,16 @@ StopReason SurfaceEvolution::Implementation::Run()
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   if (this->WantedMeanEdge > 0.)
   {
+    this->EndSweeps(); // Done as a whole.
     this->FitMeanEdge(dynamics);
+    if (this->InSweeps)
+    {
+      this->BeginSweeps();
+    }
   }
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
+  this->EndSweeps();
   this->FinishRow();
   watch.Lap(Phase::Regularisation);
   this->FindMissing();

@@ -6,11 +6,14 @@
 
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfacePolish.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <numeric>
 
 namespace volumic
 {
@@ -54,69 +57,143 @@ void SurfaceEvolution::Implementation::DecideOnSweeps()
   {
     return; // Once for a level.
   }
-  const std::array<int, 3>& size = this->TheField->Image().Size;
-  const std::int64_t voxels = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
-  const SweepOptions& sweeps = this->Options.Sweeps;
-  this->InSweeps = voxels > sweeps.MostVoxels ||
-    this->State.Mesh.NumberOfVertices() > sweeps.MostVertices;
+  this->InSweeps = AreInSweeps(this->Options, this->TheField->Image().Size) ||
+    this->State.Mesh.NumberOfVertices() > this->Options.Sweeps.MostVertices;
 }
 
-float SurfaceEvolution::Implementation::BlockSide() const
+SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
 {
-  return static_cast<float>(this->Options.Sweeps.BlockSide) * this->State.Sizing.Smallest();
-}
-
-void SurfaceEvolution::Implementation::VisitBlocks(
-  SurfaceBlocks& blocks, const BlockVisits& visits)
-{
-  const std::vector<int>& order = blocks.Order();
-  this->Visit.Blocks = static_cast<int>(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
+  const LevelImage& image = this->TheField->Image();
+  std::array<double, 3> extent;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    if (visits.OnlyActive && !blocks.HasActive(order[i]))
+    extent[axis] = image.Size[axis] * image.Step[axis];
+  }
+  return SurfaceBlocks::FrameOf(
+    extent, this->Options.Sweeps.BlockSide * this->State.Sizing.Smallest());
+}
+
+void SurfaceEvolution::Implementation::BeginSweeps()
+{
+  SurfaceState& s = this->State;
+  if (this->Blocks)
+  {
+    return; // It has come here in blocks.
+  }
+  if (this->AreRanks())
+  {
+    s.Sizing = BroadcastValue(*this->Ranks, s.Sizing);
+  }
+  if (!this->AreRanks())
+  {
+    this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
+    return;
+  }
+  this->Iteration.Forget();
+  this->ShareBlocks(s.Mesh);
+  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+}
+
+void SurfaceEvolution::Implementation::EndSweeps()
+{
+  if (this->OnRanks)
+  {
+    this->AddUpSinceEvolved();
+    this->Iteration.Forget();
+    this->OnRanks->Gather();
+  }
+  this->OnRanks.reset();
+  this->Blocks.reset();
+}
+
+void SurfaceEvolution::Implementation::AddPlaces()
+{
+  if (this->OnRanks)
+  {
+    this->OnRanks->AddPlaces();
+    return;
+  }
+  std::vector<int> counts;
+  for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
+  {
+    counts.push_back(this->Blocks->MissingPlaces(block));
+  }
+  this->Blocks->AddPlaces(counts);
+}
+
+bool SurfaceEvolution::Implementation::VisitBlock(
+  int block, std::size_t visited, const BlockVisits& visits)
+{
+  const auto count = static_cast<double>(this->Blocks->NumberOfBlocks());
+  const auto shareOf = [&](std::size_t done)
+  {
+    const double share = static_cast<double>(done) / count;
+    return visits.From + share * (visits.To - visits.From);
+  };
+  this->Visit.From = shareOf(visited);
+  this->Visit.To = shareOf(visited + 1);
+  this->Visiting = block;
+  visits.Visit(this->Blocks->Open(block));
+  this->Blocks->Close();
+  this->Visit.Block = static_cast<int>(visited + 1);
+  this->Visit.Iterations = visits.Iterations * static_cast<double>(visited + 1) / count;
+  return this->GoOn(visits.Doing, this->Visit.To);
+}
+
+void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
+{
+  this->AddPlaces();
+  this->Visit.Blocks = this->Blocks->NumberOfBlocks();
+  if (this->OnRanks)
+  {
+    this->VisitBlocksOnRanks(visits);
+  }
+  else
+  {
+    const std::vector<int>& order = this->Blocks->Order();
+    for (std::size_t i = 0; i < order.size(); ++i)
     {
-      continue;
-    }
-    const auto shareOf = [&](std::size_t done)
-    {
-      const double share = static_cast<double>(done) / static_cast<double>(order.size());
-      return visits.From + share * (visits.To - visits.From);
-    };
-    if (i + 1 < order.size() && HasMemoryLimit())
-    {
-      blocks.Prefetch(order[i + 1]); // The disk reads while the processors work on this one.
-    }
-    this->Visit.From = shareOf(i);
-    this->Visit.To = shareOf(i + 1);
-    visits.Visit(blocks.Open(order[i]));
-    blocks.Close();
-    this->Visit.Block = static_cast<int>(i + 1);
-    this->Visit.Iterations =
-      visits.Iterations * static_cast<double>(i + 1) / static_cast<double>(order.size());
-    if (!this->GoOn(visits.Doing, this->Visit.To))
-    {
-      break;
+      if (visits.OnlyActive && !this->Blocks->HasActive(order[i]))
+      {
+        continue;
+      }
+      if (i + 1 < order.size() && HasMemoryLimit())
+      {
+        // The disk reads while the processors work on this one.
+        this->Blocks->Prefetch(order[i + 1]);
+      }
+      if (!this->VisitBlock(order[i], i, visits))
+      {
+        break;
+      }
     }
   }
   this->Visit.Block = 0;
   this->Visit.Iterations = 0.;
 }
 
+Box SurfaceEvolution::Implementation::AboutBlock() const
+{
+  // Less than the halo, so that what is looked at has all its neighbours.
+  const float reach = SurfaceBlocks::HaloInDelta - 4.f;
+  return this->Blocks->BoxOf(this->Visiting).Grown(reach * this->State.Sizing.Largest());
+}
+
 void SurfaceEvolution::Implementation::VisitToEvolve(const std::vector<int>& vertices,
-  Dynamics& dynamics, Remesher& remesher, SurfaceBlocks& blocks, std::vector<SweptRow>& rows)
+  Dynamics& dynamics, Remesher& remesher, std::vector<SweptRow>& rows)
 {
   SurfaceState& s = this->State;
-  this->Iteration.BeginVisit(vertices);
+  this->Iteration.BeginVisit(vertices, this->AboutBlock());
   for (SweptRow& swept : rows)
   {
     const int before = s.Mesh.NumberOfVertices();
     const int characteristic = s.EulerCharacteristic;
     HistoryRow row;
     this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
-    blocks.AddNew(this->Iteration.WorkingVertices());
+    this->Blocks->AddNew(this->Iteration.WorkingVertices());
     Add(swept.Row, row);
     Add(swept.Row, s.Counts);
-    swept.Row.KineticEnergy += this->KineticEnergy(); // Of all: divided in KeepSweptRows.
+    swept.KineticEnergy[static_cast<std::size_t>(this->Visiting)] = this->KineticEnergy();
     swept.Vertices += s.Mesh.NumberOfVertices() - before;
     swept.EulerCharacteristic += s.EulerCharacteristic - characteristic;
     if (this->Stopped)
@@ -127,13 +204,41 @@ void SurfaceEvolution::Implementation::VisitToEvolve(const std::vector<int>& ver
   this->Iteration.EndVisit();
 }
 
-void SurfaceEvolution::Implementation::RunSweep(
-  Dynamics& dynamics, Remesher& remesher, SurfaceBlocks& blocks)
+double SurfaceEvolution::Implementation::SumOfBlocksOf(
+  const std::function<double(int v)>& ofVertex)
+{
+  const auto isOwn = [this](int block) { return !this->OnRanks || this->OnRanks->IsOwn(block); };
+  const std::vector<double> sums = this->Blocks->Sums(isOwn, ofVertex, this->Threads);
+  return this->OnRanks ? this->OnRanks->AddUp(sums) : std::accumulate(sums.begin(), sums.end(), 0.);
+}
+
+double SurfaceEvolution::Implementation::Volume()
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  if (!this->Blocks)
+  {
+    return EnclosedVolume(mesh, this->Threads);
+  }
+  const Vector origin = this->Blocks->GetFrame().Low;
+  return this->SumOfBlocksOf(
+    [&mesh, origin](int v)
+    {
+      SignedVolume share(origin);
+      share.Add(mesh, v);
+      return share.Value();
+    });
+}
+
+void SurfaceEvolution::Implementation::RunSweep(Dynamics& dynamics, Remesher& remesher)
 {
   SurfaceState& s = this->State;
   const int iterations =
     std::min(SweptIterations, this->Options.MaximumNumberOfIterations - this->LastIterations);
   std::vector<SweptRow> rows(static_cast<std::size_t>(iterations));
+  for (SweptRow& row : rows)
+  {
+    row.KineticEnergy.assign(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 0.);
+  }
   this->BeginRow(rows.front().Row);
   const int vertices = s.Mesh.NumberOfVertices();
   const int characteristic = s.EulerCharacteristic;
@@ -141,16 +246,18 @@ void SurfaceEvolution::Implementation::RunSweep(
   BlockVisits visits;
   visits.Iterations = iterations;
   visits.Visit = [&](const std::vector<int>& ofBlock)
-  { this->VisitToEvolve(ofBlock, dynamics, remesher, blocks, rows); };
-  this->VisitBlocks(blocks, visits);
+  { this->VisitToEvolve(ofBlock, dynamics, remesher, rows); };
+  this->VisitBlocks(visits);
+  this->AddUpRows(rows);
 
   s.Counts = EditCounts();
   const int before = s.Mesh.NumberOfVertices();
   const int characteristicBefore = s.EulerCharacteristic;
-  this->Iteration.LabelComponents();
-  if (this->Visit.Sweep % InsideOutSweeps == 0 && this->Iteration.IsUnchecked())
+  this->LabelComponents();
+  if (this->Visit.Sweep % InsideOutSweeps == 0 &&
+    this->IsOnAnyRank(this->Iteration.IsUnchecked()))
   {
-    this->Iteration.DeleteInsideOut();
+    this->DeleteThoseInsideOut();
   }
   Add(rows.back().Row, s.Counts);
   rows.back().Vertices += s.Mesh.NumberOfVertices() - before;
@@ -176,7 +283,9 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
     row.EulerCharacteristic = row.IterationEulerCharacteristic = eulerCharacteristic;
     row.Components = row.IterationComponents = this->Iteration.NumberOfComponents();
     row.MeanEdgeLength = row.IterationMeanEdgeLength = meanEdge;
-    row.KineticEnergy /= std::max(vertices, 1);
+    row.KineticEnergy =
+      std::accumulate(swept.KineticEnergy.begin(), swept.KineticEnergy.end(), 0.) /
+      std::max(vertices, 1);
     // The visits' own times, and what lies between them with the last.
     row.Seconds = &swept == &rows.back() ? seconds : std::min(row.Seconds, seconds);
     seconds -= row.Seconds;
@@ -184,8 +293,7 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
   }
 }
 
-void SurfaceEvolution::Implementation::RegulariseInSweeps(
-  Dynamics& dynamics, Remesher& remesher, SurfaceBlocks& blocks)
+void SurfaceEvolution::Implementation::RegulariseInSweeps(Dynamics& dynamics, Remesher& remesher)
 {
   SurfaceState& s = this->State;
   for (int sweep = 0; sweep < RegularisingSweeps && !this->Stopped; ++sweep)
@@ -196,7 +304,7 @@ void SurfaceEvolution::Implementation::RegulariseInSweeps(
     visits.To = PassesShare * (sweep + 1) / RegularisingSweeps;
     visits.Visit = [&](const std::vector<int>& vertices)
     {
-      this->Iteration.BeginVisit(vertices);
+      this->Iteration.BeginVisit(vertices, this->AboutBlock());
       for (int pass = 0; pass < SweptPasses; ++pass)
       {
         for (const int v : vertices)
@@ -205,7 +313,7 @@ void SurfaceEvolution::Implementation::RegulariseInSweeps(
         }
         HistoryRow row;
         this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
-        blocks.AddNew(this->Iteration.WorkingVertices());
+        this->Blocks->AddNew(this->Iteration.WorkingVertices());
         this->KeepActiveIfMoving(); // Also beyond the block, for the visits to come.
       }
       for (const int v : vertices)
@@ -214,11 +322,11 @@ void SurfaceEvolution::Implementation::RegulariseInSweeps(
       }
       this->Iteration.EndVisit();
     };
-    this->VisitBlocks(blocks, visits);
+    this->VisitBlocks(visits);
   }
 }
 
-void SurfaceEvolution::Implementation::PolishInSweeps(SurfaceBlocks& blocks)
+void SurfaceEvolution::Implementation::PolishInSweeps()
 {
   SurfaceState& s = this->State;
   bool hasCut = false;
@@ -228,20 +336,20 @@ void SurfaceEvolution::Implementation::PolishInSweeps(SurfaceBlocks& blocks)
   visits.From = PassesShare;
   visits.Visit = [&](const std::vector<int>& vertices)
   {
-    blocks.AddNew(this->Polish(
+    this->Blocks->AddNew(this->Polish(
       this->CheckpointOf(visits.Doing, this->Visit.From, this->Visit.To), &vertices));
     hasCut = hasCut || s.Counts.Cuts > 0;
   };
   if (!this->Stopped)
   {
-    this->VisitBlocks(blocks, visits);
+    this->VisitBlocks(visits);
   }
   s.Counts = EditCounts();
-  this->Iteration.LabelComponents();
-  if (hasCut)
+  this->LabelComponents();
+  if (this->IsOnAnyRank(hasCut))
   {
-    this->Iteration.DeleteDegenerate();
+    this->DeleteDegenerate();
+    this->SinceEvolved.Removed += this->IsFirstRank() ? s.Counts.Removed : 0;
   }
-  this->SinceEvolved.Removed += s.Counts.Removed;
 }
 }

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace volumic
@@ -122,6 +123,19 @@ StopReason SurfaceEvolution::Run()
   return this->Self->Run();
 }
 
+void SurfaceEvolution::SetRanks(
+  Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels)
+{
+  this->Self->Ranks = ranks;
+  this->Self->NeedVoxels = std::move(needVoxels);
+}
+
+bool SurfaceEvolution::AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size)
+{
+  const std::int64_t voxels = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
+  return voxels > options.Sweeps.MostVoxels;
+}
+
 void SurfaceEvolution::SetMeanEdgeLength(double length)
 {
   this->Self->WantedMeanEdge = length;
@@ -131,7 +145,9 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
   Stopwatch watch(self.Preparing, self.Threads);
-  if (!self.GoOn(Monitor::Activity::Regularising, 1.))
+  self.GoOn(Monitor::Activity::Regularising, 1.);
+  self.Stopped = self.AreRanks() ? self.Ranks->IsAny(self.Stopped) : self.Stopped;
+  if (self.Stopped)
   {
     return false;
   }
@@ -141,9 +157,34 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   self.Enter(image, level);
   // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
   // the mesh's, sqrt 3.
-  const int divisions = static_cast<int>(
+  int divisions = static_cast<int>(
     std::lround(std::log(coarse / self.State.Sizing.OfLevel()) /
       std::log(SizingField::DivisionFactor)));
+  if (self.AreRanks())
+  {
+    divisions = BroadcastValue(*self.Ranks, divisions);
+  }
+  if (divisions == 1 && AreInSweeps(self.Options, image.Size))
+  {
+    bool goesOn = self.DivideInBlocks();
+    self.SplitLongEdgesInBlocks();
+    watch.Lap(Phase::Division);
+    goesOn = !self.IsOnAnyRank(!goesOn || self.Stopped);
+    if (goesOn)
+    {
+      self.OnFirstRank([&self] { self.Recover(); });
+    }
+    watch.Lap(Phase::Recovery);
+    self.GoOn(Monitor::Activity::Recovering, 1.);
+    self.AgreeOnStop();
+    return true;
+  }
+  if (!self.IsFirstRank())
+  {
+    self.State.Mesh.Clear();
+    self.InSweeps = true;
+    return true;
+  }
   // After each of these steps the surface is one to hand over.
   bool goesOn = true;
   for (int i = 0; i < divisions && goesOn; ++i)

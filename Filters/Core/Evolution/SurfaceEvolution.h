@@ -4,14 +4,17 @@
 #define volumicSurfaceEvolution_h
 
 #include "Core/Common/CheckedFile.h"
+#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/LevelImage.h"
+#include "Core/Image/VoxelBox.h"
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -161,6 +164,17 @@ public:
    * stop, wherever it was asked, the reason is Cancelled.
    */
   StopReason Run();
+
+  /**
+   * From now on it is one of those on several ranks, which evolve one surface: all of them call
+   * Divide() to a level in sweeps and Run() there, at the same time. Rank 0 alone has a surface
+   * before and after. The surface is the same bits as on one rank. Null: alone again.
+   * @param needVoxels called on all of them at the same time: the level's voxels that this rank
+   *        needs from now on. Before that, and elsewhere, they may be anything.
+   */
+  void SetRanks(Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels = {});
+  /** Whether a level of so many voxels evolves in sweeps (SweepOptions). */
+  static bool AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size);
 
   /**
    * For the levels to come: before its final regularisation, delta is changed by small steps, as

@@ -43,10 +43,11 @@ void SurfaceIteration::Forget()
   this->Recheck.Clear();
 }
 
-void SurfaceIteration::BeginVisit(const std::vector<int>& vertices)
+void SurfaceIteration::BeginVisit(const std::vector<int>& vertices, const Box& about)
 {
   SurfaceState& s = this->State;
   this->Visited = &vertices;
+  this->About = about;
   this->Forget();
   this->CollectActive();
   // The pairs of those that were near others, from when they were examined, are forgotten.
@@ -66,14 +67,15 @@ void SurfaceIteration::EndVisit()
   this->Forget();
 }
 
-std::vector<Proximity::FacePair> SurfaceIteration::FindIntersections()
+std::vector<Proximity::FacePair> SurfaceIteration::FindIntersections(
+  const std::vector<int>& vertices)
 {
   std::vector<Proximity::FacePair> found;
-  for (std::size_t begin = 0; begin < this->Active.size(); begin += ExaminedPart)
+  for (std::size_t begin = 0; begin < vertices.size(); begin += ExaminedPart)
   {
-    const std::size_t end = std::min(this->Active.size(), begin + ExaminedPart);
-    const std::vector<int> part(this->Active.begin() + static_cast<std::ptrdiff_t>(begin),
-      this->Active.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::size_t end = std::min(vertices.size(), begin + ExaminedPart);
+    const std::vector<int> part(vertices.begin() + static_cast<std::ptrdiff_t>(begin),
+      vertices.begin() + static_cast<std::ptrdiff_t>(end));
     this->Near.Clear();
     this->Near.Examine(this->State, part, this->Threads);
     found.insert(found.end(), this->Near.Intersections().begin(), this->Near.Intersections().end());
@@ -86,7 +88,7 @@ void SurfaceIteration::Label()
 {
   if (this->Visited)
   {
-    this->Watch.LabelSmall(this->State, *this->Visited);
+    this->Watch.LabelSmall(this->State, *this->Visited, this->About);
   }
   else
   {
@@ -115,11 +117,12 @@ void SurfaceIteration::UpdateActive()
   this->State.UpdateShape(this->Active, this->Threads);
 }
 
-void SurfaceIteration::SplitLongEdges()
+std::vector<int> SurfaceIteration::SplitLongEdges(std::vector<int> vertices)
 {
   Remesher remesher(this->State, nullptr, false, this->Threads);
-  remesher.Split(this->Active);
+  remesher.Split(vertices);
   this->UpdateChanged(remesher.TakeChanged());
+  return vertices;
 }
 
 void SurfaceIteration::ClearMarks()
@@ -303,6 +306,13 @@ void SurfaceIteration::RollBack()
       back = this->Working; // All that has moved: the mesh before, which was free of them.
     }
     SortUnique(back);
+    if (this->Visited)
+    {
+      // What keeps still need not be examined, and further out there may be nothing to look at.
+      back.erase(std::remove_if(back.begin(), back.end(),
+                   [this](int v) { return this->IsWorking[v] == 0; }),
+        back.end());
+    }
     examined = back;
     for (int v : back)
     {

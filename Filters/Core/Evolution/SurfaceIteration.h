@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceIteration_h
 #define volumicSurfaceIteration_h
 
+#include "Core/Common/Box.h"
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/Dynamics.h"
 #include "Core/Evolution/SurfaceEvolution.h"
@@ -13,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -48,8 +50,9 @@ public:
    * active; the list may grow between two calls. What happens to components that are not small is
    * left to EndVisit's caller: LabelComponents(), DeleteInsideOut(). The vertices must have a shape
    * that is up to date.
+   * @param about what may be looked at
    */
-  void BeginVisit(const std::vector<int>& vertices);
+  void BeginVisit(const std::vector<int>& vertices, const Box& about);
   /** On all vertices again. */
   void EndVisit();
   /** The active vertices and those beside them, and what the last iteration has made or changed. */
@@ -75,7 +78,11 @@ public:
   /** Finds close pairs and intersections of the active vertices; edges must be legal. */
   void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
   /** The same for intersections alone, in little memory; some may be named more than once. */
-  std::vector<Proximity::FacePair> FindIntersections();
+  std::vector<Proximity::FacePair> FindIntersections()
+  {
+    return this->FindIntersections(this->Active);
+  }
+  std::vector<Proximity::FacePair> FindIntersections(const std::vector<int>& vertices);
   const std::vector<Proximity::FacePair>& Intersections() const
   {
     return this->Near.Intersections();
@@ -84,7 +91,9 @@ public:
   const std::vector<int>& ActiveVertices() const { return this->Active; }
 
   /** Splits all edges of the active vertices that are too long. */
-  void SplitLongEdges();
+  void SplitLongEdges() { this->Active = this->SplitLongEdges(std::move(this->Active)); }
+  /** The same for those of a list. @return the list, and the new ones. */
+  std::vector<int> SplitLongEdges(std::vector<int> vertices);
 
   /**
    * Counts and times of phases go to the row; SurfaceState::Counts are those of this iteration.
@@ -102,6 +111,12 @@ public:
   void DeleteDegenerate() { this->Watch.DeleteDegenerate(this->State); }
   void DeleteInsideOut();
   int NumberOfComponents() const { return this->Watch.NumberOfComponents(); }
+  /** What others have found (RankComponents). @param areChecked none is inside out */
+  void TakeComponents(int number, bool areChecked)
+  {
+    this->Watch.TakeNumber(number);
+    this->Unchecked = areChecked ? 0 : this->Unchecked;
+  }
 
 private:
   void CollectActive();
@@ -123,6 +138,7 @@ private:
   Proximity Recheck; ///< Of what has been rolled back.
   ComponentWatch Watch;
   const std::vector<int>* Visited = nullptr; ///< See BeginVisit; null: all vertices.
+  Box About; ///< See BeginVisit.
   std::vector<int> Active;
   std::vector<int> Working;            ///< See CollectWorking.
   LargeVector<std::uint8_t> IsWorking; ///< Whether that has it.

@@ -28,28 +28,37 @@ constexpr std::int64_t ScanBlock = 64 * 1024;
 /** Blocks of them under which a chunk is not worth a thread. */
 constexpr std::size_t ScanGrain = 8;
 
-/** An axis operator with its weights in the type of the computation. */
+AxisOperator OperatorOf(const LevelGeometry& input, const LevelGeometry& output, int axis)
+{
+  const double distance = std::abs(input.Spacing[axis]);
+  // Eq. 4 keeps U_h <= mu/M_h; a rounding error must not make it more.
+  const double offset = input.Size[axis] > 1 ? std::min(1.0, input.Unit / distance) : 0.0;
+  return AxisOperator(input.Size[axis], output.Size[axis], offset);
+}
+
+/** An axis operator of parts, with its weights in the type of the computation. */
 template <typename Real>
 struct Axis
 {
-  std::vector<std::int64_t> First;
+  std::vector<std::int64_t> First; ///< in the input part, by the voxel in the output part
   std::vector<Real> Weights;
   int Taps;
 
-  Axis(const LevelGeometry& input, const LevelGeometry& output, int axis)
+  Axis(const LevelPart& input, const LevelPart& output, int axis)
   {
-    const double distance = std::abs(input.Spacing[axis]);
-    // Eq. 4 keeps U_h <= mu/M_h; a rounding error must not make it more.
-    const double offset = input.Size[axis] > 1 ? std::min(1.0, input.Unit / distance) : 0.0;
-    const AxisOperator axisOperator(input.Size[axis], output.Size[axis], offset);
+    const AxisOperator axisOperator = OperatorOf(input.Level, output.Level, axis);
+    const int size = output.Box.Length(axis);
     this->Taps = axisOperator.NumberOfTaps();
-    this->First.resize(output.Size[axis]);
-    this->Weights.resize(output.Size[axis] * this->Taps);
-    for (std::int64_t i = 0; i < output.Size[axis]; ++i)
+    this->First.resize(size);
+    this->Weights.resize(static_cast<std::size_t>(size) * this->Taps);
+    for (int i = 0; i < size; ++i)
     {
-      this->First[i] = axisOperator.First(i);
-      std::transform(axisOperator.Weights(i), axisOperator.Weights(i) + this->Taps,
-        this->Weights.begin() + i * this->Taps, [](double w) { return static_cast<Real>(w); });
+      const int voxel = output.Box.First[axis] + i;
+      this->First[i] = axisOperator.First(voxel) - input.Box.First[axis];
+      const double* weights = axisOperator.Weights(voxel);
+      std::transform(weights, weights + this->Taps,
+        this->Weights.begin() + static_cast<std::ptrdiff_t>(i) * this->Taps,
+        [](double w) { return static_cast<Real>(w); });
     }
   }
 
@@ -62,11 +71,10 @@ class Reduction
 public:
   using Real = typename RealOf<T>::Type;
 
-  Reduction(const T* input, const LevelGeometry& inputGeometry, Real* output,
-    const LevelGeometry& outputGeometry)
-    : Input(input), Output(output), InputSize(inputGeometry.Size), OutputSize(outputGeometry.Size),
-      X(inputGeometry, outputGeometry, 0), Y(inputGeometry, outputGeometry, 1),
-      Z(inputGeometry, outputGeometry, 2),
+  /** Of parts that are not empty. */
+  Reduction(const T* input, const LevelPart& inputPart, Real* output, const LevelPart& outputPart)
+    : Input(input), Output(output), InputSize(SizeOf(inputPart)), OutputSize(SizeOf(outputPart)),
+      X(inputPart, outputPart, 0), Y(inputPart, outputPart, 1), Z(inputPart, outputPart, 2),
       Stride((InputSize[0] + RowsPerBlock - 1) / RowsPerBlock * RowsPerBlock)
   {
     const std::int64_t rowBytes = InputSize[0] * Z.Taps * static_cast<std::int64_t>(sizeof(T));
@@ -98,6 +106,11 @@ public:
   }
 
 private:
+  static LevelSize SizeOf(const LevelPart& part)
+  {
+    return { part.Box.Length(0), part.Box.Length(1), part.Box.Length(2) };
+  }
+
   /** Rows in work, of one thread. */
   struct WorkSpace
   {
@@ -189,12 +202,35 @@ private:
 };
 }
 
-template <typename T>
-bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
-  typename RealOf<T>::Type* output, const LevelGeometry& outputGeometry, Executor& executor,
-  const LevelProgress& progress)
+VoxelBox LevelPart::VoxelsOf(const LevelGeometry& level)
 {
-  const Reduction<T> reduction(input, inputGeometry, output, outputGeometry);
+  return VoxelBox::Of({ static_cast<int>(level.Size[0]), static_cast<int>(level.Size[1]),
+    static_cast<int>(level.Size[2]) });
+}
+
+VoxelBox SourceOf(
+  const VoxelBox& box, const LevelGeometry& inputGeometry, const LevelGeometry& outputGeometry)
+{
+  VoxelBox source;
+  for (int axis = 0; axis < 3 && !box.IsEmpty(); ++axis)
+  {
+    const AxisOperator axisOperator = OperatorOf(inputGeometry, outputGeometry, axis);
+    source.First[axis] = static_cast<int>(axisOperator.First(box.First[axis]));
+    source.End[axis] =
+      static_cast<int>(axisOperator.First(box.End[axis] - 1)) + axisOperator.NumberOfTaps();
+  }
+  return source;
+}
+
+template <typename T>
+bool ReduceLevel(const T* input, const LevelPart& inputPart, typename RealOf<T>::Type* output,
+  const LevelPart& outputPart, Executor& executor, const LevelProgress& progress)
+{
+  if (outputPart.Box.IsEmpty())
+  {
+    return true;
+  }
+  const Reduction<T> reduction(input, inputPart, output, outputPart);
   return reduction.Run(executor, progress);
 }
 
@@ -237,8 +273,8 @@ NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& e
 }
 
 #define VOLUMIC_INSTANTIATE(T)                                                   \
-  template bool ReduceLevel<T>(const T*, const LevelGeometry&, RealOf<T>::Type*, \
-    const LevelGeometry&, Executor&, const LevelProgress&);                      \
+  template bool ReduceLevel<T>(const T*, const LevelPart&, RealOf<T>::Type*,     \
+    const LevelPart&, Executor&, const LevelProgress&);                          \
   template NotFiniteVoxels FindNotFiniteVoxels<T>(const T*, std::int64_t, Executor&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE

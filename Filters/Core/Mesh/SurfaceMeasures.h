@@ -11,8 +11,8 @@ namespace volumic
 {
 /**
  * The signed volume that a closed surface, or some components of one, encloses; negative for what
- * is inside out. It is added up vertex by vertex, where of the tetrahedron that a face spans with
- * the origin a third belongs to each corner, or face by face.
+ * is inside out. It is added up vertex by vertex: of the tetrahedron that a face spans with the
+ * origin a third belongs to each corner.
  */
 class SignedVolume
 {
@@ -23,29 +23,30 @@ public:
   /** Adds the share of an alive vertex. */
   void Add(const SurfaceMesh& mesh, int v)
   {
+    this->Eighteenfold += OfVertex(mesh, this->Origin, v);
+  }
+
+  double Value() const { return this->Eighteenfold / 18.; }
+
+  /** Eighteen times the share of an alive vertex. */
+  static double OfVertex(const SurfaceMesh& mesh, const VectorD& origin, int v)
+  {
     const Ring& ring = mesh.Rings[v];
     VectorD fan;
     for (int i = 0; i < ring.Count; ++i)
     {
-      fan += Cross(VectorD(mesh.Position[ring.Item[i]]) - this->Origin,
-        VectorD(mesh.Position[ring.Next(i)]) - this->Origin);
+      fan += Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
+        VectorD(mesh.Position[ring.Next(i)]) - origin);
     }
     // Six times the tetrahedra of its faces, each of which is seen from three corners.
-    this->Eighteenfold += Dot(VectorD(mesh.Position[v]) - this->Origin, fan);
+    return Dot(VectorD(mesh.Position[v]) - origin, fan);
   }
-
-  /** Adds a whole face, instead of the shares of its corners. */
-  void AddFace(const SurfaceMesh& mesh, int a, int b, int c)
+  /** Six times the share of a face, which is that of its corners together. */
+  static double OfFace(const SurfaceMesh& mesh, const VectorD& origin, int a, int b, int c)
   {
-    this->Eighteenfold += 3. *
-      Dot(VectorD(mesh.Position[a]) - this->Origin,
-        Cross(VectorD(mesh.Position[b]) - this->Origin, VectorD(mesh.Position[c]) - this->Origin));
+    return Dot(VectorD(mesh.Position[a]) - origin,
+      Cross(VectorD(mesh.Position[b]) - origin, VectorD(mesh.Position[c]) - origin));
   }
-
-  /** Adds what another one of the same origin has added up. */
-  void Add(const SignedVolume& other) { this->Eighteenfold += other.Eighteenfold; }
-
-  double Value() const { return this->Eighteenfold / 18.; }
 
 private:
   friend double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);

@@ -54,6 +54,11 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
 int SurfaceMesh::AddVertex(const Vector& position, VertexPlaces* places)
 {
   std::vector<int>& free = places ? places->Free : this->Free;
+  if (free.empty() && this->IsKept && this->Unused.Count() > 0)
+  {
+    free.push_back(this->Unused.Next++);
+    --this->Aside;
+  }
   if (free.empty())
   {
     Grow(this->Position, this->Position.size() + 1, Vector());
@@ -76,16 +81,28 @@ void SurfaceMesh::Lend(VertexPlaces& places, std::size_t n)
 {
   const std::size_t size = this->Rings.size();
   const std::size_t missing = n > this->Free.size() ? n - this->Free.size() : 0;
-  Grow(this->Position, size + missing, Vector());
-  Grow(this->Rings, size + missing, Ring());
-  // The last of them is taken first.
-  for (std::size_t i = missing; i > 0; --i)
+  int first = static_cast<int>(size);
+  int count = static_cast<int>(missing);
+  if (this->IsKept)
   {
-    places.Free.push_back(static_cast<int>(size + i - 1));
+    first = this->Unused.Next;
+    count = std::min(count, this->Unused.Count());
+    this->Unused.Next += count;
+    this->Aside -= count;
   }
-  const auto first = this->Free.end() - static_cast<std::ptrdiff_t>(n - missing);
-  places.Free.insert(places.Free.end(), first, this->Free.end());
-  this->Free.erase(first, this->Free.end());
+  else
+  {
+    Grow(this->Position, size + missing, Vector());
+    Grow(this->Rings, size + missing, Ring());
+  }
+  // The last of them is taken first.
+  for (int i = count; i > 0; --i)
+  {
+    places.Free.push_back(first + i - 1);
+  }
+  const auto begin = this->Free.end() - static_cast<std::ptrdiff_t>(n - missing);
+  places.Free.insert(places.Free.end(), begin, this->Free.end());
+  this->Free.erase(begin, this->Free.end());
 }
 
 void SurfaceMesh::TakeBack(VertexPlaces& places)
@@ -100,17 +117,41 @@ void SurfaceMesh::TakeRemoved(VertexPlaces& places)
   places.Removed.clear();
 }
 
-void SurfaceMesh::PutAside(VertexPlaces& places, std::size_t n)
+UnusedPlaces SurfaceMesh::AddUnusedPlaces(int n)
 {
-  const auto first = this->Free.end() - static_cast<std::ptrdiff_t>(n);
-  places.Free.assign(first, this->Free.end());
-  this->Free.erase(first, this->Free.end());
+  const int size = this->Size();
+  LengthenZeroed(this->Position, static_cast<std::size_t>(size) + static_cast<std::size_t>(n));
+  LengthenZeroed(this->Rings, static_cast<std::size_t>(size) + static_cast<std::size_t>(n));
   this->Aside += n;
+  return { size, size + n };
 }
 
-void SurfaceMesh::TakeFromAside(VertexPlaces& places)
+void SurfaceMesh::PutAside(VertexPlaces& places, UnusedPlaces& unused)
 {
-  this->Aside -= places.Free.size();
+  this->Aside += static_cast<std::int64_t>(this->Free.size());
+  places.Free.insert(places.Free.end(), this->Free.begin(), this->Free.end());
+  this->Free.clear();
+  unused = this->Unused;
+  this->Unused = {};
+  this->IsKept = false;
+}
+
+void SurfaceMesh::TakeFromAside(VertexPlaces& places, const UnusedPlaces& unused)
+{
+  this->Free.swap(places.Free);
+  places.Free.clear();
+  this->Aside -= static_cast<std::int64_t>(this->Free.size());
+  this->Unused = unused;
+  this->IsKept = true;
+}
+
+void SurfaceMesh::FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused)
+{
+  this->Aside -= static_cast<std::int64_t>(places.Free.size()) + unused.Count();
+  for (int v = unused.End; v > unused.Next; --v)
+  {
+    this->Free.push_back(v - 1);
+  }
   this->TakeBack(places);
 }
 
@@ -341,6 +382,14 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
   this->Rings.swap(rings);
   this->Free.clear();
   this->Aside = 0;
+}
+
+void SurfaceMesh::Remake(std::size_t n, int vertices)
+{
+  this->Clear();
+  MakeZeroed(this->Position, n);
+  MakeZeroed(this->Rings, n);
+  this->Aside = static_cast<std::int64_t>(n) - vertices;
 }
 
 void SurfaceMesh::Clear()

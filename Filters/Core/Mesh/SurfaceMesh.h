@@ -82,6 +82,14 @@ struct VertexPlaces
   std::vector<int> Removed; ///< Not to be taken before all the edits are done.
 };
 
+/** Places that follow each other and have never been taken. */
+struct UnusedPlaces
+{
+  int Next = 0;
+  int End = 0;
+  int Count() const { return this->End - this->Next; }
+};
+
 /**
  * A closed oriented triangulated mesh, possibly of several components.
  *
@@ -100,7 +108,7 @@ public:
   /** Not while places are given away, but for those put aside. */
   int NumberOfVertices() const
   {
-    return this->Size() - static_cast<int>(this->Free.size() + this->Aside);
+    return this->Size() - static_cast<int>(static_cast<std::int64_t>(this->Free.size()) + this->Aside);
   }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
@@ -120,19 +128,29 @@ public:
   /** @param places where its index goes; null: to the mesh's own. */
   void RemoveVertex(int v, VertexPlaces* places = nullptr);
 
-  /** Gives n free places away; the mesh grows where it has too few. */
+  /**
+   * Gives n free places away; the mesh grows where it has too few. Between TakeFromAside and
+   * PutAside it does not: those that were put aside are all there are, and it may give fewer.
+   */
   void Lend(VertexPlaces& places, std::size_t n);
   /** Takes those back that have not been taken. */
   void TakeBack(VertexPlaces& places);
   /** Takes those of removed vertices, once nobody looks for these any more. */
   void TakeRemoved(VertexPlaces& places);
 
-  /** Free places that anyone may take; the last of them is taken first. */
-  std::size_t NumberOfFreePlaces() const { return this->Free.size(); }
-  /** Puts the last n free places aside, so that only their keeper uses them. */
-  void PutAside(VertexPlaces& places, std::size_t n);
-  /** Takes those back, which are taken first from now on. */
-  void TakeFromAside(VertexPlaces& places);
+  /**
+   * Room for so many more vertices, in places that follow the last ones and are aside. They take
+   * no memory before they are used.
+   */
+  UnusedPlaces AddUnusedPlaces(int n);
+  /** Puts all free places aside, beside those that are, so that only their keeper uses them. */
+  void PutAside(VertexPlaces& places, UnusedPlaces& unused);
+  /** Takes those back: the only ones from now on, until they are put aside again. */
+  void TakeFromAside(VertexPlaces& places, const UnusedPlaces& unused);
+  /** Ends the keeping: these are anyone's. */
+  void FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused);
+  /** Tells of vertices that others have added to, or removed from, what is not here. */
+  void CountOthers(int more) { this->Aside -= more; }
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
   template <typename Visitor>
@@ -185,6 +203,8 @@ public:
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
+  /** Empties it; all of n places, which take no memory, are aside, but those of so many vertices. */
+  void Remake(std::size_t n, int vertices);
 
   /** The places that no vertex has, the next to be taken last: what a copy needs to go on alike. */
   const std::vector<int>& FreePlaces() const { return this->Free; }
@@ -192,7 +212,9 @@ public:
 
 private:
   std::vector<int> Free;
-  std::size_t Aside = 0; ///< Places that are neither free nor a vertex's.
+  std::int64_t Aside = 0; ///< Places that are neither free nor a vertex's.
+  UnusedPlaces Unused;    ///< Of the keeper whose places have been taken back.
+  bool IsKept = false;    ///< They have: the mesh must not grow.
 };
 
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`. */

@@ -69,6 +69,57 @@ void VertexGrid::Resize(std::size_t n)
   Grow(this->Next, n, -1);
 }
 
+void VertexGrid::Lengthen(std::size_t n)
+{
+  LengthenZeroed(this->Cell, n);
+  LengthenZeroed(this->Next, n);
+}
+
+void VertexGrid::SortChains(const Vector& low, const Vector& high)
+{
+  int first[3];
+  int last[3];
+  const float lows[3] = { low.X, low.Y, low.Z };
+  const float highs[3] = { high.X, high.Y, high.Z };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = this->Along(lows[axis], axis) & ~Mask;
+    last[axis] = this->Along(highs[axis], axis);
+  }
+  std::vector<int> chain;
+  const auto sort = [&](int& head)
+  {
+    if (head < 0 || this->Next[head] < 0)
+    {
+      return;
+    }
+    chain.clear();
+    for (int v = head; v >= 0; v = this->Next[v])
+    {
+      chain.push_back(v);
+    }
+    std::sort(chain.begin(), chain.end());
+    head = chain.front();
+    for (std::size_t i = 0; i < chain.size(); ++i)
+    {
+      this->Next[chain[i]] = i + 1 < chain.size() ? chain[i + 1] : -1;
+    }
+  };
+  for (int z = first[2]; z <= last[2]; z += Mask + 1)
+  {
+    for (int y = first[1]; y <= last[1]; y += Mask + 1)
+    {
+      for (int x = first[0]; x <= last[0]; x += Mask + 1)
+      {
+        if (Brick* brick = this->Bricks[this->NumberOfBrick(x, y, z)].load())
+        {
+          std::for_each(brick->begin(), brick->end(), sort);
+        }
+      }
+    }
+  }
+}
+
 VertexGrid::Brick* VertexGrid::MakeBrick(std::size_t number)
 {
   const std::lock_guard<std::mutex> lock(this->Making);

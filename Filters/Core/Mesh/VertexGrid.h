@@ -42,6 +42,9 @@ public:
   /** Makes room for vertices of indices below n. */
   void Resize(std::size_t n);
 
+  /** The same for vertices to come, whose room takes no memory before. */
+  void Lengthen(std::size_t n);
+
   void Insert(int v, const Vector& position);
   /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
   void InsertAll(const LargeVector<Vector>& positions, const std::function<bool(int v)>& isThere,
@@ -103,6 +106,12 @@ public:
     }
     this->VisitChains(firsts, visit);
   }
+
+  /**
+   * Sorts the chains of the cells that a box touches by index, so that what is visited in which
+   * order does not depend on how the vertices have come there.
+   */
+  void SortChains(const Vector& low, const Vector& high);
 
   /** Bricks that there are, for tests of what it costs. */
   std::size_t NumberOfBricks() const { return this->NumberMade; }

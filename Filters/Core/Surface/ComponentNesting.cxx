@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ComponentNesting.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
@@ -18,33 +19,18 @@ namespace
 /** Vertices that one thread looks for crossings at at a time. */
 constexpr std::size_t CrossedBlock = 8192;
 
-/** From a vertex of a component along x. */
-struct Ray
+Point PointAt(const Vector& p)
 {
-  int Vertex;
-  Point Origin;
-  bool IsCavity; ///< The component's volume is negative.
-};
-
-/** A ray that a face of another component crosses. */
-struct Crossing
-{
-  int Ray;
-  int Component;
-};
-
-Point PositionOf(const SurfaceMesh& mesh, int v)
-{
-  const Vector& p = mesh.Position[v];
   return { p.X, p.Y, p.Z };
 }
 
-/** Faces of one component in a block. */
-using PartialVolume = std::pair<int, SignedVolume>;
+/** Faces of one label in a block. */
+using PartialVolume = std::pair<int, ExactSum>;
 
-/** Of the faces whose smallest vertex is in a range, by label. `roots`: a vertex of each. */
+/** Of the faces whose smallest vertex is in a range, by label. */
 std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<int>& roots, std::size_t begin, std::size_t end)
+  const MarkedVertices* part, const std::vector<Vector>& origins, std::size_t begin,
+  std::size_t end)
 {
   std::vector<PartialVolume> volumes;
   std::unordered_map<int, std::size_t> places;
@@ -52,6 +38,10 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
   mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
+      if (part && !part->Has(a))
+      {
+        return;
+      }
       const int label = labels[a];
       if (volumes.empty() || volumes[place].first != label)
       {
@@ -59,53 +49,18 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
         place = found.first->second;
         if (found.second)
         {
-          volumes.emplace_back(label, SignedVolume(mesh.Position[roots[label]]));
+          volumes.emplace_back(label, ExactSum());
         }
       }
-      volumes[place].second.AddFace(mesh, a, b, c);
+      volumes[place].second.Add(
+        SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
     });
   return volumes;
 }
 
-/**
- * A ray from the first vertex of each component, by Y. `labels`: of the vertices, `roots`: the
- * first vertex of each label.
- */
-std::vector<Ray> CastRays(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<int>& roots, Executor& executor)
-{
-  const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<PartialVolume>> parts((n + CrossedBlock - 1) / CrossedBlock);
-  ForBlocks(executor, n, CrossedBlock,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    { parts[b] = VolumesOf(mesh, labels, roots, begin, end); });
-  std::vector<SignedVolume> volumes;
-  for (const int root : roots)
-  {
-    volumes.emplace_back(mesh.Position[root]);
-  }
-  for (const std::vector<PartialVolume>& ofBlock : parts)
-  {
-    for (const PartialVolume& part : ofBlock)
-    {
-      volumes[part.first].Add(part.second);
-    }
-  }
-  std::vector<Ray> rays;
-  for (std::size_t label = 0; label < roots.size(); ++label)
-  {
-    rays.push_back(
-      { roots[label], PositionOf(mesh, roots[label]), volumes[label].Value() < 0. });
-  }
-  std::sort(rays.begin(), rays.end(),
-    [](const Ray& a, const Ray& b)
-    { return a.Origin[1] != b.Origin[1] ? a.Origin[1] < b.Origin[1] : a.Vertex < b.Vertex; });
-  return rays;
-}
-
 /** Finds the crossings with the faces that have v as their smallest vertex. */
-void FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels, int v,
-  const std::vector<Ray>& rays, std::vector<Crossing>& crossings)
+void AddCrossings(const SurfaceMesh& mesh, int v, int component,
+  const std::vector<ComponentRay>& rays, std::vector<RayCrossing>& crossings)
 {
   const Ring& ring = mesh.Rings[v];
   for (int i = 0; i < ring.Count; ++i)
@@ -116,79 +71,113 @@ void FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels, int 
     {
       continue;
     }
-    const Point a = PositionOf(mesh, v);
-    const Point b = PositionOf(mesh, second);
-    const Point c = PositionOf(mesh, third);
+    const Point a = PointAt(mesh.Position[v]);
+    const Point b = PointAt(mesh.Position[second]);
+    const Point c = PointAt(mesh.Position[third]);
     const double low = std::min({ a[1], b[1], c[1] });
     const double high = std::max({ a[1], b[1], c[1] });
-    auto ray = std::lower_bound(
-      rays.begin(), rays.end(), low, [](const Ray& r, double y) { return r.Origin[1] < y; });
+    auto ray = std::lower_bound(rays.begin(), rays.end(), low,
+      [](const ComponentRay& r, double y) { return r.Origin[1] < y; });
     for (; ray != rays.end() && ray->Origin[1] <= high; ++ray)
     {
-      if (labels[ray->Vertex] == labels[v])
+      if (ray->Label == component)
       {
         continue;
       }
       const RowCrossing crossing = RowCrossing::Of(a, b, c, ray->Origin[1], ray->Origin[2]);
       if (crossing.Winding != 0 && crossing.X > ray->Origin[0])
       {
-        crossings.push_back({ static_cast<int>(ray - rays.begin()), labels[v] });
+        crossings.push_back({ static_cast<int>(ray - rays.begin()), component });
       }
     }
   }
 }
+}
 
-/**
- * For each ray the labels of the components around its origin: those it crosses an odd number of
- * times.
- */
-std::vector<std::vector<int>> ComponentsAround(const SurfaceMesh& mesh,
-  const LargeVector<int>& labels, const std::vector<Ray>& rays, Executor& executor)
+std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const MarkedVertices* part, const std::vector<Vector>& origins, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<Crossing>> crossings((n + CrossedBlock - 1) / CrossedBlock);
+  std::vector<std::vector<PartialVolume>> parts((n + CrossedBlock - 1) / CrossedBlock);
+  ForBlocks(executor, n, CrossedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    { parts[b] = VolumesOf(mesh, labels, part, origins, begin, end); });
+  std::vector<ExactSum> volumes(origins.size());
+  for (const std::vector<PartialVolume>& ofBlock : parts)
+  {
+    for (const PartialVolume& volume : ofBlock)
+    {
+      volumes[volume.first].Add(volume.second);
+    }
+  }
+  return volumes;
+}
+
+std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
+  const std::vector<Vector>& places, const std::vector<ExactSum>& volumes)
+{
+  std::vector<ComponentRay> rays;
+  for (std::size_t label = 0; label < roots.size(); ++label)
+  {
+    rays.push_back({ roots[label], static_cast<int>(label), PointAt(places[label]),
+      volumes[label].Value() < 0. });
+  }
+  std::sort(rays.begin(), rays.end(),
+    [](const ComponentRay& a, const ComponentRay& b)
+    { return a.Origin[1] != b.Origin[1] ? a.Origin[1] < b.Origin[1] : a.Root < b.Root; });
+  return rays;
+}
+
+std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const MarkedVertices* part, const std::vector<int>& components,
+  const std::vector<ComponentRay>& rays, Executor& executor)
+{
+  const std::size_t n = mesh.Rings.size();
+  std::vector<std::vector<RayCrossing>> blocks((n + CrossedBlock - 1) / CrossedBlock);
   ForBlocks(executor, n, CrossedBlock,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        FindCrossings(mesh, labels, v, rays, crossings[b]);
+        if (part ? part->Has(v) : mesh.IsAlive(v))
+        {
+          AddCrossings(mesh, v, components[labels[v]], rays, blocks[b]);
+        }
       }
+      KeepOdd(blocks[b]);
     });
-  std::vector<std::vector<int>> around(rays.size());
-  for (const std::vector<Crossing>& block : crossings)
-  {
-    for (const Crossing& crossing : block)
-    {
-      around[crossing.Ray].push_back(crossing.Component);
-    }
-  }
-  for (std::vector<int>& crossed : around)
-  {
-    std::sort(crossed.begin(), crossed.end());
-    std::vector<int> odd;
-    for (int label : crossed)
-    {
-      if (!odd.empty() && odd.back() == label)
-      {
-        odd.pop_back();
-      }
-      else
-      {
-        odd.push_back(label);
-      }
-    }
-    crossed.swap(odd);
-  }
-  return around;
-}
+  std::vector<RayCrossing> crossings = Joined(executor, blocks);
+  KeepOdd(crossings);
+  return crossings;
 }
 
-std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<int>& roots, Executor& executor)
+void KeepOdd(std::vector<RayCrossing>& crossings)
 {
-  const std::vector<Ray> rays = CastRays(mesh, labels, roots, executor);
-  const std::vector<std::vector<int>> around = ComponentsAround(mesh, labels, rays, executor);
+  std::sort(crossings.begin(), crossings.end());
+  std::size_t count = 0; // Of those that no equal one has met yet.
+  for (const RayCrossing& crossing : crossings)
+  {
+    if (count > 0 && !(crossings[count - 1] < crossing))
+    {
+      --count;
+    }
+    else
+    {
+      crossings[count++] = crossing;
+    }
+  }
+  crossings.resize(count);
+}
+
+std::vector<int> JudgeFromOutsideIn(
+  const std::vector<ComponentRay>& rays, const std::vector<RayCrossing>& crossings)
+{
+  // The labels of the components around the origin of each ray.
+  std::vector<std::vector<int>> around(rays.size());
+  for (const RayCrossing& crossing : crossings)
+  {
+    around[crossing.Ray].push_back(crossing.Label);
+  }
   // From outside in: what is inside out encloses nothing.
   std::vector<int> order(rays.size());
   std::iota(order.begin(), order.end(), 0);
@@ -202,10 +191,26 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
       [&isInsideOut](int label) { return !isInsideOut[label]; });
     if ((depth % 2 == 1) != rays[i].IsCavity)
     {
-      isInsideOut[labels[rays[i].Vertex]] = 1;
-      found.push_back(rays[i].Vertex);
+      isInsideOut[rays[i].Label] = 1;
+      found.push_back(rays[i].Root);
     }
   }
   return found;
+}
+
+std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const std::vector<int>& roots, Executor& executor)
+{
+  std::vector<Vector> places;
+  for (const int root : roots)
+  {
+    places.push_back(mesh.Position[root]);
+  }
+  std::vector<int> components(roots.size());
+  std::iota(components.begin(), components.end(), 0);
+  const std::vector<ComponentRay> rays =
+    CastRays(roots, places, VolumesOfFaces(mesh, labels, nullptr, places, executor));
+  return JudgeFromOutsideIn(
+    rays, FindCrossings(mesh, labels, nullptr, components, rays, executor));
 }
 }

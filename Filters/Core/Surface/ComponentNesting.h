@@ -3,8 +3,11 @@
 #ifndef volumicComponentNesting_h
 #define volumicComponentNesting_h
 
+#include "Core/Common/ExactSum.h"
 #include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Mesh/SurfaceMesh.h"
+#include "Core/Surface/ConnectedVertices.h"
 
 #include <vector>
 
@@ -21,6 +24,52 @@ namespace volumic
  */
 std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor);
+
+// What it is made of, for ranks that each have a part of the surface (RankComponents): the faces of
+// a part are those whose smallest vertex is marked. Null: all are.
+
+/** From the first vertex of a component along x. */
+struct ComponentRay
+{
+  int Root;
+  int Label;
+  Point Origin;
+  bool IsCavity; ///< The component's volume is negative.
+};
+
+/** A ray that another component crosses, in the part an odd number of times. */
+struct RayCrossing
+{
+  int Ray; ///< Its place among the rays.
+  int Label;
+  bool operator<(const RayCrossing& other) const
+  {
+    return this->Ray != other.Ray ? this->Ray < other.Ray : this->Label < other.Label;
+  }
+};
+
+/** The sums of what SignedVolume::OfFace says of the part's faces. @param origins by label */
+std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const MarkedVertices* part, const std::vector<Vector>& origins, Executor& executor);
+
+/** A ray of each component, by Y. @param roots,places,volumes of each label */
+std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
+  const std::vector<Vector>& places, const std::vector<ExactSum>& volumes);
+
+/**
+ * The crossings of the part's faces with the rays of other components, sorted.
+ * @param components the label, among all components, of each label of the part
+ */
+std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const MarkedVertices* part, const std::vector<int>& components,
+  const std::vector<ComponentRay>& rays, Executor& executor);
+
+/** Of the crossings of several parts those that there are an odd number of, sorted, each once. */
+void KeepOdd(std::vector<RayCrossing>& crossings);
+
+/** @param crossings of all parts, odd. @return those of FindInsideOut */
+std::vector<int> JudgeFromOutsideIn(
+  const std::vector<ComponentRay>& rays, const std::vector<RayCrossing>& crossings);
 }
 
 #endif

@@ -2,76 +2,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ComponentWatch.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentNesting.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 
 namespace volumic
 {
 namespace
 {
-/** Components up to this many vertices are watched. */
-constexpr int SmallSize = 400;
 /** Up to this many they are deleted when wholly on the wrong side. */
 constexpr int TinySize = 24;
 /** Up to this many they have vanished. */
 constexpr int VanishedSize = 5;
 
-/** Vertices that one thread joins at a time. */
-constexpr std::size_t JoinedBlock = 4096;
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexBlock = 4096;
 /** Vertices under which a chunk is not worth a thread. */
 constexpr std::size_t Grain = 4096;
 
-/** In the place of a label: of a place without a vertex, and of what DeleteDegenerate has seen. */
-constexpr int NoComponent = -1;
+/** In the place of a label: of what DeleteDegenerate has seen. */
 constexpr int Seen = -2;
 /** The labels that LabelSmall gives lie above those of all others. */
 constexpr int FirstOwnLabel = 1 << 30;
 /** Seen, and of a component that is not small. */
 constexpr std::uint8_t OfLarge = 2;
-
-/** Of a root, while the others of its component still bear its index; no index, no NoComponent. */
-constexpr int MarkOfRoot(int label)
-{
-  return -2 - label;
-}
-
-/** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
-void LabelOthers(SurfaceState& state, int begin, int end, std::vector<std::atomic<int>>& sizes)
-{
-  // Mostly neighbours follow each other: they are added up before the others are told.
-  int label = 0;
-  int count = 0;
-  const auto add = [&]
-  {
-    if (count > 0)
-    {
-      sizes[label].fetch_add(count, std::memory_order_relaxed);
-    }
-  };
-  for (int v = begin; v < end; ++v)
-  {
-    const int root = state.Component[v];
-    if (root < 0)
-    {
-      continue;
-    }
-    const int own = MarkOfRoot(state.Component[root]); // Its own inverse.
-    if (own != label)
-    {
-      add();
-      label = own;
-      count = 0;
-    }
-    state.Component[v] = own;
-    ++count;
-  }
-  add();
-}
 
 bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
@@ -82,120 +38,13 @@ bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
   }
   return volume.Value() > 0;
 }
-
 }
 
 void ComponentWatch::Label(SurfaceState& state, Executor& executor)
 {
-  const std::size_t n = state.Mesh.Rings.size();
-  this->JoinVertices(state.Mesh, executor);
-  // Roots first: they are the smallest of their component, and numbered in their order.
-  const std::vector<std::size_t> first = FirstOfBlocks(executor, n, JoinedBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::size_t roots = 0;
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        state.Component[v] = state.Mesh.IsAlive(v) ? this->Joined.FindRoot(v) : NoComponent;
-        roots += state.Component[v] == v;
-      }
-      return roots;
-    });
-  this->Roots.resize(first.back());
-  ForBlocks(executor, n, JoinedBlock,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      std::size_t label = first[b];
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (state.Component[v] == v)
-        {
-          state.Component[v] = MarkOfRoot(static_cast<int>(label));
-          this->Roots[label++] = v;
-        }
-      }
-    });
-  std::vector<std::atomic<int>> sizes(this->Roots.size());
-  for (std::atomic<int>& size : sizes)
-  {
-    size.store(1, std::memory_order_relaxed); // The root.
-  }
-  ForBlocks(executor, n, JoinedBlock,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    { LabelOthers(state, static_cast<int>(begin), static_cast<int>(end), sizes); });
-  for (std::size_t label = 0; label < this->Roots.size(); ++label)
-  {
-    state.Component[this->Roots[label]] = static_cast<int>(label);
-  }
-  this->Components = static_cast<int>(this->Roots.size());
-  this->WatchSmallOnes(state, std::vector<int>(sizes.begin(), sizes.end()), executor);
-}
-
-namespace
-{
-/** Where a neighbour is, seen from a vertex of a block. */
-enum class Side
-{
-  Later, ///< It sees to the edge between them itself.
-  SameBlock,
-  BlockBefore
-};
-}
-
-void ComponentWatch::JoinVertices(const SurfaceMesh& mesh, Executor& executor)
-{
-  // First within blocks, side by side, then across their borders.
-  const std::size_t n = mesh.Rings.size();
-  this->Joined.Resize(n);
-  this->Borders.resize((n + JoinedBlock - 1) / JoinedBlock);
-  ForBlocks(executor, n, JoinedBlock,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      this->Borders[b].clear();
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        this->Joined.MakeSet(v);
-        int root = v;
-        const Ring& ring = mesh.Rings[v];
-        Side before = Side::Later;
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          // Neighbours next to each other are neighbours themselves: on one side one is enough.
-          const int w = ring.Item[i];
-          const Side side = w >= v     ? Side::Later
-            : w >= static_cast<int>(begin) ? Side::SameBlock
-                                           : Side::BlockBefore;
-          if (side == Side::BlockBefore && side != before)
-          {
-            this->Borders[b].emplace_back(v, w);
-          }
-          else if (side == Side::SameBlock && side != before)
-          {
-            root = this->Joined.Join(root, w);
-          }
-          before = side;
-        }
-      }
-    });
-  // Of the many edges between the same two sets one is enough.
-  ForBlocks(executor, this->Borders.size(), 1,
-    [this](std::size_t b, std::size_t, std::size_t)
-    {
-      std::vector<std::pair<int, int>>& border = this->Borders[b];
-      for (auto& edge : border)
-      {
-        edge = { this->Joined.FindRoot(edge.first), this->Joined.FindRoot(edge.second) };
-      }
-      std::sort(border.begin(), border.end());
-      border.erase(std::unique(border.begin(), border.end()), border.end());
-    });
-  for (const auto& border : this->Borders)
-  {
-    for (const auto& edge : border)
-    {
-      this->Joined.Join(edge.first, edge.second);
-    }
-  }
+  this->Connected.Label(state.Mesh, state.Component.AsVector(), executor);
+  this->Components = static_cast<int>(this->Connected.Roots().size());
+  this->WatchSmallOnes(state, this->Connected.Sizes(), executor);
 }
 
 void ComponentWatch::WatchSmallOnes(
@@ -217,8 +66,8 @@ void ComponentWatch::WatchSmallOnes(
     return;
   }
   const std::size_t n = state.Mesh.Rings.size();
-  std::vector<std::vector<int>> watched((n + JoinedBlock - 1) / JoinedBlock);
-  ForBlocks(executor, n, JoinedBlock,
+  std::vector<std::vector<int>> watched((n + VertexBlock - 1) / VertexBlock);
+  ForBlocks(executor, n, VertexBlock,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
@@ -247,7 +96,7 @@ void ComponentWatch::WatchSmallOnes(
     });
 }
 
-bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v)
+bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v, const Box& within)
 {
   this->Stack.assign(1, v);
   this->IsSeen[v] = 1;
@@ -255,7 +104,8 @@ bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v)
   for (std::size_t i = 0; i < this->Stack.size() && this->Stack.size() <= SmallSize; ++i)
   {
     const Ring& ring = mesh.Rings[this->Stack[i]];
-    for (int k = 0; k < ring.Count; ++k)
+    isSmall = isSmall && within.Contains(mesh.Position[this->Stack[i]]);
+    for (int k = 0; k < ring.Count && isSmall; ++k)
     {
       const int w = ring.Item[k];
       if (this->IsSeen[w] == 0)
@@ -282,13 +132,14 @@ bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v)
   return isSmall;
 }
 
-void ComponentWatch::LabelSmall(SurfaceState& state, const std::vector<int>& vertices)
+void ComponentWatch::LabelSmall(
+  SurfaceState& state, const std::vector<int>& vertices, const Box& within)
 {
   this->Watched.clear();
   this->IsSeen.resize(state.Mesh.Rings.size(), 0);
   for (const int v : vertices)
   {
-    if (!state.Mesh.IsAlive(v) || this->IsSeen[v] != 0 || !this->IsSmall(state.Mesh, v))
+    if (!state.Mesh.IsAlive(v) || this->IsSeen[v] != 0 || !this->IsSmall(state.Mesh, v, within))
     {
       continue;
     }
@@ -378,7 +229,7 @@ bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
   this->Label(state, executor);
   const std::vector<int> insideOut =
-    FindInsideOut(state.Mesh, state.Component.AsVector(), this->Roots, executor);
+    FindInsideOut(state.Mesh, state.Component.AsVector(), this->Connected.Roots(), executor);
   for (const int root : insideOut)
   {
     state.RemoveComponent(root);

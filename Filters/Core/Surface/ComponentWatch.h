@@ -3,11 +3,11 @@
 #ifndef volumicComponentWatch_h
 #define volumicComponentWatch_h
 
-#include "Core/Common/DisjointSets.h"
+#include "Core/Common/Box.h"
+#include "Core/Surface/ConnectedVertices.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace volumic
@@ -20,14 +20,18 @@ namespace volumic
 class ComponentWatch
 {
 public:
+  /** Components up to this many vertices are watched. */
+  static constexpr int SmallSize = 400;
+
   /** Labels components afresh, by their smallest vertex. Call after merges and cuts. */
   void Label(SurfaceState& state, Executor& executor);
 
   /**
    * The same for a part of the surface: the small components that have a vertex in a list, or grow
-   * to it from there, get labels of their own and are watched; the others are left as they are.
+   * to it from there, and lie in a box get labels of their own and are watched; the others are left
+   * as they are.
    */
-  void LabelSmall(SurfaceState& state, const std::vector<int>& vertices);
+  void LabelSmall(SurfaceState& state, const std::vector<int>& vertices, const Box& within);
 
   /**
    * Deletes those of the small components that must go; every vertex must have its label.
@@ -46,6 +50,8 @@ public:
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);
 
   int NumberOfComponents() const { return this->Components; }
+  /** Of a surface in parts, that others have counted. */
+  void TakeNumber(int components) { this->Components = components; }
 
 private:
   struct SmallComponent
@@ -55,11 +61,10 @@ private:
     bool IsPositive = true;    ///< Of the volume, when it was labelled.
   };
 
-  void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
   void WatchSmallOnes(
     const SurfaceState& state, const std::vector<int>& sizes, Executor& executor);
   /** Whether a component is a small one; if so, its vertices are in Stack. Marks what it sees. */
-  bool IsSmall(const SurfaceMesh& mesh, int v);
+  bool IsSmall(const SurfaceMesh& mesh, int v, const Box& within);
   /** Finds the vertices that the component has now, in Stack. @return false if it has none. */
   bool FindVertices(SurfaceState& state, const SmallComponent& small);
 
@@ -67,9 +72,7 @@ private:
   std::vector<int> Stack;
   LargeVector<std::uint8_t> IsSeen; ///< LabelSmall; clear between its calls.
   std::vector<int> AllSeen;
-  DisjointSets Joined;                                   ///< Vertices that edges join.
-  std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.
-  std::vector<int> Roots; ///< The smallest vertex of each label, when last labelled.
+  ConnectedVertices Connected; ///< As last labelled.
   int Components = 0;
 };
 }

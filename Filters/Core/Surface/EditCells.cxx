@@ -170,7 +170,9 @@ void EditCells::LendPlaces(const Pass& pass, std::size_t first, std::size_t last
   this->State.Lend(all, total);
   for (std::size_t c = first; c < last; ++c)
   {
-    const auto from = all.Free.end() - static_cast<std::ptrdiff_t>(wanted(c));
+    // Of a block there may be fewer: those that come too late wait for its next visit.
+    const auto from =
+      all.Free.end() - static_cast<std::ptrdiff_t>(std::min(wanted(c), all.Free.size()));
     this->Cells[c]->Share.Places.Free.assign(from, all.Free.end());
     all.Free.erase(from, all.Free.end());
   }

@@ -3,7 +3,6 @@
 #include "Core/Surface/SurfaceBlocks.h"
 
 #include "Core/Common/Blocks.h"
-#include "Core/Mesh/SurfaceMeasures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +13,9 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexBlock = 8192;
-/** Places that a block keeps for itself; others are anyone's. */
-constexpr std::size_t MostPlaces = 1024;
+/** Places for new vertices that a block has at least, and for how many of its own one more. */
+constexpr int FewPlaces = 4096;
+constexpr int VerticesPerPlace = 2;
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
 std::vector<int> EvenFirst(int count)
@@ -36,55 +36,122 @@ std::vector<int> EvenFirst(int count)
 }
 }
 
-SurfaceBlocks::SurfaceBlocks(SurfaceState& state, float side, Executor& executor)
-  : State(state)
-  , Side(side)
+SurfaceBlocks::Frame SurfaceBlocks::FrameOf(const std::array<double, 3>& extent, double side)
 {
+  Frame frame;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    frame.Size[axis] = std::max(1, static_cast<int>(std::lround(extent[axis] / side)));
+    frame.Side[axis] = static_cast<float>(extent[axis] / frame.Size[axis]);
+  }
+  return frame;
+}
+
+SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor)
+  : State(state)
+  , TheFrame(frame)
+{
+  state.Mesh.PutAside(this->Others.Places, this->Others.Unused); // What is free is for nobody.
   this->Collect(executor);
   this->FindOrder();
 }
 
+std::array<int, 3> SurfaceBlocks::PlaceOf(const Vector& position) const
+{
+  const Vector from = position - this->TheFrame.Low;
+  const float along[3] = { from.X, from.Y, from.Z };
+  std::array<int, 3> places;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const float place = std::floor(along[axis] / this->TheFrame.Side[axis]);
+    places[axis] = static_cast<int>(
+      std::clamp(place, 0.f, static_cast<float>(this->TheFrame.Size[axis] - 1)));
+  }
+  return places;
+}
+
+std::array<int, 3> SurfaceBlocks::PlaceOf(int block) const
+{
+  const std::array<int, 3>& size = this->TheFrame.Size;
+  return { block % size[0], block / size[0] % size[1], block / size[0] / size[1] };
+}
+
+int SurfaceBlocks::BlockOf(const std::array<int, 3>& place) const
+{
+  const std::array<int, 3>& size = this->TheFrame.Size;
+  return place[0] + size[0] * (place[1] + size[1] * place[2]);
+}
+
 int SurfaceBlocks::BlockAt(const Vector& position) const
 {
-  const Vector from = position - this->Low;
-  const float along[3] = { from.X, from.Y, from.Z };
-  int block = 0;
-  for (int axis = 2; axis >= 0; --axis)
+  return this->BlockOf(this->PlaceOf(position));
+}
+
+Box SurfaceBlocks::BoxOf(int block) const
+{
+  constexpr float endless = 1e9f;
+  const std::array<int, 3> place = this->PlaceOf(block);
+  const Vector& origin = this->TheFrame.Low;
+  const float origins[3] = { origin.X, origin.Y, origin.Z };
+  float low[3];
+  float high[3];
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const int place = static_cast<int>(std::floor(along[axis] / this->Side));
-    block = block * this->Size[axis] + std::clamp(place, 0, this->Size[axis] - 1);
+    const auto at = [&](int k)
+    { return origins[axis] + this->TheFrame.Side[axis] * static_cast<float>(k); };
+    low[axis] = place[axis] == 0 ? -endless : at(place[axis]);
+    high[axis] = place[axis] == this->TheFrame.Size[axis] - 1 ? endless : at(place[axis] + 1);
   }
-  return block;
+  return { Vector(low[0], low[1], low[2]), Vector(high[0], high[1], high[2]) };
+}
+
+std::vector<int> SurfaceBlocks::NeighboursOf(int block) const
+{
+  std::vector<int> neighbours;
+  const std::array<int, 3> place = this->PlaceOf(block);
+  const std::array<int, 3>& size = this->TheFrame.Size;
+  const auto from = [&place](int axis) { return std::max(place[axis] - 1, 0); };
+  const auto to = [&](int axis) { return std::min(place[axis] + 1, size[axis] - 1); };
+  for (int z = from(2); z <= to(2); ++z)
+  {
+    for (int y = from(1); y <= to(1); ++y)
+    {
+      for (int x = from(0); x <= to(0); ++x)
+      {
+        const int other = this->BlockOf({ x, y, z });
+        if (other != block)
+        {
+          neighbours.push_back(other);
+        }
+      }
+    }
+  }
+  return neighbours;
 }
 
 void SurfaceBlocks::Collect(Executor& executor)
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  const Box bounds = BoundsOf(mesh, executor);
-  this->Low = bounds.Low;
-  const Vector extent = bounds.High - bounds.Low;
-  const float along[3] = { extent.X, extent.Y, extent.Z };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    this->Size[axis] = std::max(1, static_cast<int>(std::ceil(along[axis] / this->Side)));
-  }
   const std::size_t n = mesh.Rings.size();
   ForBlocks(executor, n, VertexBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        this->State.Block[v] =
-          mesh.IsAlive(static_cast<int>(v)) ? this->BlockAt(mesh.Position[v]) : NoBlock;
+        if (mesh.IsAlive(static_cast<int>(v)))
+        {
+          this->State.Block[v] = this->BlockAt(mesh.Position[v]);
+        }
       }
     });
+  const std::array<int, 3>& size = this->TheFrame.Size;
   const std::size_t count =
-    static_cast<std::size_t>(this->Size[0]) * this->Size[1] * this->Size[2];
+    static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2];
   this->Vertices.resize(count);
   this->Places.resize(count);
   for (std::size_t v = 0; v < n; ++v)
   {
-    if (this->State.Block[v] != NoBlock)
+    if (mesh.IsAlive(static_cast<int>(v)))
     {
       this->Vertices[this->State.Block[v]].push_back(static_cast<int>(v));
     }
@@ -93,32 +160,129 @@ void SurfaceBlocks::Collect(Executor& executor)
 
 void SurfaceBlocks::FindOrder()
 {
-  for (const int z : EvenFirst(this->Size[2]))
+  for (const int z : EvenFirst(this->TheFrame.Size[2]))
   {
-    for (const int y : EvenFirst(this->Size[1]))
+    for (const int y : EvenFirst(this->TheFrame.Size[1]))
     {
-      for (const int x : EvenFirst(this->Size[0]))
+      for (const int x : EvenFirst(this->TheFrame.Size[0]))
       {
-        this->Visits.push_back(x + this->Size[0] * (y + this->Size[1] * z));
+        this->Visits.push_back(this->BlockOf({ x, y, z }));
       }
+    }
+  }
+  for (int block = 0; block < this->NumberOfBlocks(); ++block)
+  {
+    // Along z first, as in the order of visits.
+    const std::array<int, 3> place = this->PlaceOf(block);
+    this->OfColour[(place[2] % 2 * 2 + place[1] % 2) * 2 + place[0] % 2].push_back(block);
+  }
+}
+
+int SurfaceBlocks::MissingPlaces(int block) const
+{
+  const OwnPlaces& own = this->Places[block];
+  std::vector<int> vertices = this->Vertices[block];
+  this->Clean(block, vertices);
+  const int wanted =
+    vertices.empty() ? 0 : FewPlaces + static_cast<int>(vertices.size()) / VerticesPerPlace;
+  const int has = own.Unused.Count() + static_cast<int>(own.Places.Free.size());
+  return has < wanted / 2 ? wanted : 0;
+}
+
+void SurfaceBlocks::AddPlaces(const std::vector<int>& counts)
+{
+  int total = 0;
+  for (const int count : counts)
+  {
+    total += count;
+  }
+  if (total == 0)
+  {
+    return;
+  }
+  int next = this->State.AddUnusedPlaces(total).Next;
+  for (std::size_t block = 0; block < counts.size(); ++block)
+  {
+    if (counts[block] > 0)
+    {
+      OwnPlaces& own = this->Places[block];
+      for (int v = own.Unused.End; v > own.Unused.Next; --v)
+      {
+        own.Places.Free.push_back(v - 1); // Few are left; they stay aside.
+      }
+      own.Unused = { next, next + counts[block] };
+      next += counts[block];
     }
   }
 }
 
-const std::vector<int>& SurfaceBlocks::Open(int block)
+void SurfaceBlocks::MakeCanonical(int block)
 {
-  this->Opened = block;
-  this->CommonPlaces = this->State.Mesh.NumberOfFreePlaces();
-  this->State.Mesh.TakeFromAside(this->Places[block]);
+  // What the visits before have left depends on their order: chains of the grid, and the length
+  // of the longest edge.
+  SurfaceState& s = this->State;
+  const float halo = HaloInDelta * s.Sizing.Largest();
+  const Box box = this->BoxOf(block).Grown(halo);
+  s.Grid.SortChains(box.Low, box.High);
+  float squared = 0;
+  s.Grid.VisitBox(box.Low, box.High,
+    [&](int v)
+    {
+      if (s.RemeshFlags[v] & HasHugeEdge)
+      {
+        const Ring& ring = s.Mesh.Rings[v];
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          squared = std::max(
+            squared, SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[ring.Item[i]]));
+        }
+      }
+    });
+  s.LongestEdge = std::sqrt(squared);
+}
+
+void SurfaceBlocks::Clean(int block, std::vector<int>& vertices) const
+{
   // Others' visits have removed some of them; places that are taken again belong to whom they say.
-  std::vector<int>& vertices = this->Vertices[block];
   const auto isOther = [this, block](int v)
   { return !this->State.Mesh.IsAlive(v) || this->State.Block[v] != block; };
   vertices.erase(std::remove_if(vertices.begin(), vertices.end(), isOther), vertices.end());
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+}
+
+const std::vector<int>& SurfaceBlocks::Open(int block)
+{
+  this->Opened = block;
+  SurfaceMesh& mesh = this->State.Mesh;
+  mesh.PutAside(this->Others.Places, this->Others.Unused); // Removed between two visits.
+  mesh.TakeFromAside(this->Places[block].Places, this->Places[block].Unused);
+  this->MakeCanonical(block);
+  std::vector<int>& vertices = this->Vertices[block];
+  this->Clean(block, vertices);
   this->OldOnes = static_cast<std::ptrdiff_t>(vertices.size());
   return vertices;
+}
+
+std::vector<double> SurfaceBlocks::Sums(const std::function<bool(int block)>& isWanted,
+  const std::function<double(int v)>& ofVertex, Executor& executor) const
+{
+  std::vector<double> sums(this->Vertices.size(), 0.);
+  ForBlocks(executor, this->Vertices.size(), 1,
+    [&](std::size_t b, std::size_t, std::size_t)
+    {
+      const int block = static_cast<int>(b);
+      if (isWanted(block))
+      {
+        std::vector<int> vertices = this->Vertices[b];
+        this->Clean(block, vertices);
+        for (const int v : vertices)
+        {
+          sums[b] += ofVertex(v);
+        }
+      }
+    });
+  return sums;
 }
 
 void SurfaceBlocks::AddNew(const std::vector<int>& vertices)
@@ -157,18 +321,44 @@ void SurfaceBlocks::Close()
     }
   }
   this->Vertices[this->Opened].swap(stay);
-  const std::size_t free = mesh.NumberOfFreePlaces();
-  const std::size_t own = free > this->CommonPlaces ? free - this->CommonPlaces : 0;
-  this->State.Mesh.PutAside(this->Places[this->Opened], std::min(own, MostPlaces));
+  OwnPlaces& own = this->Places[this->Opened];
+  this->State.Mesh.PutAside(own.Places, own.Unused);
+  this->State.LongestEdge = 0;
   this->Opened = NoBlock;
+}
+
+void SurfaceBlocks::ForgetVertices()
+{
+  for (std::vector<int>& vertices : this->Vertices)
+  {
+    vertices = std::vector<int>();
+  }
+}
+
+void SurfaceBlocks::Take(const std::vector<int>& vertices)
+{
+  for (const int v : vertices)
+  {
+    this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
+  }
+  this->AddOthers(vertices);
+}
+
+void SurfaceBlocks::AddOthers(const std::vector<int>& vertices)
+{
+  for (const int v : vertices)
+  {
+    this->Vertices[this->State.Block[v]].push_back(v);
+  }
 }
 
 SurfaceBlocks::~SurfaceBlocks()
 {
-  for (VertexPlaces& places : this->Places)
+  for (OwnPlaces& own : this->Places)
   {
-    this->State.Mesh.TakeFromAside(places);
+    this->State.Mesh.FreeFromAside(own.Places, own.Unused);
   }
+  this->State.Mesh.FreeFromAside(this->Others.Places, this->Others.Unused);
 }
 
 void SurfaceBlocks::Prefetch(int block) const

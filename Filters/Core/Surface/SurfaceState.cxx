@@ -45,15 +45,129 @@ void SurfaceState::Prefetch(int first, int last) const
   this->Properties.Prefetch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
 }
 
+UnusedPlaces SurfaceState::AddUnusedPlaces(int n)
+{
+  const UnusedPlaces places = this->Mesh.AddUnusedPlaces(n);
+  this->Properties.Lengthen(static_cast<std::size_t>(places.End));
+  this->Grid.Lengthen(static_cast<std::size_t>(places.End));
+  return places;
+}
+
 void SurfaceState::Lend(VertexPlaces& places, std::size_t n)
 {
   const std::size_t before = this->Mesh.Rings.size();
   this->Mesh.Lend(places, n);
+  if (this->Mesh.Rings.size() == before)
+  {
+    return;
+  }
   this->Properties.Resize(this->Mesh.Rings.size());
   this->Grid.Resize(this->Mesh.Rings.size());
   for (std::size_t v = before; v < this->Mesh.Rings.size(); ++v)
   {
     this->Active[v] = 0; // Until there is a vertex.
+  }
+}
+
+void SurfaceState::Remake(std::size_t n, int vertices, const Vector& low, const Vector& high)
+{
+  this->Mesh.Remake(n, vertices);
+  this->Properties.Remake(n);
+  this->LongestEdge = 0;
+  this->Grid.Reset(low, high, this->Sizing.LargestReach());
+  this->Grid.Lengthen(n);
+}
+
+void SurfaceState::WriteMesh(
+  const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices)
+{
+  message.AddArray(vertices);
+  std::vector<Vector> positions;
+  std::vector<int> rings; // The number of neighbours, then these, one after the other.
+  positions.reserve(vertices.size());
+  for (const int v : vertices)
+  {
+    positions.push_back(mesh.Position[v]);
+    const Ring& ring = mesh.Rings[v];
+    rings.push_back(ring.Count);
+    rings.insert(rings.end(), ring.Item, ring.Item + ring.Count);
+  }
+  message.AddArray(positions);
+  message.AddArray(rings);
+}
+
+void SurfaceState::Write(MessageWriter& message, const std::vector<int>& vertices) const
+{
+  WriteMesh(this->Mesh, message, vertices);
+  this->Properties.Write(message, vertices);
+}
+
+std::vector<int> SurfaceState::Read(MessageReader& message)
+{
+  std::vector<int> vertices = this->ReadConnectivity(message);
+  this->Properties.Read(message, vertices);
+  return vertices;
+}
+
+std::vector<int> SurfaceState::ReadMesh(MessageReader& message)
+{
+  std::vector<int> vertices = this->ReadConnectivity(message);
+  this->Properties.Initialise(vertices);
+  for (const int v : vertices)
+  {
+    this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
+  }
+  return vertices;
+}
+
+void SurfaceState::AddAppended(const std::vector<int>& vertices, Executor& executor)
+{
+  this->Properties.Resize(this->Mesh.Rings.size());
+  this->Grid.Resize(this->Mesh.Rings.size());
+  int faces = 0;
+  for (const int v : vertices)
+  {
+    this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
+    this->Grid.Insert(v, this->Mesh.Position[v]);
+    faces += this->Mesh.Rings[v].Count; // Each is seen from three corners; E = 3 F / 2.
+  }
+  this->EulerCharacteristic += static_cast<int>(vertices.size()) - faces / 6;
+  this->UpdateShape(vertices, executor);
+}
+
+std::vector<int> SurfaceState::ReadConnectivity(MessageReader& message)
+{
+  const std::vector<int> vertices = message.TakeVector<int>();
+  const std::vector<Vector> positions = message.TakeVector<Vector>();
+  const std::vector<int> rings = message.TakeVector<int>();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    const int v = vertices[i];
+    Ring& ring = this->Mesh.Rings[v];
+    const bool wasThere = ring.Count > 0;
+    ring.Count = rings[next++];
+    std::copy_n(rings.begin() + static_cast<std::ptrdiff_t>(next), ring.Count, ring.Item);
+    next += static_cast<std::size_t>(ring.Count);
+    this->Mesh.Position[v] = positions[i];
+    if (wasThere)
+    {
+      this->Grid.Move(v, positions[i]);
+    }
+    else
+    {
+      this->Grid.Insert(v, positions[i]);
+    }
+  }
+  return vertices;
+}
+
+void SurfaceState::Forget(int v)
+{
+  if (this->Mesh.IsAlive(v))
+  {
+    this->RemoveVertex(v);
+    this->Mesh.Rings[v].Count = 0; // Its place is another rank's.
   }
 }
 

@@ -130,8 +130,28 @@ public:
 
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
+  /** SurfaceMesh::AddUnusedPlaces, with room for what their vertices will know. */
+  UnusedPlaces AddUnusedPlaces(int n);
   /** Gives n free places away, with room for what their vertices will know. */
   void Lend(VertexPlaces& places, std::size_t n);
+  /**
+   * Forgets all vertices and lays the grid; there is room for n, without memory, of which so many
+   * are said to be vertices (some are on other ranks).
+   */
+  void Remake(std::size_t n, int vertices, const Vector& low, const Vector& high);
+  /** All of some alive vertices, for another rank. */
+  void Write(MessageWriter& message, const std::vector<int>& vertices) const;
+  /** Takes them in, in the place of what was known of them. @return them */
+  std::vector<int> Read(MessageReader& message);
+  /** The same for some of a mesh of which nothing else is known: they are as after Reset(). */
+  static void WriteMesh(
+    const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices);
+  std::vector<int> ReadMesh(MessageReader& message);
+  /** After SurfaceMesh::Append: they are as after Reset(), but that they have a shape. */
+  void AddAppended(const std::vector<int>& vertices, Executor& executor);
+  /** Forgets a vertex that another rank has removed. */
+  void Forget(int v);
+
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);
   /** Before v is removed from the mesh. */
@@ -166,6 +186,8 @@ public:
   }
 
 private:
+  std::vector<int> ReadConnectivity(MessageReader& message);
+
   std::vector<int> Stack;
 };
 }

@@ -3,6 +3,7 @@
 #ifndef volumicVertexProperties_h
 #define volumicVertexProperties_h
 
+#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/ScratchMemory.h"
@@ -22,6 +23,15 @@ public:
   virtual void Reset(std::size_t n) = 0;
   /** Has values for indices below n; those that are new have the initial one. */
   virtual void Resize(std::size_t n) = 0;
+  /** The same for places of vertices to come, without a value, which take no memory before. */
+  virtual void Lengthen(std::size_t n) = 0;
+  /** Forgets all values: n places without one. */
+  virtual void Remake(std::size_t n) = 0;
+  /** Some vertices have the initial value. */
+  virtual void Initialise(const std::vector<int>& vertices) = 0;
+  /** The values of some vertices, in their order, and what they are on another rank. */
+  virtual void Write(MessageWriter& message, const std::vector<int>& vertices) const = 0;
+  virtual void Read(MessageReader& message, const std::vector<int>& vertices) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
   /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
@@ -50,6 +60,41 @@ public:
     for (VertexPropertyBase* property : this->All)
     {
       property->Resize(n);
+    }
+  }
+  void Lengthen(std::size_t n)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Lengthen(n);
+    }
+  }
+  void Remake(std::size_t n)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Remake(n);
+    }
+  }
+  void Initialise(const std::vector<int>& vertices)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Initialise(vertices);
+    }
+  }
+  void Write(MessageWriter& message, const std::vector<int>& vertices) const
+  {
+    for (const VertexPropertyBase* property : this->All)
+    {
+      property->Write(message, vertices);
+    }
+  }
+  void Read(MessageReader& message, const std::vector<int>& vertices)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Read(message, vertices);
     }
   }
   void Prefetch(std::size_t first, std::size_t last) const
@@ -109,6 +154,34 @@ public:
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
+  void Lengthen(std::size_t n) override { LengthenZeroed(this->Values, n); }
+  void Remake(std::size_t n) override { MakeZeroed(this->Values, n); }
+  void Initialise(const std::vector<int>& vertices) override
+  {
+    for (const int v : vertices)
+    {
+      this->Values[v] = this->Initial;
+    }
+  }
+  void Write(MessageWriter& message, const std::vector<int>& vertices) const override
+  {
+    std::vector<T> values;
+    values.reserve(vertices.size());
+    for (const int v : vertices)
+    {
+      values.push_back(this->Values[v]);
+    }
+    message.AddArray(values);
+  }
+  void Read(MessageReader& message, const std::vector<int>& vertices) override
+  {
+    std::vector<T> values;
+    message.TakeArray(values);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      this->Values[vertices[i]] = values[i];
+    }
+  }
   void Prefetch(std::size_t first, std::size_t last) const override
   {
     PrefetchLarge(this->Values.data() + first, (last - first) * sizeof(T));

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRankLists_h
+#define volumicRankLists_h
+
+#include "Core/Common/Communicator.h"
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace detail
+{
+template <typename T>
+Message MessageOf(const std::vector<T>& list)
+{
+  MessageWriter writer;
+  writer.AddArray(list);
+  return writer.Take();
+}
+
+template <typename T>
+std::vector<T> ListIn(const Message& message)
+{
+  return MessageReader(message).TakeVector<T>();
+}
+
+template <typename T>
+std::vector<T> JoinedLists(const std::vector<Message>& messages)
+{
+  std::vector<T> all;
+  for (const Message& message : messages)
+  {
+    const std::vector<T> ofRank = ListIn<T>(message);
+    all.insert(all.end(), ofRank.begin(), ofRank.end());
+  }
+  return all;
+}
+}
+
+/** @return the lists of all ranks, one after the other, at rank 0; nothing elsewhere. */
+template <typename T>
+std::vector<T> GatherLists(Communicator& ranks, const std::vector<T>& list)
+{
+  return detail::JoinedLists<T>(ranks.Gather(detail::MessageOf(list)));
+}
+
+/** @return the lists of all ranks, one after the other, on all ranks. */
+template <typename T>
+std::vector<T> GatherListsOnAll(Communicator& ranks, const std::vector<T>& list)
+{
+  return detail::JoinedLists<T>(ranks.GatherOnAll(detail::MessageOf(list)));
+}
+
+/** @return the list of rank 0. */
+template <typename T>
+std::vector<T> BroadcastList(Communicator& ranks, const std::vector<T>& list)
+{
+  return detail::ListIn<T>(ranks.Broadcast(detail::MessageOf(list)));
+}
+
+/** @param lists to each rank, by rank @return those of all ranks to this one, by rank */
+template <typename T>
+std::vector<std::vector<T>> ExchangeLists(
+  Communicator& ranks, const std::vector<std::vector<T>>& lists)
+{
+  std::vector<Message> messages;
+  for (const std::vector<T>& list : lists)
+  {
+    messages.push_back(detail::MessageOf(list));
+  }
+  std::vector<std::vector<T>> received;
+  for (const Message& message : ranks.Exchange(std::move(messages)))
+  {
+    received.push_back(detail::ListIn<T>(message));
+  }
+  return received;
+}
+
+/** From rank 0 to each: a message by rank, of which only rank 0's matter. */
+inline Message Scatter(Communicator& ranks, std::vector<Message> messages)
+{
+  messages.resize(static_cast<std::size_t>(ranks.NumberOfRanks()));
+  std::vector<int> partners; // Of rank 0 all.
+  if (ranks.Rank() != 0)
+  {
+    partners.push_back(0);
+  }
+  return std::move(ranks.Exchange(std::move(messages), partners).front());
+}
+}
+
+#endif

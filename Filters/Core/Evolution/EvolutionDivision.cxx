@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The way of a surface to the next level's edge lengths: as a whole, or in the blocks that it will
+// evolve in there.
+
+#include "Core/Common/Blocks.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Mesh/Division.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexBlock = 8192;
+/** Rounds in which more and more edges are kept, until none is flipped in the last. */
+constexpr int KeepingRounds = 6;
+
+/**
+ * Calls visit(v, w, squared length) for each edge whose smaller end is in a block; blocks may be
+ * visited side by side.
+ */
+template <typename Visit>
+void VisitEdges(const SurfaceMesh& mesh, std::size_t begin, std::size_t end, const Visit& visit)
+{
+  for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+  {
+    const Ring& ring = mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      const int w = ring.Item[i];
+      if (v < w && mesh.IsAlive(w)) // Else at the rim of what is here of it.
+      {
+        visit(v, w, SquaredDistance(mesh.Position[v], mesh.Position[w]));
+      }
+    }
+  }
+}
+
+float LongestEdge(const SurfaceMesh& mesh, Executor& executor)
+{
+  std::vector<float> longest((mesh.Rings.size() + VertexBlock - 1) / VertexBlock, 0.f);
+  ForBlocks(executor, mesh.Rings.size(), VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      VisitEdges(mesh, begin, end, [&](int, int, float squared)
+        { longest[block] = std::max(longest[block], squared); });
+    });
+  float most = 0.f;
+  for (const float ofBlock : longest)
+  {
+    most = std::max(most, ofBlock);
+  }
+  return std::sqrt(most);
+}
+
+/** Whether an edge is longer than this share of the longest that eq. (1) allows. */
+bool HasEdgeOver(const SurfaceState& state, float share, Executor& executor)
+{
+  const SurfaceMesh& mesh = state.Mesh;
+  return CountInBlocks(executor, mesh.Rings.size(), VertexBlock,
+           [&](std::size_t begin, std::size_t end)
+           {
+             std::size_t count = 0;
+             VisitEdges(mesh, begin, end, [&](int v, int w, float squared)
+               { count += std::sqrt(squared) > state.Sizing.LongestEdge(v, w, share); });
+             return count;
+           }) > 0;
+}
+/** Keeps the edges whose flips made the face; from the second round on others about it, too. */
+void KeepAbout(const std::array<int, 3>& face, const LargeVector<Triangle>& faces,
+  const SurfaceMesh& old, int round, KeptEdges& kept)
+{
+  const int olds = old.Size();
+  const int centres = olds + static_cast<int>(faces.size());
+  const auto isCentre = [=](int v) { return v >= olds && v < centres; };
+  std::vector<int> about;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (!isCentre(face[k]))
+    {
+      continue;
+    }
+    const std::array<int, 3>& own = faces[face[k] - olds];
+    about.insert(about.end(), own.begin(), own.end());
+    const int next = face[(k + 1) % 3];
+    if (isCentre(next))
+    {
+      const std::array<int, 3>& other = faces[next - olds];
+      for (int i = 0; i < 3; ++i)
+      {
+        const auto has = [&other](int v)
+        { return std::find(other.begin(), other.end(), v) != other.end(); };
+        if (has(own[i]) && has(own[(i + 1) % 3]))
+        {
+          kept.Keep(own[i], own[(i + 1) % 3]);
+        }
+      }
+    }
+  }
+  for (int ring = 0; ring < round; ++ring)
+  {
+    std::sort(about.begin(), about.end());
+    about.erase(std::unique(about.begin(), about.end()), about.end());
+    for (std::size_t i = 0, n = about.size(); i < n; ++i)
+    {
+      kept.KeepAllAt(about[i]);
+      const Ring& neighbours = old.Rings[about[i]];
+      about.insert(about.end(), neighbours.Item, neighbours.Item + neighbours.Count);
+    }
+  }
+}
+}
+
+std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersections()
+{
+  // A division leaves some edges longer than verification may rely on; it looks further for them.
+  SurfaceState& s = this->State;
+  const SizingField sizing = s.Sizing;
+  s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh, this->Threads));
+  this->LayGrid();
+  this->Iteration.UpdateActive();
+  const std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections();
+  s.Sizing = sizing;
+  return found;
+}
+
+void SurfaceEvolution::Implementation::KeepEdgesAbout(
+  const std::vector<Proximity::FacePair>& pairs, const LargeVector<Triangle>& faces,
+  const SurfaceMesh& old, int round, KeptEdges& kept)
+{
+  for (const Proximity::FacePair& pair : pairs)
+  {
+    KeepAbout(pair.First, faces, old, round, kept);
+    KeepAbout(pair.Second, faces, old, round, kept);
+  }
+  if (round == KeepingRounds - 1)
+  {
+    kept.KeepAll();
+  }
+  kept.MakeRoom();
+}
+
+void SurfaceEvolution::Implementation::DivideOnce()
+{
+  SurfaceState& s = this->State;
+  s.Mesh.Reorder(
+    SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
+  const int olds = s.Mesh.Size();
+  this->Threads.EndPhase("Order");
+  const LargeVector<Triangle> faces = volumic::Divide(s.Mesh, nullptr, this->Threads);
+  this->Threads.EndPhase("Division");
+  std::vector<Proximity::FacePair> intersections = this->FindIntersections();
+  if (intersections.empty())
+  {
+    return;
+  }
+  // The division flips edges of the old surface; in narrow places these may pass through each
+  // other. Such edges are kept, then more and more about them, and all of them at last, which
+  // leaves the old surface, with more vertices.
+  const SurfaceMesh old = Undivided(s.Mesh, olds, this->Threads);
+  KeptEdges kept(old);
+  for (int round = 0; round < KeepingRounds && !intersections.empty(); ++round)
+  {
+    this->KeepEdgesAbout(intersections, faces, old, round, kept);
+    s.Mesh = old;
+    volumic::Divide(s.Mesh, &kept, this->Threads);
+    intersections = this->FindIntersections();
+  }
+  if (!intersections.empty())
+  {
+    // The old surface intersects itself: not seen yet.
+    this->TakeRemeshed(old.ToIndexed(this->Threads));
+  }
+}
+
+bool SurfaceEvolution::Implementation::HasEdgeTooLong() const
+{
+  return HasEdgeOver(this->State, 1.0001f, this->Threads);
+}
+
+void SurfaceEvolution::Implementation::LayGridInBlocks()
+{
+  SurfaceState& s = this->State;
+  this->Iteration.Forget();
+  const std::size_t n = s.Mesh.Rings.size();
+  s.Grid.Reset(this->GridLow, this->GridHigh, s.Sizing.LargestReach());
+  s.Grid.Lengthen(n);
+  std::vector<int> here; // With all their neighbours: others' shape is theirs to know.
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      s.Grid.Insert(v, s.Mesh.Position[v]);
+      const Ring& ring = s.Mesh.Rings[v];
+      if (std::all_of(ring.Item, ring.Item + ring.Count, [&s](int w) { return s.Mesh.IsAlive(w); }))
+      {
+        here.push_back(v);
+      }
+    }
+  }
+  s.UpdateShape(here, this->Threads);
+}
+
+std::vector<int> SurfaceEvolution::Implementation::OwnVertices() const
+{
+  std::vector<int> own;
+  for (int v = 0; v < this->State.Mesh.Size(); ++v)
+  {
+    if (this->State.Mesh.IsAlive(v) && (!this->OnRanks || this->OnRanks->IsOwnVertex(v)))
+    {
+      own.push_back(v);
+    }
+  }
+  return own;
+}
+
+std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsInBlocks()
+{
+  SurfaceState& s = this->State;
+  const SizingField sizing = s.Sizing;
+  float longest = LongestEdge(s.Mesh, this->Threads);
+  if (this->OnRanks)
+  {
+    for (const float ofRank : GatherValues(*this->Ranks, longest))
+    {
+      longest = std::max(longest, ofRank);
+    }
+  }
+  s.Sizing = sizing.ForEdgesOf(longest);
+  this->LayGridInBlocks();
+  std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections(this->OwnVertices());
+  s.Sizing = sizing;
+  this->LayGridInBlocks();
+  if (this->OnRanks)
+  {
+    MessageWriter writer;
+    writer.AddArray(found);
+    found.clear();
+    for (const Message& message : this->Ranks->GatherOnAll(writer.Take()))
+    {
+      const auto ofRank = MessageReader(message).TakeVector<Proximity::FacePair>();
+      found.insert(found.end(), ofRank.begin(), ofRank.end());
+    }
+  }
+  return found;
+}
+
+void SurfaceEvolution::Implementation::SpreadMesh()
+{
+  // One that is whole on rank 0, and of which nothing is known but the mesh.
+  SurfaceState& s = this->State;
+  this->Iteration.Forget();
+  if (!this->AreRanks())
+  {
+    this->Blocks.reset();
+    this->LayGrid();
+    this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
+    return;
+  }
+  const SurfaceMesh whole = std::exchange(s.Mesh, SurfaceMesh());
+  this->FindGridBox(whole);
+  if (!this->OnRanks)
+  {
+    this->ShareBlocks(whole);
+  }
+  this->OnRanks->ScatterMesh(whole, this->GridLow, this->GridHigh);
+}
+
+bool SurfaceEvolution::Implementation::DivideInBlocks()
+{
+  SurfaceState& s = this->State;
+  this->InSweeps = true;
+  SurfaceMesh old;
+  std::unique_ptr<KeptEdges> kept;
+  for (int round = 0;; ++round)
+  {
+    LargeVector<Triangle> faces;
+    if (this->IsFirstRank())
+    {
+      if (round == 0)
+      {
+        s.Mesh.Reorder(
+          SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
+        old = s.Mesh;
+        kept = std::make_unique<KeptEdges>(old);
+      }
+      else
+      {
+        s.Mesh = old;
+      }
+      faces = volumic::Divide(s.Mesh, round > 0 ? kept.get() : nullptr, this->Threads);
+    }
+    this->SpreadMesh();
+    const std::vector<Proximity::FacePair> found = this->FindIntersectionsInBlocks();
+    if (found.empty())
+    {
+      break;
+    }
+    if (round == KeepingRounds)
+    {
+      Refuse("The surface of the level above intersects itself: this is an error of Volumic.");
+    }
+    if (this->IsFirstRank())
+    {
+      this->KeepEdgesAbout(found, faces, old, round, *kept);
+    }
+  }
+  this->Threads.EndPhase("Division");
+  return this->GoOn(Monitor::Activity::Dividing, 1.);
+}
+
+void SurfaceEvolution::Implementation::SplitLongEdgesInBlocks()
+{
+  BlockVisits visits;
+  visits.OnlyActive = false;
+  visits.Doing = Monitor::Activity::Dividing;
+  visits.From = 1.;
+  visits.Visit = [this](const std::vector<int>& vertices)
+  { this->Blocks->AddNew(this->Iteration.SplitLongEdges(vertices)); };
+  this->VisitBlocks(visits);
+  this->Threads.EndPhase("Long edges");
+}
+}

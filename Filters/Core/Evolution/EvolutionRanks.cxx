@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same steps
+// at the same time; what needs the whole surface is done on rank 0.
+
+#include "Core/Evolution/EvolutionImplementation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+
+namespace volumic
+{
+void SurfaceEvolution::Implementation::ShareBlocks(const SurfaceMesh& mesh)
+{
+  this->Blocks =
+    std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
+  this->OnRanks = std::make_unique<RankBlocks>(this->State, *this->Blocks, *this->Ranks);
+  this->OnRanks->ChooseOwners(mesh);
+  if (this->NeedVoxels)
+  {
+    this->NeedVoxels(this->OwnVoxels());
+  }
+}
+
+VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
+{
+  // Those of the blocks, and of the halo, which is further than any vertex gets.
+  const LevelImage& image = this->TheField->Image();
+  const float halo = SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest();
+  VoxelBox voxels;
+  for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
+  {
+    if (!this->OnRanks->IsOwn(block))
+    {
+      continue;
+    }
+    const Box box = this->Blocks->BoxOf(block).Grown(halo);
+    const float low[3] = { box.Low.X, box.Low.Y, box.Low.Z };
+    const float high[3] = { box.High.X, box.High.Y, box.High.Z };
+    VoxelBox ofBlock;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double size = image.Size[axis];
+      const double step = image.Step[axis];
+      ofBlock.First[axis] =
+        static_cast<int>(std::clamp(std::floor(low[axis] / step), 0., size));
+      ofBlock.End[axis] =
+        static_cast<int>(std::clamp(std::ceil(high[axis] / step) + 1., 0., size));
+    }
+    voxels = voxels.With(ofBlock);
+  }
+  return voxels;
+}
+
+void SurfaceEvolution::Implementation::VisitBlocksOnRanks(const BlockVisits& visits)
+{
+  std::size_t visited = 0;
+  for (const std::vector<int>& ofColour : this->Blocks->ByColour())
+  {
+    for (const int block : ofColour)
+    {
+      if (!this->OnRanks->IsOwn(block) || this->Stopped ||
+        (visits.OnlyActive && !this->Blocks->HasActive(block)))
+      {
+        continue;
+      }
+      this->OnRanks->BeginVisit(block);
+      this->VisitBlock(block, visited, visits);
+      this->OnRanks->EndVisit(block);
+    }
+    visited += ofColour.size();
+    this->OnRanks->Exchange();
+    this->AgreeOnStop();
+  }
+  this->OnRanks->ShareCounts();
+}
+
+bool SurfaceEvolution::Implementation::IsOnAnyRank(bool isHere)
+{
+  return this->OnRanks ? this->Ranks->IsAny(isHere) : isHere;
+}
+
+void SurfaceEvolution::Implementation::AgreeOnStop()
+{
+  this->Stopped = this->IsOnAnyRank(this->Stopped);
+}
+
+void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
+{
+  if (!this->OnRanks)
+  {
+    return;
+  }
+  struct Sums
+  {
+    int Counts[8];
+    double TimeStep;
+  };
+  for (SweptRow& swept : rows)
+  {
+    HistoryRow& row = swept.Row;
+    int* const counts[8] = { &row.ActiveVertices, &row.Merges, &row.Cuts, &row.Splits,
+      &row.Collapses, &row.Flips, &row.Deletions, &row.DeletedGenus };
+    Sums own;
+    for (int i = 0; i < 8; ++i)
+    {
+      own.Counts[i] = *counts[i];
+      *counts[i] = 0;
+    }
+    own.TimeStep = row.TimeStep;
+    for (const Sums& ofRank : GatherValues(*this->Ranks, own))
+    {
+      for (int i = 0; i < 8; ++i)
+      {
+        *counts[i] += ofRank.Counts[i];
+      }
+      row.TimeStep = std::max(row.TimeStep, ofRank.TimeStep);
+    }
+    struct Changes
+    {
+      int Vertices;
+      int EulerCharacteristic;
+    };
+    const Changes here{ swept.Vertices, swept.EulerCharacteristic };
+    swept.Vertices = swept.EulerCharacteristic = 0;
+    for (const Changes& ofRank : GatherValues(*this->Ranks, here))
+    {
+      swept.Vertices += ofRank.Vertices;
+      swept.EulerCharacteristic += ofRank.EulerCharacteristic;
+    }
+    this->OnRanks->Share(swept.KineticEnergy);
+  }
+}
+
+void SurfaceEvolution::Implementation::AddUpSinceEvolved()
+{
+  const EditCounts own = this->SinceEvolved;
+  this->SinceEvolved = EditCounts();
+  for (const EditCounts& ofRank : GatherValues(*this->Ranks, own))
+  {
+    this->SinceEvolved += ofRank;
+  }
+}
+
+RankComponents& SurfaceEvolution::Implementation::ComponentsOfRanks()
+{
+  if (!this->OfRanks)
+  {
+    this->OfRanks = std::make_unique<RankComponents>(
+      RankPart{ *this->Ranks, [this](int v) { return this->OnRanks->IsOwnVertex(v); } });
+  }
+  return *this->OfRanks;
+}
+
+void SurfaceEvolution::Implementation::TakeComponents(bool areChecked)
+{
+  this->OnRanks->ShareCounts();
+  this->Iteration.TakeComponents(this->OfRanks->NumberOfComponents(), areChecked);
+}
+
+void SurfaceEvolution::Implementation::LabelComponents()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.LabelComponents();
+    return;
+  }
+  this->ComponentsOfRanks().Label(this->State, this->Threads);
+  this->TakeComponents(false);
+}
+
+void SurfaceEvolution::Implementation::DeleteDegenerate()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.DeleteDegenerate();
+    return;
+  }
+  this->ComponentsOfRanks().DeleteDegenerate(this->State);
+  this->TakeComponents(false);
+}
+
+void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
+{
+  if (!this->OnRanks)
+  {
+    this->Iteration.DeleteInsideOut();
+    return;
+  }
+  this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
+  this->TakeComponents(true);
+}
+void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& work)
+{
+  if (!this->OnRanks)
+  {
+    work();
+    return;
+  }
+  this->Iteration.Forget();
+  this->OnRanks->Gather();
+  if (this->Ranks->Rank() == 0)
+  {
+    work();
+  }
+  this->Iteration.Forget();
+  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+}
+}

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Surface/ConnectedVertices.h"
+
+#include "Core/Common/Blocks.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+
+namespace volumic
+{
+namespace
+{
+/** Vertices that one thread joins at a time. */
+constexpr std::size_t JoinedBlock = 4096;
+
+/** Of a root, while the others of its set still bear its index; no index, not None. */
+constexpr int MarkOfRoot(int label)
+{
+  return -2 - label;
+}
+
+/** All of a surface: rings name nothing else. */
+struct WholeSurface
+{
+  const SurfaceMesh& Mesh;
+  bool Has(int v) const { return this->Mesh.IsAlive(v); }
+  static constexpr bool HasNeighbour(int) { return true; }
+  static void LabelNone(int& label) { label = ConnectedVertices::None; }
+};
+
+struct PartOfSurface
+{
+  const MarkedVertices& Vertices;
+  bool Has(int v) const { return this->Vertices.Has(v); }
+  bool HasNeighbour(int v) const { return this->Vertices.Has(v); }
+  static void LabelNone(int&) {}
+};
+
+/** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
+template <typename Part>
+void LabelOthers(const Part& part, LargeVector<int>& labels, int begin, int end,
+  std::vector<std::atomic<int>>& sizes)
+{
+  // Mostly neighbours follow each other: they are added up before the others are told.
+  int label = 0;
+  int count = 0;
+  const auto add = [&]
+  {
+    if (count > 0)
+    {
+      sizes[label].fetch_add(count, std::memory_order_relaxed);
+    }
+  };
+  for (int v = begin; v < end; ++v)
+  {
+    const int root = labels[v];
+    if (root < 0 || !part.Has(v))
+    {
+      continue;
+    }
+    const int own = MarkOfRoot(labels[root]); // Its own inverse.
+    if (own != label)
+    {
+      add();
+      label = own;
+      count = 0;
+    }
+    labels[v] = own;
+    ++count;
+  }
+  add();
+}
+
+/** Where a neighbour is, seen from a vertex of a block. */
+enum class Side
+{
+  Later, ///< It sees to the edge between them itself.
+  SameBlock,
+  BlockBefore,
+  Nowhere ///< It takes no part.
+};
+}
+
+void ConnectedVertices::Label(
+  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
+{
+  this->LabelPart(mesh, WholeSurface{ mesh }, labels, executor);
+}
+
+void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& part,
+  LargeVector<int>& labels, Executor& executor)
+{
+  this->LabelPart(mesh, PartOfSurface{ part }, labels, executor);
+}
+
+template <typename Part>
+void ConnectedVertices::LabelPart(
+  const SurfaceMesh& mesh, const Part& part, LargeVector<int>& labels, Executor& executor)
+{
+  const std::size_t n = mesh.Rings.size();
+  this->JoinVertices(mesh, part, executor);
+  // Roots first: they are the smallest of their set, and numbered in their order.
+  const std::vector<std::size_t> first = FirstOfBlocks(executor, n, JoinedBlock,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::size_t roots = 0;
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (!part.Has(v))
+        {
+          Part::LabelNone(labels[v]);
+          continue;
+        }
+        labels[v] = this->Joined.FindRoot(v);
+        roots += labels[v] == v;
+      }
+      return roots;
+    });
+  this->SmallestOnes.resize(first.back());
+  ForBlocks(executor, n, JoinedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      std::size_t label = first[b];
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (labels[v] == v && part.Has(v))
+        {
+          labels[v] = MarkOfRoot(static_cast<int>(label));
+          this->SmallestOnes[label++] = v;
+        }
+      }
+    });
+  this->CountAndLabel(part, labels, n, executor);
+}
+
+template <typename Part>
+void ConnectedVertices::CountAndLabel(
+  const Part& part, LargeVector<int>& labels, std::size_t n, Executor& executor)
+{
+  std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
+  for (std::atomic<int>& size : sizes)
+  {
+    size.store(1, std::memory_order_relaxed); // The root.
+  }
+  ForBlocks(executor, n, JoinedBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    { LabelOthers(part, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
+  for (std::size_t label = 0; label < this->SmallestOnes.size(); ++label)
+  {
+    labels[this->SmallestOnes[label]] = static_cast<int>(label);
+  }
+  this->Numbers.assign(sizes.begin(), sizes.end());
+}
+
+template <typename Part>
+void ConnectedVertices::JoinVertices(
+  const SurfaceMesh& mesh, const Part& part, Executor& executor)
+{
+  // First within blocks, side by side, then across their borders.
+  const std::size_t n = mesh.Rings.size();
+  this->Joined.MakeRoom(n);
+  this->Borders.resize((n + JoinedBlock - 1) / JoinedBlock);
+  ForBlocks(executor, n, JoinedBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      this->Borders[b].clear();
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (!part.Has(v))
+        {
+          continue;
+        }
+        this->Joined.MakeSet(v);
+        int root = v;
+        const Ring& ring = mesh.Rings[v];
+        Side before = Side::Later;
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          // Neighbours next to each other are neighbours themselves: on one side one is enough.
+          const int w = ring.Item[i];
+          const Side side = w >= v         ? Side::Later
+            : !part.HasNeighbour(w)        ? Side::Nowhere
+            : w >= static_cast<int>(begin) ? Side::SameBlock
+                                           : Side::BlockBefore;
+          if (side == Side::BlockBefore && side != before)
+          {
+            this->Borders[b].emplace_back(v, w);
+          }
+          else if (side == Side::SameBlock && side != before)
+          {
+            root = this->Joined.Join(root, w);
+          }
+          before = side;
+        }
+      }
+    });
+  // Of the many edges between the same two sets one is enough.
+  ForBlocks(executor, this->Borders.size(), 1,
+    [this](std::size_t b, std::size_t, std::size_t)
+    {
+      std::vector<std::pair<int, int>>& border = this->Borders[b];
+      for (auto& edge : border)
+      {
+        edge = { this->Joined.FindRoot(edge.first), this->Joined.FindRoot(edge.second) };
+      }
+      std::sort(border.begin(), border.end());
+      border.erase(std::unique(border.begin(), border.end()), border.end());
+    });
+  for (const auto& border : this->Borders)
+  {
+    for (const auto& edge : border)
+    {
+      this->Joined.Join(edge.first, edge.second);
+    }
+  }
+}
+}

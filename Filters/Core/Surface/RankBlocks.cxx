@@ -1,0 +1,421 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Surface/RankBlocks.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+/** Rows of blocks, between two places along y and two along z. */
+struct RowsOfBlocks
+{
+  int Begin[2];
+  int End[2];
+};
+
+/** Cuts boxes of rows of blocks into halves of as many vertices as their ranks. */
+class OwnerChoice
+{
+public:
+  OwnerChoice(const SurfaceBlocks::Frame& frame, const std::vector<int>& vertices)
+    : Frame(frame)
+    , Vertices(static_cast<std::size_t>(frame.Size[1]) * frame.Size[2], 0)
+    , OwnerOfRow(this->Vertices.size(), 0)
+  {
+    for (std::size_t block = 0; block < vertices.size(); ++block)
+    {
+      this->Vertices[block / frame.Size[0]] += vertices[block];
+    }
+  }
+
+  void Cut(const RowsOfBlocks& rows, int firstRank, int ranks)
+  {
+    if (ranks == 1)
+    {
+      this->ForRows(rows, [&](std::size_t row) { this->OwnerOfRow[row] = firstRank; });
+      return;
+    }
+    const int lower = ranks / 2;
+    const double wanted = static_cast<double>(this->Count(rows)) * lower / ranks;
+    RowsOfBlocks best = rows;
+    best.End[1] = best.Begin[1]; // Nothing, where there is nothing to cut.
+    int bestAxis = 1;
+    double least = -1.;
+    for (const int axis : { 1, 0 })
+    {
+      for (int at = rows.Begin[axis] + 1; at < rows.End[axis]; ++at)
+      {
+        RowsOfBlocks part = rows;
+        part.End[axis] = at;
+        const double off = std::abs(static_cast<double>(this->Count(part)) - wanted);
+        if (least < 0. || off < least)
+        {
+          least = off;
+          best = part;
+          bestAxis = axis;
+        }
+      }
+    }
+    RowsOfBlocks rest = rows;
+    rest.Begin[bestAxis] = best.End[bestAxis];
+    this->Cut(best, firstRank, lower);
+    this->Cut(rest, firstRank + lower, ranks - lower);
+  }
+
+  std::vector<int> Owners(std::size_t blocks) const
+  {
+    std::vector<int> owners(blocks);
+    for (std::size_t block = 0; block < blocks; ++block)
+    {
+      owners[block] = this->OwnerOfRow[block / this->Frame.Size[0]];
+    }
+    return owners;
+  }
+
+private:
+  template <typename Visit>
+  void ForRows(const RowsOfBlocks& rows, Visit&& visit) const
+  {
+    for (int z = rows.Begin[1]; z < rows.End[1]; ++z)
+    {
+      for (int y = rows.Begin[0]; y < rows.End[0]; ++y)
+      {
+        visit(static_cast<std::size_t>(z) * this->Frame.Size[1] + y);
+      }
+    }
+  }
+  std::int64_t Count(const RowsOfBlocks& rows) const
+  {
+    std::int64_t count = 0;
+    this->ForRows(rows, [&](std::size_t row) { count += this->Vertices[row]; });
+    return count;
+  }
+
+  const SurfaceBlocks::Frame& Frame;
+  std::vector<std::int64_t> Vertices; ///< By row.
+  std::vector<int> OwnerOfRow;
+};
+}
+
+RankBlocks::RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator& ranks)
+  : State(state)
+  , Blocks(blocks)
+  , Ranks(ranks)
+  , Touched(static_cast<std::size_t>(ranks.NumberOfRanks()))
+{
+}
+
+std::vector<int> RankBlocks::ChooseOwners(
+  const SurfaceBlocks::Frame& frame, const std::vector<int>& vertices, int ranks)
+{
+  OwnerChoice choice(frame, vertices);
+  choice.Cut({ { 0, 0 }, { frame.Size[1], frame.Size[2] } }, 0, ranks);
+  return choice.Owners(vertices.size());
+}
+
+void RankBlocks::ChooseOwners(const SurfaceMesh& mesh)
+{
+  std::vector<int> counts(static_cast<std::size_t>(this->Blocks.NumberOfBlocks()), 0);
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      ++counts[this->Blocks.BlockAt(mesh.Position[v])];
+    }
+  }
+  MessageWriter writer;
+  writer.AddArray(ChooseOwners(this->Blocks.GetFrame(), counts, this->Ranks.NumberOfRanks()));
+  const Message owners = this->Ranks.Broadcast(writer.Take());
+  this->SetOwners(MessageReader(owners).TakeVector<int>());
+}
+
+void RankBlocks::SetOwners(std::vector<int> owners)
+{
+  this->Owners = std::move(owners);
+  this->IsAtBorder.assign(this->Owners.size(), 0);
+  this->Partners.assign(1, this->Ranks.Rank());
+  for (int block = 0; block < static_cast<int>(this->Owners.size()); ++block)
+  {
+    if (!this->IsOwn(block))
+    {
+      continue;
+    }
+    for (const int other : this->Blocks.NeighboursOf(block))
+    {
+      if (!this->IsOwn(other))
+      {
+        this->IsAtBorder[block] = 1;
+        this->Partners.push_back(this->OwnerOf(other));
+      }
+    }
+  }
+  std::sort(this->Partners.begin(), this->Partners.end());
+  this->Partners.erase(
+    std::unique(this->Partners.begin(), this->Partners.end()), this->Partners.end());
+}
+
+void RankBlocks::CollectNear(const Vector& position, int v)
+{
+  this->Blocks.VisitNear(position, this->Halo(),
+    [&](int block)
+    {
+      std::vector<int>& touched = this->Touched[this->OwnerOf(block)];
+      if (touched.empty() || touched.back() != v)
+      {
+        touched.push_back(v);
+      }
+    });
+}
+
+bool RankBlocks::IsNearOwn(const Vector& position) const
+{
+  bool isNear = false;
+  this->Blocks.VisitNear(
+    position, this->Halo(), [&](int block) { isNear = isNear || this->IsOwn(block); });
+  return isNear;
+}
+
+void RankBlocks::CollectZone(int block)
+{
+  const Box zone = this->Blocks.BoxOf(block).Grown(0.5f * this->Halo());
+  this->State.Grid.VisitBox(zone.Low, zone.High,
+    [&](int v)
+    {
+      const Vector& position = this->State.Mesh.Position[v];
+      if (zone.Contains(position))
+      {
+        this->CollectNear(position, v);
+      }
+    });
+}
+
+void RankBlocks::BeginVisit(int block)
+{
+  if (this->IsAtBorder[block])
+  {
+    this->CollectZone(block);
+  }
+}
+
+void RankBlocks::EndVisit(int block)
+{
+  if (this->IsAtBorder[block])
+  {
+    this->CollectZone(block); // What has come; what was there before has been removed, or moved.
+  }
+}
+
+void RankBlocks::Exchange()
+{
+  std::vector<Message> messages(this->Touched.size());
+  for (const int rank : this->Partners)
+  {
+    std::vector<int>& touched = this->Touched[rank];
+    if (rank != this->Ranks.Rank())
+    {
+      std::sort(touched.begin(), touched.end());
+      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+      const auto alive = std::stable_partition(
+        touched.begin(), touched.end(), [this](int v) { return !this->State.Mesh.IsAlive(v); });
+      MessageWriter writer;
+      writer.AddArray(std::vector<int>(touched.begin(), alive));
+      this->State.Write(writer, std::vector<int>(alive, touched.end()));
+      messages[rank] = writer.Take();
+    }
+    touched.clear();
+  }
+  const std::vector<Message> received =
+    this->Ranks.Exchange(std::move(messages), this->Partners);
+  for (const int rank : this->Partners)
+  {
+    if (rank != this->Ranks.Rank())
+    {
+      MessageReader reader(received[rank]);
+      for (const int v : reader.TakeVector<int>())
+      {
+        this->State.Forget(v);
+      }
+      // What has left the halo would not be told of any more.
+      std::vector<int> come = this->State.Read(reader);
+      const auto near = std::stable_partition(come.begin(), come.end(),
+        [this](int v) { return this->IsNearOwn(this->State.Mesh.Position[v]); });
+      std::for_each(near, come.end(), [this](int v) { this->State.Forget(v); });
+      come.erase(near, come.end());
+      this->Blocks.AddOthers(come);
+    }
+  }
+}
+
+Message RankBlocks::SendParts(const SurfaceMesh& mesh,
+  const std::function<void(MessageWriter&, const std::vector<int>&)>& write)
+{
+  if (this->Ranks.Rank() != 0)
+  {
+    return this->Ranks.Exchange(std::vector<Message>(this->Touched.size()), { 0 }).front();
+  }
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      this->CollectNear(mesh.Position[v], v);
+    }
+  }
+  Message own;
+  for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
+  {
+    // One after the other: all together are as much as the surface.
+    MessageWriter writer;
+    write(writer, std::exchange(this->Touched[rank], {}));
+    if (rank == 0)
+    {
+      own = writer.Take();
+      continue;
+    }
+    std::vector<Message> messages(this->Touched.size());
+    messages[rank] = writer.Take();
+    this->Ranks.Exchange(std::move(messages), { rank });
+  }
+  return own;
+}
+
+void RankBlocks::BeginParts(const Sizes& sizes)
+{
+  this->Low = sizes.Low;
+  this->High = sizes.High;
+  this->Blocks.ForgetVertices();
+  this->State.Remake(sizes.Places, sizes.Vertices, sizes.Low, sizes.High);
+  this->State.EulerCharacteristic = this->KnownCharacteristic = sizes.Characteristic;
+  this->KnownVertices = sizes.Vertices;
+}
+
+void RankBlocks::Scatter(const Vector& low, const Vector& high)
+{
+  SurfaceState& s = this->State;
+  const Sizes sizes = BroadcastValue(this->Ranks,
+    Sizes{ s.Mesh.Rings.size(), s.Mesh.NumberOfVertices(), s.EulerCharacteristic, low, high });
+  const Message own = this->SendParts(s.Mesh,
+    [&s](MessageWriter& writer, const std::vector<int>& vertices) { s.Write(writer, vertices); });
+  this->BeginParts(sizes);
+  MessageReader reader(own);
+  this->Blocks.AddOthers(s.Read(reader));
+}
+
+void RankBlocks::ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high)
+{
+  const Sizes sizes = BroadcastValue(this->Ranks,
+    Sizes{ mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic(), low, high });
+  const Message own = this->SendParts(mesh,
+    [&mesh](MessageWriter& writer, const std::vector<int>& vertices)
+    { SurfaceState::WriteMesh(mesh, writer, vertices); });
+  this->BeginParts(sizes);
+  MessageReader reader(own);
+  this->Blocks.Take(this->State.ReadMesh(reader));
+}
+
+void RankBlocks::Gather()
+{
+  SurfaceState& s = this->State;
+  std::vector<int> own;
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v) && this->IsOwnVertex(v))
+    {
+      own.push_back(v);
+    }
+  }
+  MessageWriter writer;
+  s.Write(writer, own);
+  Message message = writer.Take();
+  const std::size_t places = s.Mesh.Rings.size();
+  const int vertices = s.Mesh.NumberOfVertices();
+  const bool isFirst = this->Ranks.Rank() == 0;
+  this->Blocks.ForgetVertices();
+  s.Remake(isFirst ? places : 0, isFirst ? vertices : 0, this->Low, this->High);
+  for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
+  {
+    if (isFirst)
+    {
+      if (rank > 0)
+      {
+        std::vector<Message> none(this->Touched.size());
+        message = this->Ranks.Exchange(std::move(none), { rank })[rank];
+      }
+      MessageReader reader(message);
+      this->Blocks.AddOthers(s.Read(reader));
+    }
+    else if (rank == this->Ranks.Rank())
+    {
+      std::vector<Message> messages(this->Touched.size());
+      messages[0] = std::move(message);
+      this->Ranks.Exchange(std::move(messages), { 0 });
+    }
+  }
+}
+
+void RankBlocks::ShareCounts()
+{
+  struct Changes
+  {
+    int Vertices;
+    int Characteristic;
+  };
+  SurfaceState& s = this->State;
+  const std::vector<Changes> all = GatherValues(this->Ranks,
+    Changes{ s.Mesh.NumberOfVertices() - this->KnownVertices,
+      s.EulerCharacteristic - this->KnownCharacteristic });
+  for (const Changes& changes : all)
+  {
+    this->KnownVertices += changes.Vertices;
+    this->KnownCharacteristic += changes.Characteristic;
+  }
+  s.Mesh.CountOthers(this->KnownVertices - s.Mesh.NumberOfVertices());
+  s.EulerCharacteristic = this->KnownCharacteristic;
+}
+
+void RankBlocks::AddPlaces()
+{
+  std::vector<int> counts(this->Owners.size(), 0);
+  for (std::size_t block = 0; block < counts.size(); ++block)
+  {
+    counts[block] = this->IsOwn(static_cast<int>(block))
+      ? this->Blocks.MissingPlaces(static_cast<int>(block))
+      : 0;
+  }
+  MessageWriter writer;
+  writer.AddArray(counts);
+  const std::vector<Message> all = this->Ranks.GatherOnAll(writer.Take());
+  for (std::size_t block = 0; block < counts.size(); ++block)
+  {
+    MessageReader reader(all[this->Owners[block]]);
+    counts[block] = reader.TakeVector<int>()[block];
+  }
+  this->Blocks.AddPlaces(counts);
+}
+
+void RankBlocks::Share(std::vector<double>& ofBlocks)
+{
+  MessageWriter writer;
+  writer.AddArray(ofBlocks);
+  std::vector<std::vector<double>> all;
+  for (const Message& message : this->Ranks.GatherOnAll(writer.Take()))
+  {
+    all.push_back(MessageReader(message).TakeVector<double>());
+  }
+  for (std::size_t block = 0; block < ofBlocks.size(); ++block)
+  {
+    ofBlocks[block] = all[this->Owners[block]][block];
+  }
+}
+
+double RankBlocks::AddUp(std::vector<double> ofBlocks)
+{
+  this->Share(ofBlocks);
+  return std::accumulate(ofBlocks.begin(), ofBlocks.end(), 0.);
+}
+}

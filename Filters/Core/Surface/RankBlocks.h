@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRankBlocks_h
+#define volumicRankBlocks_h
+
+#include "Core/Common/Box.h"
+#include "Core/Common/Communicator.h"
+#include "Core/Surface/SurfaceBlocks.h"
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * The blocks of a surface that evolves on several ranks: each belongs to one of them, which visits
+ * it. A rank has the vertices of its own blocks and, as a halo, those near them, with the indices
+ * that they have everywhere; the places of all others are there, but take no memory.
+ *
+ * The ranks visit their blocks of one colour, then tell each other what has become of the vertices
+ * near the borders (Exchange), then go on with the next colour. As blocks of a colour do not touch,
+ * each visit sees what it would see on one rank. Messages grow with the border of the ranks.
+ */
+class RankBlocks
+{
+public:
+  RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator& ranks);
+
+  /**
+   * Which rank gets which block, so that each has as many vertices as is possible with boxes of
+   * blocks: the rows of blocks along x are cut along y and z, again and again, into halves.
+   * @param vertices of each block @return by block
+   */
+  static std::vector<int> ChooseOwners(
+    const SurfaceBlocks::Frame& frame, const std::vector<int>& vertices, int ranks);
+
+  /** The same on all ranks, of a mesh that is whole on rank 0. */
+  void ChooseOwners(const SurfaceMesh& mesh);
+  void SetOwners(std::vector<int> owners);
+  int OwnerOf(int block) const { return this->Owners[block]; }
+  bool IsOwn(int block) const { return this->Owners[block] == this->Ranks.Rank(); }
+  /** Of a vertex that is here. */
+  bool IsOwnVertex(int v) const { return this->IsOwn(this->State.Block[v]); }
+
+  /**
+   * From a surface that is whole on rank 0 to one that each rank has its part of. `low`, `high`: the
+   * box of the grid, on rank 0.
+   */
+  void Scatter(const Vector& low, const Vector& high);
+  /** The same for a mesh of which nothing else is known. */
+  void ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
+  /** Back again: rank 0 has all vertices, the others none. */
+  void Gather();
+
+  /** About a visit of an own block. */
+  void BeginVisit(int block);
+  void EndVisit(int block);
+  /** After the visits of a colour. */
+  void Exchange();
+  /** Between sweeps: how many vertices there are, and the Euler characteristic, of all. */
+  void ShareCounts();
+  /** SurfaceBlocks::AddPlaces, as the owners wish. */
+  void AddPlaces();
+  /** Of each block the value that its owner has. */
+  void Share(std::vector<double>& ofBlocks);
+  /** Their sum, added in the order of the blocks. */
+  double AddUp(std::vector<double> ofBlocks);
+
+private:
+  struct Sizes
+  {
+    std::size_t Places;
+    int Vertices;
+    int Characteristic;
+    Vector Low; ///< Of the grid.
+    Vector High;
+  };
+  Message SendParts(const SurfaceMesh& mesh,
+    const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
+  void BeginParts(const Sizes& sizes);
+  void CollectNear(const Vector& position, int v);
+  void CollectZone(int block);
+  bool IsNearOwn(const Vector& position) const;
+  float Halo() const { return SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest(); }
+
+  SurfaceState& State;
+  SurfaceBlocks& Blocks;
+  Communicator& Ranks;
+  std::vector<int> Owners;               ///< By block.
+  std::vector<char> IsAtBorder;          ///< By block: it is own, and a neighbour is not.
+  std::vector<int> Partners;             ///< Ranks with blocks beside own ones, and this one.
+  std::vector<std::vector<int>> Touched; ///< By rank: what it must be told of.
+  Vector Low, High;                      ///< Of the grid.
+  int KnownVertices = 0;                 ///< When the ranks last agreed.
+  int KnownCharacteristic = 0;
+};
+}
+
+#endif

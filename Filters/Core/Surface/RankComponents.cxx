@@ -1,0 +1,418 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Surface/RankComponents.h"
+
+#include "Core/Common/Blocks.h"
+#include "Core/Common/Box.h"
+#include "Core/Common/RankLists.h"
+#include "Core/Surface/ComponentNesting.h"
+#include "Core/Surface/ComponentWatch.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace volumic
+{
+namespace
+{
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexBlock = 4096;
+
+/** All that a small component is judged by. */
+struct VertexRecord
+{
+  int Vertex;
+  float FieldValue;
+  Vector Position;
+  volumic::Ring Ring;
+};
+
+/** A surface of these vertices alone, in the same order. */
+void Fill(SurfaceState& state, const std::vector<VertexRecord>& records)
+{
+  const auto placeOf = [&records](int v)
+  {
+    const auto found = std::lower_bound(records.begin(), records.end(), v,
+      [](const VertexRecord& record, int vertex) { return record.Vertex < vertex; });
+    return static_cast<int>(found - records.begin());
+  };
+  Vector low = records.front().Position;
+  Vector high = low;
+  for (const VertexRecord& record : records)
+  {
+    Ring ring = record.Ring;
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      ring.Item[i] = placeOf(ring.Item[i]);
+    }
+    state.Mesh.Position.push_back(record.Position);
+    state.Mesh.Rings.push_back(ring);
+    low = Minimum(low, record.Position);
+    high = Maximum(high, record.Position);
+  }
+  state.Reset(low, high);
+  for (std::size_t v = 0; v < records.size(); ++v)
+  {
+    state.FieldValue[v] = records[v].FieldValue;
+  }
+}
+
+/** Of whole components those that must go, by their smallest vertices. */
+std::vector<int> FindDegenerate(std::vector<VertexRecord> records, const SizingField& sizing)
+{
+  std::vector<int> found;
+  if (records.empty())
+  {
+    return found;
+  }
+  std::sort(records.begin(), records.end(),
+    [](const VertexRecord& a, const VertexRecord& b) { return a.Vertex < b.Vertex; });
+  SurfaceState state;
+  state.Sizing = sizing;
+  Fill(state, records);
+  ComponentWatch watch;
+  watch.Label(state, OnThisThread());
+  std::vector<int> roots;
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    if (state.Component[v] == static_cast<int>(roots.size()))
+    {
+      roots.push_back(v);
+    }
+  }
+  watch.DeleteDegenerate(state);
+  for (const int root : roots)
+  {
+    if (!state.Mesh.IsAlive(root))
+    {
+      found.push_back(records[root].Vertex);
+    }
+  }
+  return found;
+}
+
+template <typename T>
+void SortUnique(std::vector<T>& values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+}
+
+void RankComponents::Mark(const SurfaceState& state, Executor& executor)
+{
+  const std::size_t n = state.Mesh.Rings.size();
+  if (this->Marks.size() < n)
+  {
+    MakeZeroed(this->Marks, n);
+    MakeZeroed(this->Labels, n);
+  }
+  ForBlocks(executor, this->Marks.size(), VertexBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        const bool isOwn = v < n && state.Mesh.IsAlive(static_cast<int>(v)) &&
+          this->Part.IsOwn(static_cast<int>(v));
+        if (isOwn != (this->Marks[v] == Own))
+        {
+          this->Marks[v] = isOwn ? Own : 0;
+        }
+      }
+    });
+}
+
+void RankComponents::FindOwnSets(const SurfaceState& state, Executor& executor)
+{
+  this->Connected.Label(state.Mesh, this->OwnOnes(), this->Labels, executor);
+  this->Sets.clear();
+  for (std::size_t set = 0; set < this->Connected.Roots().size(); ++set)
+  {
+    const int root = this->Connected.Roots()[set];
+    this->Sets.push_back({ root, this->Connected.Sizes()[set], state.Mesh.Position[root] });
+  }
+}
+
+std::vector<RankComponents::Name> RankComponents::NameBorders(
+  const SurfaceState& state, Executor& executor) const
+{
+  const std::size_t n = state.Mesh.Rings.size();
+  std::vector<std::vector<Name>> blocks((n + VertexBlock - 1) / VertexBlock);
+  ForBlocks(executor, n, VertexBlock,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (this->Marks[v] != Own)
+        {
+          continue;
+        }
+        const int set = this->Labels[v];
+        const std::size_t before = blocks[b].size();
+        const Ring& ring = state.Mesh.Rings[v];
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          if (this->Marks[ring.Item[i]] != Own)
+          {
+            blocks[b].push_back({ ring.Item[i], set });
+          }
+        }
+        if (blocks[b].size() > before)
+        {
+          blocks[b].push_back({ v, set }); // The others name it, too.
+        }
+      }
+      SortUnique(blocks[b]);
+    });
+  std::vector<Name> names = Joined(executor, blocks);
+  SortUnique(names);
+  return names;
+}
+
+std::vector<Message> RankComponents::JoinSets(const std::vector<Message>& ofRanks)
+{
+  std::vector<OwnSet> sets; // Of all ranks, one after the other.
+  std::vector<Name> names;
+  std::vector<std::size_t> first(1, 0);
+  for (const Message& message : ofRanks)
+  {
+    MessageReader reader(message);
+    const std::vector<OwnSet> setsOfRank = reader.TakeVector<OwnSet>();
+    for (const Name& name : reader.TakeVector<Name>())
+    {
+      names.push_back({ name.Vertex, static_cast<int>(first.back()) + name.Set });
+    }
+    sets.insert(sets.end(), setsOfRank.begin(), setsOfRank.end());
+    first.push_back(sets.size());
+  }
+  DisjointSets joined(sets.size());
+  std::sort(names.begin(), names.end());
+  for (std::size_t i = 1; i < names.size(); ++i)
+  {
+    if (names[i].Vertex == names[i - 1].Vertex)
+    {
+      joined.Join(names[i].Set, names[i - 1].Set);
+    }
+  }
+  // Components are numbered by their smallest vertices: those that come first.
+  std::vector<int> order(sets.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&sets](int a, int b) { return sets[a].Root < sets[b].Root; });
+  std::vector<int> labels(sets.size(), ConnectedVertices::None); // By the root of joined sets.
+  this->All.clear();
+  for (const int set : order)
+  {
+    int& label = labels[joined.Find(set)];
+    if (label == ConnectedVertices::None)
+    {
+      label = static_cast<int>(this->All.size());
+      this->All.push_back({ label, sets[set].Root, 0, sets[set].Place });
+    }
+    this->All[label].Size += sets[set].Size;
+  }
+  std::vector<Message> answers;
+  for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
+  {
+    std::vector<Whole> wholes;
+    for (std::size_t set = first[rank]; set < first[rank + 1]; ++set)
+    {
+      wholes.push_back(this->All[labels[joined.Find(static_cast<int>(set))]]);
+    }
+    MessageWriter writer;
+    writer.Add(static_cast<int>(this->All.size()));
+    writer.AddArray(wholes);
+    answers.push_back(writer.Take());
+  }
+  return answers;
+}
+
+void RankComponents::FindWholes(const std::vector<Name>& names)
+{
+  Communicator& ranks = this->Part.Ranks;
+  MessageWriter writer;
+  writer.AddArray(this->Sets);
+  writer.AddArray(names);
+  const std::vector<Message> ofRanks = ranks.Gather(writer.Take());
+  const Message answer = Scatter(ranks, this->JoinSets(ofRanks));
+  MessageReader reader(answer);
+  this->Components = reader.Take<int>();
+  reader.TakeArray(this->Wholes);
+}
+
+void RankComponents::Label(SurfaceState& state, Executor& executor)
+{
+  this->Mark(state, executor);
+  this->FindOwnSets(state, executor);
+  this->FindWholes(this->NameBorders(state, executor));
+  ForBlocks(executor, state.Mesh.Rings.size(), VertexBlock,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (this->Marks[v] == Own)
+        {
+          state.Component[v] = this->Wholes[this->Labels[v]].Label;
+        }
+      }
+    });
+}
+
+bool RankComponents::DeleteDegenerate(SurfaceState& state)
+{
+  std::vector<VertexRecord> whole; // Of components that no other rank has a part of.
+  std::vector<VertexRecord> parts;
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    if (this->Marks[v] != Own || !state.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const int set = this->Labels[v];
+    if (this->Wholes[set].Size <= ComponentWatch::SmallSize)
+    {
+      const bool isWhole = this->Wholes[set].Size == this->Sets[set].Size;
+      (isWhole ? whole : parts)
+        .push_back({ v, state.FieldValue[v], state.Mesh.Position[v], state.Mesh.Rings[v] });
+    }
+  }
+  Communicator& ranks = this->Part.Ranks;
+  std::vector<int> found = FindDegenerate(std::move(whole), state.Sizing);
+  const std::vector<int> ofParts =
+    FindDegenerate(GatherLists(ranks, parts), state.Sizing);
+  found.insert(found.end(), ofParts.begin(), ofParts.end());
+  found = GatherListsOnAll(ranks, found);
+  std::sort(found.begin(), found.end());
+  this->Remove(state, found);
+  return !found.empty();
+}
+
+std::vector<int> RankComponents::FindInsideOut(const SurfaceState& state, Executor& executor)
+{
+  // The volumes of all parts, by label, to rank 0, which casts the rays.
+  Communicator& ranks = this->Part.Ranks;
+  std::vector<Vector> places;
+  std::vector<int> labels;
+  for (std::size_t set = 0; set < this->Sets.size(); ++set)
+  {
+    places.push_back(this->Wholes[set].Place);
+    labels.push_back(this->Wholes[set].Label);
+  }
+  struct Volume
+  {
+    int Label;
+    ExactSum Sum;
+  };
+  const MarkedVertices ownOnes = this->OwnOnes();
+  const std::vector<ExactSum> sums =
+    VolumesOfFaces(state.Mesh, this->Labels, &ownOnes, places, executor);
+  std::vector<Volume> own;
+  for (std::size_t set = 0; set < sums.size(); ++set)
+  {
+    own.push_back({ labels[set], sums[set] });
+  }
+  std::vector<int> roots;
+  places.clear();
+  for (const Whole& component : this->All)
+  {
+    roots.push_back(component.Root);
+    places.push_back(component.Place);
+  }
+  std::vector<ExactSum> volumes(roots.size());
+  for (const Volume& part : GatherLists(ranks, own))
+  {
+    volumes[part.Label].Add(part.Sum);
+  }
+  const std::vector<ComponentRay> rays = BroadcastList(ranks, CastRays(roots, places, volumes));
+  std::vector<RayCrossing> crossings = GatherLists(
+    ranks, FindCrossings(state.Mesh, this->Labels, &ownOnes, labels, rays, executor));
+  KeepOdd(crossings);
+  return BroadcastList(ranks,
+    ranks.Rank() == 0 ? JudgeFromOutsideIn(rays, crossings) : std::vector<int>());
+}
+
+bool RankComponents::DeleteInsideOut(SurfaceState& state, Executor& executor)
+{
+  this->Label(state, executor);
+  const std::vector<int> insideOut = this->FindInsideOut(state, executor);
+  this->Remove(state, insideOut);
+  if (!insideOut.empty())
+  {
+    this->Label(state, executor);
+  }
+  return !insideOut.empty();
+}
+
+std::vector<int> RankComponents::LabelsOf(const std::vector<int>& roots) const
+{
+  std::vector<int> labels;
+  for (std::size_t i = 0; this->Part.Ranks.Rank() == 0 && i < roots.size(); ++i)
+  {
+    const auto found = std::lower_bound(this->All.begin(), this->All.end(), roots[i],
+      [](const Whole& component, int root) { return component.Root < root; });
+    labels.push_back(found->Label);
+  }
+  return BroadcastList(this->Part.Ranks, labels);
+}
+
+void RankComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
+{
+  if (roots.empty())
+  {
+    return;
+  }
+  struct Removal
+  {
+    int Label;
+    int Place; ///< Among the roots.
+    int Vertices;
+    std::int64_t Neighbours;
+  };
+  std::vector<Removal> removals; // By label.
+  for (const int label : this->LabelsOf(roots))
+  {
+    removals.push_back({ label, static_cast<int>(removals.size()), 0, 0 });
+  }
+  std::sort(removals.begin(), removals.end(),
+    [](const Removal& a, const Removal& b) { return a.Label < b.Label; });
+  std::vector<char> isRootHere(roots.size(), 0);
+  std::vector<int> removed;
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    if (this->Marks[v] != Own || !state.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const int label = this->Wholes[this->Labels[v]].Label;
+    const auto removal = std::lower_bound(removals.begin(), removals.end(), label,
+      [](const Removal& r, int wanted) { return r.Label < wanted; });
+    if (removal != removals.end() && removal->Label == label)
+    {
+      ++removal->Vertices;
+      removal->Neighbours += state.Mesh.Rings[v].Count;
+      isRootHere[removal->Place] |= v == roots[removal->Place];
+      removed.push_back(v);
+      state.RemoveVertex(v);
+      state.Mesh.RemoveVertex(v);
+    }
+  }
+  for (const int v : GatherListsOnAll(this->Part.Ranks, removed))
+  {
+    state.Forget(v); // Where it is another rank's.
+  }
+  std::vector<Removal> whole(roots.size());
+  for (const Removal& part : GatherListsOnAll(this->Part.Ranks, removals))
+  {
+    whole[part.Place].Vertices += part.Vertices;
+    whole[part.Place].Neighbours += part.Neighbours;
+  }
+  for (std::size_t i = 0; i < roots.size(); ++i)
+  {
+    const int characteristic = whole[i].Vertices - static_cast<int>(whole[i].Neighbours / 6);
+    state.EulerCharacteristic -= isRootHere[i] ? characteristic : 0;
+    ++state.Counts.Removed;
+    state.Counts.RemovedGenus += 1 - characteristic / 2;
+  }
+  this->Components -= static_cast<int>(roots.size());
+}
+}

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRankComponents_h
+#define volumicRankComponents_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Surface/ConnectedVertices.h"
+#include "Core/Surface/RankPart.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * What ComponentWatch does with the components of a whole surface, between two sweeps, where each
+ * rank has a part of it (RankPart). All that is said of components is the same on all ranks, for
+ * any number of them, and what ComponentWatch says.
+ *
+ * What a rank has of a component is labelled there; sizes, places and the vertices along borders go
+ * to rank 0, which finds the components, and tells each rank those of its own. So messages go with
+ * the borders and the number of components. Places that no vertex has are not written, and of
+ * vertices of other ranks only those are looked at that are neighbours of own ones.
+ *
+ * Of what is deleted SurfaceState::Counts tell on all ranks. The number of vertices falls by what
+ * was a rank's own, the Euler characteristic where the first vertex of a component was: the changes
+ * of all ranks are those of the surface (RankBlocks::ShareCounts).
+ */
+class RankComponents
+{
+public:
+  explicit RankComponents(const RankPart& part)
+    : Part(part)
+  {
+  }
+
+  /** Labels, in SurfaceState::Component, the rank's own vertices. */
+  void Label(SurfaceState& state, Executor& executor);
+
+  /** When last labelled, less those deleted since. */
+  int NumberOfComponents() const { return this->Components; }
+
+  /**
+   * Deletes the small components that must go, as ComponentWatch::DeleteDegenerate right after
+   * Label(), which must have been called; other labels stay. @return whether anything was deleted.
+   */
+  bool DeleteDegenerate(SurfaceState& state);
+
+  /**
+   * Labels, and deletes the components that are inside out: ComponentWatch::DeleteInsideOut.
+   * @return whether anything was deleted; labels are fresh then, too
+   */
+  bool DeleteInsideOut(SurfaceState& state, Executor& executor);
+
+  /** The same as FindInsideOut, of what Label() has labelled. */
+  std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor);
+
+private:
+  static constexpr std::uint8_t Own = 1; ///< Mark.
+
+  /** What a rank has of a component: a set of own vertices that edges join. */
+  struct OwnSet
+  {
+    int Root; ///< Its smallest vertex, and
+    int Size;
+    Vector Place; ///< Of the root.
+  };
+  /** A set is of the same component as all others, of any rank, that name the same vertex. */
+  struct Name
+  {
+    int Vertex;
+    int Set;
+    bool operator<(const Name& other) const
+    {
+      return this->Vertex != other.Vertex ? this->Vertex < other.Vertex : this->Set < other.Set;
+    }
+    bool operator==(const Name& other) const
+    {
+      return this->Vertex == other.Vertex && this->Set == other.Set;
+    }
+  };
+  /** The component of a set, as rank 0 tells it. */
+  struct Whole
+  {
+    int Label;
+    int Root;
+    int Size;
+    Vector Place; ///< Of the root.
+  };
+
+  void Mark(const SurfaceState& state, Executor& executor);
+  MarkedVertices OwnOnes() const { return { this->Marks, Own }; }
+  void FindOwnSets(const SurfaceState& state, Executor& executor);
+  std::vector<Name> NameBorders(const SurfaceState& state, Executor& executor) const;
+  void FindWholes(const std::vector<Name>& names);
+  std::vector<Message> JoinSets(const std::vector<Message>& ofRanks);
+  std::vector<int> LabelsOf(const std::vector<int>& roots) const;
+  void Remove(SurfaceState& state, const std::vector<int>& roots);
+
+  const RankPart Part;
+  ConnectedVertices Connected;
+  LargeVector<std::uint8_t> Marks; ///< By vertex: Own or 0.
+  LargeVector<int> Labels;         ///< By vertex that is own: the set.
+  std::vector<OwnSet> Sets;
+  std::vector<Whole> Wholes; ///< Of each set.
+  std::vector<Whole> All;    ///< On rank 0: by label.
+  int Components = 0;
+};
+}
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRankTestTools_h
+#define volumicRankTestTools_h
+
+#include "Core/Surface/RankPart.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace volumic
+{
+/** Which rank a vertex of a whole surface belongs to, given how many ranks there are. */
+using OwnerOf = std::function<int(int v, int ranks)>;
+
+/** Ranks own cubes of space here and there, so that parts of one rank lie apart. */
+inline OwnerOf ByCubes(const SurfaceState& whole, float side)
+{
+  return [&whole, side](int v, int ranks)
+  {
+    const Vector& p = whole.Mesh.Position[v];
+    const auto along = [side](float x) { return static_cast<int>(std::floor(x / side)); };
+    const int sum = along(p.X) + 2 * along(p.Y) + 3 * along(p.Z);
+    return (sum % ranks + ranks) % ranks;
+  };
+}
+
+/** Vertices next to each other are of different ranks, as a rule. */
+inline OwnerOf ByTurns()
+{
+  return [](int v, int ranks) { return v % ranks; };
+}
+
+/** All of one rank. */
+inline OwnerOf AllOf(int rank)
+{
+  return [rank](int, int ranks) { return rank % ranks; };
+}
+
+/**
+ * Leaves a rank its own vertices, and those no farther from them than the halo; nobody may look at
+ * where the others are.
+ */
+inline void TakePart(SurfaceState& part, const SurfaceState& whole, const OwnerOf& ownerOf,
+  const Communicator& ranks, float halo, const Vector& low, const Vector& high)
+{
+  const auto isOwn = [&](int v) { return ownerOf(v, ranks.NumberOfRanks()) == ranks.Rank(); };
+  const SurfaceMesh& mesh = whole.Mesh;
+  part.Mesh.Position = mesh.Position;
+  part.Mesh.Rings = mesh.Rings;
+  std::vector<char> isThere(mesh.Rings.size(), 0);
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v) && isOwn(v))
+    {
+      isThere[v] = 1;
+      whole.Grid.Visit(mesh.Position[v], halo,
+        [&](int w)
+        {
+          isThere[w] |= SquaredDistance(mesh.Position[v], mesh.Position[w]) <= halo * halo;
+        });
+    }
+  }
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (!isThere[v])
+    {
+      part.Mesh.Position[v] = Vector(none, none, none);
+      part.Mesh.Rings[v].Count = 0;
+    }
+  }
+  part.Sizing = whole.Sizing;
+  part.Reset(low, high);
+  part.EulerCharacteristic = 0;
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (isThere[v])
+    {
+      part.FieldValue[v] = whole.FieldValue[v];
+      part.Normal[v] = whole.Normal[v];
+      part.EdgeLengthSum[v] = whole.EdgeLengthSum[v];
+    }
+  }
+}
+
+inline RankPart PartOf(Communicator& ranks, const OwnerOf& ownerOf)
+{
+  const int count = ranks.NumberOfRanks();
+  const int own = ranks.Rank();
+  return { ranks, [ownerOf, count, own](int v) { return ownerOf(v, count) == own; } };
+}
+}
+
+#endif

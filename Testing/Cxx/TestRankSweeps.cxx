@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A level in sweeps over blocks that belong to several ranks: the same bits as on one.
+#include "BarTestScene.h"
+#include "Core/Common/StandardThreads.h"
+#include "EvolutionTestTools.h"
+#include "MeshInvariants.h"
+#include "ThreadRanks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+constexpr int Width = 44;
+constexpr int Length = 112;
+
+/** The bars of BarTestScene.h in a plate, at voxels so many units apart. */
+TestVolume Plate(double unit)
+{
+  const auto count = [unit](int n) { return static_cast<int>(std::lround(n / unit)); };
+  TestVolume volume;
+  LevelImage& image = volume.Image;
+  image.Size = { count(Width), count(Length), count(Length) };
+  for (int k = 0; k < image.Size[2]; ++k)
+  {
+    for (int j = 0; j < image.Size[1]; ++j)
+    {
+      for (int i = 0; i < image.Size[0]; ++i)
+      {
+        const double x = i * unit;
+        const double y = j * unit;
+        const double z = k * unit;
+        const double outside = std::max({ std::abs(x - 0.5 * Width) - 0.5 * Width,
+          std::abs(y - 0.5 * Length) - 0.5 * Length, std::abs(z - 0.5 * Length) - 0.5 * Length });
+        const auto inside = [](double t) { return 24. + std::remainder(t - 24., 28.); };
+        const double bars = Bars(inside(x), inside(y), inside(z));
+        volume.Values.push_back(
+          static_cast<float>(Soft(std::max(bars, outside + 4.) / unit)));
+      }
+    }
+  }
+  image.Values = volume.Values.data();
+  image.Step = { unit, unit, unit };
+  image.Unit = unit;
+  return volume;
+}
+
+SurfaceOptions InBlocks()
+{
+  SurfaceOptions options = IsoHalf();
+  options.Sweeps.BlockSide = 49.;
+  options.MaximumNumberOfIterations = 40;
+  return options;
+}
+
+struct RunOnRanks
+{
+  SurfaceResult Surface;
+  std::vector<HistoryRow> Rows;
+
+  RunOnRanks(int count, int threads, SurfaceOptions options)
+  {
+    const TestVolume coarse = Plate(std::sqrt(3.));
+    const TestVolume fine = Plate(1.);
+    options.Sweeps.MostVoxels =
+      static_cast<std::int64_t>(coarse.Image.Size[0]) * coarse.Image.Size[1] * coarse.Image.Size[2];
+    ThreadRanks::Run(count,
+      [&](Communicator& ranks)
+      {
+        StandardThreads executor(threads);
+        Monitor monitor;
+        SurfaceEvolution evolution(options, executor, monitor);
+        if (ranks.Rank() > 0)
+        {
+          evolution.SetRanks(&ranks);
+          evolution.Divide(fine.Image, 0);
+          evolution.Run();
+          EXPECT_TRUE(evolution.Result().Points.empty());
+          return;
+        }
+        evolution.StartEnclosing(coarse.Image, 1);
+        evolution.Run();
+        if (count > 1)
+        {
+          evolution.SetRanks(&ranks);
+        }
+        evolution.Divide(fine.Image, 0);
+        evolution.Run();
+        this->Surface = evolution.Result();
+        this->Rows = evolution.History();
+      });
+  }
+};
+
+void ExpectSame(const RunOnRanks& run, const RunOnRanks& expected)
+{
+  EXPECT_EQ(run.Surface.Points, expected.Surface.Points);
+  EXPECT_EQ(run.Surface.Triangles, expected.Surface.Triangles);
+  EXPECT_EQ(run.Surface.Normals, expected.Surface.Normals);
+  EXPECT_EQ(run.Surface.Motionless, expected.Surface.Motionless);
+  EXPECT_EQ(run.Surface.Held, expected.Surface.Held);
+  ASSERT_EQ(run.Rows.size(), expected.Rows.size());
+  for (std::size_t i = 0; i < run.Rows.size(); ++i)
+  {
+    const HistoryRow& row = run.Rows[i];
+    const HistoryRow& other = expected.Rows[i];
+    EXPECT_EQ(row.Vertices, other.Vertices) << i;
+    EXPECT_EQ(row.KineticEnergy, other.KineticEnergy) << i;
+    EXPECT_EQ(row.MeanEdgeLength, other.MeanEdgeLength) << i;
+    EXPECT_EQ(row.TimeStep, other.TimeStep) << i;
+    EXPECT_EQ(row.ActiveVertices, other.ActiveVertices) << i;
+    EXPECT_EQ(row.Merges, other.Merges) << i;
+    EXPECT_EQ(row.Cuts, other.Cuts) << i;
+    EXPECT_EQ(row.Splits, other.Splits) << i;
+    EXPECT_EQ(row.EulerCharacteristic, other.EulerCharacteristic) << i;
+    EXPECT_EQ(row.Components, other.Components) << i;
+    EXPECT_EQ(row.Deletions, other.Deletions) << i;
+    EXPECT_EQ(row.RegularisationCuts, other.RegularisationCuts) << i;
+  }
+}
+}
+
+TEST(RankSweeps, MakeTheSurfaceOfOneRank)
+{
+  const RunOnRanks one(1, 1, InBlocks());
+  EXPECT_GT(one.Surface.Points.size(), 20000u);
+  EXPECT_EQ(DescribeBrokenInvariant([&] { SurfaceMesh mesh; mesh.Append(one.Surface); return mesh; }()), "");
+  for (const int count : { 2, 3, 4 })
+  {
+    SCOPED_TRACE(count);
+    ExpectSame(RunOnRanks(count, 1, InBlocks()), one);
+  }
+}

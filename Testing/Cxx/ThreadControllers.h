@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicThreadControllers_h
+#define volumicThreadControllers_h
+
+#include "MessageQueues.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCommunicator.h>
+#include <vtkDummyController.h>
+#include <vtkMultiProcessController.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+/** Threads of the test in the place of processes, each with a controller of VTK. */
+class ThreadControllers
+{
+public:
+  /** Calls work on each of so many threads; it must not throw. Each makes filters of its own. */
+  static void Run(int count, const std::function<void(vtkMultiProcessController*)>& work)
+  {
+    const auto queues = std::make_shared<MessageQueues>(count);
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < count; ++rank)
+    {
+      threads.emplace_back(
+        [&, rank]
+        {
+          const auto communicator = vtkSmartPointer<Communicator>::Take(Communicator::New());
+          communicator->Begin(queues, rank);
+          vtkNew<vtkDummyController> controller;
+          controller->SetCommunicator(communicator);
+          controller->SetRMICommunicator(communicator);
+          work(controller);
+        });
+    }
+    for (std::thread& thread : threads)
+    {
+      thread.join();
+    }
+  }
+
+  /** As ParaView's processes do it: each asks for its piece. */
+  static void Update(
+    vtkAlgorithm* filter, vtkMultiProcessController* controller, int ghostLevels = 0)
+  {
+    filter->UpdatePiece(
+      controller->GetLocalProcessId(), controller->GetNumberOfProcesses(), ghostLevels);
+  }
+
+private:
+  class Communicator : public vtkCommunicator
+  {
+  public:
+    static Communicator* New()
+    {
+      auto* communicator = new Communicator;
+      communicator->InitializeObjectBase();
+      return communicator;
+    }
+
+    void Begin(std::shared_ptr<MessageQueues> queues, int rank)
+    {
+      this->All = std::move(queues);
+      this->SetNumberOfProcesses(this->All->NumberOfRanks());
+      this->LocalProcessId = rank;
+    }
+
+    /** Bytes only: more our ranks do not send. */
+    int SendVoidArray(const void* bytes, vtkIdType count, int, int to, int) override
+    {
+      this->All->Send(this->LocalProcessId, to, bytes, static_cast<std::size_t>(count));
+      return 1;
+    }
+    int ReceiveVoidArray(void* bytes, vtkIdType count, int, int from, int) override
+    {
+      this->All->Receive(from, this->LocalProcessId, bytes, static_cast<std::size_t>(count));
+      return 1;
+    }
+
+  private:
+    std::shared_ptr<MessageQueues> All;
+  };
+};
+}
+
+#endif
