@@ -3,6 +3,7 @@
 #include "Core/Common/Communicator.h"
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <utility>
 
@@ -10,8 +11,11 @@ namespace volumic
 {
 namespace
 {
-/** Bytes that go at once: MPI counts them in an int, and who drops them needs a place for them. */
-constexpr std::size_t MostBytes = std::size_t(1) << 24;
+/**
+ * Bytes that go at once: MPI counts them in an int, and who drops them, as there is no memory for
+ * them, has the stack.
+ */
+constexpr std::size_t MostBytes = std::size_t(1) << 18;
 }
 
 void Communicator::SendHeader(int to, Kind kind, std::size_t bytes)
@@ -61,7 +65,7 @@ Message Communicator::ReceiveMessage(int from)
 
 void Communicator::Drop(int from, unsigned long long count)
 {
-  Message dropped(static_cast<std::size_t>(std::min<unsigned long long>(count, MostBytes)));
+  std::array<char, MostBytes> dropped;
   for (unsigned long long begin = 0; begin < count; begin += MostBytes)
   {
     this->Receive(from, dropped.data(),
