@@ -3,7 +3,6 @@
 #include "Core/Common/Communicator.h"
 
 #include <algorithm>
-#include <array>
 #include <new>
 #include <utility>
 
@@ -11,10 +10,7 @@ namespace volumic
 {
 namespace
 {
-/**
- * Bytes that go at once: MPI counts them in an int, and who drops them, as there is no memory for
- * them, has the stack.
- */
+/** Bytes that go at once: MPI counts them in an int, and who drops them needs a place for them. */
 constexpr std::size_t MostBytes = std::size_t(1) << 18;
 }
 
@@ -38,6 +34,7 @@ void Communicator::SendMessage(int to, const Message& message)
 
 Message Communicator::ReceiveMessage(int from)
 {
+  this->Dropped.resize(MostBytes); // While there is memory: it is for when there is none.
   Header header;
   this->Receive(from, &header, sizeof(header));
   Message message;
@@ -65,10 +62,10 @@ Message Communicator::ReceiveMessage(int from)
 
 void Communicator::Drop(int from, unsigned long long count)
 {
-  std::array<char, MostBytes> dropped;
+  this->Dropped.resize(MostBytes); // Nothing new, mostly.
   for (unsigned long long begin = 0; begin < count; begin += MostBytes)
   {
-    this->Receive(from, dropped.data(),
+    this->Receive(from, this->Dropped.data(),
       static_cast<std::size_t>(std::min<unsigned long long>(MostBytes, count - begin)));
   }
 }
