@@ -12,8 +12,8 @@
 namespace volumic
 {
 /**
- * Work that rank 0 does alone, while the other ranks wait for its end. Now and then they hear how far
- * it is, and whether one of them wants it to stop. One rank alone just works.
+ * Work that rank 0 does alone, while the other ranks wait for its end. Now and then they hear how
+ * far it is, and whether one of them wants it to stop. One rank alone just works.
  */
 class FirstRankWork
 {
@@ -30,7 +30,7 @@ public:
    */
   void Run(const std::function<void()>& work, const std::function<void()>& help = {});
 
-  /** From within the work at rank 0: a part that all ranks do, this one so, the others by `help`. */
+  /** From within the work at rank 0: a part that all ranks do, it so, the others by `help`. */
   void Together(const std::function<void()>& part);
 
   /**

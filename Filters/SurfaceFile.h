@@ -21,7 +21,10 @@ void WriteSurfaceTo(CheckedWriter& file, vtkPolyData* surface);
 /** What that wrote. @throws FileError. */
 vtkSmartPointer<vtkPolyData> ReadSurfaceFrom(CheckedReader& file);
 
-/** The same for another rank, with cells of all kinds; global ids of points stay such. @throws std::bad_alloc. */
+/**
+ * The same for another rank, with cells of all kinds; global ids of points stay such.
+ * @throws std::bad_alloc.
+ */
 Message MessageOf(vtkPolyData* surface);
 
 /** What that was made of. @throws std::bad_alloc. */

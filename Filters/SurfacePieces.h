@@ -14,8 +14,8 @@ namespace volumic
 {
 /**
  * Cuts a surface into a piece for each rank, as VTK's filters expect them of a parallel run: each
- * triangle in one piece, points at the border of pieces in each of them, at the same place. Triangles
- * of a piece follow each other in the whole; all pieces have nearly as many.
+ * triangle in one piece, points at the border of pieces in each of them, at the same place.
+ * Triangles of a piece follow each other in the whole; all pieces have nearly as many.
  */
 class SurfacePieces
 {

@@ -168,6 +168,17 @@
  * too, and the run goes on; where the run itself ends as the disk is full, it takes its checkpoint
  * with it.
  *
+ * @par Processes:
+ * Where the controller has several processes, and each asks for the piece of its own number of as
+ * many pieces, as ParaView's do, they make one surface together, the same bits, and each gets a
+ * piece of it, of Levels and of Snapshots: each triangle is in one piece, points at a border are in
+ * all that meet there. Points of pieces have `GlobalIds` (vtkIdType, the attribute): the index that
+ * they have where there is one process. Ghost levels are given where they are asked for
+ * (`vtkGhostType`). Field data is whole in every process, also in empty pieces; the first one has
+ * the rows of History. An error of one process is reported by all; AbortExecute of any stops all, at
+ * the latest after some tenths of a second. ShowLevels has no effect. Whoever asks for other pieces
+ * works alone: process 0 of one piece gets the whole surface.
+ *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
  * Triangulated Surface", ECCV 1996.
