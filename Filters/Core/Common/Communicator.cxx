@@ -11,7 +11,7 @@ namespace volumic
 namespace
 {
 /** Bytes that go at once: MPI counts them in an int, and who drops them needs a place for them. */
-constexpr std::size_t MostBytes = std::size_t(1) << 24;
+constexpr std::size_t MostBytes = std::size_t(1) << 18;
 }
 
 void Communicator::SendHeader(int to, Kind kind, std::size_t bytes)
@@ -34,6 +34,7 @@ void Communicator::SendMessage(int to, const Message& message)
 
 Message Communicator::ReceiveMessage(int from)
 {
+  this->Dropped.resize(MostBytes); // While there is memory: it is for when there is none.
   Header header;
   this->Receive(from, &header, sizeof(header));
   Message message;
@@ -61,10 +62,10 @@ Message Communicator::ReceiveMessage(int from)
 
 void Communicator::Drop(int from, unsigned long long count)
 {
-  Message dropped(static_cast<std::size_t>(std::min<unsigned long long>(count, MostBytes)));
+  this->Dropped.resize(MostBytes); // Nothing new, mostly.
   for (unsigned long long begin = 0; begin < count; begin += MostBytes)
   {
-    this->Receive(from, dropped.data(),
+    this->Receive(from, this->Dropped.data(),
       static_cast<std::size_t>(std::min<unsigned long long>(MostBytes, count - begin)));
   }
 }

@@ -88,6 +88,7 @@ private:
   void EndRun(const Message& reason);
 
   std::vector<char> HasFailed; ///< By rank: its failure has arrived.
+  std::vector<char> Dropped;   ///< The place for what is dropped.
 };
 
 /** Alone: what a program without MPI has. */

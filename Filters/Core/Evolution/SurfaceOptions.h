@@ -15,7 +15,7 @@ namespace volumic
  */
 struct SweepOptions
 {
-  std::int64_t MostVoxels = std::int64_t(1) << 27; ///< Of a level that evolves as a whole: 512^3.
+  std::int64_t MostVoxels = std::int64_t(1) << 26; ///< Of a level that evolves as a whole: 406^3.
   int MostVertices = 4000000; ///< Of its surface, when the level begins.
   double BlockSide = 128.;    ///< In delta: about as many voxels of the level.
 };
