@@ -63,8 +63,9 @@ struct RunOnRanks
 {
   SurfaceResult Surface;
   std::vector<HistoryRow> Rows;
+  SurfaceEvolution::LostParts Lost;
 
-  RunOnRanks(int count, int threads, SurfaceOptions options)
+  RunOnRanks(int count, int threads, SurfaceOptions options, bool isFromSeed = false)
   {
     const TestVolume coarse = Plate(std::sqrt(3.));
     const TestVolume fine = Plate(1.);
@@ -84,7 +85,14 @@ struct RunOnRanks
           EXPECT_TRUE(evolution.Result().Points.empty());
           return;
         }
-        evolution.StartEnclosing(coarse.Image, 1);
+        if (isFromSeed)
+        {
+          evolution.StartSeeds(coarse.Image, 1, { { 31., 17., 17. } });
+        }
+        else
+        {
+          evolution.StartEnclosing(coarse.Image, 1);
+        }
         evolution.Run();
         if (count > 1)
         {
@@ -94,6 +102,7 @@ struct RunOnRanks
         evolution.Run();
         this->Surface = evolution.Result();
         this->Rows = evolution.History();
+        this->Lost = evolution.Lost();
       });
   }
 };
@@ -105,6 +114,11 @@ void ExpectSame(const RunOnRanks& run, const RunOnRanks& expected)
   EXPECT_EQ(run.Surface.Normals, expected.Surface.Normals);
   EXPECT_EQ(run.Surface.Motionless, expected.Surface.Motionless);
   EXPECT_EQ(run.Surface.Held, expected.Surface.Held);
+  EXPECT_EQ(run.Lost.Found, expected.Lost.Found);
+  EXPECT_EQ(run.Lost.Enclosed, expected.Lost.Enclosed);
+  EXPECT_EQ(run.Lost.FoundCavities, expected.Lost.FoundCavities);
+  EXPECT_EQ(run.Lost.Missing, expected.Lost.Missing);
+  EXPECT_EQ(run.Lost.MissingBoundary, expected.Lost.MissingBoundary);
   ASSERT_EQ(run.Rows.size(), expected.Rows.size());
   for (std::size_t i = 0; i < run.Rows.size(); ++i)
   {
@@ -135,5 +149,21 @@ TEST(RankSweeps, MakeTheSurfaceOfOneRank)
   {
     SCOPED_TRACE(count);
     ExpectSame(RunOnRanks(count, 1, InBlocks()), one);
+  }
+}
+
+TEST(RankSweeps, RecoverWhatOneRankRecovers)
+{
+  // The coarse level has hardly begun: most of the plate is lost, in the rows of all ranks.
+  SurfaceOptions options = InBlocks();
+  options.MaximumNumberOfIterations = 5;
+  options.RecoverCavities = true;
+  const RunOnRanks one(1, 1, options, true);
+  EXPECT_GT(one.Lost.Enclosed, 0);
+  EXPECT_GT(one.Surface.Points.size(), 10000u);
+  for (const int count : { 2, 4 })
+  {
+    SCOPED_TRACE(count);
+    ExpectSame(RunOnRanks(count, 1, options, true), one);
   }
 }

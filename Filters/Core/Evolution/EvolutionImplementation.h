@@ -166,7 +166,6 @@ struct SurfaceEvolution::Implementation
   RankComponents& ComponentsOfRanks();
   void TakeComponents(bool areChecked);
   void LabelComponents();
-  void OnFirstRank(const std::function<void()>& work);
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
   double KineticEnergy() const;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same steps
-// at the same time; what needs the whole surface is done on rank 0.
+// Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same
+// steps at the same time.
 
 #include "Core/Evolution/EvolutionImplementation.h"
 
@@ -192,21 +192,5 @@ void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
   }
   this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
   this->TakeComponents(true);
-}
-void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& work)
-{
-  if (!this->OnRanks)
-  {
-    work();
-    return;
-  }
-  this->Iteration.Forget();
-  this->OnRanks->Gather();
-  if (this->Ranks->Rank() == 0)
-  {
-    work();
-  }
-  this->Iteration.Forget();
-  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
 }
 }

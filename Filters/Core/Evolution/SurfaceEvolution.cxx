@@ -172,7 +172,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     goesOn = !self.IsOnAnyRank(!goesOn || self.Stopped);
     if (goesOn)
     {
-      self.OnFirstRank([&self] { self.Recover(); });
+      self.Recover();
     }
     watch.Lap(Phase::Recovery);
     self.GoOn(Monitor::Activity::Recovering, 1.);
