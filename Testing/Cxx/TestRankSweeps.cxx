@@ -63,6 +63,8 @@ struct RunOnRanks
 {
   SurfaceResult Surface;
   std::vector<HistoryRow> Rows;
+  int Missing = 0;
+  double MissingBoundary = 0.;
   SurfaceEvolution::LostParts Lost;
 
   RunOnRanks(int count, int threads, SurfaceOptions options, bool isFromSeed = false)
@@ -83,6 +85,7 @@ struct RunOnRanks
           evolution.Divide(fine.Image, 0);
           evolution.Run();
           EXPECT_TRUE(evolution.Result().Points.empty());
+          evolution.Unite();
           return;
         }
         if (isFromSeed)
@@ -102,6 +105,13 @@ struct RunOnRanks
         evolution.Run();
         this->Surface = evolution.Result();
         this->Rows = evolution.History();
+        this->Missing = evolution.Lost().Missing;
+        this->MissingBoundary = evolution.Lost().MissingBoundary;
+        evolution.Unite();
+        evolution.SetRanks(nullptr);
+        EXPECT_EQ(evolution.Result().Points, this->Surface.Points);
+        EXPECT_EQ(evolution.Result().Triangles, this->Surface.Triangles);
+        EXPECT_EQ(evolution.Result().Held, this->Surface.Held);
         this->Lost = evolution.Lost();
       });
   }
@@ -114,6 +124,10 @@ void ExpectSame(const RunOnRanks& run, const RunOnRanks& expected)
   EXPECT_EQ(run.Surface.Normals, expected.Surface.Normals);
   EXPECT_EQ(run.Surface.Motionless, expected.Surface.Motionless);
   EXPECT_EQ(run.Surface.Held, expected.Surface.Held);
+  EXPECT_EQ(run.Surface.Residual, expected.Surface.Residual);
+  EXPECT_EQ(run.Surface.Contacts, expected.Surface.Contacts);
+  EXPECT_EQ(run.Missing, expected.Missing);
+  EXPECT_EQ(run.MissingBoundary, expected.MissingBoundary);
   EXPECT_EQ(run.Lost.Found, expected.Lost.Found);
   EXPECT_EQ(run.Lost.Enclosed, expected.Lost.Enclosed);
   EXPECT_EQ(run.Lost.FoundCavities, expected.Lost.FoundCavities);

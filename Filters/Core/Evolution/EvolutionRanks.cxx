@@ -4,6 +4,7 @@
 // Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same
 // steps at the same time.
 
+#include "Core/Common/RankLists.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 
 #include <algorithm>
@@ -137,6 +138,10 @@ void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
 
 void SurfaceEvolution::Implementation::AddUpSinceEvolved()
 {
+  if (!this->OnRanks)
+  {
+    return;
+  }
   const EditCounts own = this->SinceEvolved;
   this->SinceEvolved = EditCounts();
   for (const EditCounts& ofRank : GatherValues(*this->Ranks, own))
@@ -192,5 +197,37 @@ void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
   }
   this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
   this->TakeComponents(true);
+}
+std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNearOnRanks(
+  std::vector<std::int64_t> voxels)
+{
+  if (!this->OnRanks)
+  {
+    return LostBoundary::AreNear(voxels, this->State, *this->TheField, this->Threads);
+  }
+  voxels = BroadcastList(*this->Ranks, voxels); // Rank 0 alone knows of what was lost.
+  MessageWriter writer;
+  writer.AddArray(LostBoundary::AreNear(voxels, this->State, *this->TheField, this->Threads));
+  std::vector<std::uint8_t> areNear(this->IsFirstRank() ? voxels.size() : 0, 0);
+  for (const Message& message : this->Ranks->Gather(writer.Take()))
+  {
+    const auto ofRank = MessageReader(message).TakeVector<std::uint8_t>();
+    for (std::size_t i = 0; i < areNear.size(); ++i)
+    {
+      areNear[i] |= ofRank[i];
+    }
+  }
+  return areNear;
+}
+
+void SurfaceEvolution::Implementation::Unite()
+{
+  if (this->OnRanks)
+  {
+    this->Iteration.Forget();
+    this->OnRanks->Gather();
+  }
+  this->OnRanks.reset();
+  this->Blocks.reset();
 }
 }
