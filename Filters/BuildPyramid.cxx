@@ -4,10 +4,14 @@
 
 #include "AlgorithmErrors.h"
 #include "Core/Common/Refuse.h"
+#include "ImageVoxels.h"
+#include "PrefixErrors.h"
+#include "PyramidBlocks.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkDataArray.h>
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -15,6 +19,7 @@
 #include <vtkNew.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace volumic
 {
@@ -54,9 +59,43 @@ EdgeLengthPlan PlanEdgeLength(
   return plan;
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn)
+namespace
 {
+/** Not through the pipeline, which knows of no pieces where the data are given. */
+vtkSmartPointer<vtkMultiBlockDataSet> BuildOnRanks(Communicator& ranks, vtkImagePyramid* pyramid,
+  vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn)
+{
+  vtkSmartPointer<vtkDataArray> voxels;
+  if (image)
+  {
+    voxels = SelectComponent(ChooseArray(selection, image), pyramid->GetSelectedComponent());
+  }
+  const PyramidImage level0(ranks, image, voxels);
+  bool isStopped = false;
+  PyramidRequest request;
+  request.Levels.ReductionFactor = pyramid->GetReductionFactor();
+  request.Levels.NumberOfLevels = pyramid->GetNumberOfLevels();
+  request.Levels.MinimumLevelSize = pyramid->GetMinimumLevelSize();
+  request.NaNIsBackground = pyramid->GetNaNIsBackground();
+  request.NumberOfThreads = pyramid->GetNumberOfThreads();
+  request.Progress = [&](double share, const std::string&)
+  {
+    isStopped = isStopped || !goOn(share);
+    return !isStopped;
+  };
+  const PyramidBlocks made = MakePyramidBlocks(ranks, level0, request);
+  return ranks.IsAny(isStopped) ? nullptr : made.Blocks;
+}
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(Communicator& ranks, vtkImagePyramid* pyramid,
+  vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn)
+{
+  if (ranks.NumberOfRanks() > 1)
+  {
+    return PrefixErrors(
+      "Input port 0: ", [&] { return BuildOnRanks(ranks, pyramid, image, selection, goOn); });
+  }
   ProgressObserver client{ goOn };
   vtkNew<vtkCallbackCommand> observer;
   observer->SetClientData(&client);

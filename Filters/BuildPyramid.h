@@ -3,6 +3,7 @@
 #ifndef volumicBuildPyramid_h
 #define volumicBuildPyramid_h
 
+#include "Core/Common/Communicator.h"
 #include "Core/Common/Monitor.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 
@@ -24,15 +25,16 @@ EdgeLengthPlan PlanEdgeLength(
   double edgeLength, double samplingRatio, vtkImageData* image, vtkImagePyramid* pyramid);
 
 /**
- * The levels of an image, by a pyramid with the settings wanted.
+ * The levels of an image, by a pyramid with the settings wanted. By all ranks together.
+ * @param image     this rank's piece; null: none
  * @param selection of the voxels, as GetInputArrayInformation()
  * @param goOn      asked as the pyramid's progress goes
  * @return null if that said stop.
  * @throws std::invalid_argument with the pyramid's message; std::runtime_error if it is not the
  *         user's fault (memory).
  */
-vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImagePyramid* pyramid, vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn);
+vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(Communicator& ranks, vtkImagePyramid* pyramid,
+  vtkImageData* image, vtkInformation* selection, const Checkpoint& goOn);
 }
 
 #endif

@@ -60,7 +60,7 @@ void BlankAsCells(vtkImageData* cells, vtkImageData* points)
 PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
 {
   PointVoxels voxels;
-  vtkDataArray* cells = ChosenCells(image, selection);
+  vtkDataArray* cells = image ? ChosenCells(image, selection) : nullptr;
   if (!cells)
   {
     voxels.Image = image;

@@ -62,7 +62,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> LevelsOfMap(vtkMultiBlockDataSet* blocks,
   pyramid->SetNumberOfLevels(static_cast<int>(blocks->GetNumberOfBlocks()));
   pyramid->SetReductionFactor(FactorOf(blocks));
   pyramid->SetNumberOfThreads(numberOfThreads);
-  return BuildPyramid(pyramid, image, selection, goOn);
+  return BuildPyramid(OnThisRank(), pyramid, image, selection, goOn);
 }
 }
 

@@ -8,6 +8,8 @@
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
 #include "Deadline.h"
+#include "GatherLevels.h"
+#include "ImagePieces.h"
 #include "InputImage.h"
 #include "PrefixErrors.h"
 #include "RankInputs.h"
@@ -214,17 +216,12 @@ int vtkDeformableSurface::RequestUpdateExtent(
 {
   const vtkInternals& internals = *this->Internals;
   const auto ranks = volumic::RanksOf(internals.Controller, request, output);
-  // Ranks that work together ask for what is their own of surfaces and points.
-  const bool areMany = ranks->NumberOfRanks() > 1;
-  volumic::AskForWholeInputs(request, input, areMany ? 1 : 3, output);
-  for (int port = 1; areMany && port < 3; ++port)
+  if (ranks->NumberOfRanks() > 1)
   {
-    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      input[port]->GetInformationObject(i)->Set(
-        vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    }
+    volumic::AskForPieces(request, input, 3, output, 0);
+    return 1;
   }
+  volumic::AskForWholeInputs(request, input, 3, output);
   if (internals.Settings.End.MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(
@@ -238,7 +235,8 @@ int vtkDeformableSurface::RequestUpdateExtent(
 vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
   vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume)
 {
-  if (this->Internals->Memory.Limit() == 0)
+  // Of several ranks each has its piece, which is in its memory anyway.
+  if (this->Internals->Memory.Limit() == 0 || this->Internals->Ranks->NumberOfRanks() > 1)
   {
     return input;
   }
@@ -266,6 +264,12 @@ vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
 }
 
 //------------------------------------------------------------------------------
+volumic::Communicator& vtkDeformableSurface::Ranks()
+{
+  return *this->Internals->Ranks;
+}
+
+//------------------------------------------------------------------------------
 volumic::SegmentationVolume vtkDeformableSurface::VolumeAsSet()
 {
   volumic::SegmentationVolume volume;
@@ -282,17 +286,19 @@ void vtkDeformableSurface::MakeLevels(
   pyramid->SetSelectedComponent(settings.SelectedComponent);
   pyramid->SetNaNIsBackground(settings.NaNIsBackground);
   pyramid->SetNumberOfThreads(settings.End.NumberOfThreads);
+  volumic::Communicator& ranks = *this->Internals->Ranks;
   if (settings.EdgeLength != 0.0)
   {
+    const volumic::ImagePieces pieces(ranks, image);
     const volumic::EdgeLengthPlan plan = volumic::PlanEdgeLength(
-      settings.EdgeLength, settings.Options.SamplingRatio, image, pyramid);
+      settings.EdgeLength, settings.Options.SamplingRatio, pieces.Frame(), pyramid);
     settings.End.FinestLevel = plan.FinestLevel;
     settings.Options.SamplingRatio = plan.SamplingRatio;
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
   volume.LevelsAreOwn = true;
-  volume.Levels = volumic::BuildPyramid(pyramid, image, volume.Selection,
+  volume.Levels = volumic::BuildPyramid(ranks, pyramid, image, volume.Selection,
     [this](double share) { return this->ShowPyramidProgress(share); });
 }
 
@@ -301,13 +307,14 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
 {
   volumic::SegmentationVolume volume = this->VolumeAsSet();
   volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
-  if (!volume.Levels)
+  if (BuildsPyramid(input))
   {
     vtkNew<vtkImagePyramid> pyramid;
-    if (const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, false, volume))
+    const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, false, volume);
+    if (read || this->Internals->Ranks->NumberOfRanks() > 1)
     {
-      vtkImageData* image =
-        volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); });
+      vtkImageData* image = volumic::PrefixErrors(
+        "Input port 0: ", [&] { return volumic::PieceOfImage(*this->Internals->Ranks, read); });
       this->MakeLevels(pyramid, image, volume);
     }
   }
@@ -420,12 +427,17 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
   {
     this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
   }
-  const volumic::SegmentationVolume volume = this->PrepareVolume(input);
-  if (!volume.Levels)
+  volumic::Communicator& ranks = *this->Internals->Ranks;
+  volumic::SegmentationVolume volume = this->PrepareVolume(input);
+  const bool hasLevels = volume.Levels != nullptr;
+  if (ranks.IsAny(!hasLevels))
   {
     return nullptr;
   }
-  auto run = std::make_unique<volumic::SurfaceSegmentation>(volume, request);
+  volumic::GatherLevels(ranks, volume, request.EdgeSelection);
+  std::unique_ptr<volumic::SurfaceSegmentation> run;
+  this->Internals->Alone->Run(
+    [&] { run = std::make_unique<volumic::SurfaceSegmentation>(volume, request); });
   if (!volume.LevelsAreOwn && volumic::AreReleased(this, 0))
   {
     input->ReleaseData(); // Now: the run lets go of each level when it has left it.
@@ -485,7 +497,7 @@ void vtkDeformableSurface::RunOrGoOn(
   this->Internals->Checkpoint.reset();
   if (course == Course::BeginsAnew)
   {
-    alone.Run([&] { run = this->NewRun(request, vtkDataObject::GetData(input[0])); });
+    run = this->NewRun(request, vtkDataObject::GetData(input[0]));
   }
   if (!volumic::BroadcastValue(ranks, run != nullptr))
   {

@@ -197,6 +197,7 @@ class vtkTable;
 namespace volumic
 {
 struct AlgorithmError;
+class Communicator;
 struct SegmentationRequest;
 struct SegmentationVolume;
 class SurfaceSegmentation;
@@ -751,6 +752,8 @@ protected:
   /// What the surface is searched in, of the data of input port 0; its levels are null where
   /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
   virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
+  /// Those that work on the run that is under way.
+  volumic::Communicator& Ranks();
   /// The data of input port 0, which come in slabs where the memory is limited and the source can;
   /// then what `volume` tells of the voxels is changed to fit. Null after a stop.
   vtkSmartPointer<vtkDataObject> ReadInput(
@@ -766,7 +769,7 @@ private:
   void ChooseStep(volumic::SegmentationRequest& request, bool isKept);
   /// Fills the outputs with what is kept. @return whether it is all that is asked for.
   bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
-  /// A run from the start; null where the making of its levels was stopped.
+  /// By all ranks: a run from the start, at rank 0; null where the making of its levels was stopped.
   std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
     const volumic::SegmentationRequest& request, vtkDataObject* input);
   enum class Course

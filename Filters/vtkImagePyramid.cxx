@@ -191,7 +191,8 @@ int vtkImagePyramid::RequestUpdateExtent(
   const auto ranks = volumic::RanksOf(this->Internals->Controller, request, output);
   if (ranks->NumberOfRanks() > 1)
   {
-    volumic::AskForPieces(request, input, 1, output);
+    volumic::AskForPieces(
+      request, input, 1, output, volumic::GhostLevelsAskedOf(request, output));
     return 1;
   }
   volumic::AskForWholeInputs(request, input, 1, output);
@@ -284,12 +285,12 @@ int vtkImagePyramid::RequestData(
   {
     return 1;
   }
-  const auto fail = [&](const std::exception& error, const std::string& text)
+  const auto endByError = [&](const volumic::AlgorithmError& error)
   {
-    ranks->Fail(text);
+    ranks->Fail(volumic::ReasonOf(error));
     volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: " << text);
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro("Input port 0: " << error.Text);
   };
   vtkSmartPointer<vtkImageData> image;
   try
@@ -312,12 +313,17 @@ int vtkImagePyramid::RequestData(
   }
   catch (const std::bad_alloc& error)
   {
-    fail(error, volumic::Join("the memory does not suffice for the pyramid of an image of ",
-      image ? volumic::SizeOf(image) : "?", " voxels."));
+    endByError({ volumic::ErrorCodeOf(error),
+      volumic::Join("the memory does not suffice for the pyramid of an image of ",
+        image ? volumic::SizeOf(image) : "?", " voxels.") });
+  }
+  catch (const volumic::OtherRankFailed& failure)
+  {
+    endByError(volumic::ErrorOf(failure));
   }
   catch (const std::exception& error)
   {
-    fail(error, error.what());
+    endByError({ volumic::ErrorCodeOf(error), error.what() });
   }
   volumic::ForgetAbort(this);
   return 1;

@@ -23,6 +23,10 @@
  * splits are as good, as in a gap between the classes, the middle one is taken. (VTK has no such
  * filter, and ParaView none of VTK's histograms.)
  *
+ * @par Processes:
+ * Where each process of an MPI run asks for the piece of its own number, each looks at its piece of
+ * the image, and all get the threshold of the whole; the row of the table is on the first.
+ *
  * @par Errors:
  * Voxels that are all equal, all NaN, or infinite, inputs that are no image, and images without
  * such an array or component: a message by ErrorEvent, an empty table, and GetErrorCode() is
@@ -40,6 +44,15 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkTableAlgorithm.h"
 
+#include <vtkMultiProcessController.h>
+#include <vtkSmartPointer.h>
+
+namespace volumic
+{
+struct AlgorithmError;
+class Communicator;
+}
+
 class VTKFILTERSVOLUMIC_EXPORT vtkOtsuThreshold : public vtkTableAlgorithm
 {
 public:
@@ -54,6 +67,15 @@ public:
    */
   vtkSetMacro(SelectedComponent, int);
   vtkGetMacro(SelectedComponent, int);
+  ///@}
+
+  ///@{
+  /**
+   * The processes that look at an image together, see Processes. Default: the global controller of
+   * the program, null where it has none.
+   */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
   ///@}
 
   /**
@@ -73,8 +95,12 @@ protected:
 
   int SelectedComponent;
   double Threshold;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
+  void EndByError(volumic::Communicator& ranks, const volumic::AlgorithmError& error,
+    vtkInformationVector* output);
+
   vtkOtsuThreshold(const vtkOtsuThreshold&) = delete;
   void operator=(const vtkOtsuThreshold&) = delete;
 };

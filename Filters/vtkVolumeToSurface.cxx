@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVolumeToSurface.h"
 
-#include "AlgorithmErrors.h"
 #include "CellVoxels.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/Communicator.h"
 #include "InputImage.h"
+#include "OtsuThreshold.h"
 #include "PrefixErrors.h"
 #include "SegmentationVolume.h"
 #include "vtkImagePyramid.h"
-#include "vtkOtsuThreshold.h"
 
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -18,7 +17,6 @@
 #include <vtkObjectFactory.h>
 
 #include <cmath>
-#include <string>
 
 vtkStandardNewMacro(vtkVolumeToSurface);
 
@@ -37,27 +35,25 @@ vtkVolumeToSurface::~vtkVolumeToSurface() = default;
 volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* input)
 {
   volumic::SegmentationVolume volume = this->VolumeAsSet();
+  volumic::Communicator& ranks = this->Ranks();
   const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, true, volume);
-  if (!read)
+  if (!read && ranks.NumberOfRanks() == 1)
   {
     return volume;
   }
   const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); }),
+    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::PieceOfImage(ranks, read); }),
     volume.Selection);
   volume.Selection = voxels.Selection;
   if (std::isnan(volume.Settings.Options.IsoValue))
   {
-    vtkNew<vtkOtsuThreshold> otsu;
-    otsu->SetInputData(voxels.Image);
-    otsu->SetInputArrayToProcess(0, voxels.Selection);
-    otsu->SetSelectedComponent(volume.Settings.SelectedComponent);
-    const std::string errors = volumic::UpdateAndCollectErrors(otsu);
-    if (!errors.empty())
-    {
-      volumic::Refuse("Iso Value is not set, and can't be found: ", errors);
-    }
-    volume.Settings.Options.IsoValue = otsu->GetThreshold();
+    volume.Settings.Options.IsoValue =
+      volumic::PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
+        [&]
+        {
+          return volumic::FindOtsuThreshold(
+            ranks, voxels.Image, voxels.Selection, volume.Settings.SelectedComponent);
+        });
   }
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetNumberOfLevels(this->NumberOfLevels);

@@ -77,6 +77,7 @@ set(volumic_core_sources
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
+  Evolution/RankLostVoxels.cxx
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
@@ -176,13 +177,15 @@ set(volumic_core_headers
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/LostVoxels.h
+  Evolution/RankRows.h
   Evolution/RestCriterion.h
   Evolution/SlabSearch.h
   Evolution/Stopwatch.h
   Evolution/SurfaceEvolution.h
   Evolution/SurfaceIteration.h
   Evolution/SurfaceOptions.h
-  Evolution/VerticesOfSlabs.h)
+  Evolution/VerticesOfSlabs.h
+  Evolution/VoxelRuns.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 

@@ -23,7 +23,16 @@ constexpr std::size_t VertexBlock = 8192;
 
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 {
-  this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
+  if (this->IsFirstRank())
+  {
+    this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
+  }
+  if (this->AreRanks())
+  {
+    const Field::Measures measured = BroadcastValue(
+      *this->Ranks, this->TheField ? this->TheField->Measured() : Field::Measures());
+    this->TheField = std::make_unique<Field>(image, this->Options, measured);
+  }
   this->State.Margin = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;

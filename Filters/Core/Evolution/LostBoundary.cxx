@@ -3,6 +3,7 @@
 #include "Core/Evolution/LostBoundary.h"
 
 #include "Core/Common/Blocks.h"
+#include "Core/Common/RankLists.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
@@ -80,6 +81,12 @@ void LostBoundary::Add(const LostBoundary& other)
     this->Patches.push_back({ patch.Voxel, patch.Area, this->Parts + patch.Part });
   }
   this->Parts += other.Parts;
+}
+
+void LostBoundary::Gather(Communicator& ranks)
+{
+  // In another order than on one rank: sums of so many floats of like size are exact in doubles.
+  this->Patches = GatherLists(ranks, this->Patches);
 }
 
 LostBoundary::Missing LostBoundary::MissedBy(

@@ -3,6 +3,7 @@
 #ifndef volumicLostBoundary_h
 #define volumicLostBoundary_h
 
+#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/Field.h"
@@ -23,6 +24,8 @@ public:
   /** Takes the boundary of lost parts: the faces of their voxels towards the other side. */
   void Add(const LostVoxels& lost, const Field& field, PartKind kind, Executor& executor);
   void Add(const LostBoundary& other);
+  /** What the ranks have of one kind of parts, each of its own rows, goes to rank 0. */
+  void Gather(Communicator& ranks);
 
   struct Missing
   {

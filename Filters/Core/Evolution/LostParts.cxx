@@ -3,6 +3,7 @@
 #include "Core/Evolution/LostParts.h"
 
 #include "Core/Common/Blocks.h"
+#include "Core/Common/RankLists.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/CellSurface.h"
@@ -76,7 +77,19 @@ private:
 constexpr double CellEdge = 1.7;
 
 /** A cell that holds voxels of a part. */
-using PartCell = std::pair<CellLattice::Cell, int>;
+struct PartCell
+{
+  CellLattice::Cell Cell;
+  int Part;
+  bool operator==(const PartCell& other) const
+  {
+    return this->Cell == other.Cell && this->Part == other.Part;
+  }
+  bool operator<(const PartCell& other) const
+  {
+    return this->Cell != other.Cell ? this->Cell < other.Cell : this->Part < other.Part;
+  }
+};
 
 /** Those of a slab's runs, each once. */
 std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, const VoxelNumbers& numbers,
@@ -91,8 +104,8 @@ std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, const VoxelNumb
       pieces.VisitAll(voxel,
         [&](const Point& place)
         {
-          const PartCell cell(lattice.CellAt(place), run.Part);
-          if (cells.empty() || cells.back() != cell)
+          const PartCell cell = { lattice.CellAt(place), run.Part };
+          if (cells.empty() || !(cells.back() == cell))
           {
             cells.push_back(cell);
           }
@@ -136,17 +149,16 @@ void LeaveClear(
   std::vector<PartCell>& cells, const SurfaceState& state, const CellLattice& lattice)
 {
   const auto isTaken = [&](const PartCell& cell)
-  { return !IsClearOfSurface(state, lattice, cell.first); };
+  { return !IsClearOfSurface(state, lattice, cell.Cell); };
   cells.erase(std::remove_if(cells.begin(), cells.end(), isTaken), cells.end());
 }
 
 /**
- * The cells that hold lost voxels and are clear of the surface, sorted, each once; `parts`: how
- * many parts have one. Asked to stop it returns none.
+ * The cells that hold lost voxels, of the rows that have been looked through, and are clear of the
+ * surface. Asked to stop it returns none.
  */
-std::vector<CellLattice::Cell> FindCells(const SurfaceState& state, const Field& field,
-  const LostVoxels& lost, const CellLattice& lattice, Executor& executor, const Checkpoint& goOn,
-  int& parts)
+std::vector<PartCell> FindPartCells(const SurfaceState& state, const Field& field,
+  const LostVoxels& lost, const CellLattice& lattice, Executor& executor, const Checkpoint& goOn)
 {
   const VoxelNumbers numbers(field.Image().Size);
   const VoxelPieces pieces(field.Image());
@@ -169,28 +181,61 @@ std::vector<CellLattice::Cell> FindCells(const SurfaceState& state, const Field&
   }
   std::vector<PartCell> all = Joined(executor, slabs);
   SortInBlocks(executor, all);
-  std::vector<char> isCovered(static_cast<std::size_t>(lost.NumberOfParts()), 0);
-  std::vector<CellLattice::Cell> cells;
-  for (const PartCell& cell : all)
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/** Each cell once. @param cells sorted @param parts how many parts have one */
+std::vector<CellLattice::Cell> CellsOfParts(
+  const std::vector<PartCell>& cells, int numberOfParts, int& parts)
+{
+  std::vector<char> isCovered(static_cast<std::size_t>(numberOfParts), 0);
+  std::vector<CellLattice::Cell> all;
+  for (const PartCell& cell : cells)
   {
-    isCovered[static_cast<std::size_t>(cell.second)] = 1;
-    if (cells.empty() || cells.back() != cell.first)
+    isCovered[static_cast<std::size_t>(cell.Part)] = 1;
+    if (all.empty() || all.back() != cell.Cell)
     {
-      cells.push_back(cell.first);
+      all.push_back(cell.Cell);
     }
   }
   parts = static_cast<int>(std::count(isCovered.begin(), isCovered.end(), 1));
-  return cells;
+  return all;
+}
+
+/** The surface of the cells of all ranks, on all of them. */
+void CoverOnRanks(std::vector<PartCell> cells, const CellLattice& lattice, int numberOfParts,
+  Executor& executor, Communicator& ranks, LostPartCover& result)
+{
+  cells = GatherLists(ranks, cells);
+  SortInBlocks(executor, cells);
+  MessageWriter writer;
+  if (ranks.Rank() == 0)
+  {
+    int covered = 0;
+    const IndexedSurface surface =
+      lattice.Boundary(CellsOfParts(cells, numberOfParts, covered), executor);
+    writer.Add(covered);
+    writer.AddArray(surface.Points);
+    writer.AddArray(surface.Triangles);
+  }
+  const Message message = ranks.Broadcast(writer.Take());
+  MessageReader reader(message);
+  result.Covered = reader.Take<int>();
+  reader.TakeArray(result.Surface.Points);
+  reader.TakeArray(result.Surface.Triangles);
 }
 }
 
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const Checkpoint& goOn)
+  int minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows* part)
 {
   LostPartCover stopped;
   stopped.IsStopped = true;
+  const auto agreeOn = [part](bool goesOn) // A rank may be asked to stop, or one of the others.
+  { return part ? !part->Ranks.IsAny(!goesOn) : goesOn; };
   const LostVoxels lost(state, field, kind, minimumSize, executor,
-    [&goOn](double share) { return goOn(AfterLost * share); });
+    [&goOn](double share) { return goOn(AfterLost * share); }, part);
   if (lost.IsStopped())
   {
     return stopped;
@@ -200,18 +245,26 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   result.Boundary.Add(lost, field, kind, executor);
   const CellLattice lattice(CellEdge * state.Sizing.OfLevel());
   bool goesOn = true;
-  const std::vector<CellLattice::Cell> cells = FindCells(state, field, lost, lattice, executor,
+  std::vector<PartCell> cells = FindPartCells(state, field, lost, lattice, executor,
     [&](double share)
     {
       goesOn = goOn(AfterLost + (AfterCells - AfterLost) * share);
       return goesOn;
-    },
-    result.Covered);
-  if (!goesOn)
+    });
+  if (!agreeOn(goesOn))
   {
     return stopped;
   }
-  result.Surface = lattice.Boundary(cells, executor);
+  if (part)
+  {
+    result.Boundary.Gather(part->Ranks);
+    CoverOnRanks(std::move(cells), lattice, result.Found, executor, part->Ranks, result);
+  }
+  else
+  {
+    result.Surface =
+      lattice.Boundary(CellsOfParts(cells, result.Found, result.Covered), executor);
+  }
   if (kind == PartKind::Cavity)
   {
     for (Triangle& triangle : result.Surface.Triangles)
@@ -219,10 +272,6 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
       std::swap(triangle[1], triangle[2]);
     }
   }
-  if (!goOn(1.))
-  {
-    return stopped;
-  }
-  return result;
+  return agreeOn(goOn(1.)) ? result : stopped;
 }
 }

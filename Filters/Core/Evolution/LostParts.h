@@ -33,9 +33,14 @@ struct LostPartCover
  *
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.
+ *
+ * Where ranks look through parts of the image all of them get the same, but for the boundary: it is
+ * rank 0's, others have none. Messages go with what is lost along the borders of the parts, with
+ * the cover and with the boundary.
  */
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const Checkpoint& goOn = NeverStop);
+  int minimumSize, Executor& executor, const Checkpoint& goOn = NeverStop,
+  const RankRows* part = nullptr);
 }
 
 #endif

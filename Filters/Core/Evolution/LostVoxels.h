@@ -5,10 +5,12 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/Monitor.h"
+#include "Core/Evolution/RankRows.h"
 #include "Core/Evolution/SlabSearch.h"
 #include "Core/Image/Field.h"
 #include "Core/Surface/SurfaceState.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,22 +31,32 @@ public:
    * The state's edges must not be longer than its sizing allows.
    * @param minimumSize voxels; what has fewer is left out
    * @param goOn        told the share that is done now and then; once it says no nothing is found
+   * @param part        those of its rows are found, in parts of the whole image; null: all
    */
   LostVoxels(const SurfaceState& state, const Field& field, PartKind kind, int minimumSize,
-    Executor& executor, const Checkpoint& goOn);
+    Executor& executor, const Checkpoint& goOn, const RankRows* part = nullptr);
 
   /** The checkpoint said stop. */
   bool IsStopped() const { return this->Stopped; }
-  /** Parts are numbered from 0 in the order of their first voxels. */
+  /** Parts of the image are numbered from 0 in the order of their first voxels. */
   int NumberOfParts() const { return this->Parts; }
   /** The runs of each slab, by number. */
   const std::vector<std::vector<VoxelRun>>& Slabs() const { return this->Runs; }
 
 private:
-  /** What the slabs have found, each for itself, becomes parts of the whole. */
-  void JoinSlabs(std::vector<std::vector<std::int64_t>>& sizes, std::int64_t layer,
-    std::int64_t minimumSize, Executor& executor);
+  /** Sizes of parts, of each slab for itself. */
+  using SizesOfSlabs = std::vector<std::vector<std::int64_t>>;
 
+  SizesOfSlabs Search(const SurfaceState& state, const Field& field, PartKind kind,
+    std::int64_t minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows* part);
+  /** What the slabs have found becomes parts of the whole, or of a rank's rows. */
+  void JoinSlabs(SizesOfSlabs& sizes, std::int64_t minimumSize, Executor& executor,
+    const RankRows* part);
+  /** What the ranks have found, each for itself, becomes parts of the whole. */
+  void JoinRanks(std::int64_t minimumSize, const RankRows& part);
+
+  std::array<int, 3> Size = { 0, 0, 0 }; ///< Of the image.
+  int FirstSlab = 0; ///< Of the image, that there are runs of.
   std::vector<std::vector<VoxelRun>> Runs;
   int Parts = 0;
   bool Stopped = false;

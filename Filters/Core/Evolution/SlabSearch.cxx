@@ -23,15 +23,14 @@ constexpr int BitsOfWord = 64;
 }
 
 SlabSearch::SlabSearch(
-  const SurfaceState& state, const Field& field, PartKind kind, int begin, int end)
+  const SurfaceState& state, const Field& field, PartKind kind, const VoxelBox& rows)
   : State(state)
   , TheField(field)
   , Kind(kind)
   , Size(field.Image().Size)
-  , Begin(begin)
-  , End(end)
+  , Rows(rows)
   , Words((Size[0] + BitsOfWord - 1) / BitsOfWord)
-  , Open(static_cast<std::size_t>(end - begin) * Size[1] * Words,
+  , Open(static_cast<std::size_t>(rows.Length(2)) * rows.Length(1) * Words,
       kind == PartKind::Object ? ~std::uint64_t(0) : 0)
 {
   for (int k = 0; k < 3; ++k)
@@ -69,13 +68,13 @@ void SlabSearch::FindCrossings(int a, int b, int c)
       p.Z * this->Inverse[2] - Aside[1] };
     bounds.Add(corner[k]);
   }
-  const auto first = [&](int axis, int least)
-  { return std::max(least, static_cast<int>(std::ceil(bounds.Low[axis]))); };
-  const auto last = [&](int axis, int end)
-  { return std::min(end - 1, static_cast<int>(std::floor(bounds.High[axis]))); };
-  for (int k = first(2, this->Begin); k <= last(2, this->End); ++k)
+  const auto first = [&](int axis)
+  { return std::max(this->Rows.First[axis], static_cast<int>(std::ceil(bounds.Low[axis]))); };
+  const auto last = [&](int axis)
+  { return std::min(this->Rows.End[axis] - 1, static_cast<int>(std::floor(bounds.High[axis]))); };
+  for (int k = first(2); k <= last(2); ++k)
   {
-    for (int j = first(1, 0); j <= last(1, this->Size[1]); ++j)
+    for (int j = first(1); j <= last(1); ++j)
     {
       const RowCrossing crossing = RowCrossing::Of(corner[0], corner[1], corner[2], j, k);
       if (crossing.Winding != 0)
@@ -91,8 +90,15 @@ void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto v = static_cast<std::size_t>(vertices[i]);
-    this->State.Mesh.VisitFaces(
-      v, v + 1, [this](int a, int b, int c) { this->FindCrossings(a, b, c); });
+    const SurfaceMesh& mesh = this->State.Mesh;
+    mesh.VisitFaces(v, v + 1,
+      [&](int a, int b, int c)
+      {
+        if (mesh.IsAlive(b) && mesh.IsAlive(c)) // Else at the rim of what is here of it.
+        {
+          this->FindCrossings(a, b, c);
+        }
+      });
   }
   std::vector<Crossing>& crossings = this->Crossings;
   std::sort(crossings.begin(), crossings.end());
@@ -119,8 +125,8 @@ void SlabSearch::CloseNear(int v)
   const Vector& p = this->State.Mesh.Position[v];
   const double place[3] = { p.X * this->Inverse[0], p.Y * this->Inverse[1],
     p.Z * this->Inverse[2] };
-  const int least[3] = { 0, 0, this->Begin };
-  const int end[3] = { this->Size[0], this->Size[1], this->End };
+  const std::array<int, 3> least = { 0, this->Rows.First[1], this->Rows.First[2] };
+  const std::array<int, 3> end = { this->Size[0], this->Rows.End[1], this->Rows.End[2] };
   int low[3];
   int high[3];
   for (int k = 0; k < 3; ++k)
@@ -159,9 +165,9 @@ std::vector<VoxelRun> SlabSearch::FindRuns() const
 {
   std::vector<VoxelRun> runs;
   std::vector<float> values(static_cast<std::size_t>(this->Size[0]));
-  for (int k = this->Begin; k < this->End; ++k)
+  for (int k = this->Rows.First[2]; k < this->Rows.End[2]; ++k)
   {
-    for (int j = 0; j < this->Size[1]; ++j)
+    for (int j = this->Rows.First[1]; j < this->Rows.End[1]; ++j)
     {
       const std::uint64_t* open =
         this->Open.data() + static_cast<std::size_t>(this->RowOf(j, k)) * this->Words;

@@ -3,7 +3,9 @@
 #ifndef volumicSlabSearch_h
 #define volumicSlabSearch_h
 
+#include "Core/Evolution/VoxelRuns.h"
 #include "Core/Image/Field.h"
+#include "Core/Image/VoxelBox.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <array>
@@ -23,25 +25,16 @@ enum class PartKind
   Cavity  ///< Background inside the surface.
 };
 
-/** Voxels of a part that follow each other along x. */
-struct VoxelRun
-{
-  static constexpr int NoPart = -1;
-
-  std::int64_t First; ///< Number of the first one, see VoxelNumbers.
-  int Length;
-  int Part = NoPart;
-};
-
 /**
- * The search of one slab, a range of layers of an image, for the voxels that a surface has lost:
- * see LostVoxels.
+ * The search of one slab, a range of layers of an image or of rows in these, for the voxels that a
+ * surface has lost: see LostVoxels.
  */
 class SlabSearch
 {
 public:
-  /** Of the layers [begin, end). What is given must outlive it. */
-  SlabSearch(const SurfaceState& state, const Field& field, PartKind kind, int begin, int end);
+  /** Of these rows, which are whole. What is given must outlive it. */
+  SlabSearch(
+    const SurfaceState& state, const Field& field, PartKind kind, const VoxelBox& rows);
 
   /**
    * Leaves open what is outside the surface, for objects, or inside, for cavities. `vertices`: all
@@ -66,7 +59,10 @@ private:
   /** Finds the crossings of the rows of voxels with a face. */
   void FindCrossings(int a, int b, int c);
 
-  int RowOf(int j, int k) const { return (k - this->Begin) * this->Size[1] + j; }
+  int RowOf(int j, int k) const
+  {
+    return (k - this->Rows.First[2]) * this->Rows.Length(1) + j - this->Rows.First[1];
+  }
   /** Those of a row: number of its first voxel, bits and values. */
   void AddRuns(std::int64_t row, const std::uint64_t* open, const std::vector<float>& values,
     std::vector<VoxelRun>& runs) const;
@@ -77,8 +73,7 @@ private:
   const Field& TheField;
   PartKind Kind;
   std::array<int, 3> Size;
-  int Begin;
-  int End;
+  VoxelBox Rows;
   int Words; ///< Of a row.
   double Inverse[3];
   std::vector<std::uint64_t> Open; ///< A bit for each voxel that may be lost, row by row.

@@ -39,11 +39,15 @@ public:
     const Ring& ring = this->Mesh.Rings[v];
     for (int i = 0; i < ring.Count; ++i)
     {
+      if (!this->Mesh.IsAlive(ring.Item[i]))
+      {
+        continue; // At the rim of what is here of the surface.
+      }
       const double other = this->Mesh.Position[ring.Item[i]].Z * this->Inverse;
       low = std::min(low, other - Margin);
       high = std::max(high, other + Margin);
     }
-    if (ring.Count == 0 || high < 0. || low > this->Last)
+    if (high < 0. || low > this->Last)
     {
       return {};
     }
@@ -68,7 +72,8 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
   const auto slabs = static_cast<std::size_t>((image.Size[2] + layersOfSlab - 1) / layersOfSlab);
   const std::size_t n = mesh.Rings.size();
   const std::size_t blocks = (n + VertexBlock - 1) / VertexBlock;
-  std::vector<SlabRange> ranges(n);
+  LargeVector<SlabRange> ranges;
+  MakeZeroed(ranges, n); // Where there is no vertex it stays so.
   // Of each block and slab: first how many there are, then where the next one goes.
   std::vector<std::size_t> next(blocks * slabs, 0);
   ForBlocks(executor, n, VertexBlock,
@@ -76,6 +81,10 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
     {
       for (std::size_t v = begin; v < end; ++v)
       {
+        if (!mesh.IsAlive(static_cast<int>(v)))
+        {
+          continue;
+        }
         ranges[v] = finder.SlabsOf(static_cast<int>(v));
         for (int slab = ranges[v].Begin; slab < ranges[v].End; ++slab)
         {

@@ -28,10 +28,18 @@ constexpr float Beyond = 3.f;
 }
 
 Field::Field(const LevelImage& image, const FieldOptions& options, Executor& executor)
+  : Field(image, options, Measures())
+{
+  this->MeasureRange(executor);
+  this->MeasureSlope();
+}
+
+Field::Field(const LevelImage& image, const FieldOptions& options, const Measures& measured)
   : Level(image)
   , Around(image)
   , Iso(static_cast<float>(options.IsoValue - image.Base))
   , Sign(options.ObjectIsBright ? 1.f : -1.f)
+  , Of(measured)
   , Replicate(options.BorderValue == Border::Replicate)
 {
   if (!image.Values || image.Size[0] < 1 || image.Size[1] < 1 || image.Size[2] < 1)
@@ -42,8 +50,6 @@ Field::Field(const LevelImage& image, const FieldOptions& options, Executor& exe
   {
     this->Inverse[k] = static_cast<float>(1. / image.Step[k]);
   }
-  this->MeasureRange(executor);
-  this->MeasureSlope();
 }
 
 void Field::MeasureRange(Executor& executor)
@@ -78,10 +84,10 @@ void Field::MeasureRange(Executor& executor)
     });
   const float low = *std::min_element(lows.begin(), lows.end());
   const float high = *std::max_element(highs.begin(), highs.end());
-  this->HighestValue = std::max(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
-  this->LowestValue = std::min(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
-  const float away = std::min(this->LowestValue, -this->HighestValue);
-  this->Outside = this->Iso + this->Sign * away;
+  this->Of.HighestValue = std::max(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
+  this->Of.LowestValue = std::min(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
+  const float away = std::min(this->Of.LowestValue, -this->Of.HighestValue);
+  this->Of.Outside = this->Iso + this->Sign * away;
 }
 
 void Field::MeasureSlope()
@@ -123,12 +129,12 @@ void Field::MeasureSlope()
       }
     }
   }
-  const double range = static_cast<double>(this->HighestValue) - this->LowestValue;
-  this->Slope = static_cast<float>(
+  const double range = static_cast<double>(this->Of.HighestValue) - this->Of.LowestValue;
+  this->Of.Slope = static_cast<float>(
     crossings > 0 ? sum / static_cast<double>(crossings) : range * this->Inverse[0]);
-  if (!(this->Slope > 0))
+  if (!(this->Of.Slope > 0))
   {
-    this->Slope = 1;
+    this->Of.Slope = 1;
   }
 }
 
@@ -161,7 +167,7 @@ float Field::Fetch(const Voxels& voxels, int i, int j, int k) const
   }
   if (!this->Replicate)
   {
-    return this->Outside;
+    return this->Of.Outside;
   }
   i = std::min(std::max(i, 0), size[0] - 1);
   j = std::min(std::max(j, 0), size[1] - 1);
@@ -193,7 +199,7 @@ Field::Sample Field::Faded(const Vector& position, const Sample& sample) const
   {
     return sample;
   }
-  const float fall = this->Sign * (this->Outside - this->Iso) - sample.Value;
+  const float fall = this->Sign * (this->Of.Outside - this->Iso) - sample.Value;
   return { sample.Value + depth.Share * fall,
     sample.Gradient * (1 - depth.Share) + depth.Slope * fall };
 }
@@ -314,14 +320,14 @@ constexpr float LeastAlignment = 0.5f;
 
 float Field::SlopeOf(const Sample& sample) const
 {
-  return std::max(Length(sample.Gradient), GradientFloor * this->Slope);
+  return std::max(Length(sample.Gradient), GradientFloor * this->Of.Slope);
 }
 
 float Field::StepToIso(const Sample& sample, const Vector& normal, float longest) const
 {
   // Value grows against the normal: towards the inside.
   const float slope = -Dot(sample.Gradient, normal);
-  if (slope <= GradientFloor * this->Slope || slope < LeastAlignment * Length(sample.Gradient))
+  if (slope <= GradientFloor * this->Of.Slope || slope < LeastAlignment * Length(sample.Gradient))
   {
     return 0.f;
   }

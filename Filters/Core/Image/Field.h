@@ -33,21 +33,33 @@ public:
     Vector Gradient; ///< Of Value, per unit of length of the workspace.
   };
 
+  /** What all voxels of the image are asked for, once. */
+  struct Measures
+  {
+    float Outside = 0; ///< Of the background, as the voxels.
+    float HighestValue = 0;
+    float LowestValue = 0;
+    float Slope = 1;
+  };
+
   /** @throws std::invalid_argument for an image without voxels. */
   Field(const LevelImage& image, const FieldOptions& options, Executor& executor);
+  /** The same of an image that is here in part only, measured where it is whole. */
+  Field(const LevelImage& image, const FieldOptions& options, const Measures& measured);
+  const Measures& Measured() const { return this->Of; }
 
   float ValueAt(const Vector& position) const;
   Sample At(const Vector& position) const;
 
   /** Extremes of Value in the image; where the highest is not positive there is no object. */
-  float Highest() const { return this->HighestValue; }
-  float Lowest() const { return this->LowestValue; }
+  float Highest() const { return this->Of.HighestValue; }
+  float Lowest() const { return this->Of.LowestValue; }
 
   /**
    * Mean absolute slope of the pairs of neighbouring voxels between which the iso-value lies: the
    * steepness that a typical piece of the searched surface has. Value per workspace length.
    */
-  float TypicalSlope() const { return this->Slope; }
+  float TypicalSlope() const { return this->Of.Slope; }
 
   /** Length of the gradient, but at least 0.15 TypicalSlope(): safe to divide by on plateaus. */
   float SlopeOf(const Sample& sample) const;
@@ -60,7 +72,7 @@ public:
   float StepToIso(const Sample& sample, const Vector& normal, float longest) const;
 
   /** What the image counts as outside its voxels, with Border::Background. */
-  float Background() const { return this->Outside; }
+  float Background() const { return this->Of.Outside; }
 
   const LevelImage& Image() const { return this->Level; }
   const ImageMargin& Margin() const { return this->Around; }
@@ -100,10 +112,7 @@ private:
   float Iso = 0; ///< The iso-value less the image's Base, as Level.Values are.
   float Sign = 1;
   float Inverse[3] = { 1, 1, 1 };
-  float Outside = 0; ///< Of the background, as Level.Values.
-  float HighestValue = 0;
-  float LowestValue = 0;
-  float Slope = 1;
+  Measures Of;
   bool Replicate = false;
 };
 }
