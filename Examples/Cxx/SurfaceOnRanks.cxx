@@ -17,11 +17,26 @@
 
 namespace
 {
+/** Whether something has failed on any rank. */
+bool HasFailed(bool isHere, vtkMPIController* ranks)
+{
+  const int here = isHere ? 1 : 0;
+  int any = here;
+  ranks->AllReduce(&here, &any, 1, vtkCommunicator::MAX_OP);
+  return any != 0;
+}
+
 /** Called by all ranks. @return the status of the program, the same on all of them */
 int Run(const char* volume, const char* output, double iso, vtkMPIController* ranks)
 {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(volume);
+  // A rank whose reader fails does not get to the filter, in which the others would wait for it.
+  if (HasFailed(!reader->CanReadFile(volume), ranks))
+  {
+    std::cerr << "rank " << ranks->GetLocalProcessId() << ": cannot read " << volume << "\n";
+    return EXIT_FAILURE;
+  }
 
   // The filter takes the global controller; all ranks ask for the piece of their number.
   vtkNew<vtkVolumeToSurface> surface;
@@ -29,12 +44,8 @@ int Run(const char* volume, const char* output, double iso, vtkMPIController* ra
   surface->SetIsoValue(iso);
   surface->UpdatePiece(ranks->GetLocalProcessId(), ranks->GetNumberOfProcesses(), 0);
 
-  // An error of one rank is that of all; here it makes sure of readers', too.
-  const int failed = surface->GetErrorCode() != vtkErrorCode::NoError ||
-    reader->GetErrorCode() != vtkErrorCode::NoError;
-  int anyFailed = failed;
-  ranks->AllReduce(&failed, &anyFailed, 1, vtkCommunicator::MAX_OP);
-  if (anyFailed)
+  // What fails in the filter on one rank is an error of it on all ranks.
+  if (HasFailed(surface->GetErrorCode() != vtkErrorCode::NoError, ranks))
   {
     return EXIT_FAILURE; // the reason was printed by VTK
   }
