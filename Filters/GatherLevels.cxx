@@ -3,9 +3,13 @@
 #include "GatherLevels.h"
 
 #include "Core/Common/Refuse.h"
+#include "Core/Common/ScratchMemory.h"
+#include "Core/Evolution/SurfaceEvolution.h"
 #include "ImagePieces.h"
 #include "ImageVoxels.h"
+#include "LargeArray.h"
 #include "PrefixErrors.h"
+#include "ValidVoxels.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -94,6 +98,53 @@ vtkSmartPointer<vtkImageData> GatherLevel(Communicator& ranks, vtkImageData* pie
 }
 }
 
+namespace
+{
+/** Whether a level is large enough to be worked on by all ranks, and nothing else wants it whole. */
+bool StaysInPieces(
+  const SegmentationVolume& volume, const ImagePieces& pieces, const std::string& edges)
+{
+  const SegmentationSettings& settings = volume.Settings;
+  vtkDataArray* nans = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
+  return SurfaceEvolution::AreInSweeps(settings.Options, pieces.Size()) && edges.empty() && nans &&
+    nans->GetTuple1(0) == 0.0 && settings.EdgeLength == 0.0 && settings.SnapshotInterval == 0 &&
+    settings.End.FinestLevel >= 0 && settings.End.MemoryLimit == 0 &&
+    settings.End.ScratchDirectory.empty() && !settings.End.Resume;
+}
+
+/** Whether points or cells of the image are hidden, on any rank. */
+bool HasGhosts(Communicator& ranks, vtkImageData* piece)
+{
+  const char* ghosts = vtkDataSetAttributes::GhostArrayName();
+  return ranks.IsAny(piece &&
+    (piece->GetPointData()->GetArray(ghosts) || piece->GetCellData()->GetArray(ghosts)));
+}
+
+/** The level at rank 0, with room for its voxels; what the ranks have of them goes to the volume. */
+vtkSmartPointer<vtkImageData> LeaveInPieces(
+  Communicator& ranks, const ImagePieces& pieces, vtkImageData* piece, int h,
+  SegmentationVolume& volume)
+{
+  LevelInPieces level;
+  level.Pieces = pieces.Voxels();
+  vtkDataArray* own = piece ? ChooseVoxels(volume.Selection, piece) : nullptr;
+  const vtkSmartPointer<vtkDataArray> like = AgreeOnArray(ranks, own);
+  level.Values = own ? ContiguousVoxels(own) : nullptr;
+  level.Range = RangeOf(ranks, level.Values, ValidVoxels());
+  volume.InPieces[h] = level;
+  if (ranks.Rank() != 0)
+  {
+    return nullptr;
+  }
+  const auto image = pieces.PartOfFrame(VoxelBox::Of(pieces.Size()));
+  image->SetFieldData(pieces.Frame()->GetFieldData());
+  const ZeroedAllocations zeroed;
+  return WithVoxels(image,
+    NewLargeArrayLike(
+      like, static_cast<vtkIdType>(VoxelBox::Of(pieces.Size()).Count())));
+}
+}
+
 void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformation* edges)
 {
   if (ranks.NumberOfRanks() == 1)
@@ -117,8 +168,15 @@ void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformatio
         const vtkSmartPointer<vtkImageData> level = PrefixErrors(Join("level ", h, ": "),
           [&]
           {
+            vtkImageData* piece = PieceIn(volume.Levels, h);
+            const ImagePieces pieces(ranks, piece);
+            if (h + 1 < count && !pieces.IsEmpty() &&
+              StaysInPieces(volume, pieces, ChosenName(edges)) && !HasGhosts(ranks, piece))
+            {
+              return LeaveInPieces(ranks, pieces, piece, static_cast<int>(h), volume);
+            }
             return GatherLevel(
-              ranks, PieceIn(volume.Levels, h), volume.Selection, ChosenName(edges));
+              ranks, piece, volume.Selection, ChosenName(edges));
           });
         whole->SetBlock(h, level);
       }

@@ -256,7 +256,7 @@ std::string PyramidLevels::DescribeNaNsOfLevel0() const
 std::uint64_t PyramidLevels::HashOfVoxels(int level, Executor& executor) const
 {
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const std::string kind = SizeOf(this->Images[level]) + voxels->GetDataTypeAsString();
+  const std::string kind = volumic::SizeOf(this->Images[level]) + voxels->GetDataTypeAsString();
   const std::size_t bytes = static_cast<std::size_t>(voxels->GetNumberOfValues()) *
     static_cast<std::size_t>(voxels->GetDataTypeSize());
   return CombineHashes(ContentHash(kind.data(), kind.size()),

@@ -64,6 +64,8 @@ public:
    * U_h in world units. Level -1, finer than the image, has U_0 / T, with sqrt 3 for T unless told.
    */
   double UnitInWorld(int level) const;
+  /** Voxels of a level along each axis. */
+  std::array<int, 3> SizeOf(int level) const { return this->Sizes[level]; }
   void SetFactorBelowLevel0(double t) { this->FactorBelowLevel0 = t; }
 
   /**
@@ -77,6 +79,12 @@ public:
    * the larger one if none is.
    */
   std::array<double, 2> Range(int level) const;
+
+  /**
+   * For a level whose voxels are not here (LevelInPieces): all of them are valid, and these are the
+   * smallest and the largest.
+   */
+  void SetRange(int level, const std::array<double, 2>& range) { this->Ranges[level] = range; }
 
   /** What DescribeNaNs() says of level 0; nothing if there are none. */
   std::string DescribeNaNsOfLevel0() const;

@@ -4,6 +4,7 @@
 
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Monitor.h"
+#include "Core/Image/Field.h"
 #include "HostThreads.h"
 
 #include <cstddef>
@@ -25,34 +26,75 @@ private:
 };
 }
 
-RankLevel::RankLevel(Communicator& ranks, const LevelImage& image)
-  : Ranks(ranks), Level(BroadcastValue(ranks, image))
+RankLevel::RankLevel(
+  Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces)
+  : Ranks(ranks)
+  , Level(BroadcastValue(ranks, image))
+  , StaysInPieces(BroadcastValue(ranks, pieces != nullptr))
 {
   const VoxelBox all = VoxelBox::Of(this->Level.Size);
-  const bool isFirst = ranks.Rank() == 0;
-  this->Pieces = VoxelPieces(ranks, isFirst ? all : VoxelBox());
-  if (!isFirst)
+  if (ranks.Rank() == 0)
+  {
+    // What it has room for it may fill.
+    this->Room = const_cast<char*>(static_cast<const char*>(image.Values.Data()));
+  }
+  else
   {
     MakeZeroed(this->Voxels,
       static_cast<std::size_t>(all.Count()) * this->Level.Values.BytesPerVoxel());
-    this->Level.Values = this->Level.Values.At(this->Voxels.data());
+    this->Room = this->Voxels.data();
+  }
+  this->Level.Values = this->Level.Values.At(this->Room);
+  if (this->StaysInPieces)
+  {
+    this->Pieces = pieces->Pieces;
+    this->Held = pieces->Values ? pieces->Values->GetVoidPointer(0) : nullptr;
+  }
+  else
+  {
+    this->Pieces = VoxelPieces(ranks, ranks.Rank() == 0 ? all : VoxelBox());
+    this->Held = this->Room;
   }
 }
 
 void RankLevel::Need(const VoxelBox& box)
 {
-  const bool isFirst = this->Ranks.Rank() == 0; // It has them.
-  this->Pieces.FetchInto(this->Ranks, this->Level.Values.Data(), this->Level.Values.BytesPerVoxel(),
-    isFirst ? VoxelBox() : box, VoxelBox::Of(this->Level.Size), this->Voxels.data());
+  const bool hasAll = this->Ranks.Rank() == 0 && !this->StaysInPieces;
+  this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(),
+    hasAll ? VoxelBox() : box, VoxelBox::Of(this->Level.Size), this->Room);
 }
 
-bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, const LevelImage& image,
-  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface)
+void RankLevel::NeedMeasures()
+{
+  if (this->StaysInPieces)
+  {
+    for (const VoxelBox& box : Field::MeasuredVoxels(this->Level.Size))
+    {
+      this->Need(this->Ranks.Rank() == 0 ? box : VoxelBox());
+    }
+  }
+}
+
+std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
+  const LevelImage& image, const LevelsInPieces& pieces)
 {
   BroadcastValue(ranks, shared);
-  RankLevel level(ranks, image);
+  const auto found = pieces.find(shared.Level);
+  auto level = std::make_unique<RankLevel>(
+    ranks, image, found != pieces.end() ? &found->second : nullptr);
+  if (shared.GivesVoxels)
+  {
+    level->Need(VoxelBox::Of(image.Size));
+  }
+  return level;
+}
+
+bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
+  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface)
+{
+  level.NeedMeasures();
   evolution.SetRanks(&ranks, [&level](const VoxelBox& box) { level.Need(box); });
-  const bool isDivided = evolution.Divide(image, shared.Level);
+  const bool isDivided = evolution.Divide(level.Image(), shared.Level);
   if (isDivided)
   {
     reason = evolution.Run();
@@ -66,10 +108,18 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, const LevelIm
   return isDivided;
 }
 
-void HelpWithLevel(Communicator& ranks, const std::function<bool()>& goOn)
+void HelpWithLevel(
+  Communicator& ranks, const LevelsInPieces& pieces, const std::function<bool()>& goOn)
 {
   const SharedLevel shared = BroadcastValue(ranks, SharedLevel());
-  RankLevel level(ranks, LevelImage());
+  const auto found = pieces.find(shared.Level);
+  RankLevel level(ranks, LevelImage(), found != pieces.end() ? &found->second : nullptr);
+  if (shared.GivesVoxels)
+  {
+    level.Need(VoxelBox());
+    return;
+  }
+  level.NeedMeasures();
   HostThreads threads(shared.NumberOfThreads);
   HelpersMonitor monitor(goOn);
   threads.Run(

@@ -41,7 +41,12 @@ PyramidLevels ReadVoxels(const SegmentationVolume& volume)
 
 SegmentationLevels::SegmentationLevels(const SegmentationVolume& volume)
   : MayHaveUnreportedNaNs(MayHaveNaNsToReport(volume)), Voxels(ReadVoxels(volume))
+  , Pieces(volume.InPieces)
 {
+  for (const auto& [level, pieces] : this->Pieces)
+  {
+    this->Voxels.SetRange(level, pieces.Range);
+  }
 }
 
 SegmentationLevels::~SegmentationLevels() = default;
@@ -96,6 +101,10 @@ std::array<double, 2> SegmentationLevels::Range(int level) const
 
 bool SegmentationLevels::HoldsObject(int level, const SurfaceOptions& options) const
 {
+  if (this->IsInPieces(level))
+  {
+    return true; // What the coarser levels show is too thin for them; this is the last resort.
+  }
   const auto found = this->Holds.find(level);
   if (found != this->Holds.end())
   {
@@ -121,6 +130,11 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
   const double background = options.ObjectIsBright ? iso - away : iso + away;
   LevelImage image =
     PrefixErrors(Port0, [&] { return this->Voxels.Load(level, iso, background, threads); });
+  if (this->IsInPieces(level))
+  {
+    const auto less = [&image](double value) { return static_cast<float>(value - image.Base); };
+    image.Extremes = { less(range[0]), less(range[1]) };
+  }
   if (this->Edges)
   {
     image.Edges = this->Edges->Load(level, image.Size, threads);

@@ -14,6 +14,7 @@
 #include "SegmentationVolume.h"
 #include "Workspace.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -72,6 +73,12 @@ public:
   void ReleaseCoarserThan(int level);
   bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
 
+  /** Those whose voxels the ranks have (SegmentationVolume); what Load() gives has none then. */
+  const LevelsInPieces& InPieces() const { return this->Pieces; }
+  bool IsInPieces(int level) const { return this->Pieces.count(std::max(level, 0)) > 0; }
+  /** Its voxels are here from now on. */
+  void TakeWhole(int level) { this->Pieces.erase(std::max(level, 0)); }
+
   /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */
   std::uint64_t HashOfEdges(Executor& threads) const;
 
@@ -81,6 +88,7 @@ private:
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none
   std::vector<float> Bent;                 ///< the level's voxels as the points bend them
+  LevelsInPieces Pieces;
   mutable std::map<int, bool> Holds;       ///< what HoldsObject() has found
 };
 }

@@ -16,6 +16,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -265,6 +266,10 @@ void SurfaceSegmentation::RunLevels()
     }
     // The surface leaves the level that it is on: a stop from here on is for good.
     this->Levels.ReleaseCoarserThan(level);
+    if (this->Levels.IsInPieces(level) && !this->MayBeShared(level))
+    {
+      this->GatherVoxels(level);
+    }
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
     this->Threads->EndPhase("Voxels");
     if (level == this->Settings.End.FinestLevel)
@@ -286,31 +291,46 @@ void SurfaceSegmentation::RunLevels()
   this->Found.SetRows(this->Evolution->History());
 }
 
-bool SurfaceSegmentation::MayBeShared(int level, const LevelImage& image) const
+bool SurfaceSegmentation::MayBeShared(int level) const
 {
   // Snapshots, mean edges, and what attracts are for the whole surface, on one rank.
   return this->Request.Together && level < this->Choice.Coarsest && level >= 0 &&
-    SurfaceEvolution::AreInSweeps(this->Settings.Options, image.Size) &&
+    SurfaceEvolution::AreInSweeps(
+      this->Settings.Options, this->Levels.Pyramid().SizeOf(level)) &&
     this->Settings.SnapshotInterval == 0 && this->Settings.EdgeLength == 0.0 &&
     !this->Levels.HasPoints() && !this->Levels.HasEdges();
+}
+
+void SurfaceSegmentation::GatherVoxels(int level)
+{
+  SharedLevel shared;
+  shared.GivesVoxels = true;
+  shared.Level = std::max(level, 0);
+  const LevelImage image =
+    this->Levels.Load(shared.Level, this->Settings.Options, *this->Threads);
+  this->Request.Together(
+    [&] { ShareLevel(*this->Request.Ranks, shared, image, this->Levels.InPieces()); });
+  this->Levels.TakeWhole(level);
 }
 
 bool SurfaceSegmentation::EvolveOn(
   const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface)
 {
   SurfaceEvolution& evolution = *this->Evolution;
-  if (this->MayBeShared(level, image))
+  if (this->MayBeShared(level))
   {
     bool isDivided = false;
     // From level 0 only the run to level -1 goes on.
     const bool isLast = level == 0 && this->Choice.Last == 0;
-    const SharedLevel shared{ this->Settings.Options, level, this->Settings.End.NumberOfThreads,
-      isLast };
+    const SharedLevel shared{ false, this->Settings.Options, level,
+      this->Settings.End.NumberOfThreads, isLast };
     this->Request.Together(
       [&]
       {
-        isDivided =
-          EvolveOnRanks(*this->Request.Ranks, shared, image, evolution, reason, surface);
+        Communicator& ranks = *this->Request.Ranks;
+        auto onRanks = ShareLevel(ranks, shared, image, this->Levels.InPieces());
+        isDivided = EvolveOnRanks(ranks, shared, *onRanks, evolution, reason, surface);
+        this->Shared = std::move(onRanks); // After the one before, which the division has left.
       });
     return isDivided;
   }

@@ -26,6 +26,8 @@
 
 namespace volumic
 {
+class RankLevel;
+
 /**
  * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
  * outputs of vtkDeformableSurface hold. One that has ended at a level can go on from there, as if
@@ -70,7 +72,8 @@ private:
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   void Begin();
   void RunLevels();
-  bool MayBeShared(int level, const LevelImage& image) const;
+  bool MayBeShared(int level) const;
+  void GatherVoxels(int level);
   bool EvolveOn(
     const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface);
   bool KeepLevel(int level, StopReason reason, SurfaceResult surface);
@@ -94,6 +97,7 @@ private:
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
   std::shared_ptr<SegmentationCheckpoint> Left;
+  std::unique_ptr<RankLevel> Shared; ///< what the evolution refers to, after a level on all ranks
 };
 }
 

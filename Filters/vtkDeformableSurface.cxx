@@ -435,6 +435,7 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
     return nullptr;
   }
   volumic::GatherLevels(ranks, volume, request.EdgeSelection);
+  this->Internals->InPieces = volume.InPieces;
   std::unique_ptr<volumic::SurfaceSegmentation> run;
   this->Internals->Alone->Run(
     [&] { run = std::make_unique<volumic::SurfaceSegmentation>(volume, request); });
@@ -506,7 +507,11 @@ void vtkDeformableSurface::RunOrGoOn(
     return;
   }
   alone.Run([&] { run->Run(); },
-    [&] { volumic::HelpWithLevel(ranks, [this] { return !volumic::IsAbortRequested(this); }); });
+    [&]
+    {
+      volumic::HelpWithLevel(ranks, this->Internals->InPieces,
+        [this] { return !volumic::IsAbortRequested(this); });
+    });
   if (run)
   {
     this->ShowRun(*run, request, output);

@@ -10,6 +10,7 @@
 #include "SegmentationCache.h"
 #include "SegmentationCheckpoint.h"
 #include "SegmentationSettings.h"
+#include "SegmentationVolume.h"
 #include "vtkDeformableSurface.h"
 
 #include <vtkMultiProcessController.h>
@@ -30,6 +31,7 @@ public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<volumic::Communicator> Ranks;   ///< of the run that is under way
   std::unique_ptr<volumic::FirstRankWork> Alone;  ///< what rank 0 does of it without the others
+  volumic::LevelsInPieces InPieces; ///< what this rank has of levels that no rank has whole
   vtkSmartPointer<vtkPolyData> InitialSurface;   ///< of the run, of all ranks
   vtkSmartPointer<vtkPolyData> AttractingPoints; ///< likewise
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end

@@ -170,9 +170,8 @@ void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
 
 Box SurfaceEvolution::Implementation::AboutBlock() const
 {
-  // Less than the halo, so that what is looked at has all its neighbours.
-  const float reach = SurfaceBlocks::HaloInDelta - 4.f;
-  return this->Blocks->BoxOf(this->Visiting).Grown(reach * this->State.Sizing.Largest());
+  return this->Blocks->BoxOf(this->Visiting)
+    .Grown(SurfaceBlocks::WrittenInDelta * this->State.Sizing.Largest());
 }
 
 void SurfaceEvolution::Implementation::VisitToEvolve(const std::vector<int>& vertices,

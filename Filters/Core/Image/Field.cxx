@@ -30,7 +30,7 @@ constexpr float Beyond = 3.f;
 Field::Field(const LevelImage& image, const FieldOptions& options, Executor& executor)
   : Field(image, options, Measures())
 {
-  this->MeasureRange(executor);
+  this->MeasureRange(image.Extremes ? *image.Extremes : this->FindExtremes(executor));
   this->MeasureSlope();
 }
 
@@ -52,7 +52,7 @@ Field::Field(const LevelImage& image, const FieldOptions& options, const Measure
   }
 }
 
-void Field::MeasureRange(Executor& executor)
+std::array<float, 2> Field::FindExtremes(Executor& executor) const
 {
   const std::size_t count =
     static_cast<std::size_t>(this->Level.Size[0]) * this->Level.Size[1] * this->Level.Size[2];
@@ -82,20 +82,50 @@ void Field::MeasureRange(Executor& executor)
           }
         });
     });
-  const float low = *std::min_element(lows.begin(), lows.end());
-  const float high = *std::max_element(highs.begin(), highs.end());
+  return { *std::min_element(lows.begin(), lows.end()),
+    *std::max_element(highs.begin(), highs.end()) };
+}
+
+void Field::MeasureRange(const std::array<float, 2>& extremes)
+{
+  const float low = extremes[0];
+  const float high = extremes[1];
   this->Of.HighestValue = std::max(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
   this->Of.LowestValue = std::min(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
   const float away = std::min(this->Of.LowestValue, -this->Of.HighestValue);
   this->Of.Outside = this->Iso + this->Sign * away;
 }
 
+namespace
+{
+/** From one row of voxels whose slopes are measured to the next. */
+std::int64_t SlopeStride(const std::array<int, 3>& size)
+{
+  // Odd: so the rows differ from slice to slice where a slice has an even number of them.
+  const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
+  return std::max<std::int64_t>(1, rows / SlopeRows) | 1;
+}
+}
+
+std::vector<VoxelBox> Field::MeasuredVoxels(const std::array<int, 3>& size)
+{
+  std::vector<VoxelBox> boxes;
+  const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
+  for (std::int64_t row = 0; row < rows; row += SlopeStride(size))
+  {
+    const int j = static_cast<int>(row % size[1]);
+    const int k = static_cast<int>(row / size[1]);
+    boxes.push_back(
+      { { 0, j, k }, { size[0], std::min(j + 2, size[1]), std::min(k + 2, size[2]) } });
+  }
+  return boxes;
+}
+
 void Field::MeasureSlope()
 {
   const auto& size = this->Level.Size;
   const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
-  // Odd: so the rows differ from slice to slice where a slice has an even number of them.
-  const std::int64_t stride = std::max<std::int64_t>(1, rows / SlopeRows) | 1;
+  const std::int64_t stride = SlopeStride(size);
   double sum = 0.;
   std::int64_t crossings = 0;
   std::vector<float> work(3 * static_cast<std::size_t>(size[0]));

@@ -8,8 +8,11 @@
 #include "Core/Image/FieldOptions.h"
 #include "Core/Image/ImageMargin.h"
 #include "Core/Image/LevelImage.h"
+#include "Core/Image/VoxelBox.h"
 
+#include <array>
 #include <cstddef>
+#include <vector>
 
 namespace volumic
 {
@@ -47,6 +50,8 @@ public:
   /** The same of an image that is here in part only, measured where it is whole. */
   Field(const LevelImage& image, const FieldOptions& options, const Measures& measured);
   const Measures& Measured() const { return this->Of; }
+  /** The voxels, beside LevelImage::Extremes, that the measures need of an image of this size. */
+  static std::vector<VoxelBox> MeasuredVoxels(const std::array<int, 3>& size);
 
   float ValueAt(const Vector& position) const;
   Sample At(const Vector& position) const;
@@ -104,7 +109,8 @@ private:
   Sample Interpolated(const Cell& cell, const Voxels& voxels, std::ptrdiff_t first,
     std::ptrdiff_t row, std::ptrdiff_t slice) const;
   Sample Faded(const Vector& position, const Sample& sample) const;
-  void MeasureRange(Executor& executor);
+  std::array<float, 2> FindExtremes(Executor& executor) const;
+  void MeasureRange(const std::array<float, 2>& extremes);
   void MeasureSlope();
 
   LevelImage Level;

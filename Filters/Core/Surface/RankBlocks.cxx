@@ -184,7 +184,8 @@ bool RankBlocks::IsNearOwn(const Vector& position) const
 
 void RankBlocks::CollectZone(int block)
 {
-  const Box zone = this->Blocks.BoxOf(block).Grown(0.5f * this->Halo());
+  const Box zone = this->Blocks.BoxOf(block).Grown(
+    SurfaceBlocks::WrittenInDelta * this->State.Sizing.Largest());
   this->State.Grid.VisitBox(zone.Low, zone.High,
     [&](int v)
     {

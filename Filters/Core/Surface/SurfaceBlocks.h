@@ -39,8 +39,12 @@ public:
   /** Of an image, workspace, in as many blocks as bring their sides nearest to one. */
   static Frame FrameOf(const std::array<double, 3>& extent, double side);
 
-  /** How far about a block a visit may read, in delta: it writes within half of it. */
+  /**
+   * How far about a block a visit may read, and how far it may write, in delta. Edits follow each
+   * other outward over five iterations: 14 delta have been seen.
+   */
   static constexpr float HaloInDelta = 24.f;
+  static constexpr float WrittenInDelta = 20.f;
   static constexpr int Colours = 8;
 
   SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor);
