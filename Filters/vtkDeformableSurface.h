@@ -750,6 +750,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(

@@ -189,6 +189,14 @@ class ParallelSurfaceTest(unittest.TestCase):
     def test_the_pieces_are_the_whole(self):
         self.check_pieces(self.fetch(make_surface()), self.whole)
 
+    def test_the_surface_of_a_pyramid(self):
+        pyramid = simple.ImagePyramid(simple.Wavelet(WholeExtent=EXTENT))
+        surface = simple.DeformableSurface(pyramid, IsoValue=ISO_VALUE)
+        fetched = self.fetch(surface)
+        # ParaView would ask for ghosts of what comes of blocks.
+        self.assertFalse(fetched.GetCellData().HasArray("vtkGhostType"))
+        self.check_pieces(fetched, self.whole)
+
     def test_each_process_has_its_piece_and_all_facts(self):
         told = self.told(make_surface())
         self.assertEqual(numpy.sum([one["cells"] for one in told]), self.whole.GetNumberOfCells())
