@@ -17,7 +17,7 @@ namespace volumic
 {
 /**
  * An image that ranks hold in pieces: each a vtkImageData with a part of the extent and the origin
- * of the whole, as VTK's sources give them, or none. Pieces may share voxels. One rank may hold all.
+ * of the whole, as VTK's sources give them, or none. Pieces may share voxels. One may have all.
  */
 class ImagePieces
 {

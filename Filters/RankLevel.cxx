@@ -47,7 +47,7 @@ void RankLevel::Need(const VoxelBox& box)
 }
 
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, const LevelImage& image,
-  SurfaceEvolution& evolution, StopReason& reason)
+  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface)
 {
   BroadcastValue(ranks, shared);
   RankLevel level(ranks, image);
@@ -56,6 +56,11 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, const LevelIm
   if (isDivided)
   {
     reason = evolution.Run();
+    surface = evolution.Result();
+    if (!shared.IsLast)
+    {
+      evolution.Unite();
+    }
   }
   evolution.SetRanks(nullptr);
   return isDivided;
@@ -75,6 +80,11 @@ void HelpWithLevel(Communicator& ranks, const std::function<bool()>& goOn)
       if (evolution.Divide(level.Image(), shared.Level))
       {
         evolution.Run();
+        evolution.Result();
+        if (!shared.IsLast)
+        {
+          evolution.Unite();
+        }
       }
     });
   GiveBackFreeMemory();

@@ -45,6 +45,7 @@ struct SharedLevel
   SurfaceOptions Options;
   int Level = 0;
   int NumberOfThreads = 0;
+  bool IsLast = false; ///< The surface does not go on from there.
 };
 
 /**
@@ -52,7 +53,7 @@ struct SharedLevel
  * HelpWithLevel(). @return false as SurfaceEvolution::Divide().
  */
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, const LevelImage& image,
-  SurfaceEvolution& evolution, StopReason& reason);
+  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface);
 
 /** At the others. @param goOn asked now and then; false ends the run on all ranks */
 void HelpWithLevel(Communicator& ranks, const std::function<bool()>& goOn);

@@ -273,12 +273,13 @@ void SurfaceSegmentation::RunLevels()
         this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit());
     }
     StopReason reason = StopReason::Cancelled;
-    if (!this->EvolveOn(image, level, reason))
+    SurfaceResult surface;
+    if (!this->EvolveOn(image, level, reason, surface))
     {
       this->KeepStoppedSurface(level);
       break;
     }
-    this->GoesOn = this->KeepLevel(level, reason);
+    this->GoesOn = this->KeepLevel(level, reason, std::move(surface));
     this->Reached = level;
     this->LeaveCheckpoint(level);
   }
@@ -294,15 +295,23 @@ bool SurfaceSegmentation::MayBeShared(int level, const LevelImage& image) const
     !this->Levels.HasPoints() && !this->Levels.HasEdges();
 }
 
-bool SurfaceSegmentation::EvolveOn(const LevelImage& image, int level, StopReason& reason)
+bool SurfaceSegmentation::EvolveOn(
+  const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface)
 {
   SurfaceEvolution& evolution = *this->Evolution;
   if (this->MayBeShared(level, image))
   {
     bool isDivided = false;
-    const SharedLevel shared{ this->Settings.Options, level, this->Settings.End.NumberOfThreads };
+    // From level 0 only the run to level -1 goes on.
+    const bool isLast = level == 0 && this->Choice.Last == 0;
+    const SharedLevel shared{ this->Settings.Options, level, this->Settings.End.NumberOfThreads,
+      isLast };
     this->Request.Together(
-      [&] { isDivided = EvolveOnRanks(*this->Request.Ranks, shared, image, evolution, reason); });
+      [&]
+      {
+        isDivided =
+          EvolveOnRanks(*this->Request.Ranks, shared, image, evolution, reason, surface);
+      });
     return isDivided;
   }
   if (level == this->Choice.Coarsest)
@@ -317,6 +326,8 @@ bool SurfaceSegmentation::EvolveOn(const LevelImage& image, int level, StopReaso
   this->Snapshots.TakeIfDue(
     evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
   reason = evolution.Run();
+  GiveBackFreeMemory();
+  surface = evolution.Result();
   return true;
 }
 
@@ -380,9 +391,8 @@ void SurfaceSegmentation::LeaveCheckpoint(int level)
   }
 }
 
-bool SurfaceSegmentation::KeepLevel(int level, StopReason reason)
+bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult surface)
 {
-  GiveBackFreeMemory();
   SegmentationResults::Level result;
   result.IsAtRest = reason != StopReason::Cancelled;
   SurfaceDescription& description = result.Description;
@@ -401,7 +411,6 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason)
     description.RecoveredCavities = lost.EnclosedCavities;
   }
   // Each step uses up what the one before has made.
-  SurfaceResult surface = this->Evolution->Result();
   this->Threads->EndPhase("Surface handed out");
   const bool isEmpty = surface.Points.empty();
   SurfaceResult kept = KeepChosen(

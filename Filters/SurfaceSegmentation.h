@@ -71,8 +71,9 @@ private:
   void Begin();
   void RunLevels();
   bool MayBeShared(int level, const LevelImage& image) const;
-  bool EvolveOn(const LevelImage& image, int level, StopReason& reason);
-  bool KeepLevel(int level, StopReason reason);
+  bool EvolveOn(
+    const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface);
+  bool KeepLevel(int level, StopReason reason, SurfaceResult surface);
   void PrepareCheckpoint();
   void Resume();
   void LeaveCheckpoint(int level);

@@ -56,7 +56,8 @@ void MarkVisibleCorners(const unsigned char* ghosts, const VoxelBox& cells, cons
         for (int corner = 0; corner < 8 && !(ghosts[cell] & vtkDataSetAttributes::HIDDENCELL);
              ++corner)
         {
-          const std::array<int, 3> p = { i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2) };
+          const std::array<int, 3> p = { i + (corner & 1), j + (corner >> 1 & 1),
+            k + (corner >> 2) };
           // Along an axis of one point there is no other corner.
           if (points.Contains(p))
           {
@@ -111,12 +112,15 @@ LargeVector<std::uint8_t> NotBlanked(
   Communicator& ranks, const ImagePieces& pieces, vtkImageData* image)
 {
   LargeVector<std::uint8_t> marks;
-  const unsigned char* cells = image ? HidingGhosts(image->GetCellData(),
-                                         image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL)
-                                     : nullptr;
-  const unsigned char* points = image ? HidingGhosts(image->GetPointData(),
-                                          image->GetNumberOfPoints(), vtkDataSetAttributes::HIDDENPOINT)
-                                      : nullptr;
+  const unsigned char* cells = nullptr;
+  const unsigned char* points = nullptr;
+  if (image)
+  {
+    cells = HidingGhosts(
+      image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL);
+    points = HidingGhosts(
+      image->GetPointData(), image->GetNumberOfPoints(), vtkDataSetAttributes::HIDDENPOINT);
+  }
   if (ranks.IsAny(cells != nullptr))
   {
     MarkVisibleCorners(ranks, pieces, cells, marks);

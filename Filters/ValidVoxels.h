@@ -41,8 +41,8 @@ ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vt
   bool nanIsBackground, Executor& executor);
 
 /**
- * The same by all ranks together, of an image that they hold in pieces: what is refused, all of them
- * refuse.
+ * The same by all ranks together, of an image that they hold in pieces: what is refused, all of
+ * them refuse.
  * @param contiguous of this rank's piece; without tuples where it has none
  * @param image      the piece; null: none
  */

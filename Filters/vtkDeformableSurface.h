@@ -782,7 +782,8 @@ private:
   void ChooseStep(volumic::SegmentationRequest& request, bool isKept);
   /// Fills the outputs with what is kept. @return whether it is all that is asked for.
   bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
-  /// By all ranks: a run from the start, at rank 0; null where the making of its levels was stopped.
+  /// By all ranks: a run from the start, at rank 0; null where the making of its levels was
+  /// stopped.
   std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
     const volumic::SegmentationRequest& request, vtkDataObject* input);
   enum class Course

@@ -19,6 +19,7 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkDemandDrivenPipeline.h>
 #include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -61,6 +62,39 @@ public:
   std::string ScratchDirectory;
   volumic::LimitedMemory Memory; ///< as the last run had it
   bool HasToldOfWhole = false;
+
+  /**
+   * The pieces of the last run on several ranks. Some filters (vtkCleanPolyData) ask all ranks but
+   * the first one for nothing in between; when those are asked for their pieces again, the first
+   * one still has its own, makes nothing, and would not answer.
+   */
+  vtkSmartPointer<vtkMultiBlockDataSet> Kept;
+  vtkMTimeType TimeOfKept = 0;
+  int RanksOfKept = 0;
+  int GhostLevelsOfKept = 0;
+
+  void Keep(vtkImagePyramid* filter, const volumic::Communicator& ranks, int ghostLevels,
+    vtkMultiBlockDataSet* pyramid)
+  {
+    const bool isReleased = vtkDataObject::GetGlobalReleaseDataFlag() != 0 ||
+      filter->GetExecutive()->GetOutputInformation(0)->Get(vtkDemandDrivenPipeline::RELEASE_DATA());
+    this->Kept = ranks.NumberOfRanks() > 1 && !isReleased ? pyramid : nullptr;
+    this->TimeOfKept = TimeOf(filter);
+    this->RanksOfKept = ranks.NumberOfRanks();
+    this->GhostLevelsOfKept = ghostLevels;
+  }
+  bool Has(vtkImagePyramid* filter, const volumic::Communicator& ranks, int ghostLevels) const
+  {
+    return this->Kept && this->TimeOfKept == TimeOf(filter) &&
+      this->RanksOfKept == ranks.NumberOfRanks() && this->GhostLevelsOfKept >= ghostLevels;
+  }
+
+private:
+  /** When the filter, or what comes before it, was changed last. */
+  static vtkMTimeType TimeOf(vtkImagePyramid* filter)
+  {
+    return vtkDemandDrivenPipeline::SafeDownCast(filter->GetExecutive())->GetPipelineMTime();
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -292,21 +326,29 @@ int vtkImagePyramid::RequestData(
     this->SetErrorCode(error.Code);
     vtkErrorMacro("Input port 0: " << error.Text);
   };
+  vtkInternals& internals = *this->Internals;
+  const int ghostLevels = volumic::GhostLevelsAskedOf(request, outputVector);
+  if (ranks->NumberOfRanks() > 1 && internals.Has(this, *ranks, ghostLevels))
+  {
+    vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(internals.Kept);
+    return 1;
+  }
+  internals.Kept = nullptr;
   vtkSmartPointer<vtkImageData> image;
   try
   {
     // ParaView leaves the flag of an earlier run as it is.
     volumic::ForgetAbort(this);
     const volumic::PyramidBlocks pyramid =
-      this->MakeBlocks(*ranks, vtkDataObject::GetData(inputVector[0]),
-        volumic::GhostLevelsAskedOf(request, outputVector), image);
+      this->MakeBlocks(*ranks, vtkDataObject::GetData(inputVector[0]), ghostLevels, image);
     ranks->IsAny(false); // Whoever has failed tells it here at last.
     vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
+    internals.Keep(this, *ranks, ghostLevels, pyramid.Blocks);
     if (!pyramid.AboutNaNs.empty() && ranks->Rank() == 0)
     {
       vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
     }
-    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+    for (const std::string& warning : internals.Memory.TakeWarnings())
     {
       vtkWarningMacro(<< warning);
     }

@@ -86,7 +86,7 @@ int RunAndTell(ToolOptions options, Ranks& ranks)
   std::string words;
   try
   {
-    code = Run(options, ranks);
+    const ExitCode ended = Run(options, ranks);
     ranks.OnFirst(
       []
       {
@@ -95,7 +95,7 @@ int RunAndTell(ToolOptions options, Ranks& ranks)
           throw Failure("the standard output cannot be written; is its disk full?");
         }
       });
-    return code;
+    return ended;
   }
   catch (const UsageError& error)
   {

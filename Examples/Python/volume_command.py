@@ -34,12 +34,19 @@ def find_command():
     return program
 
 
+def environment_of_one():
+    """The environment without what mpirun tells its processes: a script on ranks has a command of
+    its own on each, which must not take itself for the rank."""
+    return {name: value for name, value in os.environ.items()
+            if not name.startswith(("OMPI_COMM_", "PMIX_", "PMI_", "MV2_COMM_"))}
+
+
 def run_command(*arguments):
     """What the command prints on its standard output; VolumeError with its message if it fails."""
     # Signals stay as Python has them: a limit on the sizes of files is an error, not the end.
     process = subprocess.run([find_command(), "--quiet", *arguments], capture_output=True,
                              check=False, text=True, errors="surrogateescape",
-                             restore_signals=False)
+                             restore_signals=False, env=environment_of_one())
     if process.returncode != 0:
         message = process.stderr.strip().removeprefix("volumic: ").replace("\nvolumic: ", "; ")
         raise VolumeError(message or f"volumic ended with {process.returncode}")

@@ -78,6 +78,7 @@ set(volumic_core_sources
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
   Evolution/RankLostVoxels.cxx
+  Evolution/RankResult.cxx
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx

@@ -63,8 +63,11 @@ struct RunOnRanks
 {
   SurfaceResult Surface;
   std::vector<HistoryRow> Rows;
+  int Missing = 0;
+  double MissingBoundary = 0.;
+  SurfaceEvolution::LostParts Lost;
 
-  RunOnRanks(int count, int threads, SurfaceOptions options)
+  RunOnRanks(int count, int threads, SurfaceOptions options, bool isFromSeed = false)
   {
     const TestVolume coarse = Plate(std::sqrt(3.));
     const TestVolume fine = Plate(1.);
@@ -82,9 +85,17 @@ struct RunOnRanks
           evolution.Divide(fine.Image, 0);
           evolution.Run();
           EXPECT_TRUE(evolution.Result().Points.empty());
+          evolution.Unite();
           return;
         }
-        evolution.StartEnclosing(coarse.Image, 1);
+        if (isFromSeed)
+        {
+          evolution.StartSeeds(coarse.Image, 1, { { 31., 17., 17. } });
+        }
+        else
+        {
+          evolution.StartEnclosing(coarse.Image, 1);
+        }
         evolution.Run();
         if (count > 1)
         {
@@ -94,6 +105,14 @@ struct RunOnRanks
         evolution.Run();
         this->Surface = evolution.Result();
         this->Rows = evolution.History();
+        this->Missing = evolution.Lost().Missing;
+        this->MissingBoundary = evolution.Lost().MissingBoundary;
+        evolution.Unite();
+        evolution.SetRanks(nullptr);
+        EXPECT_EQ(evolution.Result().Points, this->Surface.Points);
+        EXPECT_EQ(evolution.Result().Triangles, this->Surface.Triangles);
+        EXPECT_EQ(evolution.Result().Held, this->Surface.Held);
+        this->Lost = evolution.Lost();
       });
   }
 };
@@ -105,6 +124,15 @@ void ExpectSame(const RunOnRanks& run, const RunOnRanks& expected)
   EXPECT_EQ(run.Surface.Normals, expected.Surface.Normals);
   EXPECT_EQ(run.Surface.Motionless, expected.Surface.Motionless);
   EXPECT_EQ(run.Surface.Held, expected.Surface.Held);
+  EXPECT_EQ(run.Surface.Residual, expected.Surface.Residual);
+  EXPECT_EQ(run.Surface.Contacts, expected.Surface.Contacts);
+  EXPECT_EQ(run.Missing, expected.Missing);
+  EXPECT_EQ(run.MissingBoundary, expected.MissingBoundary);
+  EXPECT_EQ(run.Lost.Found, expected.Lost.Found);
+  EXPECT_EQ(run.Lost.Enclosed, expected.Lost.Enclosed);
+  EXPECT_EQ(run.Lost.FoundCavities, expected.Lost.FoundCavities);
+  EXPECT_EQ(run.Lost.Missing, expected.Lost.Missing);
+  EXPECT_EQ(run.Lost.MissingBoundary, expected.Lost.MissingBoundary);
   ASSERT_EQ(run.Rows.size(), expected.Rows.size());
   for (std::size_t i = 0; i < run.Rows.size(); ++i)
   {
@@ -135,5 +163,21 @@ TEST(RankSweeps, MakeTheSurfaceOfOneRank)
   {
     SCOPED_TRACE(count);
     ExpectSame(RunOnRanks(count, 1, InBlocks()), one);
+  }
+}
+
+TEST(RankSweeps, RecoverWhatOneRankRecovers)
+{
+  // The coarse level has hardly begun: most of the plate is lost, in the rows of all ranks.
+  SurfaceOptions options = InBlocks();
+  options.MaximumNumberOfIterations = 5;
+  options.RecoverCavities = true;
+  const RunOnRanks one(1, 1, options, true);
+  EXPECT_GT(one.Lost.Enclosed, 0);
+  EXPECT_GT(one.Surface.Points.size(), 10000u);
+  for (const int count : { 2, 4 })
+  {
+    SCOPED_TRACE(count);
+    ExpectSame(RunOnRanks(count, 1, options, true), one);
   }
 }

@@ -27,7 +27,7 @@ from read_volume import read_volume
 ROOT = os.path.normpath(os.path.join(EXAMPLES, "..", ".."))
 DOCUMENTS = ("README.md", *(f"Documentation/{name}.md"
                             for name in ("tutorial", "differences", "reference", "paraview",
-                                         "python", "architecture", "development")))
+                                         "python", "cluster", "architecture", "development")))
 
 
 def read(document):

@@ -146,6 +146,7 @@ struct SurfaceEvolution::Implementation
   void VisitToEvolve(const std::vector<int>& vertices, Dynamics& dynamics, Remesher& remesher,
     std::vector<SweptRow>& rows);
   double SumOfBlocksOf(const std::function<double(int v)>& ofVertex);
+  double Area();
   double Volume();
   void KeepSweptRows(std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic);
   void RunPasses(Dynamics& dynamics, Remesher& remesher);
@@ -163,10 +164,12 @@ struct SurfaceEvolution::Implementation
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
+  std::vector<std::uint8_t> AreNearOnRanks(std::vector<std::int64_t> voxels);
+  void Unite();
+  SurfaceResult ResultOnRanks() const;
   RankComponents& ComponentsOfRanks();
   void TakeComponents(bool areChecked);
   void LabelComponents();
-  void OnFirstRank(const std::function<void()>& work);
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
   double KineticEnergy() const;

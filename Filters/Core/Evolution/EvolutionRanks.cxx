@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same steps
-// at the same time; what needs the whole surface is done on rank 0.
+// Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same
+// steps at the same time.
 
+#include "Core/Common/RankLists.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 
 #include <algorithm>
@@ -137,6 +138,10 @@ void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
 
 void SurfaceEvolution::Implementation::AddUpSinceEvolved()
 {
+  if (!this->OnRanks)
+  {
+    return;
+  }
   const EditCounts own = this->SinceEvolved;
   this->SinceEvolved = EditCounts();
   for (const EditCounts& ofRank : GatherValues(*this->Ranks, own))
@@ -193,20 +198,36 @@ void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
   this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
   this->TakeComponents(true);
 }
-void SurfaceEvolution::Implementation::OnFirstRank(const std::function<void()>& work)
+std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNearOnRanks(
+  std::vector<std::int64_t> voxels)
 {
   if (!this->OnRanks)
   {
-    work();
-    return;
+    return LostBoundary::AreNear(voxels, this->State, *this->TheField, this->Threads);
   }
-  this->Iteration.Forget();
-  this->OnRanks->Gather();
-  if (this->Ranks->Rank() == 0)
+  voxels = BroadcastList(*this->Ranks, voxels); // Rank 0 alone knows of what was lost.
+  MessageWriter writer;
+  writer.AddArray(LostBoundary::AreNear(voxels, this->State, *this->TheField, this->Threads));
+  std::vector<std::uint8_t> areNear(this->IsFirstRank() ? voxels.size() : 0, 0);
+  for (const Message& message : this->Ranks->Gather(writer.Take()))
   {
-    work();
+    const auto ofRank = MessageReader(message).TakeVector<std::uint8_t>();
+    for (std::size_t i = 0; i < areNear.size(); ++i)
+    {
+      areNear[i] |= ofRank[i];
+    }
   }
-  this->Iteration.Forget();
-  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+  return areNear;
+}
+
+void SurfaceEvolution::Implementation::Unite()
+{
+  if (this->OnRanks)
+  {
+    this->Iteration.Forget();
+    this->OnRanks->Gather();
+  }
+  this->OnRanks.reset();
+  this->Blocks.reset();
 }
 }

@@ -350,12 +350,16 @@ void SurfaceEvolution::Implementation::DeleteInsideOut()
 
 void SurfaceEvolution::Implementation::FindMissing()
 {
-  if (!this->IsFirstRank())
+  LostBoundary::Missing missing;
+  if (this->Blocks)
   {
-    return; // It has no surface any more.
+    const std::vector<std::uint8_t> areNear = this->AreNearOnRanks(this->Lost.Voxels());
+    missing = this->Lost.MissedBy(areNear, this->Area());
   }
-  const LostBoundary::Missing missing =
-    this->Lost.MissedBy(this->State, *this->TheField, this->Threads);
+  else
+  {
+    missing = this->Lost.MissedBy(this->State, *this->TheField, this->Threads);
+  }
   this->LastLost.Missing = missing.Parts;
   this->LastLost.MissingBoundary = missing.Share;
 }
@@ -370,9 +374,10 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->DeleteInsideOut();
   if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
-    this->EndSweeps();
+    this->AddUpSinceEvolved();
     this->FinishRow();
     this->FindMissing();
+    this->EndSweeps();
     return reason;
   }
   HistoryRow none;
@@ -380,7 +385,8 @@ StopReason SurfaceEvolution::Implementation::Run()
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   if (this->WantedMeanEdge > 0.)
   {
-    this->EndSweeps(); // Done as a whole.
+    this->AddUpSinceEvolved();
+    this->Unite(); // Done as a whole.
     this->FitMeanEdge(dynamics);
     if (this->InSweeps)
     {
@@ -389,10 +395,11 @@ StopReason SurfaceEvolution::Implementation::Run()
   }
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
-  this->EndSweeps();
+  this->AddUpSinceEvolved();
   this->FinishRow();
   watch.Lap(Phase::Regularisation);
   this->FindMissing();
+  this->EndSweeps();
   watch.Lap(Phase::Recovery);
   if (this->Stopped)
   {

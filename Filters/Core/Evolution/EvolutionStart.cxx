@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -137,10 +138,19 @@ void SurfaceEvolution::Implementation::Recover()
   }
   const bool recovers = this->Options.RecoverLostParts;
   const double objectShare = recovers && this->Options.RecoverCavities ? 0.5 : 1.;
-  const auto find = [this](PartKind kind, double from, double to)
+  std::unique_ptr<RankRows> part;
+  if (this->OnRanks)
   {
-    return FindLostParts(this->State, *this->TheField, kind, this->Options.MinimumPartSize,
-      this->Threads, this->CheckpointOf(Monitor::Activity::Recovering, from, to));
+    part = std::make_unique<RankRows>(
+      RankRows{ *this->Ranks, this->OnRanks->RowsOf(this->TheField->Image()) });
+  }
+  const auto find = [&](PartKind kind, double from, double to)
+  {
+    LostPartCover cover = FindLostParts(this->State, *this->TheField, kind,
+      this->Options.MinimumPartSize, this->Threads,
+      this->CheckpointOf(Monitor::Activity::Recovering, from, to), part.get());
+    this->AgreeOnStop();
+    return cover;
   };
   const LostPartCover objects = find(PartKind::Object, 0., objectShare);
   this->Threads.EndPhase("Lost parts");
@@ -172,6 +182,11 @@ void SurfaceEvolution::Implementation::Recover()
 }
 void SurfaceEvolution::Implementation::Append(const IndexedSurface& surface)
 {
+  if (this->OnRanks)
+  {
+    this->OnRanks->Append(surface, this->Threads);
+    return;
+  }
   SurfaceState& s = this->State;
   const int first = s.Mesh.Append(surface, this->Threads);
   if (this->Blocks) // Else all is examined anew.

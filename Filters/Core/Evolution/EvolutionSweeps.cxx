@@ -96,14 +96,10 @@ void SurfaceEvolution::Implementation::BeginSweeps()
 
 void SurfaceEvolution::Implementation::EndSweeps()
 {
-  if (this->OnRanks)
+  if (!this->OnRanks) // Else the surface stays in parts until it is wanted as a whole.
   {
-    this->AddUpSinceEvolved();
-    this->Iteration.Forget();
-    this->OnRanks->Gather();
+    this->Blocks.reset();
   }
-  this->OnRanks.reset();
-  this->Blocks.reset();
 }
 
 void SurfaceEvolution::Implementation::AddPlaces()
@@ -210,6 +206,12 @@ double SurfaceEvolution::Implementation::SumOfBlocksOf(
   const auto isOwn = [this](int block) { return !this->OnRanks || this->OnRanks->IsOwn(block); };
   const std::vector<double> sums = this->Blocks->Sums(isOwn, ofVertex, this->Threads);
   return this->OnRanks ? this->OnRanks->AddUp(sums) : std::accumulate(sums.begin(), sums.end(), 0.);
+}
+
+double SurfaceEvolution::Implementation::Area()
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  return this->SumOfBlocksOf([&mesh](int v) { return AreaShare(mesh, v); });
 }
 
 double SurfaceEvolution::Implementation::Volume()

@@ -89,30 +89,46 @@ void LostBoundary::Gather(Communicator& ranks)
   this->Patches = GatherLists(ranks, this->Patches);
 }
 
-LostBoundary::Missing LostBoundary::MissedBy(
-  const SurfaceState& state, const Field& field, Executor& executor) const
+std::vector<std::int64_t> LostBoundary::Voxels() const
+{
+  std::vector<std::int64_t> voxels;
+  for (const Patch& patch : this->Patches)
+  {
+    voxels.push_back(patch.Voxel);
+  }
+  return voxels;
+}
+
+std::vector<std::uint8_t> LostBoundary::AreNear(const std::vector<std::int64_t>& voxels,
+  const SurfaceState& state, const Field& field, Executor& executor)
 {
   const LevelImage& image = field.Image();
   const VoxelNumbers numbers(image.Size);
   const float reach = static_cast<float>(NearUnits * image.Unit);
-  std::vector<std::uint8_t> isMissed(this->Patches.size(), 0);
-  ForBlocks(executor, this->Patches.size(), PatchBlock,
+  std::vector<std::uint8_t> areNear(voxels.size(), 0);
+  ForBlocks(executor, voxels.size(), PatchBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const std::array<int, 3> index = numbers.PlaceOf(this->Patches[i].Voxel);
+        const std::array<int, 3> index = numbers.PlaceOf(voxels[i]);
         const Vector place(static_cast<float>(index[0] * image.Step[0]),
           static_cast<float>(index[1] * image.Step[1]),
           static_cast<float>(index[2] * image.Step[2]));
-        isMissed[i] = !state.Grid.HasWithin(place, reach, state.Mesh.Position);
+        areNear[i] = state.Grid.HasWithin(place, reach, state.Mesh.Position);
       }
     });
+  return areNear;
+}
+
+LostBoundary::Missing LostBoundary::MissedBy(
+  const std::vector<std::uint8_t>& areNear, double surfaceArea) const
+{
   std::vector<double> missed(static_cast<std::size_t>(this->Parts), 0.);
   std::vector<double> whole(static_cast<std::size_t>(this->Parts), 0.);
   for (std::size_t i = 0; i < this->Patches.size(); ++i)
   {
-    missed[this->Patches[i].Part] += isMissed[i] ? this->Patches[i].Area : 0.;
+    missed[this->Patches[i].Part] += areNear[i] ? 0. : this->Patches[i].Area;
     whole[this->Patches[i].Part] += this->Patches[i].Area;
   }
   const double area = std::accumulate(missed.begin(), missed.end(), 0.) / FacesOverArea;
@@ -121,7 +137,7 @@ LostBoundary::Missing LostBoundary::MissedBy(
   {
     result.Parts += missed[part] > MissedShare * whole[part];
   }
-  result.Share = area > 0. ? area / (area + SurfaceArea(state.Mesh, executor)) : 0.;
+  result.Share = area > 0. ? area / (area + surfaceArea) : 0.;
   return result;
 }
 }

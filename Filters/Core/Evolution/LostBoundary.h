@@ -7,6 +7,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/Field.h"
+#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <cstdint>
@@ -33,7 +34,19 @@ public:
     double Share = 0.; ///< Area of all the boundary that is missed, over that and the surface's.
   };
   /** What has no vertex of the surface within NearUnits. Areas: workspace. */
-  Missing MissedBy(const SurfaceState& state, const Field& field, Executor& executor) const;
+  Missing MissedBy(const SurfaceState& state, const Field& field, Executor& executor) const
+  {
+    return this->MissedBy(AreNear(this->Voxels(), state, field, executor),
+      SurfaceArea(state.Mesh, executor));
+  }
+
+  /** The same where the surface is on several ranks: rank 0 asks each about its part. */
+  std::vector<std::int64_t> Voxels() const;
+  /** Whether each of some voxels has a vertex near. */
+  static std::vector<std::uint8_t> AreNear(const std::vector<std::int64_t>& voxels,
+    const SurfaceState& state, const Field& field, Executor& executor);
+  /** @param areNear of Voxels(), on any rank @param surfaceArea of all */
+  Missing MissedBy(const std::vector<std::uint8_t>& areNear, double surfaceArea) const;
 
 private:
   struct Patch

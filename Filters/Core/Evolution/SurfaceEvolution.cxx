@@ -130,6 +130,11 @@ void SurfaceEvolution::SetRanks(
   this->Self->NeedVoxels = std::move(needVoxels);
 }
 
+void SurfaceEvolution::Unite()
+{
+  this->Self->Unite();
+}
+
 bool SurfaceEvolution::AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size)
 {
   const std::int64_t voxels = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
@@ -172,7 +177,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     goesOn = !self.IsOnAnyRank(!goesOn || self.Stopped);
     if (goesOn)
     {
-      self.OnFirstRank([&self] { self.Recover(); });
+      self.Recover();
     }
     watch.Lap(Phase::Recovery);
     self.GoOn(Monitor::Activity::Recovering, 1.);
@@ -211,6 +216,10 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 
 SurfaceResult SurfaceEvolution::Result() const
 {
+  if (this->Self->OnRanks)
+  {
+    return this->Self->ResultOnRanks();
+  }
   const SurfaceState& s = this->Self->State;
   const Field& field = *this->Self->TheField;
   Executor& threads = this->Self->Threads;

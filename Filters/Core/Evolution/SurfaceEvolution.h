@@ -167,12 +167,15 @@ public:
 
   /**
    * From now on it is one of those on several ranks, which evolve one surface: all of them call
-   * Divide() to a level in sweeps and Run() there, at the same time. Rank 0 alone has a surface
-   * before and after. The surface is the same bits as on one rank. Null: alone again.
+   * Divide() to a level in sweeps, Run() and Result() there, at the same time, and Unite() where
+   * it is to go on from there. Rank 0 alone has a surface before, a result, and the surface when
+   * they have united. It is the same bits as on one rank. Null: alone again.
    * @param needVoxels called on all of them at the same time: the level's voxels that this rank
    *        needs from now on. Before that, and elsewhere, they may be anything.
    */
   void SetRanks(Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels = {});
+  /** Brings the surface of several ranks to rank 0. */
+  void Unite();
   /** Whether a level of so many voxels evolves in sweeps (SweepOptions). */
   static bool AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size);
 

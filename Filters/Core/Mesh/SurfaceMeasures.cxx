@@ -58,6 +58,27 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
   return mesh.NumberOfVertices() > 0 ? box : Box();
 }
 
+namespace
+{
+/** Six times the share of a vertex. */
+double CrossesAt(const SurfaceMesh& mesh, std::size_t v)
+{
+  const Ring& ring = mesh.Rings[v];
+  const Vector& p = mesh.Position[v];
+  double sum = 0.;
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    sum += Length(Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
+  }
+  return sum;
+}
+}
+
+double AreaShare(const SurfaceMesh& mesh, int v)
+{
+  return CrossesAt(mesh, static_cast<std::size_t>(v)) / 6.;
+}
+
 double SurfaceArea(const SurfaceMesh& mesh, Executor& executor)
 {
   const double sum = SumOfBlocks(executor, mesh.Rings.size(), BlockSize,

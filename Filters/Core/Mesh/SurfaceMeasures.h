@@ -60,6 +60,9 @@ double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);
 /** What the vertices lie in, workspace; a box about the origin where there are none. */
 Box BoundsOf(const SurfaceMesh& mesh, Executor& executor);
 
+/** A third of the area of the faces about an alive vertex. */
+double AreaShare(const SurfaceMesh& mesh, int v);
+
 /** The area of all faces, workspace. The same bits for any executor. */
 double SurfaceArea(const SurfaceMesh& mesh, Executor& executor);
 }

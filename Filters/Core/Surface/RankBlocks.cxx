@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -356,6 +357,72 @@ void RankBlocks::Gather()
       this->Ranks.Exchange(std::move(messages), { 0 });
     }
   }
+}
+
+void RankBlocks::Append(const IndexedSurface& surface, Executor& executor)
+{
+  SurfaceState& s = this->State;
+  SurfaceMesh added;
+  added.Append(surface, executor);
+  const int first = s.AddUnusedPlaces(added.Size()).Next;
+  std::vector<int> near;
+  for (int v = 0; v < added.Size(); ++v)
+  {
+    if (this->IsNearOwn(added.Position[v]))
+    {
+      near.push_back(v);
+    }
+  }
+  const std::vector<int> here = s.AddPart(added, first, near);
+  this->Blocks.Take(here);
+  std::vector<int> inside; // With all their neighbours.
+  std::copy_if(here.begin(), here.end(), std::back_inserter(inside),
+    [&s](int v)
+    {
+      const Ring& ring = s.Mesh.Rings[v];
+      return std::all_of(
+        ring.Item, ring.Item + ring.Count, [&s](int w) { return s.Mesh.IsAlive(w); });
+    });
+  s.UpdateShape(inside, executor);
+  s.Mesh.CountOthers(added.Size());
+  s.EulerCharacteristic += added.CountEulerCharacteristic(executor);
+  this->KnownVertices = s.Mesh.NumberOfVertices();
+  this->KnownCharacteristic = s.EulerCharacteristic;
+}
+
+VoxelBox RankBlocks::RowsOf(const LevelImage& image) const
+{
+  // Blocks are owned in boxes of whole rows of them.
+  const SurfaceBlocks::Frame& frame = this->Blocks.GetFrame();
+  const std::array<int, 3> stride = { 1, frame.Size[0], frame.Size[0] * frame.Size[1] };
+  const auto placeOf = [&](int block, int axis) { return block / stride[axis] % frame.Size[axis]; };
+  std::array<std::vector<char>, 3> isOwn; // By place along an axis.
+  for (int axis = 1; axis < 3; ++axis)
+  {
+    isOwn[axis].assign(static_cast<std::size_t>(frame.Size[axis]), 0);
+    for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
+    {
+      isOwn[axis][placeOf(block, axis)] |= this->IsOwn(block);
+    }
+  }
+  VoxelBox rows;
+  rows.End[0] = image.Size[0];
+  for (int axis = 1; axis < 3; ++axis)
+  {
+    bool hasBegun = false;
+    for (int i = 0; i < image.Size[axis]; ++i)
+    {
+      Vector position = frame.Low;
+      (axis == 1 ? position.Y : position.Z) = static_cast<float>(i * image.Step[axis]);
+      if (isOwn[axis][placeOf(this->Blocks.BlockAt(position), axis)])
+      {
+        rows.First[axis] = hasBegun ? rows.First[axis] : i;
+        rows.End[axis] = i + 1;
+        hasBegun = true;
+      }
+    }
+  }
+  return rows;
 }
 
 void RankBlocks::ShareCounts()

@@ -5,6 +5,10 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/Communicator.h"
+#include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Image/LevelImage.h"
+#include "Core/Image/VoxelBox.h"
 #include "Core/Surface/SurfaceBlocks.h"
 
 #include <cstddef>
@@ -52,6 +56,14 @@ public:
   void ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
   /** Back again: rank 0 has all vertices, the others none. */
   void Gather();
+
+  /**
+   * A closed surface that is added to that of all ranks, the same on each: they keep what is near
+   * them of it. Its vertices follow all others, as on one rank.
+   */
+  void Append(const IndexedSurface& surface, Executor& executor);
+  /** The rows of an image beside own blocks: each row is of one rank. */
+  VoxelBox RowsOf(const LevelImage& image) const;
 
   /** About a visit of an own block. */
   void BeginVisit(int block);

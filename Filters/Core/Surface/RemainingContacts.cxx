@@ -26,22 +26,22 @@ double BoundOf(const SizingField& sizing, int v)
 }
 }
 
-RemainingContacts FindRemainingContacts(
-  const SurfaceState& state, const Field& field, Executor& executor)
+RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& field,
+  Executor& executor, const std::function<bool(int v)>& isOwn)
 {
   const SurfaceMesh& mesh = state.Mesh;
   constexpr std::size_t size = 2048;
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<std::array<int, 2>>> blocks((n + size - 1) / size);
   RemainingContacts contacts;
-  contacts.Held.resize(n);
+  MakeZeroed(contacts.Held, n); // Where there is no vertex it takes no memory.
   ForBlocks(executor, n, size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
         const int v = static_cast<int>(i);
-        if (!mesh.IsAlive(v))
+        if (!mesh.IsAlive(v) || (isOwn && !isOwn(v)))
         {
           continue;
         }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace volumic
@@ -35,9 +36,12 @@ struct RemainingContacts
 
 /**
  * The grid of the state must be up to date. The same for any executor. Cost: O(vertices).
+ *
+ * @param isOwn where ranks have parts of the surface (RankPart): of the pairs those whose smaller
+ *              vertex is own are told, and which of the own vertices are held. Empty: all
  */
-RemainingContacts FindRemainingContacts(
-  const SurfaceState& state, const Field& field, Executor& executor);
+RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& field,
+  Executor& executor, const std::function<bool(int v)>& isOwn = {});
 }
 
 #endif

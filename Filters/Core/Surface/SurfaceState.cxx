@@ -135,6 +135,30 @@ void SurfaceState::AddAppended(const std::vector<int>& vertices, Executor& execu
   this->UpdateShape(vertices, executor);
 }
 
+std::vector<int> SurfaceState::AddPart(
+  const SurfaceMesh& mesh, int first, const std::vector<int>& vertices)
+{
+  std::vector<int> added;
+  for (const int v : vertices)
+  {
+    Ring ring = mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      ring.Item[i] += first;
+    }
+    added.push_back(first + v);
+    this->Mesh.Rings[first + v] = ring;
+    this->Mesh.Position[first + v] = mesh.Position[v];
+    this->Grid.Insert(first + v, mesh.Position[v]);
+  }
+  this->Properties.Initialise(added);
+  for (const int v : added)
+  {
+    this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
+  }
+  return added;
+}
+
 std::vector<int> SurfaceState::ReadConnectivity(MessageReader& message)
 {
   const std::vector<int> vertices = message.TakeVector<int>();

@@ -149,6 +149,11 @@ public:
   std::vector<int> ReadMesh(MessageReader& message);
   /** After SurfaceMesh::Append: they are as after Reset(), but that they have a shape. */
   void AddAppended(const std::vector<int>& vertices, Executor& executor);
+  /**
+   * Some vertices of a whole mesh that all ranks have put behind theirs, so that it has `first` and
+   * the places after it. @return them, here
+   */
+  std::vector<int> AddPart(const SurfaceMesh& mesh, int first, const std::vector<int>& vertices);
   /** Forgets a vertex that another rank has removed. */
   void Forget(int v);
 

@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""How long one surface would take on more ranks than there are, and how much memory.
+
+    python3 model_ranks.py scan.vti --iso 226.5 --size 2048
+
+The object of the scan stands for one of the same shape in an image of that size: where its boundary
+is tells how many vertices each block of a level has. Blocks go to ranks as RankBlocks does it, and
+the visits of a sweep are scheduled: colour by colour, or each as soon as those that it touches are
+done. What a vertex costs was measured, on one thread (see Constants).
+
+Left out: reading and reducing the image (each rank does its part), writing, differences between the
+work of vertices, and that ranks of one machine share its memory.
+"""
+
+import argparse
+import dataclasses
+import itertools
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+
+REDUCTION = 3.0 ** 0.5
+COLOURS = 8
+
+
+@dataclasses.dataclass
+class Constants:
+    """Measured with `volumic skull512.vti --iso 226.5 --threads 1 --metric voxels` (512^3, one
+    thread of a 2.6 GHz Xeon): by level, coarser ones as the last; and what is assumed."""
+
+    vertices: float = 927749 / 512 ** 2  # of level 0, for each square of the image's side
+    iterating: tuple = (12.4e-6, 20.0e-6, 54.3e-6, 22.6e-6, 32.3e-6, 92.1e-6)  # s a vertex
+    around: tuple = (8.9e-6, 10.7e-6, 15.5e-6, 10.3e-6, 12.8e-6, 25.1e-6)  # s, before and after
+    visits: tuple = (14, 7, 8, 12, 18, 19)  # of a block, of 5 iterations each
+    block_side: float = 128 * 0.85  # voxels
+    sweeps_from: float = 406.4  # voxels, the side of the smallest level in sweeps
+    halo: float = 24 * 0.85  # voxels
+    bytes_of_voxel: float = 2.0  # of the image
+    bytes_of_coarse_voxel: float = 2.0
+    bytes_of_vertex: float = 350.0  # in memory, with room to grow
+    bytes_sent: float = 150.0  # assumed: of a vertex near a border, after each colour of its block
+    latency: float = 20e-6  # assumed: s a message
+    bandwidth: float = 1e9  # assumed: bytes a second of a rank
+
+
+def boundary(path, iso):
+    """Voxels [n, 3] (x, y, z, as shares of the image's sides) of the object beside others."""
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    voxels = vtk_to_numpy(image.GetPointData().GetScalars())
+    inside = voxels.reshape(image.GetDimensions()[::-1]) > iso
+    near = np.zeros_like(inside)
+    for axis in range(3):
+        differs = np.diff(inside, axis=axis)
+        first = [slice(None)] * 3
+        first[axis] = slice(0, -1)
+        near[tuple(first)] |= differs
+    places = np.argwhere(near & inside)[:, ::-1]
+    return (places + 0.5) / np.array(image.GetDimensions())
+
+
+def vertices_of_blocks(places, side, count, constants):
+    """[z, y, x] of a level of side^3 voxels with so many vertices."""
+    blocks = max(1, round(side / constants.block_side))
+    index = np.minimum((places * blocks).astype(int), blocks - 1)
+    found = np.zeros((blocks,) * 3)
+    np.add.at(found, (index[:, 2], index[:, 1], index[:, 0]), count / len(places))
+    return found
+
+
+def choose_owners(vertices, ranks):
+    """As RankBlocks::ChooseOwners: rows of blocks, halved again and again. [z, y]"""
+    rows = vertices.sum(axis=2)
+    owners = np.zeros(rows.shape, int)
+
+    def cut(box, first, count):
+        if count == 1:
+            owners[box] = first
+            return
+        lower = count // 2
+        wanted = rows[box].sum() * lower / count
+        best = None
+        for axis in (0, 1):
+            along = rows[box].sum(axis=1 - axis)
+            for at, summed in enumerate(np.cumsum(along)[:-1], 1):
+                if best is None or abs(summed - wanted) < best[0]:
+                    best = (abs(summed - wanted), axis, at)
+        if best is None:
+            owners[box] = first  # a row alone
+            return
+        _, axis, at = best
+        parts = []
+        for begin, end in ((0, at), (at, box[axis].stop - box[axis].start)):
+            part = list(box)
+            part[axis] = slice(box[axis].start + begin, box[axis].start + end)
+            parts.append(tuple(part))
+        cut(parts[0], first, lower)
+        cut(parts[1], first + lower, count - lower)
+
+    cut((slice(0, rows.shape[0]), slice(0, rows.shape[1])), 0, ranks)
+    return owners
+
+
+def colour_of(block):
+    return sum((place % 2) << axis for axis, place in enumerate(block))
+
+
+def neighbours(block, shape):
+    for step in itertools.product((-1, 0, 1), repeat=3):
+        other = tuple(b + s for b, s in zip(block, step))
+        if other != block and all(0 <= o < n for o, n in zip(other, shape)):
+            yield other
+
+
+def sent_bytes(vertices, owners, constants, block_voxels):
+    """By rank: what it tells others in a sweep. A face takes a share of a block's vertices."""
+    share = min(1.0, constants.halo / block_voxels)
+    sent = np.zeros(owners.max() + 1)
+    partners = [set() for _ in sent]
+    for block in np.argwhere(vertices > 0):
+        block = tuple(block)
+        own = owners[block[:2]]
+        others = {owners[other[:2]] for other in neighbours(block, vertices.shape)} - {own}
+        sent[own] += min(1.0, share * len(others)) * vertices[block] * constants.bytes_sent
+        partners[own] |= others
+    return sent, np.array([len(each) for each in partners])
+
+
+def sweep(vertices, owners, seconds, by_dependency):
+    """Seconds of the visits of a sweep, of `seconds` for a vertex."""
+    ready = np.zeros(vertices.shape)
+    free = np.zeros(owners.max() + 1)
+    for colour in range(COLOURS):
+        for block in np.argwhere(vertices > 0):
+            block = tuple(block)
+            if colour_of(block) != colour:
+                continue
+            rank = owners[block[:2]]
+            start = free[rank]
+            if by_dependency:
+                start = max([start] + [ready[other] for other in neighbours(block, vertices.shape)
+                                       if colour_of(other) < colour])
+            free[rank] = ready[block] = start + vertices[block] * seconds
+        if not by_dependency:
+            free[:] = free.max()
+    return free.max()
+
+
+def model(places, size, ranks, constants, shared=1.0, by_dependency=False):
+    """Seconds by kind of work. `shared`: the part of what is done before and after a level's
+    iterations that the ranks share."""
+    seconds = {"sweeps": 0.0, "messages": 0.0, "around": 0.0, "first rank": 0.0}
+    bytes_of_level = []
+    side, count, level = float(size), constants.vertices * size ** 2, 0
+    while side >= 10 and count >= 50:
+        at = min(level, len(constants.visits) - 1)
+        iterating, around = constants.iterating[at], constants.around[at]
+        if side <= constants.sweeps_from:
+            seconds["first rank"] += count * (iterating + around)
+        else:
+            vertices = vertices_of_blocks(places, side, count, constants)
+            owners = choose_owners(vertices, min(ranks, vertices[:, :, 0].size))
+            visits = constants.visits[at]
+            seconds["sweeps"] += visits * sweep(
+                vertices, owners, iterating / visits, by_dependency)
+            if ranks > 1:
+                sent, partners = sent_bytes(vertices, owners, constants, constants.block_side)
+                seconds["messages"] += visits * float(np.max(
+                    COLOURS * partners * constants.latency + sent / constants.bandwidth))
+                bytes_of_level.append(float(sent.max()))
+            of_rank = max(vertices[owners == rank].sum() for rank in range(owners.max() + 1))
+            seconds["around"] += around * (shared * of_rank + (1 - shared) * count)
+        side, count, level = side / REDUCTION, count / 3, level + 1
+    return seconds, bytes_of_level
+
+
+def memory(places, size, ranks, constants):
+    """Bytes of the rank that has the most: image, coarser levels, its vertices."""
+    vertices = vertices_of_blocks(places, size, constants.vertices * size ** 2, constants)
+    owners = choose_owners(vertices, min(ranks, vertices[:, :, 0].size))
+    largest = max(vertices[owners == rank].sum() for rank in range(owners.max() + 1))
+    voxels = size ** 3 * (constants.bytes_of_voxel + constants.bytes_of_coarse_voxel / 4.2)
+    return voxels / ranks + largest * constants.bytes_of_vertex
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("volume", help="a scan (.vti) of the object's shape")
+    parser.add_argument("--iso", type=float, required=True)
+    parser.add_argument("--size", type=int, nargs="+", default=[2048, 4096])
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 4, 16, 64])
+    parser.add_argument("--shared", type=float, default=1.0,
+                        help="part of the work around iterations that ranks share (default: 1)")
+    parser.add_argument("--sweeps-from", type=float, default=Constants.sweeps_from,
+                        help="side of the smallest level whose blocks the ranks share, voxels")
+    parser.add_argument("--block-side", type=float, default=Constants.block_side,
+                        help="of a block, voxels")
+    parser.add_argument("--by-dependency", action="store_true",
+                        help="a visit waits for those it touches, not for all of a colour")
+    options = parser.parse_args()
+    constants = Constants(sweeps_from=options.sweeps_from, block_side=options.block_side)
+    places = boundary(options.volume, options.iso)
+    print("| image | ranks | seconds | of these on the first rank | messages | speed-up | efficiency"
+          " | most memory of a rank | largest message sum of a sweep |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for size in options.size:
+        one = None
+        for ranks in options.ranks:
+            seconds, sent = model(places, size, ranks, constants, options.shared,
+                                  options.by_dependency)
+            total = sum(seconds.values())
+            one = one or total
+            first = ranks if ranks == options.ranks[0] else ranks / options.ranks[0]
+            print(f"| {size}^3 | {ranks} | {total:.0f} | {seconds['first rank']:.1f} |"
+                  f" {seconds['messages']:.1f} | {one / total:.1f} | {one / total / first:.0%} |"
+                  f" {memory(places, size, ranks, constants) / 2 ** 30:.1f} GiB |"
+                  f" {max(sent, default=0) / 1e6:.1f} MB |")
+
+
+if __name__ == "__main__":
+    main()
