@@ -8,7 +8,7 @@ namespace volumic
 {
 namespace
 {
-/** Several times a second, as progress is shown; a word to all ranks takes less than a millisecond. */
+/** Several times a second; a word to all ranks takes less than a millisecond. */
 constexpr std::chrono::milliseconds Interval(100);
 
 /** What rank 0 has to say to those that wait. */

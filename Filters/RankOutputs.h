@@ -14,8 +14,8 @@ namespace volumic
 /**
  * Brings each rank its part of the outputs of vtkDeformableSurface that rank 0 has filled: of each
  * surface a piece (SurfacePieces), with all field data, also where the piece is empty; blocks of
- * the same names; of the history the columns, whose rows stay at rank 0. With one rank nothing changes.
- * All ranks call it.
+ * the same names; of the history the columns, whose rows stay at rank 0. With one rank nothing
+ * changes. All ranks call it.
  * @param request, outputs as RequestData has them: how many ghost levels are asked for
  */
 void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformationVector* outputs);

@@ -211,6 +211,25 @@ int vtkDeformableSurface::GetResumedLevel()
 }
 
 //------------------------------------------------------------------------------
+int vtkDeformableSurface::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  // Of what comes from an image ParaView asks for ghosts only where a filter needs them. It knows
+  // that by the extent, which a pyramid has not.
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < output->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkInformation* info = output->GetInformationObject(port);
+    if (!info->Has(Pipeline::WHOLE_EXTENT()))
+    {
+      const int none[6] = { 0, -1, 0, -1, 0, -1 };
+      info->Set(Pipeline::WHOLE_EXTENT(), none, 6);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {

@@ -175,8 +175,8 @@
  * all that meet there. Points of pieces have `GlobalIds` (vtkIdType, the attribute): the index that
  * they have where there is one process. Ghost levels are given where they are asked for
  * (`vtkGhostType`). Field data is whole in every process, also in empty pieces; the first one has
- * the rows of History. An error of one process is reported by all; AbortExecute of any stops all, at
- * the latest after some tenths of a second. ShowLevels has no effect. Whoever asks for other pieces
+ * the rows of History. An error of one process is reported by all; AbortExecute of any stops all,
+ * after some tenths of a second. ShowLevels has no effect. Whoever asks for other pieces
  * works alone: process 0 of one piece gets the whole surface.
  *
  * @par Thanks:
@@ -750,6 +750,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(

@@ -432,8 +432,8 @@ TEST(RankOutputs, InitialSurfacesInPiecesAreJoined)
         take(filter, isOurs ? static_cast<vtkAlgorithm*>(before) : sphere);
         ThreadControllers::Update(filter, controller);
         EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
-        EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("EulerCharacteristic")->GetTuple1(0),
-          2.0);
+        vtkFieldData* facts = filter->GetOutput()->GetFieldData();
+        EXPECT_EQ(facts->GetArray("EulerCharacteristic")->GetTuple1(0), 2.0);
       });
     if (isOurs)
     {

@@ -189,6 +189,14 @@ class ParallelSurfaceTest(unittest.TestCase):
     def test_the_pieces_are_the_whole(self):
         self.check_pieces(self.fetch(make_surface()), self.whole)
 
+    def test_the_surface_of_a_pyramid(self):
+        pyramid = simple.ImagePyramid(simple.Wavelet(WholeExtent=EXTENT))
+        surface = simple.DeformableSurface(pyramid, IsoValue=ISO_VALUE)
+        fetched = self.fetch(surface)
+        # ParaView would ask for ghosts of what comes of blocks.
+        self.assertFalse(fetched.GetCellData().HasArray("vtkGhostType"))
+        self.check_pieces(fetched, self.whole)
+
     def test_each_process_has_its_piece_and_all_facts(self):
         told = self.told(make_surface())
         self.assertEqual(numpy.sum([one["cells"] for one in told]), self.whole.GetNumberOfCells())
@@ -212,7 +220,8 @@ class ParallelSurfaceTest(unittest.TestCase):
                 here = [one[block][1] for one in told if one[block][1]]
                 self.assertEqual(len(here), self.count if whole else 0)
                 if whole:
-                    self.assertEqual(numpy.sum([one["cells"] for one in here]), whole.GetNumberOfCells())
+                    self.assertEqual(numpy.sum([one["cells"] for one in here]),
+                                     whole.GetNumberOfCells())
         told = self.told(filter_, 2)
         rows = self.alone.GetHistory().GetNumberOfRows()
         self.assertEqual(set(told[0].values()), {rows})
@@ -224,7 +233,8 @@ class ParallelSurfaceTest(unittest.TestCase):
     def test_connectivity_finds_the_components(self):
         # Four separate balls, cut by planes between the processes.
         balls = testing.write_volume(f"balls-{self.count}-{SERVER}.vti", self.balls())
-        surface = simple.DeformableSurface(simple.XMLImageDataReader(FileName=[balls]), IsoValue=0.5)
+        volume = simple.XMLImageDataReader(FileName=[balls])
+        surface = simple.DeformableSurface(volume, IsoValue=0.5)
         regions = self.fetch(simple.Connectivity(surface))
         self.assertEqual(testing.field(self.fetch(surface), "NumberOfComponents"), 4)
         found = numbers(regions.GetCellData().GetArray("RegionId"))
@@ -236,7 +246,8 @@ class ParallelSurfaceTest(unittest.TestCase):
     def balls():
         z, y, x = numpy.mgrid[0:40, 0:40, 0:40].astype(numpy.float32)
         inside = numpy.zeros_like(x)
-        for cx, cy, cz, radius in ((10, 10, 10, 6), (28, 12, 20, 7), (12, 28, 26, 8), (30, 30, 9, 5)):
+        balls = ((10, 10, 10, 6), (28, 12, 20, 7), (12, 28, 26, 8), (30, 30, 9, 5))
+        for cx, cy, cz, radius in balls:
             far = numpy.sqrt((x - cx)**2 + (y - cy)**2 + (z - cz)**2)
             inside = numpy.maximum(inside, numpy.clip(0.5 + 0.4 * (radius - far), 0, 1))
         return testing.make_image(inside)
@@ -301,7 +312,8 @@ class ParallelSurfaceTest(unittest.TestCase):
 
     def test_threshold_by_component(self):
         balls = testing.write_volume(f"balls-{self.count}-{SERVER}.vti", self.balls())
-        surface = simple.DeformableSurface(simple.XMLImageDataReader(FileName=[balls]), IsoValue=0.5)
+        volume = simple.XMLImageDataReader(FileName=[balls])
+        surface = simple.DeformableSurface(volume, IsoValue=0.5)
         components = numbers(self.fetch(surface).GetCellData().GetArray("Component"))
         for component in range(4):
             part = simple.Threshold(surface, Scalars=["CELLS", "Component"])
