@@ -127,7 +127,10 @@ vtkSmartPointer<vtkIdList> IdsOf(vtkDataSetAttributes* piece, vtkIdType count, v
 class Whole
 {
 public:
-  explicit Whole(const SurfaceSize& size) : Size(size), IsThere(static_cast<std::size_t>(size.Vertices), false) {}
+  explicit Whole(const SurfaceSize& size)
+    : Size(size), IsThere(static_cast<std::size_t>(size.Vertices), false)
+  {
+  }
 
   void Add(vtkPolyData* piece);
 

@@ -16,8 +16,8 @@ namespace tool
 class Ranks;
 
 // Surfaces of which each rank has a piece: each triangle is in one of them; a point that several
-// have is the same one by its GlobalIds, which count the points of the whole surface. A rank's piece
-// may be null. All ranks make the same calls.
+// have is the same one by its GlobalIds, which count the points of the whole surface. A rank's
+// piece may be null. All ranks make the same calls.
 
 /** How large the whole is. */
 struct SurfaceSize
@@ -33,8 +33,8 @@ SurfaceSize SizeOf(const Ranks& ranks, vtkPolyData* piece);
 std::vector<SurfaceSize> SizesOf(const Ranks& ranks, vtkMultiBlockDataSet* pieces);
 
 /**
- * The whole surface on the first rank, null on the others: the points in the order of their ids, the
- * triangles in that of their own, or, without those, in the order of the ranks. On one rank, and
+ * The whole surface on the first rank, null on the others: the points in the order of their ids,
+ * the triangles in that of their own, or, without those, in the order of the ranks. On one rank, and
  * where the first has it all, the surface as it is.
  */
 vtkSmartPointer<vtkPolyData> GatherSurface(const Ranks& ranks, vtkPolyData* piece);

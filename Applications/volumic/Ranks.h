@@ -16,8 +16,8 @@ class vtkMultiProcessController;
 namespace tool
 {
 /**
- * The processes that mpirun has started to work on one surface; where it has not, or the program was
- * built without MPI, this process alone, for which all of these do nothing.
+ * The processes that mpirun has started to work on one surface; where it has not, or the program
+ * was built without MPI, this process alone, for which all of these do nothing.
  *
  * All ranks make the same calls in the same order. What may fail on one of them is done within
  * Together(), and nothing that waits for other ranks beside a filter's update.
@@ -47,8 +47,8 @@ public:
 
   /**
    * Do the work on each rank.
-   * @throws what it throws on one rank, of the same words, on all ranks: UsageError, std::bad_alloc,
-   * else a Failure. If several fail, the lowest tells why; not the first rank, it is named.
+   * @throws what it throws on one rank, of the same words, on all ranks: UsageError,
+   * std::bad_alloc, else a Failure. If several fail, the lowest tells why; not the first rank, it is named.
    */
   void Together(const std::function<void()>& work);
 

@@ -23,8 +23,8 @@ struct FilterRun
 
 /**
  * From here on Ctrl-C (SIGINT) and SIGTERM set the AbortExecute of the filter that runs, so that it
- * hands over what it has; the second one ends the program at once, as usual. With many ranks SIGUSR1
- * does so too: mpirun hands it on, and does not kill the ranks a second later.
+ * hands over what it has; the second one ends the program at once, as usual. With many ranks
+ * SIGUSR1 does so too: mpirun hands it on, and does not kill the ranks a second later.
  */
 void CatchInterrupts(const Ranks& ranks);
 

@@ -38,8 +38,8 @@ struct VolumeFacts
 VolumeFacts FactsOf(vtkImageData* image, int component);
 
 /**
- * The volume as the ranks' filters ask for it, the part of each. Where its reader cannot read parts,
- * the first rank has it all and the others nothing, as VTK's own readers do it then; the filters
+ * The volume as the ranks' filters ask for it, the part of each. Where its reader cannot read
+ * parts, the first rank has it all and the others nothing, as VTK's own readers do it then; the filters
  * send each other what they need.
  *
  * A part that cannot be read is no error of this source, which would keep its rank from the filter

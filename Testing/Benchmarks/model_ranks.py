@@ -205,8 +205,8 @@ def main():
     options = parser.parse_args()
     constants = Constants(sweeps_from=options.sweeps_from, block_side=options.block_side)
     places = boundary(options.volume, options.iso)
-    print("| image | ranks | seconds | of these on the first rank | messages | speed-up | efficiency"
-          " | most memory of a rank | largest message sum of a sweep |")
+    print("| image | ranks | seconds | of these on the first rank | messages | speed-up"
+          " | efficiency | most memory of a rank | largest message sum of a sweep |")
     print("|---|---|---|---|---|---|---|---|---|")
     for size in options.size:
         one = None

@@ -27,7 +27,8 @@ file(WRITE "${FOLDER}/volume.vti" "<VTKFile type=\"ImageData\" version=\"1.0\">
 
 foreach (ranks IN ITEMS 1 3)
   execute_process(
-    COMMAND "${MPIRUN}" -n ${ranks} "${EXAMPLE}" "${FOLDER}/volume.vti" "${FOLDER}/${ranks}.pvtp" 4.5
+    COMMAND "${MPIRUN}" -n ${ranks}
+      "${EXAMPLE}" "${FOLDER}/volume.vti" "${FOLDER}/${ranks}.pvtp" 4.5
     OUTPUT_VARIABLE output ERROR_VARIABLE errors RESULT_VARIABLE status TIMEOUT 60)
   message("${output}${errors}")
   string(REGEX MATCHALL "rank [0-9]: [1-9][0-9]* triangles" told "${output}")

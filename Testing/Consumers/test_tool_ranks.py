@@ -109,7 +109,8 @@ class SameFilesTest(RanksTestCase):
         centre = ORIGIN + SPACING * CENTRE
         self.write_bytes("seeds.csv", ",".join(map(str, centre)).encode())
         self.run_tool(volume, self.path("start.stl"), "--iso", ISO + 50)
-        steepness = np.sqrt(sum(np.square(part) for part in np.gradient(ball("f4"), *SPACING[::-1])))
+        slopes = np.gradient(ball("f4"), *SPACING[::-1])
+        steepness = np.sqrt(sum(np.square(slope) for slope in slopes))
         edges = self.write(vtkXMLImageDataWriter(), "edges.vti", make_image(steepness))
         for options in (["--seeds", self.path("seeds.csv")],
                         ["--initial-surface", self.path("start.stl")],
