@@ -239,7 +239,14 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
   }
   s.Sizing = sizing.ForEdgesOf(longest);
   this->LayGridInBlocks();
-  std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections(this->OwnVertices());
+  const std::vector<int> own = this->OwnVertices();
+  std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections(own);
+  for (const int v : own)
+  {
+    // What was found of them is not known of those that other ranks own.
+    s.Slack[v] = 0.f;
+    s.NearOthers[v] = 1;
+  }
   s.Sizing = sizing;
   this->LayGridInBlocks();
   if (this->OnRanks)
