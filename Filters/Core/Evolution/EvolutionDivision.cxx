@@ -277,6 +277,7 @@ void SurfaceEvolution::Implementation::SpreadMesh()
   }
   const SurfaceMesh whole = std::exchange(s.Mesh, SurfaceMesh());
   this->FindGridBox(whole);
+  this->AgreeOnGridBox();
   if (!this->OnRanks)
   {
     this->ShareBlocks(whole);

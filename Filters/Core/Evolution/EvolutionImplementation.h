@@ -158,6 +158,7 @@ struct SurfaceEvolution::Implementation
   bool AreRanks() const { return this->Ranks && this->Ranks->NumberOfRanks() > 1; }
   bool IsFirstRank() const { return !this->AreRanks() || this->Ranks->Rank() == 0; }
   void ShareBlocks(const SurfaceMesh& mesh);
+  void AgreeOnGridBox();
   VoxelBox OwnVoxels() const;
   void VisitBlocksOnRanks(const BlockVisits& visits);
   void AgreeOnStop();

@@ -26,6 +26,13 @@ void SurfaceEvolution::Implementation::ShareBlocks(const SurfaceMesh& mesh)
   }
 }
 
+void SurfaceEvolution::Implementation::AgreeOnGridBox()
+{
+  // Other cells would have their vertices looked at in another order.
+  this->GridLow = BroadcastValue(*this->Ranks, this->GridLow);
+  this->GridHigh = BroadcastValue(*this->Ranks, this->GridHigh);
+}
+
 VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
 {
   // Those of the blocks, and of the halo, which is further than any vertex gets.

@@ -91,6 +91,7 @@ void SurfaceEvolution::Implementation::BeginSweeps()
   }
   this->Iteration.Forget();
   this->ShareBlocks(s.Mesh);
+  this->AgreeOnGridBox();
   this->OnRanks->Scatter(this->GridLow, this->GridHigh);
 }
 
