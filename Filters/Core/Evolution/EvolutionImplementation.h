@@ -152,7 +152,6 @@ struct SurfaceEvolution::Implementation
   void RunPasses(Dynamics& dynamics, Remesher& remesher);
   void RegulariseInSweeps(Dynamics& dynamics, Remesher& remesher);
   void PolishInSweeps();
-  void CopyActive(LargeVector<std::uint8_t>& active) const;
 
   // On several ranks: EvolutionRanks.cxx.
   bool AreRanks() const { return this->Ranks && this->Ranks->NumberOfRanks() > 1; }

@@ -250,8 +250,8 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = this->State;
-  LargeVector<std::uint8_t> active;
-  this->CopyActive(active);
+  const LargeVector<std::uint8_t> active =
+    this->InSweeps ? LargeVector<std::uint8_t>() : s.Active.AsVector();
   Remesher remesher(s, this->TheField.get(), false, this->Threads);
   const auto forAll = [&s](auto&& work)
   {
@@ -263,7 +263,12 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
       }
     }
   };
-  forAll([&s](int v) { s.Velocity[v] = Vector(); });
+  forAll(
+    [&s](int v)
+    {
+      s.Velocity[v] = Vector();
+      s.WasActive[v] = s.Active[v];
+    });
   this->ActivateAll();
   if (this->InSweeps)
   {
@@ -278,22 +283,11 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   forAll(
     [&](int v)
     {
-      s.Active[v] = v >= static_cast<int>(active.size()) || active[v];
+      // Of a level in sweeps a place may have been used again on another rank.
+      s.Active[v] = this->InSweeps ? s.WasActive[v] != 0
+                                   : v >= static_cast<int>(active.size()) || active[v];
       s.Velocity[v] = Vector();
     });
-}
-
-void SurfaceEvolution::Implementation::CopyActive(LargeVector<std::uint8_t>& active) const
-{
-  const SurfaceState& s = this->State;
-  MakeZeroed(active, s.Mesh.Rings.size());
-  for (int v = 0; v < s.Mesh.Size(); ++v)
-  {
-    if (s.Mesh.IsAlive(v) && s.Active[v])
-    {
-      active[v] = 1;
-    }
-  }
 }
 
 void SurfaceEvolution::Implementation::RunPasses(Dynamics& dynamics, Remesher& remesher)

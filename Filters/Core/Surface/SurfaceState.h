@@ -94,6 +94,8 @@ public:
   // Rest: Dynamics, the roll back, and edits, by Activate().
   /** Forces act on it; 0: motionless. */
   VertexProperty<std::uint8_t> Active{ this->Properties, 1, 1 };
+  /** Active before the regularisation of a level in sweeps, or made by it: SurfaceEvolution. */
+  VertexProperty<std::uint8_t> WasActive{ this->Properties, 1, 1 };
   /** Iterations since it has moved visibly. */
   VertexProperty<std::uint8_t> RestCount{ this->Properties, 0, 0 };
   /** Grows with each roll back, shrinks otherwise. */
