@@ -100,7 +100,7 @@ vtkSmartPointer<vtkImageData> GatherLevel(Communicator& ranks, vtkImageData* pie
 
 namespace
 {
-/** Whether a level is large enough to be worked on by all ranks, and nothing else wants it whole. */
+/** Whether a level is so large that all ranks work on it, and nothing else wants it whole. */
 bool StaysInPieces(
   const SegmentationVolume& volume, const ImagePieces& pieces, const std::string& edges)
 {
@@ -120,7 +120,7 @@ bool HasGhosts(Communicator& ranks, vtkImageData* piece)
     (piece->GetPointData()->GetArray(ghosts) || piece->GetCellData()->GetArray(ghosts)));
 }
 
-/** The level at rank 0, with room for its voxels; what the ranks have of them goes to the volume. */
+/** The level at rank 0, with room for its voxels; what ranks have of them goes to the volume. */
 vtkSmartPointer<vtkImageData> LeaveInPieces(
   Communicator& ranks, const ImagePieces& pieces, vtkImageData* piece, int h,
   SegmentationVolume& volume)

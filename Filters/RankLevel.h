@@ -24,8 +24,8 @@ class RankLevel
 public:
   /**
    * By all ranks together.
-   * @param image at rank 0 the level, with all its voxels or room for them; the other ranks learn of
-   *        it here
+   * @param image at rank 0 the level, with all its voxels or room for them; the others learn of it
+   *        here
    * @param pieces the voxels that are not there, but with the ranks; null: rank 0 has all
    */
   RankLevel(Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces);

@@ -26,8 +26,8 @@ struct OtherRankFailed : std::runtime_error
  * The ranks (processes, mostly) that work on one surface. The core knows no MPI: who has it derives
  * from this class (ControllerRanks in the layer of VTK, ThreadRanks in the tests).
  *
- * All ranks make the same calls in the same order. A rank that cannot go on calls Fail(), instead of
- * the calls to come: all the others, whatever call they are in, then throw OtherRankFailed there,
+ * All ranks make the same calls in the same order. A rank that cannot go on calls Fail(), instead
+ * of the calls to come: all the others, whatever call they are in, then throw OtherRankFailed there,
  * and must call Fail() in turn. Fail() returns when all have: nothing is under way any more, and a
  * next run may begin. So no failure of one leaves others waiting.
  */

@@ -169,7 +169,7 @@ struct LargeAllocator
 template <typename T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
-/** Makes it n values of bytes that are all zero, of which none takes memory before it is written. */
+/** Makes it n values of bytes that are all zero, which take no memory before they are written. */
 template <typename T>
 void MakeZeroed(LargeVector<T>& values, std::size_t n)
 {

@@ -26,8 +26,9 @@ namespace volumic
 {
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
- * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready, EvolutionRun.cxx iterates until it rests and
- * regularises it, EvolutionSweeps.cxx does so block by block, EvolutionRanks.cxx on several ranks,
+ * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
+ * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionSweeps.cxx does so block by
+ * block, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
  * EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation

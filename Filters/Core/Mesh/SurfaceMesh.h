@@ -203,7 +203,7 @@ public:
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
-  /** Empties it; all of n places, which take no memory, are aside, but those of so many vertices. */
+  /** Empties it; of n places, which take no memory, all are aside but those of some vertices. */
   void Remake(std::size_t n, int vertices);
 
   /** The places that no vertex has, the next to be taken last: what a copy needs to go on alike. */

@@ -311,7 +311,8 @@ void RankBlocks::Scatter(const Vector& low, const Vector& high)
 void RankBlocks::ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high)
 {
   const Sizes sizes = BroadcastValue(this->Ranks,
-    Sizes{ mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic(), low, high });
+    Sizes{
+      mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic(), low, high });
   const Message own = this->SendParts(mesh,
     [&mesh](MessageWriter& writer, const std::vector<int>& vertices)
     { SurfaceState::WriteMesh(mesh, writer, vertices); });
