@@ -27,9 +27,9 @@ from volumic import vtkDeformableSurface, vtkImagePyramid
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
-                                        "ShowLevels"},
-               "vtkImagePyramid": {"MemoryLimit", "NaNIsBackground", "NumberOfThreads",
-                                   "ScratchDirectory", "SelectedComponent"}}
+                                        "Controller", "ShowLevels"},
+               "vtkImagePyramid": {"Controller", "MemoryLimit", "NaNIsBackground",
+                                   "NumberOfThreads", "ScratchDirectory", "SelectedComponent"}}
 
 
 def properties_of(filter_class, base_class):
