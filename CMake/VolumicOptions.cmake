@@ -16,6 +16,7 @@ if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   set(volumic_builds_with_vtk OFF)
 endif ()
 option(VOLUMIC_BUILD_TOOL "Build and install the program `volumic`" "${volumic_builds_with_vtk}")
+option(VOLUMIC_USE_MPI "Have `mpirun volumic` work where VTK has MPI" ON)
 
 # Debian's VTK works with Debian's interpreter only, which need not be the first on PATH:
 # -DPython3_EXECUTABLE=/usr/bin/python3 chooses it.
