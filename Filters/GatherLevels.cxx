@@ -96,10 +96,7 @@ vtkSmartPointer<vtkImageData> GatherLevel(Communicator& ranks, vtkImageData* pie
   }
   return WithVoxels(image, chosen);
 }
-}
 
-namespace
-{
 /** Whether a level is so large that all ranks work on it, and nothing else wants it whole. */
 bool StaysInPieces(
   const SegmentationVolume& volume, const ImagePieces& pieces, const std::string& edges)

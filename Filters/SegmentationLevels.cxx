@@ -134,6 +134,7 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
   {
     const auto less = [&image](double value) { return static_cast<float>(value - image.Base); };
     image.Extremes = { less(range[0]), less(range[1]) };
+    return image; // Nothing can be made of voxels that are not here.
   }
   if (this->Edges)
   {

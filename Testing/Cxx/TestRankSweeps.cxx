@@ -154,6 +154,21 @@ void ExpectSame(const RunOnRanks& run, const RunOnRanks& expected)
 }
 }
 
+TEST(RankSweeps, SumUpContactsInTheOrderOfOneRank)
+{
+  // Without merges parts that meet stay in contact: velocities are sums over many close vertices,
+  // in the order in which these are found.
+  SurfaceOptions options = InBlocks();
+  options.TopologyChanges = false;
+  const RunOnRanks one(1, 1, options);
+  EXPECT_GT(one.Surface.Points.size(), 20000u);
+  for (const int count : { 2, 4 })
+  {
+    SCOPED_TRACE(count);
+    ExpectSame(RunOnRanks(count, 1, options), one);
+  }
+}
+
 TEST(RankSweeps, MakeTheSurfaceOfOneRank)
 {
   const RunOnRanks one(1, 1, InBlocks());

@@ -77,6 +77,7 @@ bool HasEdgeOver(const SurfaceState& state, float share, Executor& executor)
              return count;
            }) > 0;
 }
+
 /** Keeps the edges whose flips made the face; from the second round on others about it, too. */
 void KeepAbout(const std::array<int, 3>& face, const LargeVector<Triangle>& faces,
   const SurfaceMesh& old, int round, KeptEdges& kept)
@@ -301,7 +302,6 @@ bool SurfaceEvolution::Implementation::DivideInBlocks()
         s.Mesh.Reorder(
           SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
         old = s.Mesh;
-        kept = std::make_unique<KeptEdges>(old);
       }
       else
       {
@@ -321,6 +321,10 @@ bool SurfaceEvolution::Implementation::DivideInBlocks()
     }
     if (this->IsFirstRank())
     {
+      if (!kept)
+      {
+        kept = std::make_unique<KeptEdges>(old);
+      }
       this->KeepEdgesAbout(found, faces, old, round, *kept);
     }
   }

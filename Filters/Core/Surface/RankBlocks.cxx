@@ -286,12 +286,12 @@ Message RankBlocks::SendParts(const SurfaceMesh& mesh,
   return own;
 }
 
-void RankBlocks::BeginParts(const Sizes& sizes)
+void RankBlocks::BeginParts(const Sizes& sizes, const Vector& low, const Vector& high)
 {
-  this->Low = sizes.Low;
-  this->High = sizes.High;
+  this->Low = low;
+  this->High = high;
   this->Blocks.ForgetVertices();
-  this->State.Remake(sizes.Places, sizes.Vertices, sizes.Low, sizes.High);
+  this->State.Remake(sizes.Places, sizes.Vertices, low, high);
   this->State.EulerCharacteristic = this->KnownCharacteristic = sizes.Characteristic;
   this->KnownVertices = sizes.Vertices;
 }
@@ -300,10 +300,10 @@ void RankBlocks::Scatter(const Vector& low, const Vector& high)
 {
   SurfaceState& s = this->State;
   const Sizes sizes = BroadcastValue(this->Ranks,
-    Sizes{ s.Mesh.Rings.size(), s.Mesh.NumberOfVertices(), s.EulerCharacteristic, low, high });
+    Sizes{ s.Mesh.Rings.size(), s.Mesh.NumberOfVertices(), s.EulerCharacteristic });
   const Message own = this->SendParts(s.Mesh,
     [&s](MessageWriter& writer, const std::vector<int>& vertices) { s.Write(writer, vertices); });
-  this->BeginParts(sizes);
+  this->BeginParts(sizes, low, high);
   MessageReader reader(own);
   this->Blocks.AddOthers(s.Read(reader));
 }
@@ -312,11 +312,11 @@ void RankBlocks::ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const V
 {
   const Sizes sizes = BroadcastValue(this->Ranks,
     Sizes{
-      mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic(), low, high });
+      mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic() });
   const Message own = this->SendParts(mesh,
     [&mesh](MessageWriter& writer, const std::vector<int>& vertices)
     { SurfaceState::WriteMesh(mesh, writer, vertices); });
-  this->BeginParts(sizes);
+  this->BeginParts(sizes, low, high);
   MessageReader reader(own);
   this->Blocks.Take(this->State.ReadMesh(reader));
 }

@@ -48,8 +48,8 @@ public:
   bool IsOwnVertex(int v) const { return this->IsOwn(this->State.Block[v]); }
 
   /**
-   * From a surface that is whole on rank 0 to one that each rank has its part of. `low`, `high`: the
-   * box of the grid, on rank 0.
+   * From a surface that is whole on rank 0 to one that each rank has its part of. `low`, `high`:
+   * the box of the grid, the same on all ranks.
    */
   void Scatter(const Vector& low, const Vector& high);
   /** The same for a mesh of which nothing else is known. */
@@ -85,12 +85,10 @@ private:
     std::size_t Places;
     int Vertices;
     int Characteristic;
-    Vector Low; ///< Of the grid.
-    Vector High;
   };
   Message SendParts(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
-  void BeginParts(const Sizes& sizes);
+  void BeginParts(const Sizes& sizes, const Vector& low, const Vector& high);
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
   bool IsNearOwn(const Vector& position) const;
