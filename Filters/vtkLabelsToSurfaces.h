@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkLabelsToSurfaces
+ * @brief   a smooth closed surface about each label of a label map
+ *
+ * vtkLabelsToSurfaces makes surfaces of a segmented image, whose voxels are numbers of objects
+ * (labels), drawn by hand or by a network. Each label gets a surface of its own that is closed,
+ * oriented, manifold, free of self-intersections and smooth, with well-shaped triangles, and has
+ * the centres of the label's voxels inside and all others outside, as far as the triangles can:
+ * `WrongVoxels` tells how many they miss. What is thin is not smoothed away.
+ *
+ * @par Input:
+ * Port 0: a vtkImageData with integers of any type, of one component, as point data (voxels are
+ * points) or cell data (voxels are cells), chosen by SetInputArrayToProcess(), by default the
+ * active scalars. Floating-point numbers serve where all are integers, with a warning. A composite
+ * dataset with one image in it serves as that image. Names and colours of labels may come with the
+ * image as arrays of its field data: `LabelValues` (integers) and, with an entry for each of these,
+ * `LabelNames` (strings) and `LabelColors` (3 components, 0 to 1; as unsigned char 0 to 255).
+ *
+ * @par Output:
+ * A vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order of the labels' values,
+ * named by the label's name, or `Label 3`; with Merge one block, named `Labels 1, 3`, or `Label 3`.
+ * A label that asks for more than the triangles can hold, such as a single voxel, has an empty
+ * block, and a warning tells which. World coordinates; arrays and field data of each block as
+ * vtkDeformableSurface has them, and:
+ * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
+ * - field data: `Label` (int; with Merge all that were merged), `LabelName` (string), `LabelColor`
+ *   (double, 3 components, 0 to 1: as given, or one of a fixed palette), `LabelVoxels` (vtkIdType:
+ *   voxels of the label), `WrongVoxels` (vtkIdType: of the label's that have their centres outside,
+ *   and of others that have them inside; with Gap, those that it puts there count, too).
+ *
+ * @par Algorithm:
+ * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made
+ * of each label by itself, see Core/Labels/LabelField.h: its membership, smoothed by a Gaussian,
+ * as a distance; corrected so that as much volume is inside near each place as there is in voxels;
+ * then held to the labels by the smallest correction (of a Gaussian kernel's norm) that gives all
+ * voxel centres the right sign. Where three labels meet, that of the others' that claim the place
+ * most is taken off, so that fields of two labels are never both positive. The surface starts as
+ * the field's iso-surface at FinestLevel, so that no part is lost by coarser levels.
+ * @par
+ * Only the voxels about a label are worked on. Labels are made side by side by the threads; results
+ * do not depend on their number.
+ *
+ * @par Errors:
+ * As vtkDeformableSurface: the message names the port, the array or the value, and the way out; the
+ * output is empty; ask GetErrorCode() after Update().
+ *
+ * @par Cancelling:
+ * AbortExecute is looked at several times a second: surfaces that are finished then are handed
+ * over, that under way has `StopReason` `cancelled`, others are empty blocks with that reason.
+ *
+ * @sa
+ * vtkVolumeToSurface vtkLabelTable
+ */
+#ifndef vtkLabelsToSurfaces_h
+#define vtkLabelsToSurfaces_h
+
+#include "vtkFiltersVolumicModule.h" // For export macro
+#include "vtkMultiBlockDataSetAlgorithm.h"
+
+#include <memory> // For what is hidden
+
+class VTKFILTERSVOLUMIC_EXPORT vtkLabelsToSurfaces : public vtkMultiBlockDataSetAlgorithm
+{
+public:
+  static vtkLabelsToSurfaces* New();
+  vtkTypeMacro(vtkLabelsToSurfaces, vtkMultiBlockDataSetAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// As vtkDeformableSurface::MetricType.
+  enum MetricType
+  {
+    Voxels = 0,
+    World = 1
+  };
+
+  ///@{
+  /**
+   * Labels: those that get a surface; none, the default: all that the image has, but for
+   * BackgroundLabel. One that the image has not is an error that names those that it has. The order
+   * does not matter, nor does adding one twice. An index that is none gives BackgroundLabel.
+   */
+  void AddLabel(int label);
+  void ClearLabels();
+  int GetNumberOfLabels();
+  int GetLabel(int index);
+  ///@}
+
+  ///@{
+  /**
+   * The label that is nothing: it gets no surface where all others do. Default: 0.
+   */
+  void SetBackgroundLabel(int label);
+  int GetBackgroundLabel();
+  ///@}
+
+  ///@{
+  /**
+   * One surface about all Labels together, instead of one about each. Default: off.
+   */
+  void SetMerge(bool merge);
+  bool GetMerge();
+  vtkBooleanMacro(Merge, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Standard deviation of the Gaussian that smooths the labels, in voxels of the axis along which
+   * they are longest, the same length along all axes; 0: none, stairs stay. What it would take away
+   * is held: more smoothing makes smoother surfaces between the voxels' centres, not other
+   * objects. Default: 2.
+   */
+  void SetSmoothing(double voxels);
+  double GetSmoothing();
+  ///@}
+
+  ///@{
+  /**
+   * Space between the surfaces of neighbouring labels, world units: each is drawn back by half of
+   * it, also from the background. Default: 0: they touch, and may overlap by what their triangles
+   * cut off differently.
+   */
+  void SetGap(double gap);
+  double GetGap();
+  ///@}
+
+  ///@{
+  /** As vtkDeformableSurface. Default: World. */
+  void SetMetric(int value);
+  int GetMetric();
+  void SetMetricToVoxels() { this->SetMetric(Voxels); }
+  void SetMetricToWorld() { this->SetMetric(World); }
+  ///@}
+
+  ///@{
+  /** As vtkDeformableSurface: mean length of edges, world units; 0, the default: by FinestLevel. */
+  void SetEdgeLength(double length);
+  double GetEdgeLength();
+  ///@}
+
+  ///@{
+  /**
+   * As vtkDeformableSurface: 0, the default: triangles as large as voxels; 1, 2, ...: each sqrt(3)
+   * times larger; -1: smaller, for what is a voxel thin.
+   */
+  void SetFinestLevel(int level);
+  int GetFinestLevel();
+  ///@}
+
+  ///@{
+  /**
+   * As vtkDeformableSurface, for each label: AllComponents (0, the default), LargestComponent (1)
+   * or LargeComponents (3), of at least MinimumComponentVolume.
+   */
+  void SetKeepComponents(int value);
+  int GetKeepComponents();
+  ///@}
+
+  ///@{
+  /** As vtkDeformableSurface, world units cubed. Default: 0. */
+  void SetMinimumComponentVolume(double volume);
+  double GetMinimumComponentVolume();
+  ///@}
+
+  ///@{
+  /** As vtkDeformableSurface: 0, the default: all. */
+  void SetNumberOfThreads(int number);
+  int GetNumberOfThreads();
+  ///@}
+
+  ///@{
+  /** As vtkDeformableSurface: resident memory, MiB; 0, the default: no limit. */
+  void SetMemoryLimit(int mebibytes);
+  int GetMemoryLimit();
+  ///@}
+
+  ///@{
+  /** As vtkDeformableSurface: with MemoryLimit, the folder for what does not fit. */
+  void SetScratchDirectory(const char* directory);
+  const char* GetScratchDirectory();
+  ///@}
+
+  ///@{
+  /**
+   * The name of a label, for its block; empty: none. It goes before one that comes with the image.
+   */
+  void SetLabelName(int label, const char* name);
+  const char* GetLabelName(int label);
+  void ClearLabelNames();
+  ///@}
+
+  ///@{
+  /**
+   * The colour of a label, 0 to 1, for `LabelColor`. It goes before one that comes with the image.
+   */
+  void SetLabelColor(int label, double red, double green, double blue);
+  void ClearLabelColors();
+  ///@}
+
+protected:
+  vtkLabelsToSurfaces();
+  ~vtkLabelsToSurfaces() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+private:
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals; ///< the properties
+
+  vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;
+  void operator=(const vtkLabelsToSurfaces&) = delete;
+};
+
+#endif
