@@ -61,6 +61,9 @@
 
 #include <memory> // For what is hidden
 
+class vtkDataObject;
+class vtkMultiBlockDataSet;
+
 class VTKFILTERSVOLUMIC_EXPORT vtkLabelsToSurfaces : public vtkMultiBlockDataSetAlgorithm
 {
 public:
@@ -210,6 +213,8 @@ protected:
 
 private:
   class vtkInternals;
+  /** Errors are thrown. */
+  void MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSet* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 
   vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;

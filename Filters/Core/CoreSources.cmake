@@ -25,6 +25,13 @@ set(volumic_core_sources
   Image/RowKernels.cxx
   Image/ValidReduction.cxx
   Image/VoxelPieces.cxx
+  Labels/BoundaryGaussian.cxx
+  Labels/BoundaryRows.cxx
+  Labels/LabelBricks.cxx
+  Labels/LabelClaims.cxx
+  Labels/LabelField.cxx
+  Labels/LabelHold.cxx
+  Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
   Mesh/Division.cxx
@@ -127,6 +134,14 @@ set(volumic_core_headers
   Image/VoxelPieces.h
   Image/VoxelRows.h
   Image/VoxelValues.h
+  Labels/BoundaryGaussian.h
+  Labels/BoundaryRows.h
+  Labels/LabelBricks.h
+  Labels/LabelClaims.h
+  Labels/LabelField.h
+  Labels/LabelHold.h
+  Labels/LabelMap.h
+  Labels/WrongVoxels.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h
   Mesh/Division.h

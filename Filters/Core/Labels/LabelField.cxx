@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Labels/LabelField.h"
+
+#include "Core/Common/Blocks.h"
+#include "Core/Labels/BoundaryGaussian.h"
+#include "Core/Labels/BoundaryRows.h"
+#include "Core/Labels/LabelHold.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+/** Only voxels nearer to the boundary than this can come to the wrong side of it. */
+constexpr float MostWrong = 1.5f;
+/** The Laplacian of the distance is taken this near to the boundary. */
+constexpr float MostBent = 2.5f;
+
+/** The quantiles of the normal distribution, from a table: the same bits on any machine. */
+class NormalQuantile
+{
+public:
+  static const NormalQuantile& Table()
+  {
+    static const NormalQuantile table;
+    return table;
+  }
+
+  float At(float share) const
+  {
+    const float place = std::clamp(share, 0.f, 1.f) * Steps;
+    const int step = std::min(static_cast<int>(place), Steps - 1);
+    const float* values = this->Values.data() + step;
+    return values[0] + (place - static_cast<float>(step)) * (values[1] - values[0]);
+  }
+
+private:
+  static constexpr int Steps = 4096;
+
+  NormalQuantile()
+  {
+    for (int i = 0; i <= Steps; ++i)
+    {
+      const double share = std::clamp(i / static_cast<double>(Steps), 1e-5, 1. - 1e-5);
+      double low = -5.;
+      double high = 5.;
+      for (int halving = 0; halving < 50; ++halving)
+      {
+        const double middle = 0.5 * (low + high);
+        (0.5 * std::erfc(-middle / std::sqrt(2.)) < share ? low : high) = middle;
+      }
+      this->Values[static_cast<std::size_t>(i)] = static_cast<float>(0.5 * (low + high));
+    }
+  }
+
+  std::array<float, Steps + 1> Values;
+};
+
+/** Makes the field of one object, step by step. */
+class FieldMaker
+{
+public:
+  FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
+    Executor& executor)
+    : Map(bricks.Map())
+    , Object(static_cast<LabelMap::Number>(object))
+    , Options(options)
+    , Threads(executor)
+    , Rows(bricks, object)
+  {
+    this->Field.Box = this->Rows.Box();
+    this->Field.Values.resize(static_cast<std::size_t>(this->Field.Box.Count()));
+    this->FillFarVoxels();
+  }
+
+  LabelField Make(const std::vector<HeldVoxel>& held)
+  {
+    if (this->Options.Sigma > 0.)
+    {
+      this->MakeDistance();
+      this->CorrectChords();
+      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+    }
+    this->Rows.For(this->Threads,
+      [&](int i, int j, int k, int count)
+      {
+        float* values = this->RowAt(i, j, k);
+        for (int x = 0; x < count; ++x)
+        {
+          values[x] = std::clamp(values[x], -LabelField::Far, LabelField::Far);
+        }
+      });
+    return std::move(this->Field);
+  }
+
+private:
+  bool IsObject(int i, int j, int k) const { return this->Map.At(i, j, k) == this->Object; }
+  float* RowAt(int i, int j, int k)
+  {
+    return this->Field.Values.data() + this->Field.Box.NumberOf(i, j, k);
+  }
+
+  /** Without smoothing +-1/2; elsewhere they are what voxels off the rows stay. */
+  void FillFarVoxels()
+  {
+    const float size = this->Options.Sigma > 0. ? LabelField::Far : 0.5f;
+    const VoxelBox& box = this->Field.Box;
+    ForBlocks(this->Threads, static_cast<std::size_t>(box.Length(2)), 1,
+      [&](std::size_t layer, std::size_t, std::size_t)
+      {
+        const int k = box.First[2] + static_cast<int>(layer);
+        for (int j = box.First[1]; j < box.End[1]; ++j)
+        {
+          float* row = this->RowAt(box.First[0], j, k);
+          this->CopyMembership(box.First[0], j, k, box.Length(0), row);
+          for (int x = 0; x < box.Length(0); ++x)
+          {
+            row[x] = row[x] > 0.5f ? size : -size;
+          }
+        }
+      });
+  }
+
+  /** 1 in the object, 0 elsewhere, also outside the map. */
+  void CopyMembership(int i, int j, int k, int count, float* values) const
+  {
+    std::fill(values, values + count, 0.f);
+    const std::array<int, 3>& size = this->Map.Size;
+    if (j < 0 || k < 0 || j >= size[1] || k >= size[2])
+    {
+      return;
+    }
+    const int first = std::max(i, 0);
+    const int end = std::min(i + count, size[0]);
+    const LabelMap::Number* row =
+      this->Map.Voxels.data() + VoxelBox::Of(size).NumberOf(0, j, k);
+    for (int x = first; x < end; ++x)
+    {
+      values[x - i] = row[x] == this->Object ? 1.f : 0.f;
+    }
+  }
+
+  void MakeDistance()
+  {
+    const auto sigma = static_cast<float>(this->Options.Sigma);
+    std::array<double, 3> inVoxels;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      inVoxels[axis] = this->Options.Sigma / this->Map.Spacing[axis];
+    }
+    BoundaryGaussian gaussian(this->Rows, inVoxels);
+    LargeVector<float> smooth(this->Field.Values.size());
+    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
+      { this->CopyMembership(i, j, k, count, values); }, smooth, this->Threads);
+    this->ForValues(smooth, [sigma](float& value, float share)
+      { value = std::clamp(sigma * NormalQuantile::Table().At(share), -LabelField::Far,
+          LabelField::Far); });
+    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
+      { this->CopyMissingVolume(i, j, k, count, values); }, smooth, this->Threads);
+    const float perShare = sigma * 2.5066283f; // sqrt(2 pi)
+    this->ForValues(smooth, [perShare](float& value, float missing)
+      { value = std::clamp(value + perShare * missing, -LabelField::Far, LabelField::Far); });
+  }
+
+  /** Calls change(value, other) for each voxel of the rows. */
+  template <typename Change>
+  void ForValues(const LargeVector<float>& others, Change&& change)
+  {
+    this->Rows.For(this->Threads,
+      [&](int i, int j, int k, int count)
+      {
+        float* values = this->RowAt(i, j, k);
+        const float* other = others.data() + this->Field.Box.NumberOf(i, j, k);
+        for (int x = 0; x < count; ++x)
+        {
+          change(values[x], other[x]);
+        }
+      });
+  }
+
+  /** The membership less what of each voxel is inside by the field; off the rows there is none. */
+  void CopyMissingVolume(int i, int j, int k, int count, float* values) const
+  {
+    this->CopyMembership(i, j, k, count, values);
+    const VoxelBox& box = this->Field.Box;
+    const int first = std::max(i, box.First[0]);
+    const int end = std::min(i + count, box.End[0]);
+    const float* row = this->Field.Values.data() + box.NumberOf(first, j, k);
+    for (int x = first; x < end; ++x)
+    {
+      values[x - i] -= std::clamp(row[x - first] + 0.5f, 0.f, 1.f);
+    }
+  }
+
+  void CorrectChords()
+  {
+    const VoxelBox& box = this->Field.Box;
+    const LargeVector<float> before = this->Field.Values;
+    const std::array<std::int64_t, 3> step = { 1, box.Length(0),
+      static_cast<std::int64_t>(box.Length(0)) * box.Length(1) };
+    std::array<float, 3> weight;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      weight[axis] = static_cast<float>(this->Options.ChordCorrection /
+        (this->Map.Spacing[axis] * this->Map.Spacing[axis]));
+    }
+    this->Rows.For(this->Threads,
+      [&](int i, int j, int k, int count)
+      {
+        if (j == box.First[1] || j == box.End[1] - 1 || k == box.First[2] || k == box.End[2] - 1)
+        {
+          return;
+        }
+        float* values = this->RowAt(i, j, k);
+        const float* old = before.data() + box.NumberOf(i, j, k);
+        const int first = std::max(i, box.First[0] + 1);
+        const int end = std::min(i + count, box.End[0] - 1);
+        for (int x = first - i; x < end - i; ++x)
+        {
+          if (std::abs(old[x]) < MostBent)
+          {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+              values[x] -= weight[axis] * (old[x - step[axis]] - 2.f * old[x] + old[x + step[axis]]);
+            }
+          }
+        }
+      });
+  }
+
+  /** Whether both neighbours along an axis are on the other side. */
+  bool IsThin(int i, int j, int k) const
+  {
+    const bool side = this->IsObject(i, j, k);
+    return (this->IsObject(i - 1, j, k) != side && this->IsObject(i + 1, j, k) != side) ||
+      (this->IsObject(i, j - 1, k) != side && this->IsObject(i, j + 1, k) != side) ||
+      (this->IsObject(i, j, k - 1) != side && this->IsObject(i, j, k + 1) != side);
+  }
+
+  std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
+  {
+    std::vector<std::vector<VoxelConstraint>> ofLayers(
+      static_cast<std::size_t>(this->Rows.NumberOfLayers()));
+    ForBlocks(this->Threads, ofLayers.size(), 1,
+      [&](std::size_t layer, std::size_t, std::size_t)
+      {
+        this->Rows.ForLayer(static_cast<int>(layer),
+          [&](int i, int j, int k, int count)
+          { this->FindConstraintsOfRow(i, j, k, count, held, ofLayers[layer]); });
+      });
+    return Joined(this->Threads, ofLayers);
+  }
+
+  void FindConstraintsOfRow(int i, int j, int k, int count, const std::vector<HeldVoxel>& held,
+    std::vector<VoxelConstraint>& constraints)
+  {
+    const float* values = this->RowAt(i, j, k);
+    for (int x = 0; x < count; ++x)
+    {
+      const float side = this->IsObject(i + x, j, k) ? 1.f : -1.f;
+      if (side * values[x] >= MostWrong)
+      {
+        continue;
+      }
+      auto margin = static_cast<float>(
+        this->IsThin(i + x, j, k) ? this->Options.ThinMargin : this->Options.Margin);
+      const VoxelBox all = VoxelBox::Of(this->Map.Size);
+      const std::int64_t voxel =
+        all.Contains({ i + x, j, k }) ? all.NumberOf(i + x, j, k) : std::int64_t(-1);
+      const auto found = std::lower_bound(held.begin(), held.end(), voxel,
+        [](const HeldVoxel& one, std::int64_t number) { return one.Voxel < number; });
+      if (found != held.end() && found->Voxel == voxel)
+      {
+        margin = std::max(margin, found->Margin);
+      }
+      constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side, margin });
+    }
+  }
+
+  const LabelMap& Map;
+  LabelMap::Number Object;
+  const LabelFieldOptions& Options;
+  Executor& Threads;
+  BoundaryRows Rows;
+  LabelField Field;
+};
+}
+
+LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
+  const std::vector<HeldVoxel>& held, Executor& executor)
+{
+  return FieldMaker(bricks, object, options, executor).Make(held);
+}
+}

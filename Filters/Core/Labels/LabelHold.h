@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelHold_h
+#define volumicLabelHold_h
+
+#include "Core/Labels/LabelField.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/** What the field must be at a voxel: at least Margin, times Side. */
+struct VoxelConstraint
+{
+  std::int64_t Place; ///< in the field
+  float Side;         ///< 1 inside, -1 outside
+  float Margin;
+};
+
+/**
+ * Changes the field by the smallest sum of kernels about these voxels that meets the constraints:
+ * step 4 of MakeLabelField(). Those that cannot be met, being all too near to others, are met as
+ * far as they can; the sign always is.
+ */
+void HoldToLabels(LabelField& field, const std::array<double, 3>& spacing,
+  const std::vector<VoxelConstraint>& constraints);
+}
+
+#endif

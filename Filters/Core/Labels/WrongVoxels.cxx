@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Labels/WrongVoxels.h"
+
+#include "Core/Mesh/RowCrossing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace volumic
+{
+namespace
+{
+/** Where the surface crosses a row of voxels along x. */
+struct Crossing
+{
+  std::int64_t Row;
+  RowCrossing Where;
+
+  bool operator<(const Crossing& other) const
+  {
+    return this->Row < other.Row || (this->Row == other.Row && this->Where.X < other.Where.X);
+  }
+};
+
+/** Of all rows of the map. */
+std::vector<Crossing> FindCrossings(const std::array<int, 3>& size, const IndexedSurface& surface)
+{
+  std::vector<Crossing> crossings;
+  for (const Triangle& t : surface.Triangles)
+  {
+    const Point& a = surface.Points[static_cast<std::size_t>(t[0])];
+    const Point& b = surface.Points[static_cast<std::size_t>(t[1])];
+    const Point& c = surface.Points[static_cast<std::size_t>(t[2])];
+    int first[3];
+    int last[3];
+    for (int axis = 1; axis < 3; ++axis)
+    {
+      const double low = std::min({ a[axis], b[axis], c[axis] });
+      const double high = std::max({ a[axis], b[axis], c[axis] });
+      first[axis] = std::max(0, static_cast<int>(std::ceil(low)));
+      last[axis] = std::min(size[axis] - 1, static_cast<int>(std::floor(high)));
+    }
+    for (int k = first[2]; k <= last[2]; ++k)
+    {
+      for (int j = first[1]; j <= last[1]; ++j)
+      {
+        const RowCrossing crossing = RowCrossing::Of(a, b, c, j, k);
+        if (crossing.Winding != 0)
+        {
+          crossings.push_back({ static_cast<std::int64_t>(k) * size[1] + j, crossing });
+        }
+      }
+    }
+  }
+  std::sort(crossings.begin(), crossings.end());
+  return crossings;
+}
+}
+
+std::vector<std::int64_t> FindWrongVoxels(
+  const LabelBricks& bricks, int object, const IndexedSurface& surface)
+{
+  const LabelMap& map = bricks.Map();
+  const std::vector<Crossing> crossings = FindCrossings(map.Size, surface);
+  VoxelBox box = bricks.ExtentOf(object).Bricks;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // A surface stays within the field's box, which is larger by a brick.
+    box.First[axis] = std::max(0, (box.First[axis] - 1) * LabelBricks::Side);
+    box.End[axis] = std::min(map.Size[axis], (box.End[axis] + 1) * LabelBricks::Side);
+  }
+  std::vector<std::int64_t> wrong;
+  const VoxelBox all = VoxelBox::Of(map.Size);
+  for (int k = box.First[2]; k < box.End[2]; ++k)
+  {
+    for (int j = box.First[1]; j < box.End[1]; ++j)
+    {
+      const std::int64_t row = static_cast<std::int64_t>(k) * map.Size[1] + j;
+      auto next = std::lower_bound(crossings.begin(), crossings.end(), row,
+        [](const Crossing& crossing, std::int64_t number) { return crossing.Row < number; });
+      const std::int64_t start = all.NumberOf(0, j, k);
+      int winding = 0;
+      for (int i = box.First[0]; i < box.End[0]; ++i)
+      {
+        for (; next != crossings.end() && next->Row == row && next->Where.X < i; ++next)
+        {
+          winding += next->Where.Winding;
+        }
+        const bool isObject = map.Voxels[static_cast<std::size_t>(start + i)] == object;
+        if (isObject != (winding > 0))
+        {
+          wrong.push_back(start + i);
+        }
+      }
+    }
+  }
+  return wrong;
+}
+}

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicCoreWrongVoxels_h
+#define volumicCoreWrongVoxels_h
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Labels/LabelBricks.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * The voxels of the map, sorted, whose centres a closed surface about an object has on the wrong
+ * side: its own outside, others inside.
+ * @param surface in coordinates in which voxel (i, j, k) of the map is at (i, j, k)
+ */
+std::vector<std::int64_t> FindWrongVoxels(
+  const LabelBricks& bricks, int object, const IndexedSurface& surface);
+}
+
+#endif

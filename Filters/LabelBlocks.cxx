@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelBlocks.h"
+
+#include "SurfaceOutput.h"
+
+#include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+
+namespace volumic
+{
+namespace
+{
+/** How many labels or messages a warning names. */
+constexpr std::size_t MostNamed = 10;
+
+template <typename Array, typename Value>
+void AddField(vtkPolyData* surface, const char* name, const std::vector<Value>& values,
+  int components = 1)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  for (const Value& value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  surface->GetFieldData()->AddArray(array);
+}
+
+/** The labels of the triangles; of a merged surface the nearest one's. */
+void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const LabelImage& image)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName("Label");
+  array->SetNumberOfTuples(surface->GetNumberOfCells());
+  if (labels.size() == 1)
+  {
+    array->FillValue(labels.front());
+  }
+  else
+  {
+    image.FindNearest(surface, labels, array);
+  }
+  surface->GetCellData()->AddArray(array);
+}
+
+/** Text after text, as many as a warning names. */
+std::string Listed(const std::vector<std::string>& texts)
+{
+  std::string list;
+  for (std::size_t i = 0; i < std::min(texts.size(), MostNamed); ++i)
+  {
+    list += (i == 0 ? "" : ", ") + texts[i];
+  }
+  if (texts.size() > MostNamed)
+  {
+    list += " and " + std::to_string(texts.size() - MostNamed) + " others";
+  }
+  return list;
+}
+}
+
+std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
+  const std::vector<LabelSurface>& surfaces, vtkMultiBlockDataSet* output)
+{
+  std::vector<std::string> empty;
+  std::vector<std::string> failed;
+  output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    const std::vector<int> labels =
+      choice.IsMerged ? choice.Labels : std::vector<int>{ choice.Labels[i] };
+    vtkIdType voxels = 0;
+    for (const int label : labels)
+    {
+      voxels += image.Labels().at(label);
+    }
+    const std::string name = choice.Names.NameOf(labels);
+    vtkNew<vtkPolyData> surface;
+    const bool isThere = surfaces[i].Surface != nullptr;
+    surface->ShallowCopy(isThere ? surfaces[i].Surface
+                                 : MakeStopped(0, Describe(StopReason::Cancelled)));
+    AddLabels(surface, labels, image);
+    AddField<vtkIntArray>(surface, "Label", labels);
+    AddField<vtkStringArray>(surface, "LabelName", std::vector<std::string>{ name });
+    const LabelNames::Color color = choice.Names.ColorOf(labels.front());
+    AddField<vtkDoubleArray>(
+      surface, "LabelColor", std::vector<double>(color.begin(), color.end()), 3);
+    AddField<vtkIdTypeArray>(surface, "LabelVoxels", std::vector<vtkIdType>{ voxels });
+    AddField<vtkIdTypeArray>(
+      surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });
+    const auto block = static_cast<unsigned int>(i);
+    output->SetBlock(block, surface);
+    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    if (!surfaces[i].Error.empty())
+    {
+      failed.push_back(name + " (" + surfaces[i].Error + ")");
+    }
+    else if (surface->GetNumberOfCells() == 0 && isThere)
+    {
+      empty.push_back(name);
+    }
+  }
+  std::string warning;
+  if (!empty.empty())
+  {
+    warning = "No surface is left of " + Listed(empty) +
+      ": fewer voxels than the triangles can hold. Finest Level -1 makes smaller ones.";
+  }
+  if (!failed.empty())
+  {
+    warning += (warning.empty() ? "" : " ") + std::string("There is no surface of ") +
+      Listed(failed);
+  }
+  return warning;
+}
+}

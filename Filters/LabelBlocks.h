@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelBlocks_h
+#define volumicLabelBlocks_h
+
+#include "LabelImage.h"
+#include "LabelNames.h"
+#include "LabelSurface.h"
+
+#include <string>
+#include <vector>
+
+class vtkMultiBlockDataSet;
+
+namespace volumic
+{
+/** Of which labels there are surfaces, and what they are called. */
+struct LabelChoice
+{
+  std::vector<int> Labels; ///< sorted
+  bool IsMerged = false;   ///< one surface about all
+  LabelNames Names;
+};
+
+/**
+ * Makes a block of each surface, with the arrays of labels.
+ * @return what the user should know: labels that have no surface; empty: nothing
+ */
+std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
+  const std::vector<LabelSurface>& surfaces, vtkMultiBlockDataSet* output);
+}
+
+#endif

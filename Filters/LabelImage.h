@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelImage_h
+#define volumicLabelImage_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Labels/LabelMap.h"
+
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkDataObject;
+class vtkImageData;
+class vtkInformation;
+class vtkIntArray;
+class vtkPolyData;
+
+namespace volumic
+{
+/** A label map as it comes in. Errors are std::invalid_argument. */
+class LabelImage
+{
+public:
+  /** More labels than this are no label map, where nobody has chosen some of them. */
+  static constexpr std::size_t MostLabels = 4096;
+
+  /**
+   * @param selection as GetInputArrayInformation()
+   * @throws where there is no image of three axes, or no array of integers of one component.
+   */
+  LabelImage(vtkDataObject* input, vtkInformation* selection, Executor& executor);
+
+  /** Voxels are its points; without arrays that matter. */
+  vtkImageData* Image() const { return this->Geometry; }
+  /** How many voxels each label has. */
+  const std::map<int, vtkIdType>& Labels() const { return this->Counts; }
+  /** What the user should know: that the array has no integers' type. Empty: nothing. */
+  const std::string& Warning() const { return this->Told; }
+
+  /** @throws where there are more than MostLabels. */
+  void CheckNumberOfLabels() const;
+
+  /**
+   * Sorted: those that are wanted; all but the background where none are.
+   * @throws where there are none, or too many, or one is not there.
+   */
+  std::vector<int> Choose(const std::vector<int>& wanted, int background) const;
+
+  /** Objects are labels in this order, from 1; or one object of all of them. */
+  LabelMap MakeMap(const std::vector<int>& labels, bool merge, Executor& executor) const;
+
+  /** For each triangle the label of the voxel nearest to its centroid, of those given, sorted. */
+  void FindNearest(vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const;
+
+private:
+  void CountLabels(Executor& executor);
+
+  vtkSmartPointer<vtkImageData> Geometry;
+  vtkSmartPointer<vtkDataArray> Voxels;
+  std::map<int, vtkIdType> Counts;
+  std::string Told;
+};
+}
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelSurface_h
+#define volumicLabelSurface_h
+
+#include "Core/Labels/LabelClaims.h"
+#include "Core/Labels/LabelField.h"
+#include "HostThreads.h"
+
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+class vtkPolyData;
+
+namespace volumic
+{
+/** What vtkLabelsToSurfaces is asked for, but for which labels. Numbers may be out of range. */
+struct LabelSettings
+{
+  double Smoothing = 2.0; ///< voxels of the longest axis
+  double Gap = 0.0;       ///< world units
+  int Metric = 1;
+  double EdgeLength = 0.0;
+  int FinestLevel = 0;
+  int KeepComponents = 0;
+  double MinimumComponentVolume = 0.0;
+
+  /** @throws std::invalid_argument naming the property that is out of range. */
+  void Check() const;
+};
+
+/** The surface of one object, as vtkDeformableSurface gives it. */
+struct LabelSurface
+{
+  vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
+  vtkIdType WrongVoxels = 0;
+  std::string Error; ///< why there is none; empty: there is
+  std::vector<std::string> Warnings;
+};
+
+/** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */
+class LabelSurfaceMaker
+{
+public:
+  /** What there is to do, as a share, and whether to go on; called on the thread that does it. */
+  using Progress = std::function<bool(double share, const std::string& text)>;
+
+  /**
+   * @param image its geometry is the map's
+   * All must outlive it.
+   */
+  LabelSurfaceMaker(
+    const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings);
+
+  /** Where objects meet by threes: first of all objects, before any surface is made. */
+  bool HasClaims() const { return this->Bricks.HasContested(); }
+  void AddClaim(int object, HostThreads& threads);
+
+  /** @param numberOfThreads those of `threads`; 0: all */
+  LabelSurface Make(
+    int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const;
+
+private:
+  vtkSmartPointer<vtkImageData> MakeFieldImage(
+    int object, const std::vector<HeldVoxel>& held, HostThreads& threads) const;
+  LabelSurface Evolve(vtkImageData* field, vtkPolyData* start, int numberOfThreads,
+    const Progress& progress) const;
+  std::vector<std::int64_t> FindWrong(int object, vtkPolyData* surface) const;
+
+  const LabelBricks& Bricks;
+  vtkImageData* Image;
+  const LabelSettings& Settings;
+  LabelFieldOptions Options;
+  LabelClaims Claims;
+};
+}
+
+#endif

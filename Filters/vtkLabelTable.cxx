@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLabelTable.h"
+
+#include "AlgorithmErrors.h"
+#include "HostThreads.h"
+#include "InputImage.h"
+#include "LabelImage.h"
+#include "LabelNames.h"
+#include "WholeInput.h"
+
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+
+#include <exception>
+#include <optional>
+
+vtkStandardNewMacro(vtkLabelTable);
+
+//------------------------------------------------------------------------------
+vtkLabelTable::vtkLabelTable()
+{
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkLabelTable::~vtkLabelTable() = default;
+
+//------------------------------------------------------------------------------
+int vtkLabelTable::FillInputPortInformation(int, vtkInformation* info)
+{
+  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkLabelTable::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  volumic::AskForWholeInputs(request, input, 1, output);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkLabelTable::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (!volumic::IsFirstProcess(request, outputVector))
+  {
+    return 1;
+  }
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Label");
+  vtkNew<vtkStringArray> names;
+  names->SetName("Name");
+  vtkNew<vtkIdTypeArray> voxels;
+  voxels->SetName("Voxels");
+  vtkNew<vtkDoubleArray> colors;
+  colors->SetName("Color");
+  colors->SetNumberOfComponents(3);
+  try
+  {
+    vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+    volumic::HostThreads threads(0);
+    std::optional<volumic::LabelImage> image;
+    threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
+    const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
+    image->CheckNumberOfLabels();
+    for (const auto& entry : image->Labels())
+    {
+      labels->InsertNextValue(entry.first);
+      names->InsertNextValue(known.NameOf(entry.first));
+      voxels->InsertNextValue(entry.second);
+      colors->InsertNextTuple(known.ColorOf(entry.first).data());
+    }
+    vtkTable* table = vtkTable::GetData(outputVector);
+    table->AddColumn(labels);
+    table->AddColumn(names);
+    table->AddColumn(voxels);
+    table->AddColumn(colors);
+  }
+  catch (const std::exception& error)
+  {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
+    vtkErrorMacro("Input port 0: " << error.what());
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelTable::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLabelsToSurfaces.h"
+
+#include "AlgorithmErrors.h"
+#include "Core/Common/FreeMemory.h"
+#include "HostThreads.h"
+#include "InputImage.h"
+#include "LabelBlocks.h"
+#include "LabelImage.h"
+#include "LabelNames.h"
+#include "LabelSurface.h"
+#include "LabelSurfaces.h"
+#include "LimitedMemory.h"
+#include "PrefixErrors.h"
+#include "VersionCompatibility.h"
+#include "WholeInput.h"
+
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkErrorCode.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkLabelsToSurfaces);
+
+//------------------------------------------------------------------------------
+class vtkLabelsToSurfaces::vtkInternals
+{
+public:
+  volumic::LabelSettings Settings;
+  std::vector<int> Labels;
+  int BackgroundLabel = 0;
+  bool Merge = false;
+  int NumberOfThreads = 0;
+  int MemoryLimit = 0;
+  std::string ScratchDirectory;
+  volumic::LabelNames Names;
+  volumic::LimitedMemory Memory;
+};
+
+//------------------------------------------------------------------------------
+vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInternals>())
+{
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
+
+//------------------------------------------------------------------------------
+// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is.
+#define VolumicLabelProperty(name, type, field)                                                    \
+  type vtkLabelsToSurfaces::Get##name()                                                            \
+  {                                                                                                \
+    return this->Internals->field;                                                                 \
+  }                                                                                                \
+  void vtkLabelsToSurfaces::Set##name(type value)                                                  \
+  {                                                                                                \
+    vtkDebugMacro(<< "setting " #name " to " << value);                                            \
+    if (this->Internals->field != value)                                                           \
+    {                                                                                              \
+      this->Internals->field = value;                                                              \
+      this->Modified();                                                                            \
+    }                                                                                              \
+  }
+
+VolumicLabelProperty(BackgroundLabel, int, BackgroundLabel)
+VolumicLabelProperty(Merge, bool, Merge)
+VolumicLabelProperty(Smoothing, double, Settings.Smoothing)
+VolumicLabelProperty(Gap, double, Settings.Gap)
+VolumicLabelProperty(Metric, int, Settings.Metric)
+VolumicLabelProperty(EdgeLength, double, Settings.EdgeLength)
+VolumicLabelProperty(FinestLevel, int, Settings.FinestLevel)
+VolumicLabelProperty(KeepComponents, int, Settings.KeepComponents)
+VolumicLabelProperty(MinimumComponentVolume, double, Settings.MinimumComponentVolume)
+VolumicLabelProperty(MemoryLimit, int, MemoryLimit)
+
+int vtkLabelsToSurfaces::GetNumberOfThreads()
+{
+  return this->Internals->NumberOfThreads;
+}
+
+void vtkLabelsToSurfaces::SetNumberOfThreads(int number)
+{
+  if (this->Internals->NumberOfThreads != std::max(number, 0))
+  {
+    this->Internals->NumberOfThreads = std::max(number, 0);
+    this->Modified();
+  }
+}
+
+const char* vtkLabelsToSurfaces::GetScratchDirectory()
+{
+  return this->Internals->ScratchDirectory.c_str();
+}
+
+void vtkLabelsToSurfaces::SetScratchDirectory(const char* directory)
+{
+  const std::string wanted = directory ? directory : "";
+  if (this->Internals->ScratchDirectory != wanted)
+  {
+    this->Internals->ScratchDirectory = wanted;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::AddLabel(int label)
+{
+  this->Internals->Labels.push_back(label);
+  this->Modified();
+}
+
+void vtkLabelsToSurfaces::ClearLabels()
+{
+  if (!this->Internals->Labels.empty())
+  {
+    this->Internals->Labels.clear();
+    this->Modified();
+  }
+}
+
+int vtkLabelsToSurfaces::GetNumberOfLabels()
+{
+  return static_cast<int>(this->Internals->Labels.size());
+}
+
+int vtkLabelsToSurfaces::GetLabel(int index)
+{
+  return index >= 0 && index < this->GetNumberOfLabels()
+    ? this->Internals->Labels[static_cast<std::size_t>(index)]
+    : this->Internals->BackgroundLabel;
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::SetLabelName(int label, const char* name)
+{
+  if (name && *name)
+  {
+    this->Internals->Names.Names[label] = name;
+  }
+  else
+  {
+    this->Internals->Names.Names.erase(label);
+  }
+  this->Modified();
+}
+
+const char* vtkLabelsToSurfaces::GetLabelName(int label)
+{
+  const auto found = this->Internals->Names.Names.find(label);
+  return found == this->Internals->Names.Names.end() ? "" : found->second.c_str();
+}
+
+void vtkLabelsToSurfaces::ClearLabelNames()
+{
+  this->Internals->Names.Names.clear();
+  this->Modified();
+}
+
+void vtkLabelsToSurfaces::SetLabelColor(int label, double red, double green, double blue)
+{
+  this->Internals->Names.Colors[label] = { red, green, blue };
+  this->Modified();
+}
+
+void vtkLabelsToSurfaces::ClearLabelColors()
+{
+  this->Internals->Names.Colors.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+int vtkLabelsToSurfaces::FillInputPortInformation(int, vtkInformation* info)
+{
+  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkLabelsToSurfaces::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  volumic::AskForWholeInputs(request, input, 1, output);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSet* output)
+{
+  const vtkInternals& internals = *this->Internals;
+  internals.Settings.Check();
+  this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
+  const auto show = [this](double share, const std::string& text)
+  {
+    this->SetProgressText(text.c_str());
+    this->UpdateProgress(share);
+    return !volumic::IsAbortRequested(this);
+  };
+  show(0.0, "Reading the labels");
+  volumic::HostThreads threads(internals.NumberOfThreads);
+  volumic::LabelChoice choice;
+  std::optional<volumic::LabelImage> image;
+  volumic::LabelMap map;
+  std::optional<volumic::LabelBricks> bricks;
+  volumic::PrefixErrors("Input port 0: ",
+    [&]
+    {
+      threads.Run([&]
+        { image.emplace(input, this->GetInputArrayInformation(0), threads); });
+      choice.Labels = image->Choose(internals.Labels, internals.BackgroundLabel);
+      choice.Names = internals.Names;
+      choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));
+      choice.IsMerged = internals.Merge;
+      return 0;
+    });
+  if (!image->Warning().empty())
+  {
+    vtkWarningMacro("Input port 0: " << image->Warning());
+  }
+  threads.Run(
+    [&]
+    {
+      map = image->MakeMap(choice.Labels, internals.Merge, threads);
+      bricks.emplace(map, threads);
+    });
+  volumic::LabelSurfaceMaker maker(*bricks, image->Image(), internals.Settings);
+  const std::vector<volumic::LabelSurface> surfaces =
+    volumic::MakeLabelSurfaces(maker, *bricks, internals.NumberOfThreads, threads, show);
+  const std::string warning = volumic::FillBlocks(choice, *image, surfaces, output);
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkLabelsToSurfaces::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (!volumic::IsFirstProcess(request, outputVector))
+  {
+    return 1;
+  }
+  // ParaView leaves the flag of an earlier run as it is.
+  volumic::ForgetAbort(this);
+  try
+  {
+    this->MakeSurfaces(
+      vtkDataObject::GetData(inputVector[0]), vtkMultiBlockDataSet::GetData(outputVector));
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+    {
+      vtkWarningMacro(<< warning);
+    }
+  }
+  catch (const std::bad_alloc& error)
+  {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
+    vtkErrorMacro("Input port 0: the memory does not suffice for the surfaces. Set Finest Level to "
+                  "a coarser level, or choose fewer Labels.");
+  }
+  catch (const std::exception& error)
+  {
+    volumic::InitializeOutputs(outputVector);
+    this->SetErrorCode(volumic::ErrorCodeOf(error));
+    vtkErrorMacro(<< error.what());
+  }
+  volumic::ForgetAbort(this);
+  volumic::GiveBackFreeMemory();
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Labels:";
+  for (const int label : this->Internals->Labels)
+  {
+    os << " " << label;
+  }
+  os << endl;
+  os << indent << "BackgroundLabel: " << this->GetBackgroundLabel() << endl;
+  os << indent << "Merge: " << this->GetMerge() << endl;
+  os << indent << "Smoothing: " << this->GetSmoothing() << endl;
+  os << indent << "Gap: " << this->GetGap() << endl;
+  os << indent << "Metric: " << this->GetMetric() << endl;
+  os << indent << "EdgeLength: " << this->GetEdgeLength() << endl;
+  os << indent << "FinestLevel: " << this->GetFinestLevel() << endl;
+  os << indent << "KeepComponents: " << this->GetKeepComponents() << endl;
+  os << indent << "MinimumComponentVolume: " << this->GetMinimumComponentVolume() << endl;
+  os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << endl;
+  os << indent << "MemoryLimit: " << this->GetMemoryLimit() << endl;
+  os << indent << "ScratchDirectory: " << this->GetScratchDirectory() << endl;
+}
