@@ -147,26 +147,6 @@ double MeasuredVolume(const Implicit& distance)
   return static_cast<double>(inside) * step * step * step;
 }
 
-const char* NameOf(LabelShapeKind kind)
-{
-  switch (kind)
-  {
-    case LabelShapeKind::Sphere:
-      return "Sphere";
-    case LabelShapeKind::Torus:
-      return "Torus";
-    case LabelShapeKind::Gyroid:
-      return "Gyroid";
-    case LabelShapeKind::ThinShell:
-      return "ThinShell";
-    case LabelShapeKind::TouchingBalls:
-      return "TouchingBalls";
-    case LabelShapeKind::CutBall:
-      return "CutBall";
-  }
-  throw std::invalid_argument("Digitise: unknown kind of shape");
-}
-
 /** Gives `label` to the voxels with negative `value`, within a ball of `reach`; units: voxels. */
 void Paint(LabelMap& map, int label, const Vector& centre, double reach, const Implicit& value)
 {
@@ -205,6 +185,26 @@ std::vector<LabelShapeKind> AllLabelShapeKinds()
     LabelShapeKind::ThinShell, LabelShapeKind::TouchingBalls, LabelShapeKind::CutBall };
 }
 
+std::string LabelShapeName(LabelShapeKind kind)
+{
+  switch (kind)
+  {
+    case LabelShapeKind::Sphere:
+      return "Sphere";
+    case LabelShapeKind::Torus:
+      return "Torus";
+    case LabelShapeKind::Gyroid:
+      return "Gyroid";
+    case LabelShapeKind::ThinShell:
+      return "ThinShell";
+    case LabelShapeKind::TouchingBalls:
+      return "TouchingBalls";
+    case LabelShapeKind::CutBall:
+      return "CutBall";
+  }
+  throw std::invalid_argument("LabelShapeName: unknown kind of shape");
+}
+
 //------------------------------------------------------------------------------
 DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
 {
@@ -213,7 +213,7 @@ DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
     throw std::invalid_argument("Digitise: at least 32 voxels are needed, and a stretch of 1");
   }
   DigitisedShapes result;
-  result.Name = NameOf(kind);
+  result.Name = LabelShapeName(kind);
   LabelMap& map = result.Map;
   map.Size = { size, size, static_cast<int>(std::ceil(size / stretch)) };
   map.Spacing = { 1.0, 1.0, stretch };

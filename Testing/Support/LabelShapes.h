@@ -55,9 +55,12 @@ enum class LabelShapeKind
 
 std::vector<LabelShapeKind> AllLabelShapeKinds();
 
+/** Letters only. */
+std::string LabelShapeName(LabelShapeKind kind);
+
 struct DigitisedShapes
 {
-  std::string Name; ///< letters only
+  std::string Name; ///< LabelShapeName
   LabelMap Map;     ///< background: 0
   std::vector<LabelShape> Shapes;
 };
