@@ -20,8 +20,8 @@ std::vector<char> EnclosedVoxels(
   const auto [nx, ny, nz] = size;
   // Crossings of the rows, a little beside the voxels so that no row hits an edge.
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(ny) * nz);
-  constexpr double dy = 1.234567e-4;
-  constexpr double dz = 2.345678e-4;
+  constexpr double dy = 1.234567e-7;
+  constexpr double dz = 2.345678e-7;
   for (const auto& triangle : surface.Triangles)
   {
     const auto& a = surface.Points[triangle[0]];
