@@ -29,7 +29,7 @@ struct LabelFieldOptions
    * How much of its Laplacian is taken off the distance: triangles whose corners are on a bent
    * surface cut off e^2 / 16 of it in the mean, e being the length of their edges.
    */
-  double ChordCorrection = 0.15;
+  double ChordCorrection = 0.3;
 };
 
 /** A voxel that must be further inside, or outside, than the options ask for. */
