@@ -4,11 +4,12 @@
 #include "LabelMaps.h"
 
 #include <vtkDataArray.h>
+#include <vtkImageData.h>
 #include <vtkImageMedian3D.h>
 #include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkShortArray.h>
+#include <vtkSmartPointer.h>
 #include <vtkXMLImageDataReader.h>
 
 #include <algorithm>
@@ -221,20 +222,6 @@ LabelMap CropToLabel(const LabelMap& map, int label, int margin)
     }
   }
   return crop;
-}
-
-vtkSmartPointer<vtkImageData> ToImage(const LabelMap& map)
-{
-  vtkNew<vtkShortArray> values;
-  values->SetName("Labels");
-  values->SetNumberOfTuples(static_cast<vtkIdType>(map.Values.size()));
-  std::copy(map.Values.begin(), map.Values.end(), values->GetPointer(0));
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(map.Size.data());
-  image->SetSpacing(map.Spacing.data());
-  image->SetOrigin(map.Origin.data());
-  image->GetPointData()->SetScalars(values);
-  return image;
 }
 
 } // namespace bench

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** The label maps of BenchmarkLabels, and their way to VTK. */
+/** The label maps of BenchmarkLabels. */
 
 #ifndef volumicLabelMaps_h
 #define volumicLabelMaps_h
 
 #include "LabelShapes.h"
-
-#include <vtkImageData.h>
-#include <vtkSmartPointer.h>
 
 #include <map>
 #include <string>
@@ -41,9 +38,6 @@ std::map<int, long long> CountLabels(const support::LabelMap& map);
 
 /** The box of a label with `margin` voxels about it, those outside of the map background. */
 support::LabelMap CropToLabel(const support::LabelMap& map, int label, int margin);
-
-/** With its values as point scalars `Labels`. */
-vtkSmartPointer<vtkImageData> ToImage(const support::LabelMap& map);
 
 } // namespace bench
 } // namespace volumic

@@ -64,7 +64,7 @@ vtkSmartPointer<vtkLabelsToSurfaces> MakeFilter(
   const support::LabelMap& map, const std::vector<int>& labels, const LabelSettings& settings)
 {
   auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
-  filter->SetInputDataObject(ToImage(map));
+  filter->SetInputDataObject(support::ToImage(map));
   for (const int label : labels)
   {
     filter->AddLabel(label);
@@ -226,7 +226,7 @@ LabelSurface SurfaceAlone(const std::string& run, const support::LabelMap& map, 
   }
   else
   {
-    const auto image = ToImage(CropToLabel(map, label, MarginOfPeers));
+    const auto image = support::ToImage(CropToLabel(map, label, MarginOfPeers));
     SurfaceJob job;
     Measure(
       [&]()
