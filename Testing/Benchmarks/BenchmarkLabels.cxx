@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * vtkLabelsToSurfaces and its peers, side by side: on digitised shapes, whose surfaces are known, on
- * label maps, on labels made of a scan, and on a map with the size of a body. See
+ * vtkLabelsToSurfaces and its peers, side by side: on digitised shapes, whose surfaces are known,
+ * on label maps, on labels made of a scan, and on a map with the size of a body. See
  * LabelBenchmarkUsage for the command line, LabelPeers.h for the peers.
  *
  * Ours is run on the whole map, and by itself on each label, cut out with some voxels about it;

@@ -305,7 +305,8 @@ TextRows LabelCsvRows(const std::vector<LabelRow>& rows)
 TextRows LabelTargetRows(const std::vector<LabelRow>& rows)
 {
   LabelTargets targets(rows);
-  targets.AddOfLabels("truth", "distance at vertices, voxels", "DistanceAtVertices", Bound::AtMost, 0.1);
+  targets.AddOfLabels(
+    "truth", "distance at vertices, voxels", "DistanceAtVertices", Bound::AtMost, 0.1);
   targets.AddOfLabels(
     "truth", "distance at centroids, voxels", "DistanceAtCentroids", Bound::AtMost, 0.1);
   targets.AddOfLabels("truth", "angle of normals, degrees", "NormalAngle", Bound::AtMost, 3.0);

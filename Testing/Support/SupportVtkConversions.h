@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * Scenes, label maps and surfaces to and from VTK. Inline, so that the support library itself needs no VTK; who
- * includes it links VTK::CommonCore, VTK::CommonDataModel.
+ * Scenes, label maps and surfaces to and from VTK. Inline, so that the support library itself needs
+ * no VTK; who includes it links VTK::CommonCore, VTK::CommonDataModel.
  */
 
 #ifndef volumicSupportVtkConversions_h
