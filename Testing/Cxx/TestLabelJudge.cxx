@@ -186,7 +186,7 @@ TEST(JudgeVoxels, CountsBothSides)
   LabelMap map;
   map.Size = { 40, 40, 20 };
   map.Spacing = { 0.8, 0.8, 1.1 };
-  map.Origin = { -15.6, -15.7, -10.3 };
+  map.Origin = { -15.63, -15.71, -10.27 };
   map.Values.resize(40 * 40 * 20);
   const LabelShape ring = Ring(10.0, 4.0);
   std::size_t middle = 0;
@@ -196,7 +196,7 @@ TEST(JudgeVoxels, CountsBothSides)
     {
       for (int i = 0; i < 40; ++i, ++v)
       {
-        const Vector p = { -15.6 + 0.8 * i, -15.7 + 0.8 * j, -10.3 + 1.1 * k };
+        const Vector p = { -15.63 + 0.8 * i, -15.71 + 0.8 * j, -10.27 + 1.1 * k };
         map.Values[v] = ring.Distance(p) < 0.0 ? 7 : 3;
         middle = ring.Distance(p) < -3.0 ? v : middle;
       }

@@ -5,9 +5,14 @@
 
 #include "JudgeInternals.h"
 
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
+#if __has_include(<CGAL/AABB_traits_3.h>) // from CGAL 6 on
+#include <CGAL/AABB_traits_3.h>
+#include <CGAL/AABB_triangle_primitive_3.h>
+#else
+#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_triangle_primitive.h>
+#endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 
@@ -22,8 +27,13 @@ namespace
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangles = std::vector<Kernel::Triangle_3>;
+#if __has_include(<CGAL/AABB_traits_3.h>)
+using Primitive = CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
+#else
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+#endif
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, const Kernel::Triangle_3*>;
 
 Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
