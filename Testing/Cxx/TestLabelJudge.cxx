@@ -186,7 +186,7 @@ TEST(JudgeVoxels, CountsBothSides)
   LabelMap map;
   map.Size = { 40, 40, 20 };
   map.Spacing = { 0.8, 0.8, 1.1 };
-  map.Origin = { -15.63, -15.71, -10.27 };
+  map.Origin = { -15.6, -15.41, -10.14 };
   map.Values.resize(40 * 40 * 20);
   const LabelShape ring = Ring(10.0, 4.0);
   std::size_t middle = 0;
@@ -196,13 +196,14 @@ TEST(JudgeVoxels, CountsBothSides)
     {
       for (int i = 0; i < 40; ++i, ++v)
       {
-        const Vector p = { -15.63 + 0.8 * i, -15.71 + 0.8 * j, -10.27 + 1.1 * k };
+        const Vector p = { -15.6 + 0.8 * i, -15.41 + 0.8 * j, -10.14 + 1.1 * k };
         map.Values[v] = ring.Distance(p) < 0.0 ? 7 : 3;
         middle = ring.Distance(p) < -3.0 ? v : middle;
       }
     }
   }
-  const TriangleSurface surface = Torus(400, 200, 10.0, 4.0);
+  // Nearer to the ring than any voxel's centre is.
+  const TriangleSurface surface = Torus(800, 400, 10.0, 4.0);
   const WrongVoxelVerdict right = JudgeVoxels(surface, map, 7);
   EXPECT_EQ(right.Wrong(), 0u);
   EXPECT_EQ(right.Label, std::count(map.Values.begin(), map.Values.end(), 7));
