@@ -4,6 +4,7 @@
 
 #include "Announcer.h"
 #include "GatherSurface.h"
+#include "LabelMap.h"
 #include "LoadVolume.h"
 #include "ParseNumbers.h"
 #include "Ranks.h"
@@ -240,10 +241,10 @@ void FindSurface(const Job& job, ReportInput& results)
 }
 }
 
-ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
-  vtkDeformableSurface* filter, Ranks& ranks)
+ExitCode SegmentVolume(const ToolOptions& options, const ToolFilters& filters, Ranks& ranks)
 {
-  Job job = { options, pyramid, filter, ranks, Announcer(options), LoadedVolume() };
+  vtkDeformableSurface* filter = filters.Surface;
+  Job job = { options, filters.Pyramid, filter, ranks, Announcer(options), LoadedVolume() };
   ranks.OnFirst([&] { CheckFiles(options); });
   const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
   job.Volume = LoadVolume(options, filter, holder, job.Says, ranks);
@@ -257,7 +258,11 @@ ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
   if (!options.WrittenVolume.empty())
   {
     ranks.OnFirst(
-      [&] { WriteVolume(job.Volume.Image, options.WrittenVolume, job.Says.Style); });
+      [&]
+      {
+        NameLabels(options, job.Volume.Image, job.Says);
+        WriteVolume(job.Volume.Image, options.WrittenVolume, job.Says.Style);
+      });
   }
   if (!options.WantsSurface())
   {
@@ -278,7 +283,7 @@ ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
   filter->SetSelectedComponent(component); // as it was chosen
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = job.Volume.Part ? job.Volume.Part->FactsOfAll(ranks) : job.Volume.Facts;
-  results.Filters = { pyramid, filter };
+  results.Filters = filters;
   WriteOutputs(options, results, job.Says.Style, ranks);
   RemoveCheckpointOfEnded(job, results.StopReason);
 
