@@ -63,21 +63,25 @@ std::vector<std::size_t> Find(const std::vector<KnownLabel>& known, const Test& 
   return found;
 }
 
-std::vector<std::size_t> FindNamed(const std::string& text, const std::vector<KnownLabel>& known)
+/** Whether it has a name, and not only a number. */
+bool IsNamed(const KnownLabel& label)
 {
-  for (const int flags : { 0, FNM_CASEFOLD })
+  return label.Name != "Label " + std::to_string(label.Label);
+}
+
+/** By the name, of other case if there is none of this; else by the names that a pattern means. */
+std::vector<std::size_t> FindNamed(
+  const std::string& text, const std::vector<KnownLabel>& known, int background)
+{
+  std::vector<std::size_t> same =
+    Find(known, [&](const KnownLabel& label) { return label.Name == text; });
+  if (same.empty())
   {
-    const std::vector<std::size_t> same = Find(known,
-      [&](const KnownLabel& label)
-      { return flags == 0 ? label.Name == text : Lower(label.Name) == Lower(text); });
-    if (!same.empty())
-    {
-      return same;
-    }
+    same = Find(known, [&](const KnownLabel& label) { return Lower(label.Name) == Lower(text); });
   }
-  if (text.find('*') == std::string::npos)
+  if (!same.empty() || text.find('*') == std::string::npos)
   {
-    return {};
+    return same;
   }
   // Brackets and so on are letters of names.
   std::string pattern;
@@ -85,8 +89,12 @@ std::vector<std::size_t> FindNamed(const std::string& text, const std::vector<Kn
   {
     pattern += (c == '*' ? "" : "\\") + std::string(1, c);
   }
-  return Find(known, [&](const KnownLabel& label)
-    { return fnmatch(pattern.c_str(), Lower(label.Name).c_str(), 0) == 0; });
+  return Find(known,
+    [&](const KnownLabel& label)
+    {
+      return IsNamed(label) && label.Label != background &&
+        fnmatch(pattern.c_str(), Lower(label.Name).c_str(), 0) == 0;
+    });
 }
 
 /** What one text asks for; empty if there is no such label. */
@@ -97,7 +105,7 @@ std::vector<std::size_t> FindText(
   {
     return Find(known, [&](const KnownLabel& label) { return label.Label == *value; });
   }
-  const std::vector<std::size_t> named = FindNamed(text, known);
+  const std::vector<std::size_t> named = FindNamed(text, known, background);
   if (!named.empty())
   {
     return named;
@@ -108,8 +116,12 @@ std::vector<std::size_t> FindText(
   }
   if (const auto range = AsRange(text))
   {
-    return Find(known, [&](const KnownLabel& label)
-      { return label.Label >= range->first && label.Label <= range->second; });
+    return Find(known,
+      [&](const KnownLabel& label)
+      {
+        return label.Label >= range->first && label.Label <= range->second &&
+          label.Label != background;
+      });
   }
   return {};
 }
@@ -121,9 +133,8 @@ std::string ListOf(const std::vector<KnownLabel>& known)
   std::string list;
   for (std::size_t i = 0; i < std::min(known.size(), most); ++i)
   {
-    const std::string value = std::to_string(known[i].Label);
-    const bool isNamed = known[i].Name != "Label " + value;
-    list += (i > 0 ? ", " : "") + value + (isNamed ? " " + known[i].Name : "");
+    list += (i > 0 ? ", " : "") + std::to_string(known[i].Label) +
+      (IsNamed(known[i]) ? " " + known[i].Name : "");
   }
   return list +
     (known.size() > most ? " and " + std::to_string(known.size() - most) + " more" : "");
@@ -195,7 +206,7 @@ std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
   for (const std::string& text : texts)
   {
     // A name may have commas.
-    const bool isName = !FindNamed(text, known).empty();
+    const bool isName = !FindNamed(text, known, background).empty();
     for (const std::string& part :
       isName ? std::vector<std::string>{ text } : SplitAtCommas(text))
     {
@@ -217,10 +228,8 @@ std::vector<std::string> FileNamesOf(const std::vector<KnownLabel>& known)
   std::map<std::string, int> uses;
   for (const KnownLabel& label : known)
   {
-    const std::string value = std::to_string(label.Label);
-    const bool isNamed = label.Name != "Label " + value;
-    const std::string safe = isNamed ? SafeName(label.Name) : "";
-    names.push_back(safe.empty() ? "label-" + value : safe);
+    const std::string safe = IsNamed(label) ? SafeName(label.Name) : "";
+    names.push_back(safe.empty() ? "label-" + std::to_string(label.Label) : safe);
     ++uses[Lower(names.back())];
   }
   std::set<std::string> taken;
