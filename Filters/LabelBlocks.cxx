@@ -77,7 +77,6 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const std::vector<LabelSurface>& surfaces, vtkMultiBlockDataSet* output)
 {
   std::vector<std::string> empty;
-  std::vector<std::string> failed;
   output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
@@ -105,11 +104,7 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     const auto block = static_cast<unsigned int>(i);
     output->SetBlock(block, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
-    if (!surfaces[i].Error.empty())
-    {
-      failed.push_back(name + " (" + surfaces[i].Error + ")");
-    }
-    else if (surface->GetNumberOfCells() == 0 && isThere)
+    if (isThere && surface->GetNumberOfCells() == 0)
     {
       empty.push_back(name);
     }
@@ -118,12 +113,7 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   if (!empty.empty())
   {
     warning = "No surface is left of " + Listed(empty) +
-      ": fewer voxels than the triangles can hold. Finest Level -1 makes smaller ones.";
-  }
-  if (!failed.empty())
-  {
-    warning += (warning.empty() ? "" : " ") + std::string("There is no surface of ") +
-      Listed(failed);
+      ": too small or too thin for the triangles. With Finest Level -1 these are smaller.";
   }
   return warning;
 }

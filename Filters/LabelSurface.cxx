@@ -2,40 +2,71 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelSurface.h"
 
-#include "AlgorithmErrors.h"
 #include "BuildPyramid.h"
+#include "Core/Common/Communicator.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Labels/WrongVoxels.h"
-#include "LargeArray.h"
+#include "SegmentationRequest.h"
+#include "SegmentationSettings.h"
+#include "SurfaceOutput.h"
+#include "SurfaceSegmentation.h"
 #include "Workspace.h"
 #include "vtkImagePyramid.h"
-#include "vtkVolumeToSurface.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
-#include <vtkCommand.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace volumic
 {
 namespace
 {
-/** Rounds of finding wrong voxels and holding them further off. */
-constexpr int Rounds = 1;
+/** Share of the work on a label that its field is. */
+constexpr double FieldShare = 0.2;
+
+/**
+ * Margins of voxels that the triangles have cut off, round after round of the surface, in smallest
+ * distances of voxels.
+ */
+constexpr std::array<float, 2> FurtherMargins = { 0.3f, 0.5f };
 
 void CheckNumber(const char* name, double value)
 {
   if (!(value >= 0.0) || !std::isfinite(value))
   {
     Refuse(name, " is ", value, "; it must be 0 (none) or more.");
+  }
+}
+
+/** That of the active scalars, as GetInputArrayInformation(). */
+vtkSmartPointer<vtkInformation> SelectScalars()
+{
+  auto selection = vtkSmartPointer<vtkInformation>::New();
+  selection->Set(vtkDataObject::FIELD_ASSOCIATION(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
+  selection->Set(vtkDataObject::FIELD_ATTRIBUTE_TYPE(), vtkDataSetAttributes::SCALARS);
+  return selection;
+}
+
+/** Multiplies the residuals, which are in smallest distances of voxels. */
+void ScaleResidual(vtkPolyData* surface, double unit)
+{
+  auto* residual =
+    vtkFloatArray::SafeDownCast(surface->GetPointData()->GetArray("Residual"));
+  for (vtkIdType i = 0; residual && i < residual->GetNumberOfTuples(); ++i)
+  {
+    residual->SetValue(i, static_cast<float>(unit * residual->GetValue(i)));
   }
 }
 }
@@ -50,9 +81,17 @@ void LabelSettings::Check() const
   CheckNumber("Gap", this->Gap);
   CheckNumber("Edge Length", this->EdgeLength);
   CheckNumber("Minimum Component Volume", this->MinimumComponentVolume);
-  if (this->KeepComponents != vtkDeformableSurface::AllComponents &&
-    this->KeepComponents != vtkDeformableSurface::LargestComponent &&
-    this->KeepComponents != vtkDeformableSurface::LargeComponents)
+  if (this->FinestLevel < -1)
+  {
+    Refuse("Finest Level is ", this->FinestLevel, "; it must be -1 or more.");
+  }
+  if (this->Metric != 0 && this->Metric != 1)
+  {
+    Refuse("Metric is ", this->Metric, "; it must be 0 (Voxels) or 1 (World).");
+  }
+  const auto keep = static_cast<KeepComponentsType>(this->KeepComponents);
+  if (keep != KeepComponentsType::AllComponents && keep != KeepComponentsType::LargestComponent &&
+    keep != KeepComponentsType::LargeComponents)
   {
     Refuse("Keep Components is ", this->KeepComponents,
       "; for labels it must be 0 (all), 1 (the largest) or 3 (large ones).");
@@ -72,36 +111,86 @@ LabelSurfaceMaker::LabelSurfaceMaker(
 
 void LabelSurfaceMaker::AddClaim(int object, HostThreads& threads)
 {
-  threads.Run([&]
-    { this->Claims.Add(object, MakeLabelField(this->Bricks, object, this->Options, {}, threads)); });
+  threads.Run(
+    [&]
+    { this->Claims.Add(object, MakeLabelField(this->Bricks, object, this->Options, threads)); });
 }
 
-vtkSmartPointer<vtkImageData> LabelSurfaceMaker::MakeFieldImage(
-  int object, const std::vector<HeldVoxel>& held, HostThreads& threads) const
+LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
+  int object, HostThreads& threads) const
 {
-  LabelField field;
-  threads.Run(
-    [&] { field = MakeLabelField(this->Bricks, object, this->Options, held, threads); });
-  this->Claims.Settle(object, field);
-  auto image = vtkSmartPointer<vtkImageData>::New();
+  FieldImage made;
+  threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, this->Options, threads); });
+  this->Claims.Settle(object, made.Field);
+  made.Image = vtkSmartPointer<vtkImageData>::New();
   const int* extent = this->Image->GetExtent();
   int box[6];
   for (int axis = 0; axis < 3; ++axis)
   {
-    box[2 * axis] = extent[2 * axis] + field.Box.First[axis];
-    box[2 * axis + 1] = extent[2 * axis] + field.Box.End[axis] - 1;
+    box[2 * axis] = extent[2 * axis] + made.Field.Box.First[axis];
+    box[2 * axis + 1] = extent[2 * axis] + made.Field.Box.End[axis] - 1;
   }
-  image->SetExtent(box);
-  image->SetOrigin(this->Image->GetOrigin());
-  image->SetSpacing(this->Image->GetSpacing());
-  image->SetDirectionMatrix(this->Image->GetDirectionMatrix());
-  const auto unit = static_cast<float>(Workspace(this->Image, Metric::World).WorldUnit());
-  auto values = NewLargeArray<vtkFloatArray>(field.Values.size());
-  std::transform(field.Values.begin(), field.Values.end(), values->GetPointer(0),
-    [unit](float value) { return unit * value; });
+  made.Image->SetExtent(box);
+  made.Image->SetOrigin(this->Image->GetOrigin());
+  made.Image->SetSpacing(this->Image->GetSpacing());
+  made.Image->SetDirectionMatrix(this->Image->GetDirectionMatrix());
+  vtkNew<vtkFloatArray> values;
   values->SetName("Distance");
-  image->GetPointData()->SetScalars(values);
-  return image;
+  constexpr int isOurs = 1;
+  values->SetArray(
+    made.Field.Values.data(), static_cast<vtkIdType>(made.Field.Values.size()), isOurs);
+  made.Image->GetPointData()->SetScalars(values);
+  return made;
+}
+
+SegmentationVolume LabelSurfaceMaker::MakeVolume(
+  vtkImageData* field, const Progress& progress) const
+{
+  SegmentationVolume volume;
+  volume.Selection = SelectScalars();
+  SegmentationSettings& settings = volume.Settings;
+  const double unit = Workspace(this->Image, Metric::World).WorldUnit();
+  settings.Options.IsoValue = 0.5 * this->Settings.Gap / unit;
+  settings.Options.RecoverLostParts = false;
+  settings.Recovery = RecoveryType::NoRecovery;
+  settings.Metric = static_cast<Metric>(this->Settings.Metric);
+  settings.EdgeLength = this->Settings.EdgeLength;
+  settings.KeepComponents = static_cast<KeepComponentsType>(this->Settings.KeepComponents);
+  settings.MinimumComponentVolume = this->Settings.MinimumComponentVolume;
+  settings.Initialization = InitializationType::IsoSurface;
+  settings.End.FinestLevel = this->Settings.FinestLevel;
+  vtkNew<vtkImagePyramid> pyramid;
+  if (settings.EdgeLength != 0.0)
+  {
+    const EdgeLengthPlan plan =
+      PlanEdgeLength(settings.EdgeLength, settings.Options.SamplingRatio, field, pyramid);
+    settings.End.FinestLevel = plan.FinestLevel;
+    settings.Options.SamplingRatio = plan.SamplingRatio;
+    volume.FactorBelowLevel0 = plan.ReductionFactor;
+    volume.EdgeLengthIsPlanned = true;
+  }
+  // No coarser ones: what is thin, or hollow, would be lost there.
+  settings.CoarsestLevel = std::max(settings.End.FinestLevel, 0);
+  pyramid->SetNumberOfLevels(settings.CoarsestLevel + 1);
+  pyramid->SetNumberOfThreads(1);
+  volume.LevelsAreOwn = true;
+  SingleRank alone;
+  volume.Levels = BuildPyramid(alone, pyramid, field, volume.Selection,
+    [&](double) { return progress(FieldShare, "Pyramid of the field"); });
+  return volume;
+}
+
+std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(
+  int object, IndexedSurface surface, const Point& first, const Point& step) const
+{
+  for (Point& p : surface.Points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = first[axis] + p[axis] / step[axis];
+    }
+  }
+  return FindWrongVoxels(this->Bricks, object, surface);
 }
 
 std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(int object, vtkPolyData* surface) const
@@ -129,88 +218,75 @@ std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(int object, vtkPolyData* 
   return FindWrongVoxels(this->Bricks, object, indexed);
 }
 
-LabelSurface LabelSurfaceMaker::Evolve(vtkImageData* field, vtkPolyData* start,
-  int numberOfThreads, const Progress& progress) const
+bool LabelSurfaceMaker::HoldWrong(int object, int round, const std::vector<std::int64_t>& wrong,
+  LabelField& field) const
 {
-  LabelSurface made;
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetController(nullptr);
-  filter->SetInputData(field);
-  filter->SetIsoValue(0.5 * this->Settings.Gap);
-  filter->SetMetric(this->Settings.Metric);
-  filter->SetEdgeLength(this->Settings.EdgeLength);
-  filter->SetKeepComponents(this->Settings.KeepComponents);
-  filter->SetMinimumComponentVolume(this->Settings.MinimumComponentVolume);
-  filter->SetNumberOfThreads(numberOfThreads);
-  int finest = this->Settings.FinestLevel;
-  if (this->Settings.EdgeLength != 0.0)
+  if (wrong.empty() || round >= static_cast<int>(FurtherMargins.size()) ||
+    this->Settings.Gap > 0.0)
   {
-    vtkNew<vtkImagePyramid> pyramid;
-    finest = PlanEdgeLength(
-      this->Settings.EdgeLength, filter->GetSamplingRatio(), field, pyramid).FinestLevel;
+    return false;
   }
-  else
+  std::vector<HeldVoxel> held;
+  for (const std::int64_t voxel : wrong)
   {
-    filter->SetFinestLevel(finest);
+    held.push_back({ voxel, FurtherMargins[static_cast<std::size_t>(round)] });
   }
-  filter->SetCoarsestLevel(std::max(finest, 0));
-  filter->SetRecovery(vtkDeformableSurface::NoRecovery);
-  filter->SetInitialization(vtkDeformableSurface::IsoSurface);
-  if (start)
-  {
-    filter->SetInitialization(vtkDeformableSurface::InputSurface);
-    filter->SetInitialSurfaceData(start);
-  }
-  struct Host
-  {
-    const Progress& Report;
-    std::vector<std::string>& Warnings;
-  } host{ progress, made.Warnings };
-  vtkNew<vtkCallbackCommand> follow;
-  follow->SetClientData(&host);
-  follow->SetCallback(
-    [](vtkObject* caller, unsigned long event, void* client, void* data)
-    {
-      auto* filter = static_cast<vtkAlgorithm*>(caller);
-      auto* host = static_cast<Host*>(client);
-      if (event == vtkCommand::WarningEvent)
-      {
-        host->Warnings.emplace_back(static_cast<const char*>(data));
-        return;
-      }
-      const char* text = filter->GetProgressText();
-      if (!host->Report(filter->GetProgress(), text ? text : ""))
-      {
-        filter->SetAbortExecute(1);
-      }
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, follow);
-  filter->AddObserver(vtkCommand::WarningEvent, follow);
-  made.Error = UpdateAndCollectErrors(filter);
-  made.Surface = filter->GetOutput();
-  return made;
+  HoldFurther(field, this->Bricks, object, this->Options, held, OnThisThread());
+  return true;
 }
 
 LabelSurface LabelSurfaceMaker::Make(
   int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const
 {
-  std::vector<HeldVoxel> held;
   LabelSurface made;
-  for (int round = 0;; ++round)
+  made.Surface = MakeStopped(std::max(this->Settings.FinestLevel, 0), "vanished");
+  FieldImage field = this->MakeField(object, threads);
+  if (!progress(FieldShare, "Field of the label"))
   {
-    const vtkSmartPointer<vtkImageData> field = this->MakeFieldImage(object, held, threads);
-    const vtkSmartPointer<vtkPolyData> start = made.Surface;
-    made = this->Evolve(field, start, numberOfThreads, progress);
-    const std::vector<std::int64_t> wrong = this->FindWrong(object, made.Surface);
-    made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
-    if (wrong.empty() || round == Rounds || !made.Error.empty() || !progress(1.0, ""))
+    made.Surface = nullptr;
+    return made;
+  }
+  const LabelExtent& extent = this->Bricks.ExtentOf(object);
+  made.WrongVoxels = extent.Voxels;
+  SegmentationRequest request;
+  request.Progress = [&](double share, const std::string& text)
+  { return progress(FieldShare + (1.0 - FieldShare) * share, text); };
+  request.Warn = [&](const std::string& text) { made.Warnings.push_back(text); };
+  const float* const values = field.Field.Values.data();
+  try
+  {
+    const SegmentationVolume volume = this->MakeVolume(field.Image, progress);
+    if (!volume.Levels)
     {
+      made.Surface = nullptr;
       return made;
     }
-    for (const std::int64_t voxel : wrong)
+    request.End = volume.Settings.End;
+    request.End.NumberOfThreads = numberOfThreads;
+    const Point step = Workspace(this->Image, volume.Settings.Metric).Step();
+    Point first;
+    std::copy(field.Field.Box.First.begin(), field.Field.Box.First.end(), first.begin());
+    int round = 0;
+    request.Revise = [&](const SurfaceResult& surface)
     {
-      held.push_back({ voxel, 0.3f });
-    }
+      return this->HoldWrong(
+        object, round++, this->FindWrong(object, surface, first, step), field.Field);
+    };
+    SurfaceSegmentation run(volume, request);
+    run.Run();
+    vtkPolyData* surface = run.Results().Outcome(run.EndsAt());
+    ScaleResidual(surface, Workspace(this->Image, Metric::World).WorldUnit());
+    made.Surface = surface;
+    made.WrongVoxels = static_cast<vtkIdType>(this->FindWrong(object, surface).size());
   }
+  catch (const std::invalid_argument& error)
+  {
+    made.Error = error.what(); // Too small or too thin for such triangles.
+  }
+  if (values != field.Field.Values.data())
+  {
+    throw std::logic_error("The field has moved in memory.");
+  }
+  return made;
 }
 }

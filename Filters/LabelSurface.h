@@ -6,6 +6,7 @@
 #include "Core/Labels/LabelClaims.h"
 #include "Core/Labels/LabelField.h"
 #include "HostThreads.h"
+#include "SegmentationVolume.h"
 
 #include <vtkSmartPointer.h>
 
@@ -38,7 +39,7 @@ struct LabelSurface
 {
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
   vtkIdType WrongVoxels = 0;
-  std::string Error; ///< why there is none; empty: there is
+  std::string Error; ///< why it is empty, where that is not plain
   std::vector<std::string> Warnings;
 };
 
@@ -65,11 +66,21 @@ public:
     int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const;
 
 private:
-  vtkSmartPointer<vtkImageData> MakeFieldImage(
-    int object, const std::vector<HeldVoxel>& held, HostThreads& threads) const;
-  LabelSurface Evolve(vtkImageData* field, vtkPolyData* start, int numberOfThreads,
-    const Progress& progress) const;
+  /** A field and the image that shows its values. */
+  struct FieldImage
+  {
+    LabelField Field;
+    vtkSmartPointer<vtkImageData> Image;
+  };
+  FieldImage MakeField(int object, HostThreads& threads) const;
+  SegmentationVolume MakeVolume(vtkImageData* field, const Progress& progress) const;
+  /** In coordinates of the voxels of the map. */
+  std::vector<std::int64_t> FindWrong(int object, IndexedSurface surface, const Point& first,
+    const Point& step) const;
   std::vector<std::int64_t> FindWrong(int object, vtkPolyData* surface) const;
+  /** Holds voxels that a surface has on the wrong side further off. @return whether it has. */
+  bool HoldWrong(int object, int round, const std::vector<std::int64_t>& wrong,
+    LabelField& field) const;
 
   const LabelBricks& Bricks;
   vtkImageData* Image;

@@ -18,6 +18,7 @@ namespace volumic
 {
 class Communicator;
 class SegmentationCheckpoint;
+struct SurfaceResult;
 
 /** Whether a run leaves what another process can go on from; see SegmentationCheckpoint. */
 struct CheckpointRequest
@@ -47,6 +48,11 @@ struct SegmentationRequest
   Deadline::Clock::time_point Started = Deadline::Clock::now();
   ProgressMonitor::Callback Progress;
   std::function<void(const std::string& text)> Warn;
+  /**
+   * Asked at the end of the last level, which is 0 or -1: whether it has changed some voxels, so
+   * that the surface must be revised, and it asked again. Empty: they stay.
+   */
+  std::function<bool(const SurfaceResult& surface)> Revise;
   /** Does a part of the run on all ranks (FirstRankWork::Together); empty: there is one rank. */
   std::function<void(const std::function<void()>& part)> Together;
   Communicator* Ranks = nullptr; ///< these

@@ -64,21 +64,28 @@ bool SegmentationResults::HasAtRest(int level) const
   return found != this->ByLevel.end() && found->second.IsAtRest;
 }
 
+vtkPolyData* SegmentationResults::Outcome(int last) const
+{
+  if (this->StoppedSurface)
+  {
+    return this->StoppedSurface;
+  }
+  const auto finest = this->ByLevel.lower_bound(last);
+  return finest == this->ByLevel.end() ? nullptr : finest->second.Surface.GetPointer();
+}
+
 void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) const
 {
   auto levels = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  vtkPolyData* finest = nullptr;
   for (int level = this->NumberOfLevels - 1; level >= std::min(last, 0); --level)
   {
     const auto found = this->ByLevel.find(level);
     const bool isThere = level >= last && found != this->ByLevel.end();
-    finest = isThere ? found->second.Surface.GetPointer() : finest;
     // That of level -1 comes after those of the pyramid.
     SetBlock(levels, static_cast<unsigned int>(level < 0 ? this->NumberOfLevels : level),
       Join("Level ", level), isThere ? ShallowCopyOf(found->second.Surface).GetPointer() : nullptr);
   }
-  finest = this->StoppedSurface ? this->StoppedSurface.GetPointer() : finest;
-  if (finest)
+  if (vtkPolyData* finest = this->Outcome(last))
   {
     vtkPolyData::GetData(outputs, 0)->ShallowCopy(finest);
   }

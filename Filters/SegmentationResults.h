@@ -69,6 +69,8 @@ public:
   /** Tells it, where there is any. */
   void WarnOf(
     int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const;
+  /** What FillOutputs() gives as output 0. */
+  vtkPolyData* Outcome(int last) const;
   vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
 
   /** All that were set. */

@@ -136,7 +136,8 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
           break;
         }
         case InitializationType::IsoSurface:
-          evolution.StartSurface(image, level, ClosedIsoSurface(image, this->Settings.Options));
+          evolution.StartIsoSurface(
+            image, level, ClosedIsoSurface(image, this->Settings.Options));
           break;
         case InitializationType::InputSurface:
           evolution.StartSurface(image, level, SurfaceOf(given, space));
@@ -348,6 +349,14 @@ bool SurfaceSegmentation::EvolveOn(
   reason = evolution.Run();
   GiveBackFreeMemory();
   surface = evolution.Result();
+  const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
+    reason != StopReason::Cancelled &&
+    !SurfaceEvolution::AreInSweeps(this->Settings.Options, image.Size);
+  while (mayBeRevised && !surface.Points.empty() && this->Request.Revise(surface))
+  {
+    evolution.Revise(image);
+    surface = evolution.Result();
+  }
   return true;
 }
 

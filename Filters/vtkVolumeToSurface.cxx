@@ -4,12 +4,15 @@
 
 #include "CellVoxels.h"
 #include "Core/Common/Communicator.h"
+#include "ImageVoxels.h"
 #include "InputImage.h"
+#include "LabelHint.h"
 #include "OtsuThreshold.h"
 #include "PrefixErrors.h"
 #include "SegmentationVolume.h"
 #include "vtkImagePyramid.h"
 
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
@@ -17,6 +20,7 @@
 #include <vtkObjectFactory.h>
 
 #include <cmath>
+#include <string>
 
 vtkStandardNewMacro(vtkVolumeToSurface);
 
@@ -55,12 +59,34 @@ volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* inp
             ranks, voxels.Image, voxels.Selection, volume.Settings.SelectedComponent);
         });
   }
+  if (ranks.NumberOfRanks() == 1)
+  {
+    this->TellOfLabels(voxels.Image, voxels.Selection);
+  }
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetNumberOfLevels(this->NumberOfLevels);
   pyramid->SetMinimumLevelSize(this->MinimumLevelSize);
   pyramid->SetReductionFactor(this->ReductionFactor);
   this->MakeLevels(pyramid, voxels.Image, volume);
   return volume;
+}
+
+//------------------------------------------------------------------------------
+void vtkVolumeToSurface::TellOfLabels(vtkImageData* image, vtkInformation* selection)
+{
+  vtkDataArray* voxels = volumic::PrefixErrors(
+    "Input port 0: ", [&] { return volumic::ChooseArray(selection, image); });
+  if (this->HasToldOfLabels || voxels->GetNumberOfComponents() != 1 ||
+    !voxels->HasStandardMemoryLayout())
+  {
+    return;
+  }
+  const std::string hint = volumic::HintAtLabels(voxels, image->GetDimensions());
+  this->HasToldOfLabels = !hint.empty();
+  if (this->HasToldOfLabels)
+  {
+    vtkWarningMacro("Input port 0: " << hint);
+  }
 }
 
 //------------------------------------------------------------------------------

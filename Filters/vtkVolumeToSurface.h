@@ -16,10 +16,11 @@
  * As vtkDeformableSurface.
  *
  * @par Errors:
- * As vtkDeformableSurface: ask GetErrorCode() after Update().
+ * As vtkDeformableSurface: ask GetErrorCode() after Update(). A label map (integers, almost all of
+ * which are their neighbours' value) is a warning, once, that tells of vtkLabelsToSurfaces.
  *
  * @sa
- * vtkDeformableSurface vtkImagePyramid vtkOtsuThreshold
+ * vtkDeformableSurface vtkImagePyramid vtkLabelsToSurfaces vtkOtsuThreshold
  */
 #ifndef vtkVolumeToSurface_h
 #define vtkVolumeToSurface_h
@@ -72,6 +73,10 @@ protected:
   double ReductionFactor;
 
 private:
+  /// Tells, once, that there is vtkLabelsToSurfaces, where the voxels look like labels.
+  void TellOfLabels(vtkImageData* image, vtkInformation* selection);
+  bool HasToldOfLabels = false;
+
   vtkVolumeToSurface(const vtkVolumeToSurface&) = delete;
   void operator=(const vtkVolumeToSurface&) = delete;
 };

@@ -126,7 +126,8 @@ struct SurfaceEvolution::Implementation
   std::vector<int> OwnVertices() const;
   std::vector<Proximity::FacePair> FindIntersectionsInBlocks();
   void SplitLongEdgesInBlocks();
-  void Take(const IndexedSurface& surface);
+  /** @param isSound it is known not to intersect itself */
+  void Take(const IndexedSurface& surface, bool isSound);
   void TakeRemeshed(const IndexedSurface& surface);
   IndexedSurface Remesh(const IndexedSurface& surface);
   void Begin(const IndexedSurface& surface);
@@ -184,6 +185,7 @@ struct SurfaceEvolution::Implementation
   void FinishRow();
   void FindMissing();
   void Regularise(Dynamics& dynamics);
+  void Revise(const LevelImage& image);
   std::vector<int> Polish(const Checkpoint& goOn, const std::vector<int>* vertices);
   void PolishAll();
   StopReason Evolve();

@@ -358,6 +358,55 @@ void SurfaceEvolution::Implementation::FindMissing()
   this->LastLost.MissingBoundary = missing.Share;
 }
 
+void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
+{
+  /** Residual, in delta, over which a vertex is off the isopotential. */
+  constexpr float leastOff = 0.03f;
+  SurfaceState& s = this->State;
+  this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
+  std::vector<std::uint8_t> isOff(static_cast<std::size_t>(s.Mesh.Size()), 0);
+  this->Threads.For(isOff.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = static_cast<int>(i);
+        if (s.Mesh.IsAlive(v))
+        {
+          const Field::Sample sample = this->TheField->At(s.Mesh.Position[v]);
+          isOff[i] = std::abs(sample.Value) >
+            leastOff * s.Sizing.At(v) * this->TheField->SlopeOf(sample);
+        }
+      }
+    });
+  std::vector<int> active;
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.Active[v] = 0;
+    if (s.Mesh.IsAlive(v))
+    {
+      const Ring& ring = s.Mesh.Rings[v];
+      s.Velocity[v] = Vector();
+      s.Active[v] = isOff[static_cast<std::size_t>(v)] ||
+        std::any_of(ring.Item, ring.Item + ring.Count,
+          [&](int w) { return isOff[static_cast<std::size_t>(w)] != 0; });
+    }
+    if (s.Active[v])
+    {
+      active.push_back(v);
+    }
+  }
+  if (active.empty())
+  {
+    return;
+  }
+  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  Remesher remesher(s, this->TheField.get(), false, this->Threads);
+  this->RunPasses(dynamics, remesher);
+  this->Polish(this->CheckpointOf(Monitor::Activity::Regularising, PassesShare), &active);
+  this->DeleteInsideOut();
+}
+
 StopReason SurfaceEvolution::Implementation::Run()
 {
   if (this->InSweeps)

@@ -180,7 +180,7 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   return best;
 }
 
-void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
+void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool isSound)
 {
   const IndexedSurface surface = WithoutUnusedPoints(given);
   // A mesh that is near to the constraints is brought within them as it is, by the edits of an
@@ -198,7 +198,8 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given)
       {
         this->Adapt();
       }
-      if (this->Stopped || IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
+      // Edits of what does not intersect itself are verified.
+      if (this->Stopped || isSound || IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
       {
         return;
       }

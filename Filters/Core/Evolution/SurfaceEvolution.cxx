@@ -114,13 +114,33 @@ void SurfaceEvolution::StartSurface(
   Implementation& self = *this->Self;
   Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
-  self.Take(surface);
+  self.Take(surface, false);
+  watch.Lap(Phase::Division);
+}
+
+void SurfaceEvolution::StartIsoSurface(
+  const LevelImage& image, int level, const IndexedSurface& surface)
+{
+  if (surface.Triangles.empty())
+  {
+    this->StartSurface(image, level, surface);
+    return;
+  }
+  Implementation& self = *this->Self;
+  Stopwatch watch(self.Preparing, self.Threads);
+  self.Enter(image, level);
+  self.Take(surface, true);
   watch.Lap(Phase::Division);
 }
 
 StopReason SurfaceEvolution::Run()
 {
   return this->Self->Run();
+}
+
+void SurfaceEvolution::Revise(const LevelImage& image)
+{
+  this->Self->Revise(image);
 }
 
 void SurfaceEvolution::SetRanks(

@@ -159,11 +159,23 @@ public:
   void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface);
 
   /**
+   * The same from the iso-surface of the image, closed, as VTK's algorithms make it: it is known to
+   * be sound, and is not tested as far.
+   */
+  void StartIsoSurface(const LevelImage& image, int level, const IndexedSurface& surface);
+
+  /**
    * Evolve on the current level until rest, cycle, limit, cancel or nothing is left; then snap. No
    * component that is inside out is left behind, also where cancelled. Once the monitor has said
    * stop, wherever it was asked, the reason is Cancelled.
    */
   StopReason Run();
+
+  /**
+   * After Run(), where voxels of the level have been changed in a few places, and not by much: what
+   * is off the isopotential goes there, as at the end of a level; all else stays.
+   */
+  void Revise(const LevelImage& image);
 
   /**
    * From now on it is one of those on several ranks, which evolve one surface: all of them call

@@ -74,29 +74,27 @@ public:
     , Threads(executor)
     , Rows(bricks, object)
   {
+  }
+
+  LabelField Make()
+  {
     this->Field.Box = this->Rows.Box();
     this->Field.Values.resize(static_cast<std::size_t>(this->Field.Box.Count()));
     this->FillFarVoxels();
-  }
-
-  LabelField Make(const std::vector<HeldVoxel>& held)
-  {
     if (this->Options.Sigma > 0.)
     {
       this->MakeDistance();
       this->CorrectChords();
-      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+      this->Hold({});
     }
-    this->Rows.For(this->Threads,
-      [&](int i, int j, int k, int count)
-      {
-        float* values = this->RowAt(i, j, k);
-        for (int x = 0; x < count; ++x)
-        {
-          values[x] = std::clamp(values[x], -LabelField::Far, LabelField::Far);
-        }
-      });
     return std::move(this->Field);
+  }
+
+  void HoldFurther(LabelField& field, const std::vector<HeldVoxel>& held)
+  {
+    this->Field = std::move(field);
+    this->Hold(held);
+    field = std::move(this->Field);
   }
 
 private:
@@ -243,6 +241,20 @@ private:
       (this->IsObject(i, j, k - 1) != side && this->IsObject(i, j, k + 1) != side);
   }
 
+  void Hold(const std::vector<HeldVoxel>& held)
+  {
+    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+    this->Rows.For(this->Threads,
+      [&](int i, int j, int k, int count)
+      {
+        float* values = this->RowAt(i, j, k);
+        for (int x = 0; x < count; ++x)
+        {
+          values[x] = std::clamp(values[x], -LabelField::Far, LabelField::Far);
+        }
+      });
+  }
+
   std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
   {
     std::vector<std::vector<VoxelConstraint>> ofLayers(
@@ -292,9 +304,15 @@ private:
 };
 }
 
-LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
-  const std::vector<HeldVoxel>& held, Executor& executor)
+LabelField MakeLabelField(
+  const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
 {
-  return FieldMaker(bricks, object, options, executor).Make(held);
+  return FieldMaker(bricks, object, options, executor).Make();
+}
+
+void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,
+  const LabelFieldOptions& options, const std::vector<HeldVoxel>& held, Executor& executor)
+{
+  FieldMaker(bricks, object, options, executor).HoldFurther(field, held);
 }
 }

@@ -29,7 +29,7 @@ struct LabelFieldOptions
    * How much of its Laplacian is taken off the distance: triangles whose corners are on a bent
    * surface cut off e^2 / 16 of it in the mean, e being the length of their edges.
    */
-  double ChordCorrection = 0.15;
+  double ChordCorrection = 0.3;
 };
 
 /** A voxel that must be further inside, or outside, than the options ask for. */
@@ -69,10 +69,16 @@ struct LabelField
  * d under the same constraints (twice the error of the normals), Gaussians of higher order instead
  * of 2 (half a percent of the volume is lost).
  *
- * @param held sorted by Voxel
  */
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
-  const std::vector<HeldVoxel>& held, Executor& executor);
+  Executor& executor);
+
+/**
+ * Step 4 again, from the field as it is, with larger margins for some voxels.
+ * @param held sorted by Voxel
+ */
+void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,
+  const LabelFieldOptions& options, const std::vector<HeldVoxel>& held, Executor& executor);
 }
 
 #endif

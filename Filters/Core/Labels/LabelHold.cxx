@@ -10,7 +10,7 @@ namespace volumic
 namespace
 {
 /** Of the two Gaussians of the kernel, in smallest distances of voxels. */
-constexpr double WideSigma = 1.2;
+constexpr double WideSigma = 1.5;
 constexpr double NarrowSigma = 0.6;
 /** Share of the narrow one: it keeps the problem well-posed where signs change at each voxel. */
 constexpr double NarrowShare = 0.3;
@@ -43,9 +43,12 @@ public:
           const double y = j * spacing[1];
           const double z = k * spacing[2];
           const double square = x * x + y * y + z * z;
-          this->Values.push_back(static_cast<float>(
-            (1. - NarrowShare) * std::exp(-0.5 * square / (WideSigma * WideSigma)) +
-            NarrowShare * std::exp(-0.5 * square / (NarrowSigma * NarrowSigma))));
+          // Products of kernels are kernels: cut off alone it would be none.
+          const double taper = this->Taper(0, i) * this->Taper(1, j) * this->Taper(2, k);
+          const double wide = std::exp(-0.5 * square / (WideSigma * WideSigma));
+          const double narrow = std::exp(-0.5 * square / (NarrowSigma * NarrowSigma));
+          this->Values.push_back(
+            static_cast<float>(taper * ((1. - NarrowShare) * wide + NarrowShare * narrow)));
         }
       }
     }
@@ -80,6 +83,11 @@ public:
   }
 
 private:
+  double Taper(int axis, int voxels) const
+  {
+    return 1. - std::abs(voxels) / (this->Reach[axis] + 1.);
+  }
+
   std::array<int, 3> Reach;
   std::vector<float> Values; ///< 1 in the middle
 };
