@@ -32,7 +32,7 @@ void CheckWithoutLabels(const ToolOptions& options)
   }
 }
 
-/** What makes no sense for the surfaces of labels, which have no evolution to choose and look at. */
+/** What makes no sense for surfaces of labels, which have no evolution to choose and look at. */
 void CheckWithLabels(const ToolOptions& options)
 {
   const std::pair<const char*, bool> others[] = { { "seeds", !options.Seeds.empty() },

@@ -75,8 +75,8 @@ LabelNames ReadLabelNames(const std::string& file)
   {
     const std::string text = ReadText(file);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
-    const bool isJson =
-      SuffixOf(file) == ".json" || (first != std::string::npos && text[first] == '{');
+    const bool isJson = SuffixOf(file) == ".json" ||
+      (first != std::string::npos && (text[first] == '{' || text[first] == '['));
     LabelNames names = isJson ? ParseLabelJson(text) : ParseLabelTable(text);
     if (names.empty())
     {

@@ -55,8 +55,8 @@ NamesBeside ReadNamesBeside(const std::string& volume);
 std::vector<std::string> FilesBeside(const std::string& volume);
 
 /**
- * Give an image names as vtkLabelsToSurfaces takes them, in the field data; layers, if there are any
- * but the first, as `LabelLayers`. Colours are given only where all names have one.
+ * Give an image names as vtkLabelsToSurfaces takes them, in the field data; layers, if there are
+ * any but the first, as `LabelLayers`. Colours are given only where all names have one.
  */
 void SetLabelNames(vtkImageData* image, const LabelNames& names);
 

@@ -40,7 +40,7 @@ void WriteNames(JsonWriter& json, const LabelSurface& surface)
   json.EndArray();
 }
 
-void WriteProperties(JsonWriter& json, const ToolFilters& filters)
+void WriteProperties(JsonWriter& json, const FilterTrio& filters)
 {
   json.Name("properties");
   json.BeginObject();

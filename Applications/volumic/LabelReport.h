@@ -13,12 +13,12 @@
 
 namespace tool
 {
-/** All that a report of labels tells; the names in it are those of WriteReport where it has them. */
+/** All that a report of labels tells; names in it are those of WriteReport where it has them. */
 struct LabelReport
 {
   std::string VolumeName;
   VolumeFacts Volume;
-  ToolFilters Filters;
+  FilterTrio Filters;
   const std::vector<LabelSurface>& Surfaces;
   bool IsFinished = false;
   double Seconds = 0.0;      ///< of the surfaces

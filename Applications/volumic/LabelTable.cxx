@@ -51,7 +51,7 @@ std::optional<int> AsLabel(const std::string& word)
   }
 }
 
-/** Words between separators, or blanks if that is ' '; quotes hold together, two are one of them. */
+/** Words between separators, or blanks if that is ' '; quotes hold together, two stand for one. */
 std::vector<std::string> SplitLine(const std::string& text, char separator, int line)
 {
   std::vector<std::string> words;
@@ -122,14 +122,16 @@ std::vector<std::pair<int, std::string>> LinesOf(std::string text)
   return lines;
 }
 
-/** What all lines have between their words; ' ' stands for any blanks. */
+/** What the first line and most of the others have between their words; ' ': any blanks. */
 char SeparatorOf(const std::vector<std::pair<int, std::string>>& lines)
 {
   for (const char separator : { '\t', ';', ',' })
   {
-    const bool isInAll = std::all_of(lines.begin(), lines.end(),
-      [&](const auto& line) { return line.second.find(separator) != std::string::npos; });
-    if (isInAll)
+    const auto has = [&](const auto& line)
+    { return line.second.find(separator) != std::string::npos; };
+    const auto count = std::count_if(lines.begin(), lines.end(), has);
+    if (!lines.empty() && has(lines.front()) &&
+      2 * static_cast<std::size_t>(count) >= lines.size())
     {
       return separator;
     }
@@ -249,8 +251,7 @@ LabelNames NamesInColumns(const std::vector<Row>& rows, std::size_t first, const
 int NumbersAtEnd(const Row& row)
 {
   int count = 0;
-  const int most = static_cast<int>(row.Words.size()) - 2;
-  while (count < most && AsNumber(row.Words[row.Words.size() - 1 - static_cast<std::size_t>(count)]))
+  for (std::size_t i = row.Words.size(); i > 2 && AsNumber(row.Words[i - 1]); --i)
   {
     ++count;
   }

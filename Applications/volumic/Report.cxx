@@ -166,7 +166,7 @@ void WriteSeconds(JsonWriter& json, const ReportInput& input)
   json.EndObject();
 }
 
-void WriteProperties(JsonWriter& json, const ToolFilters& filters)
+void WriteProperties(JsonWriter& json, const FilterTrio& filters)
 {
   json.Name("properties");
   json.BeginObject();

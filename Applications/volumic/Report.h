@@ -25,7 +25,7 @@ struct ReportInput
 {
   std::string VolumeName;
   VolumeFacts Volume;
-  ToolFilters Filters;
+  FilterTrio Filters;
   std::string StopReason; ///< of the surface
   bool IsFinished = false;
   double PyramidSeconds = 0.0;

@@ -254,7 +254,7 @@ std::vector<KnownLabel> Announce(
 }
 }
 
-ExitCode SegmentLabels(const ToolOptions& options, const ToolFilters& filters, Ranks& ranks)
+ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
 {
   ranks.Together(
     [&]

@@ -8,7 +8,7 @@
 namespace tool
 {
 class Ranks;
-struct ToolFilters;
+struct FilterTrio;
 struct ToolOptions;
 
 /**
@@ -19,7 +19,7 @@ struct ToolOptions;
  * @throws Failure where a file cannot be read or written, a label is not there, or no label has a
  * surface; UsageError on more than one rank.
  */
-ExitCode SegmentLabels(const ToolOptions& options, const ToolFilters& filters, Ranks& ranks);
+ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks);
 }
 
 #endif

@@ -241,7 +241,7 @@ void FindSurface(const Job& job, ReportInput& results)
 }
 }
 
-ExitCode SegmentVolume(const ToolOptions& options, const ToolFilters& filters, Ranks& ranks)
+ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
 {
   vtkDeformableSurface* filter = filters.Surface;
   Job job = { options, filters.Pyramid, filter, ranks, Announcer(options), LoadedVolume() };

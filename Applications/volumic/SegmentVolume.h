@@ -8,7 +8,7 @@
 namespace tool
 {
 class Ranks;
-struct ToolFilters;
+struct FilterTrio;
 struct ToolOptions;
 
 /**
@@ -20,7 +20,7 @@ struct ToolOptions;
  * @return Success or Unfinished, the same on all ranks.
  * @throws Failure where a file cannot be read or written, or the surface vanished.
  */
-ExitCode SegmentVolume(const ToolOptions& options, const ToolFilters& filters, Ranks& ranks);
+ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks);
 }
 
 #endif

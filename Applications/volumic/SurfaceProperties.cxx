@@ -40,8 +40,8 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
   PropertyOption                                                                                   \
   {                                                                                                \
     OPTION, ARGUMENT, CLASS, #PROPERTY, HELP,                                                      \
-      [](const ToolFilters& filters) { return NumberText(filters.FILTER->Get##PROPERTY()); },       \
-      [](const ToolFilters& filters, const std::string& text)                                       \
+      [](const FilterTrio& filters) { return NumberText(filters.FILTER->Get##PROPERTY()); },       \
+      [](const FilterTrio& filters, const std::string& text)                                       \
     {                                                                                              \
       filters.FILTER->Set##PROPERTY(ParseNumber<decltype(filters.FILTER->Get##PROPERTY())>(text)); \
     }                                                                                              \
@@ -58,9 +58,9 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
   PropertyOption                                                                                   \
   {                                                                                                \
     OPTION, "", "vtkDeformableSurface", #PROPERTY, HELP,                                           \
-      [](const ToolFilters& filters)                                                                \
+      [](const FilterTrio& filters)                                                                \
     { return std::string(filters.Surface->Get##PROPERTY() ? "on" : "off"); },                      \
-      [](const ToolFilters& filters, const std::string&) { filters.Surface->Set##PROPERTY(VALUE); } \
+      [](const FilterTrio& filters, const std::string&) { filters.Surface->Set##PROPERTY(VALUE); } \
   }
 
 // An enumeration; its names in the order of its values.
@@ -69,8 +69,8 @@ PropertyOption Menu(const char* property, const char* option, const char* help,
   const std::vector<std::string>& names, Getter get, Setter set)
 {
   return PropertyOption{ option, JoinNames(names), "vtkDeformableSurface", property, help,
-    [=](const ToolFilters& filters) { return names.at(get(filters.Surface)); },
-    [=](const ToolFilters& filters, const std::string& text)
+    [=](const FilterTrio& filters) { return names.at(get(filters.Surface)); },
+    [=](const FilterTrio& filters, const std::string& text)
     { set(filters.Surface, FindName(names, text)); } };
 }
 #define SURFACE_MENU(PROPERTY, OPTION, HELP, ...)                           \
@@ -163,14 +163,14 @@ std::vector<PropertyOption> MakeProperties()
     { "memory", "SIZE", "vtkDeformableSurface", "MemoryLimit",
       "memory that the process may have, such as 2G or 1500M; what does not fit waits in files of "
       "--scratch; 0: no limit; the result does not depend on it",
-      [](const ToolFilters& filters) { return MebibytesText(filters.Surface->GetMemoryLimit()); },
-      [](const ToolFilters& filters, const std::string& text)
+      [](const FilterTrio& filters) { return MebibytesText(filters.Surface->GetMemoryLimit()); },
+      [](const FilterTrio& filters, const std::string& text)
       { filters.Surface->SetMemoryLimit(ParseMebibytes(text)); } },
     { "scratch", "DIR", "vtkDeformableSurface", "ScratchDirectory",
       "with --memory: the folder for these files, on a disk with room for all of them; they vanish "
       "with the process; empty: TMPDIR of the environment, or /var/tmp",
-      [](const ToolFilters& filters) { return std::string(filters.Surface->GetScratchDirectory()); },
-      [](const ToolFilters& filters, const std::string& text)
+      [](const FilterTrio& filters) { return std::string(filters.Surface->GetScratchDirectory()); },
+      [](const FilterTrio& filters, const std::string& text)
       { filters.Surface->SetScratchDirectory(text.c_str()); } },
     SURFACE_SWITCH(Resume, true, "resume",
       "go on from the checkpoint that a run with the same volume and options, which was killed or "
@@ -183,9 +183,9 @@ std::vector<PropertyOption> MakeProperties()
       "with --labels: the label that is nothing, and not one of all"),
     { "merge", "", "vtkLabelsToSurfaces", "Merge",
       "with --labels: one surface about all of them together",
-      [](const ToolFilters& filters)
+      [](const FilterTrio& filters)
       { return std::string(filters.Labels->GetMerge() ? "on" : "off"); },
-      [](const ToolFilters& filters, const std::string&) { filters.Labels->SetMerge(true); } },
+      [](const FilterTrio& filters, const std::string&) { filters.Labels->SetMerge(true); } },
     LABELS_NUMBER(Smoothing, "smoothing", "VOXELS",
       "with --labels: how far the stairs between voxels are smoothed, in voxels of the axis along "
       "which they are longest; 0: not at all"),
@@ -216,7 +216,7 @@ bool IsOfLabels(const PropertyOption& option)
     std::find(shared.begin(), shared.end(), option.Property) != shared.end();
 }
 
-void ShareProperties(const ToolFilters& filters)
+void ShareProperties(const FilterTrio& filters)
 {
   vtkDeformableSurface* surface = filters.Surface;
   vtkLabelsToSurfaces* labels = filters.Labels;

@@ -13,8 +13,8 @@ class vtkLabelsToSurfaces;
 
 namespace tool
 {
-/** The filters that the options set properties of. */
-struct ToolFilters
+/** The three filters that the options set properties of. */
+struct FilterTrio
 {
   vtkImagePyramid* Pyramid = nullptr;
   vtkDeformableSurface* Surface = nullptr;
@@ -30,9 +30,9 @@ struct PropertyOption
   std::string Property; ///< as in Set..., Get...
   std::string Help;
   /** The value of the property as text that Set would take. */
-  std::function<std::string(const ToolFilters&)> Get;
+  std::function<std::string(const FilterTrio&)> Get;
   /** @throws UsageError if the text (empty for an option without argument) is no value for it. */
-  std::function<void(const ToolFilters&, const std::string& text)> Set;
+  std::function<void(const FilterTrio&, const std::string& text)> Set;
 };
 
 /** All of them, in the order of the help. A test holds the list to the filters' Set methods. */
@@ -45,7 +45,7 @@ bool IsOfLabels(const PropertyOption& option);
 bool IsOfLabelsOnly(const PropertyOption& option);
 
 /** Give the labels' filter what it shares with that of the surface. */
-void ShareProperties(const ToolFilters& filters);
+void ShareProperties(const FilterTrio& filters);
 }
 
 #endif

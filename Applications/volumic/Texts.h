@@ -25,7 +25,7 @@ std::size_t CharacterBytes(const std::string& text, std::size_t at);
 /** A character in UTF-8, by its code; of one that is none the replacement character. */
 std::string Utf8Character(unsigned int code);
 
-/** The text in UTF-8: as it is, or, where it is none, taken for Latin-1, whose bytes are characters. */
+/** The text in UTF-8: as it is, or, where it is none, from Latin-1, whose bytes are characters. */
 std::string AsUtf8(const std::string& text);
 }
 

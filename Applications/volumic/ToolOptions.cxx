@@ -276,7 +276,7 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
   return options;
 }
 
-void ApplyProperties(const ToolOptions& options, const ToolFilters& filters)
+void ApplyProperties(const ToolOptions& options, const FilterTrio& filters)
 {
   for (const auto& [property, text] : options.Properties)
   {
@@ -291,7 +291,7 @@ void ApplyProperties(const ToolOptions& options, const ToolFilters& filters)
   }
 }
 
-void PrintHelp(std::ostream& out, const ToolFilters& filters)
+void PrintHelp(std::ostream& out, const FilterTrio& filters)
 {
   out << "Usage: volumic [OPTION]... VOLUME SURFACE...\n"
          "\n"
@@ -327,7 +327,7 @@ void PrintHelp(std::ostream& out, const ToolFilters& filters)
          "written.\n";
 }
 
-void PrintProperties(std::ostream& out, const ToolFilters& filters)
+void PrintProperties(std::ostream& out, const FilterTrio& filters)
 {
   for (const PropertyOption& option : SurfaceProperties())
   {

@@ -63,13 +63,13 @@ struct ToolOptions
 ToolOptions ParseOptions(int argc, const char* const argv[]);
 
 /** Set the chosen properties. @throws UsageError if a text is no value of its property. */
-void ApplyProperties(const ToolOptions& options, const ToolFilters& filters);
+void ApplyProperties(const ToolOptions& options, const FilterTrio& filters);
 
 /** The text of --help; the defaults of the properties are the filters' own. */
-void PrintHelp(std::ostream& out, const ToolFilters& filters);
+void PrintHelp(std::ostream& out, const FilterTrio& filters);
 
 /** A line per property: class, property, option, default; separated by tabs. */
-void PrintProperties(std::ostream& out, const ToolFilters& filters);
+void PrintProperties(std::ostream& out, const FilterTrio& filters);
 }
 
 #endif

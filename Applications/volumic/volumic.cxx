@@ -38,7 +38,7 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
     filter = vtkSmartPointer<vtkVolumeToSurface>::New();
   }
   vtkNew<vtkLabelsToSurfaces> labels;
-  const ToolFilters filters{ pyramid, filter, labels };
+  const FilterTrio filters{ pyramid, filter, labels };
   switch (options.Task)
   {
     case ToolOptions::Task::ShowHelp:
