@@ -103,6 +103,13 @@ vtkSmartPointer<vtkImageData> LayerOf(
   return layer;
 }
 
+/** Those that the image has, or else the file. */
+LabelNames OwnNames(const ToolOptions& options, vtkImageData* image)
+{
+  const LabelNames own = GetLabelNames(image);
+  return own.empty() ? ReadNamesWithin(options.Volume) : own;
+}
+
 VolumeFacts FactsOfMap(const LabelMap& map)
 {
   VolumeFacts facts;
@@ -173,7 +180,7 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   {
     map.Image->SetSpacing(options.Spacing->data());
   }
-  const LabelNames own = GetLabelNames(map.Image);
+  const LabelNames own = OwnNames(options, map.Image);
   map.Facts = FactsOfMap(map);
   const bool isTaken = settings->GetMemoryLimit() > 0 && component >= 0; // out of the others
   const std::vector<int> components =
@@ -194,12 +201,13 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
 
 void NameLabels(const ToolOptions& options, vtkImageData* image, const Announcer& announcer)
 {
-  const LabelNames own = GetLabelNames(image);
+  const LabelNames own = OwnNames(options, image);
   if (!options.NamesOfLabels.empty())
   {
     SetLabelNames(image, Merged(own, ReadLabelNames(options.NamesOfLabels)));
     return;
   }
+  SetLabelNames(image, own);
   const bool isAsked = !options.Labels.empty();
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
   const bool mayHaveLabels = scalars && scalars->GetDataType() != VTK_FLOAT &&

@@ -40,8 +40,9 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   vtkImagePyramid* holder, const Announcer& announcer);
 
 /**
- * Give the image the names of its labels, if there are any: those of --label-names, beside its own;
- * or else, if it has none, those of a file beside the volume, which is told with --labels only.
+ * Give the image the names of its labels, if there are any: those of --label-names, beside its own
+ * or those within the file; or else those of a file beside the volume, which is told with --labels
+ * only.
  * @throws Failure if the file of --label-names cannot be read.
  */
 void NameLabels(const ToolOptions& options, vtkImageData* image, const Announcer& announcer);

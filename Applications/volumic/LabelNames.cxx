@@ -108,6 +108,27 @@ std::string PlainName(std::string text)
   return Trimmed(AsUtf8(text));
 }
 
+LabelNames ReadNamesWithin(const std::string& volume)
+{
+  const std::string lower = Lower(volume);
+  try
+  {
+    if (EndsWith(lower, ".nrrd") || EndsWith(lower, ".nhdr"))
+    {
+      return NamesInNrrd(volume);
+    }
+    if (EndsWith(lower, ".nii") || EndsWith(lower, ".nii.gz"))
+    {
+      return NamesInNifti(volume);
+    }
+  }
+  catch (const Failure&)
+  {
+    // Names are not worth a volume.
+  }
+  return {};
+}
+
 std::vector<std::string> FilesBeside(const std::string& volume)
 {
   std::vector<std::string> files;

@@ -66,13 +66,26 @@ LabelNames GetLabelNames(vtkImageData* image);
 /** `names`, those of `others` in the place of those of the same label. */
 LabelNames Merged(const LabelNames& names, const LabelNames& others);
 
-/** Names of the segments of a .seg.nrrd, from the pairs of keys and values in its header. */
-LabelNames NamesOfSegments(const std::map<std::string, std::string>& pairs, int components);
+/**
+ * Names that the file of a volume has itself: those of the segments of a .seg.nrrd, or of the label
+ * table in the header of NIfTI (TotalSegmentator, Connectome Workbench). Empty for other formats,
+ * and where they cannot be read.
+ */
+LabelNames ReadNamesWithin(const std::string& volume);
 
 /** A name as it is shown: on one line, in UTF-8. */
 std::string PlainName(std::string text);
 
-// ---- Parts of ReadLabelNames --------------------------------------------------------------------
+// ---- Parts of both ------------------------------------------------------------------------------
+
+/** @throws Failure if it is no NRRD. */
+LabelNames NamesInNrrd(const std::string& name);
+
+/** Of the pairs of keys and values in the header of a NRRD. */
+LabelNames NamesOfSegments(const std::map<std::string, std::string>& pairs, int components);
+
+/** Of a file that may be packed. */
+LabelNames NamesInNifti(const std::string& name);
 
 /** @throws Failure without the name of the file. */
 LabelNames ParseLabelTable(const std::string& text);

@@ -326,13 +326,18 @@ vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
     {
       SetWorldAxes(image, header.WorldAxes);
     }
-    SetLabelNames(image, NamesOfSegments(header.Pairs, header.Components));
     return image;
   }
   catch (const UsageError& error)
   {
     throw Failure(name + ": the header cannot be parsed: " + error.what());
   }
+}
+
+LabelNames NamesInNrrd(const std::string& name)
+{
+  const Header header = ReadHeader(name);
+  return NamesOfSegments(header.Pairs, header.Components);
 }
 
 std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirectory& scratch)

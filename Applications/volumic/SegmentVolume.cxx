@@ -197,6 +197,18 @@ void TakeOtsuThreshold(const Job& job)
     " by Otsu's threshold; choose another one with --iso");
 }
 
+/** To whoever searches an isopotential in a label map. vtkVolumeToSurface says so itself. */
+void TellOfLabels(const Job& job)
+{
+  const std::string hint = vtkVolumeToSurface::SafeDownCast(job.Filter)
+    ? std::string()
+    : vtkVolumeToSurface::HintAtLabels(job.Volume.Image);
+  if (!hint.empty())
+  {
+    job.Says.Say("warning: " + job.Options.Volume + ": " + hint + " (--labels all)");
+  }
+}
+
 /** Run the filters. @param results given their times and warnings */
 void FindSurface(const Job& job, ReportInput& results)
 {
@@ -268,6 +280,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ra
   {
     return Success;
   }
+  TellOfLabels(job);
   SetStart(options, filter, ranks);
   const vtkNew<vtkImagePyramid> edgesHolder;
   SetEdges(options, job.Volume.Image, filter, edgesHolder, job.Says, ranks);

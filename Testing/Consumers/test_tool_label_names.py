@@ -7,6 +7,7 @@ import gzip
 import json
 import os
 import shutil
+import struct
 import unittest
 
 import numpy as np
@@ -288,6 +289,43 @@ class BesideTest(NamesTest):
         self.assertEqual(tracts[2], "Pontine_crossing_tract_(a_part_of_MCP)")
 
 
+def labelled_nifti(table):
+    """NIfTI with this text as an extension, as TotalSegmentator writes it."""
+    content = bytearray(medical_files.nifti(label_voxels().astype("i2"), SPACING))
+    size = (len(table) + 8 + 15) // 16 * 16
+    struct.pack_into("<f", content, 108, 352 + size)
+    content[348] = 1
+    extension = struct.pack("<ii", size, 0) + table.ljust(size - 8, b"\0")
+    return bytes(content[:352]) + extension + bytes(content[352:])
+
+
+class NiftiTest(NamesTest):
+    table = (b'<?xml version="1.0"?> <CaretExtension> <VolumeInformation Index="0"> <LabelTable>'
+             b'<Label Key="1" Red="1" Green="0.5" Blue="0" Alpha="1"><![CDATA[a<b]]></Label>\n'
+             b'<Label Key="3" Red="0" Green="0" Blue="1" Alpha="1">x &amp; &lt;y&gt;</Label>'
+             b"</LabelTable> </VolumeInformation></CaretExtension>")
+
+    def test_label_table(self):
+        content = labelled_nifti(self.table)
+        for name, data in (("a.nii", content), ("a.nii.gz", gzip.compress(content))):
+            names, colors = self.names_of(self.write_bytes(name, data))
+            self.assertEqual(names, {1: "a<b", 3: "x & <y>"})
+            self.assertEqual(colors, {1: (1, 0.5, 0), 3: (0, 0, 1)})
+        self.run_tool(self.path("a.nii.gz"), self.path("o/"), "--labels", "a<b", "--memory", "1G")
+        self.assertEqual(os.listdir(self.path("o")), ["a_b.vtp"])
+
+    def test_every_cut_of_the_table_is_answered(self):
+        plain = self.names_of(self.write_bytes("a.nii", labelled_nifti(self.table)))[0]
+        for end in range(0, len(self.table), 7):
+            names, _ = self.names_of(self.write_bytes("a.nii", labelled_nifti(self.table[:end])))
+            self.assertLessEqual(names.items(), plain.items())
+        for wrong in (b'<Label Key="x">a</Label>', b'<Label Key="1.5">a</Label>',
+                      b'<Label Key="1e30">a</Label>', b"<Label >a</Label>", b"<Label </Label>",
+                      b'<Label Key="1>a</Label>'):
+            names, _ = self.names_of(self.write_bytes("a.nii", labelled_nifti(wrong)))
+            self.assertEqual(names, {})
+
+
 class SegmentsTest(NamesTest):
     def nrrd(self, voxels, *segments, name="map.seg.nrrd"):
         """A file of 3D Slicer; voxels of four axes have the layers as their last one."""
@@ -328,6 +366,13 @@ class SegmentsTest(NamesTest):
         self.names_of(self.nrrd(label_voxels(), *SEGMENTS))
         self.run_tool(self.path("read.vti"), self.path("o/"), "--labels", "liver")
         self.assertEqual(os.listdir(self.path("o")), ["liver.vtp"])
+
+    def test_with_a_limit_of_memory(self):
+        volume = self.nrrd(label_voxels(), *SEGMENTS)
+        for options in (("liver",), ("liver", "--memory", "900M")):
+            self.run_tool(volume, self.path("o/"), "--labels", *options)
+            self.assertEqual(os.listdir(self.path("o")), ["liver.vtp"])
+            shutil.rmtree(self.path("o"))
 
     def layers(self):
         first = label_voxels()

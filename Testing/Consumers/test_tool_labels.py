@@ -17,7 +17,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
 
-from tool_test_case import PROGRAM, TURNED, ToolTestCase, make_image
+from tool_test_case import ISO, PROGRAM, TURNED, ToolTestCase, make_image
 from volumic import vtkLabelsToSurfaces
 
 SPACING, ORIGIN = np.array([0.5, 0.75, 1.0]), np.array([-7.0, 8.0, 9.5])
@@ -413,6 +413,17 @@ class OptionsTest(LabelsTest):
 
 
 class RunTest(LabelsTest):
+    def test_an_isopotential_of_a_label_map_is_told(self):
+        volume = self.map_file()
+        for more in ((), ("--edge-length", "1.2")):
+            process = self.run_tool(volume, self.path("a.stl"), "--iso", "0.5", *more)
+            told = re.findall("warning: .*looks like a label map", process.stderr)
+            self.assertEqual(len(told), 1, process.stderr)
+        process = self.run_tool(volume, self.path("o/"), "--labels", "1")
+        self.assertNotIn("looks like", process.stderr)
+        process = self.run_tool(self.ball_file(), self.path("a.stl"), "--iso", ISO)
+        self.assertNotIn("looks like", process.stderr)
+
     def test_progress_and_quiet(self):
         volume = self.map_file()
         process = self.run_tool(volume, self.path("o/"), "--labels", "all", "--progress")
