@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkVolumicLabelLegend.h"
+
+#include <vtkCompositeDataIterator.h>
+#include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+
+#include <set>
+#include <string>
+
+vtkStandardNewMacro(vtkVolumicLabelLegend);
+
+namespace
+{
+/** The three columns. */
+struct Rows
+{
+  vtkNew<vtkIntArray> Labels;
+  vtkNew<vtkStringArray> Names;
+  vtkNew<vtkDoubleArray> Colors;
+};
+
+/**
+ * Appends the labels of a block that have a colour and are not there yet; one without a name of its
+ * own, as of several that were merged, is named by its value.
+ */
+void Append(Rows& rows, std::set<int>& known, vtkFieldData* field)
+{
+  vtkDataArray* labels = field->GetArray("Label");
+  vtkDataArray* colors = field->GetArray("LabelColor");
+  auto* names = vtkStringArray::SafeDownCast(field->GetAbstractArray("LabelName"));
+  const vtkIdType count = labels ? labels->GetNumberOfTuples() : 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const int label = static_cast<int>(labels->GetTuple1(i));
+    if (!colors || colors->GetNumberOfComponents() != 3 || i >= colors->GetNumberOfTuples() ||
+      !known.insert(label).second)
+    {
+      continue;
+    }
+    const bool isNamed = names && names->GetNumberOfValues() == count;
+    rows.Labels->InsertNextValue(label);
+    rows.Names->InsertNextValue(isNamed ? names->GetValue(i) : "Label " + std::to_string(label));
+    rows.Colors->InsertNextTuple(colors->GetTuple(i));
+  }
+}
+}
+
+//------------------------------------------------------------------------------
+vtkVolumicLabelLegend::vtkVolumicLabelLegend() = default;
+vtkVolumicLabelLegend::~vtkVolumicLabelLegend() = default;
+
+//------------------------------------------------------------------------------
+int vtkVolumicLabelLegend::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkVolumicLabelLegend::RequestData(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  Rows rows;
+  rows.Labels->SetName("Label");
+  rows.Names->SetName("Name");
+  rows.Colors->SetName("Color");
+  rows.Colors->SetNumberOfComponents(3);
+  std::set<int> known;
+  if (vtkMultiBlockDataSet* blocks = vtkMultiBlockDataSet::GetData(input[0]))
+  {
+    auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+    {
+      Append(rows, known, leaf->GetCurrentDataObject()->GetFieldData());
+    }
+  }
+  vtkTable* table = vtkTable::GetData(output);
+  table->AddColumn(rows.Labels);
+  table->AddColumn(rows.Names);
+  table->AddColumn(rows.Colors);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkIntArray* vtkVolumicLabelLegend::GetLabels()
+{
+  return vtkIntArray::SafeDownCast(this->GetOutput()->GetColumnByName("Label"));
+}
+
+vtkStringArray* vtkVolumicLabelLegend::GetNames()
+{
+  return vtkStringArray::SafeDownCast(this->GetOutput()->GetColumnByName("Name"));
+}
+
+vtkDoubleArray* vtkVolumicLabelLegend::GetColors()
+{
+  return vtkDoubleArray::SafeDownCast(this->GetOutput()->GetColumnByName("Color"));
+}
+
+//------------------------------------------------------------------------------
+void vtkVolumicLabelLegend::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}
