@@ -5,6 +5,7 @@
 #include "BuildPyramid.h"
 #include "Core/Common/Communicator.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Labels/DrawBack.h"
 #include "Core/Labels/WrongVoxels.h"
 #include "SegmentationRequest.h"
 #include "SegmentationSettings.h"
@@ -41,6 +42,9 @@ constexpr double FieldShare = 0.2;
  * distances of voxels.
  */
 constexpr std::array<float, 2> FurtherMargins = { 0.3f, 0.5f };
+
+/** The same for a gap, times which triangles that leave their own field's inside are drawn back. */
+constexpr int RoundsOfGap = 6;
 
 void CheckNumber(const char* name, double value)
 {
@@ -180,19 +184,6 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   return volume;
 }
 
-std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(
-  int object, IndexedSurface surface, const Point& first, const Point& step) const
-{
-  for (Point& p : surface.Points)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      p[axis] = first[axis] + p[axis] / step[axis];
-    }
-  }
-  return FindWrongVoxels(this->Bricks, object, surface);
-}
-
 std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(int object, vtkPolyData* surface) const
 {
   const Workspace voxels(this->Image, Metric::Voxels);
@@ -218,21 +209,29 @@ std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(int object, vtkPolyData* 
   return FindWrongVoxels(this->Bricks, object, indexed);
 }
 
-bool LabelSurfaceMaker::HoldWrong(int object, int round, const std::vector<std::int64_t>& wrong,
-  LabelField& field) const
+bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface& surface,
+  const LabelField& original, LabelField& field) const
 {
-  if (wrong.empty() || round >= static_cast<int>(FurtherMargins.size()) ||
-    this->Settings.Gap > 0.0)
+  if (this->Settings.Gap > 0.0)
+  {
+    const double unit = Workspace(this->Image, Metric::World).WorldUnit();
+    return round < RoundsOfGap &&
+      DrawBackWithin(original, surface, static_cast<float>(0.5 * this->Settings.Gap / unit), field);
+  }
+  if (round >= static_cast<int>(FurtherMargins.size()) || this->Settings.Smoothing == 0.0)
   {
     return false;
   }
   std::vector<HeldVoxel> held;
-  for (const std::int64_t voxel : wrong)
+  for (const std::int64_t voxel : FindWrongVoxels(this->Bricks, object, surface))
   {
     held.push_back({ voxel, FurtherMargins[static_cast<std::size_t>(round)] });
   }
-  HoldFurther(field, this->Bricks, object, this->Options, held, OnThisThread());
-  return true;
+  if (!held.empty())
+  {
+    HoldFurther(field, this->Bricks, object, this->Options, held, OnThisThread());
+  }
+  return !held.empty();
 }
 
 LabelSurface LabelSurfaceMaker::Make(
@@ -252,7 +251,7 @@ LabelSurface LabelSurfaceMaker::Make(
   request.Progress = [&](double share, const std::string& text)
   { return progress(FieldShare + (1.0 - FieldShare) * share, text); };
   request.Warn = [&](const std::string& text) { made.Warnings.push_back(text); };
-  const float* const values = field.Field.Values.data();
+  const LabelField original = this->Settings.Gap > 0.0 ? field.Field : LabelField();
   try
   {
     const SegmentationVolume volume = this->MakeVolume(field.Image, progress);
@@ -269,8 +268,15 @@ LabelSurface LabelSurfaceMaker::Make(
     int round = 0;
     request.Revise = [&](const SurfaceResult& surface)
     {
-      return this->HoldWrong(
-        object, round++, this->FindWrong(object, surface, first, step), field.Field);
+      IndexedSurface inVoxels = surface;
+      for (Point& p : inVoxels.Points)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          p[axis] = first[axis] + p[axis] / step[axis];
+        }
+      }
+      return this->ReviseField(object, round++, inVoxels, original, field.Field);
     };
     SurfaceSegmentation run(volume, request);
     run.Run();
@@ -282,10 +288,6 @@ LabelSurface LabelSurfaceMaker::Make(
   catch (const std::invalid_argument& error)
   {
     made.Error = error.what(); // Too small or too thin for such triangles.
-  }
-  if (values != field.Field.Values.data())
-  {
-    throw std::logic_error("The field has moved in memory.");
   }
   return made;
 }

@@ -74,13 +74,15 @@ private:
   };
   FieldImage MakeField(int object, HostThreads& threads) const;
   SegmentationVolume MakeVolume(vtkImageData* field, const Progress& progress) const;
-  /** In coordinates of the voxels of the map. */
-  std::vector<std::int64_t> FindWrong(int object, IndexedSurface surface, const Point& first,
-    const Point& step) const;
   std::vector<std::int64_t> FindWrong(int object, vtkPolyData* surface) const;
-  /** Holds voxels that a surface has on the wrong side further off. @return whether it has. */
-  bool HoldWrong(int object, int round, const std::vector<std::int64_t>& wrong,
-    LabelField& field) const;
+  /**
+   * Changes the field where the surface that follows it should be elsewhere.
+   * @param surface in coordinates of the voxels of the map
+   * @param round   how often that was done before
+   * @return whether it has
+   */
+  bool ReviseField(int object, int round, const IndexedSurface& surface,
+    const LabelField& original, LabelField& field) const;
 
   const LabelBricks& Bricks;
   vtkImageData* Image;

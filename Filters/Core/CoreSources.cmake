@@ -27,6 +27,7 @@ set(volumic_core_sources
   Image/VoxelPieces.cxx
   Labels/BoundaryGaussian.cxx
   Labels/BoundaryRows.cxx
+  Labels/DrawBack.cxx
   Labels/LabelBricks.cxx
   Labels/LabelClaims.cxx
   Labels/LabelField.cxx
@@ -136,6 +137,7 @@ set(volumic_core_headers
   Image/VoxelValues.h
   Labels/BoundaryGaussian.h
   Labels/BoundaryRows.h
+  Labels/DrawBack.h
   Labels/LabelBricks.h
   Labels/LabelClaims.h
   Labels/LabelField.h

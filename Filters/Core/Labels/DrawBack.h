@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicDrawBack_h
+#define volumicDrawBack_h
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Labels/LabelField.h"
+
+namespace volumic
+{
+/**
+ * For surfaces of neighbours that must not meet: insides of the fields of two objects have nothing
+ * in common (LabelClaims), so each surface must stay where its own field is positive. Where
+ * triangles leave that, the field is lowered, so that the surface goes back when it is revised.
+ *
+ * @param surface  in coordinates in which voxel (i, j, k) of the map is at (i, j, k)
+ * @param original the field as it was settled
+ * @param by       how much it is lowered
+ * @param field    the one that the surface follows
+ * @return whether any of it was
+ */
+bool DrawBackWithin(
+  const LabelField& original, const IndexedSurface& surface, float by, LabelField& field);
+}
+
+#endif
