@@ -15,8 +15,8 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <set>
-#include <string>
 
 vtkStandardNewMacro(vtkVolumicLabelLegend);
 
@@ -30,28 +30,27 @@ struct Rows
   vtkNew<vtkDoubleArray> Colors;
 };
 
-/**
- * Appends the labels of a block that have a colour and are not there yet; one without a name of its
- * own, as of several that were merged, is named by its value.
- */
+/** Appends the labels of a block that are not there yet. */
 void Append(Rows& rows, std::set<int>& known, vtkFieldData* field)
 {
   vtkDataArray* labels = field->GetArray("Label");
   vtkDataArray* colors = field->GetArray("LabelColor");
   auto* names = vtkStringArray::SafeDownCast(field->GetAbstractArray("LabelName"));
-  const vtkIdType count = labels ? labels->GetNumberOfTuples() : 0;
+  if (!labels || !names || !colors || colors->GetNumberOfComponents() != 3)
+  {
+    return;
+  }
+  const vtkIdType count = std::min({ labels->GetNumberOfTuples(), names->GetNumberOfTuples(),
+    colors->GetNumberOfTuples() });
   for (vtkIdType i = 0; i < count; ++i)
   {
     const int label = static_cast<int>(labels->GetTuple1(i));
-    if (!colors || colors->GetNumberOfComponents() != 3 || i >= colors->GetNumberOfTuples() ||
-      !known.insert(label).second)
+    if (known.insert(label).second)
     {
-      continue;
+      rows.Labels->InsertNextValue(label);
+      rows.Names->InsertNextValue(names->GetValue(i));
+      rows.Colors->InsertNextTuple(colors->GetTuple(i));
     }
-    const bool isNamed = names && names->GetNumberOfValues() == count;
-    rows.Labels->InsertNextValue(label);
-    rows.Names->InsertNextValue(isNamed ? names->GetValue(i) : "Label " + std::to_string(label));
-    rows.Colors->InsertNextTuple(colors->GetTuple(i));
   }
 }
 }

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 namespace
 {
@@ -263,6 +264,11 @@ void pqLabelTablePropertyWidget::showNote()
     checked += row->checkState(Column::Name) == Qt::Checked ? 1 : 0;
   }
   const int count = parts.Table->topLevelItemCount();
+  for (QWidget* widget : std::initializer_list<QWidget*>{
+         parts.Filter, parts.Table, parts.All, parts.None })
+  {
+    widget->setVisible(count > 0);
+  }
   parts.Note->setText(count == 0 ? parts.Problem
       : checked == 0
       ? tr("<b>Note:</b> Where none is checked, all but the background get a surface.")

@@ -16,7 +16,8 @@ class QTreeWidgetItem;
  * A table of the labels of the input, for a property that lists some of them and, empty, means all
  * but the one that the property BackgroundLabel holds: name and colour, value, number of voxels,
  * each with a box to check. A click on a title sorts; what is typed above the table leaves the rows
- * that contain it, on which All and None act. A box of one of several selected rows checks them all.
+ * that contain it, on which All and None act. The box of one of several selected rows checks all of
+ * them.
  *
  *   <IntVectorProperty panel_widget="LabelTable" ...>
  *     <LabelsDomain .../>  <!-- tells the labels -->
