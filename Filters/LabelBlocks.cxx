@@ -57,6 +57,21 @@ void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const Label
   surface->GetCellData()->AddArray(array);
 }
 
+/** What each of the labels is called, and its colour. */
+void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelNames& names)
+{
+  std::vector<std::string> texts;
+  std::vector<double> colors;
+  for (const int label : labels)
+  {
+    texts.push_back(names.NameOf(label));
+    const LabelNames::Color color = names.ColorOf(label);
+    colors.insert(colors.end(), color.begin(), color.end());
+  }
+  AddField<vtkStringArray>(surface, "LabelName", texts);
+  AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
+}
+
 /** Text after text, as many as a warning names. */
 std::string Listed(const std::vector<std::string>& texts)
 {
@@ -94,10 +109,7 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
                                  : MakeStopped(0, Describe(StopReason::Cancelled)));
     AddLabels(surface, labels, image);
     AddField<vtkIntArray>(surface, "Label", labels);
-    AddField<vtkStringArray>(surface, "LabelName", std::vector<std::string>{ name });
-    const LabelNames::Color color = choice.Names.ColorOf(labels.front());
-    AddField<vtkDoubleArray>(
-      surface, "LabelColor", std::vector<double>(color.begin(), color.end()), 3);
+    AddNames(surface, labels, choice.Names);
     AddField<vtkIdTypeArray>(surface, "LabelVoxels", std::vector<vtkIdType>{ voxels });
     AddField<vtkIdTypeArray>(
       surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });

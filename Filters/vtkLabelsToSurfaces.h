@@ -25,10 +25,11 @@
  * block, and a warning tells which. World coordinates; arrays and field data of each block as
  * vtkDeformableSurface has them, and:
  * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
- * - field data: `Label` (int; with Merge all that were merged), `LabelName` (string), `LabelColor`
- *   (double, 3 components, 0 to 1: as given, or one of a fixed palette), `LabelVoxels` (vtkIdType:
- *   voxels of the label), `WrongVoxels` (vtkIdType: of the label's that have their centres outside,
- *   and of others that have them inside; with Gap, those that it puts there count, too).
+ * - field data: with an entry for the label, with Merge for each that was merged, `Label` (int),
+ *   `LabelName` (string) and `LabelColor` (double, 3 components, 0 to 1: as given, or one of a fixed
+ *   palette); `LabelVoxels` (vtkIdType: voxels of the label), `WrongVoxels` (vtkIdType: of the
+ *   label's that have their centres outside, and of others that have them inside; with Gap, those
+ *   that it puts there count, too).
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made

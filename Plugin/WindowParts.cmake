@@ -21,6 +21,7 @@ endfunction ()
 
 if (PARAVIEW_USE_QT)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
+  volumic_panel_widget(WIDGET LabelTable pqLabelTablePropertyWidget)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
   volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
   list(APPEND volumic_window_sources

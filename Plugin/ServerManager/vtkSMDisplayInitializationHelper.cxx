@@ -106,7 +106,7 @@ void vtkSMDisplayInitializationHelper::PostInitializeProxy(
   proxy->UpdateVTKObjects();
   if (auto* surface = vtkSMVolumicSurfaceRepresentationProxy::SafeDownCast(proxy))
   {
-    surface->StartChoosingBlock();
+    surface->StartPresets();
   }
 }
 

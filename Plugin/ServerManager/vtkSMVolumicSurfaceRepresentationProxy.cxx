@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMVolumicSurfaceRepresentationProxy.h"
 
+#include "ColorMaps.h"
+
 #include <vtkCommand.h>
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
@@ -13,7 +15,6 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
-#include <vtkSMTransferFunctionManager.h>
 
 #include <algorithm>
 #include <array>
@@ -48,36 +49,9 @@ struct InputArrayDomain : vtkSMInputArrayDomain
   }
 };
 
-void SetNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& values)
-{
-  vtkSMPropertyHelper(proxy, name, true)
-    .Set(values.data(), static_cast<unsigned int>(values.size()));
-}
-
-bool HasGotItsRange(vtkSMProxy* colors)
-{
-  return vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).GetAsInt() != 0;
-}
-
-/** ParaView shall neither rescale it at Apply nor look for values by itself. */
-void SetReady(vtkSMProxy* colors)
-{
-  vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode", true)
-    .Set(static_cast<int>(vtkSMTransferFunctionManager::NEVER));
-  vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).Set(1);
-  colors->UpdateVTKObjects();
-}
-
 std::string SelectorOf(const char* label)
 {
   return std::string("/Root/*[@label='") + label + "']";
-}
-
-/** The number of values that the map of components tells apart. */
-int CountAnnotations(vtkSMProxy* colors)
-{
-  vtkSMPropertyHelper annotations(colors, "Annotations", true);
-  return static_cast<int>(annotations.GetNumberOfElements() / 2);
 }
 }
 
@@ -158,15 +132,24 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptColors()
   {
     return;
   }
-  const std::string array = vtkSMPropertyHelper(this, "ColorArrayName").GetAsString(4);
-  if (array != "Residual" && array != "Component")
-  {
-    return;
-  }
   if (vtkPVDataInformation* data = this->GetInputInformation())
   {
-    array == "Residual" ? this->AdaptResidualColors(colors, data)
-                        : this->AdaptComponentColors(colors, data);
+    this->AdaptColorsOf(
+      vtkSMPropertyHelper(this, "ColorArrayName").GetAsString(4), colors, data);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicSurfaceRepresentationProxy::AdaptColorsOf(
+  const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data)
+{
+  if (array == "Residual")
+  {
+    this->AdaptResidualColors(colors, data);
+  }
+  else if (array == "Component")
+  {
+    this->AdaptComponentColors(colors, data);
   }
 }
 
@@ -182,16 +165,16 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptResidualColors(
   const unsigned int size = points.GetNumberOfElements();
   const bool isOurs = size == 12 && points.GetAsDouble(0) == -this->ResidualRange &&
     points.GetAsDouble(8) == this->ResidualRange;
-  if (range == this->ResidualRange || (HasGotItsRange(colors) && !isOurs))
+  if (range == this->ResidualRange || (volumic::HasGotItsRange(colors) && !isOurs))
   {
     return;
   }
   // Both ends of ParaView's own "Cool to Warm", and nothing at 0.
-  SetNumbers(colors, "RGBPoints",
+  volumic::SetNumbers(colors, "RGBPoints",
     { -range, 0.23, 0.30, 0.75, 0.0, 0.87, 0.87, 0.87, range, 0.71, 0.02, 0.15 });
   vtkSMPropertyHelper(colors, "ColorSpace").Set("Diverging");
   this->ResidualRange = range;
-  SetReady(colors);
+  volumic::SetReady(colors);
 }
 
 //------------------------------------------------------------------------------
@@ -205,27 +188,19 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptComponentColors(
   }
   const int last = std::clamp(static_cast<int>(component->GetComponentRange(0)[1]), 0,
     static_cast<int>(ComponentColors.size()) - 1);
-  const bool isOurs = CountAnnotations(colors) == this->LastComponent + 1;
-  if (last == this->LastComponent || (HasGotItsRange(colors) && !isOurs))
+  const bool isOurs = static_cast<int>(volumic::CategoriesOf(colors).size()) ==
+    this->LastComponent + 1;
+  if (last == this->LastComponent || (volumic::HasGotItsRange(colors) && !isOurs))
   {
     return;
   }
-  std::vector<double> shown;
-  vtkSMPropertyHelper annotations(colors, "Annotations");
-  annotations.SetNumberOfElements(2 * static_cast<unsigned int>(last + 1));
+  std::vector<volumic::ColorCategory> categories;
   for (int c = 0; c <= last; ++c)
   {
-    const std::string value = std::to_string(c);
-    annotations.Set(2 * static_cast<unsigned int>(c), value.c_str());
-    annotations.Set(2 * static_cast<unsigned int>(c) + 1, value.c_str());
-    shown.insert(shown.end(), ComponentColors[c].begin(), ComponentColors[c].end());
+    categories.push_back({ std::to_string(c), std::to_string(c), ComponentColors[c] });
   }
-  SetNumbers(colors, "IndexedColors", shown);
-  SetNumbers(colors, "NanColor", { 0.5, 0.5, 0.5 });
-  vtkSMPropertyHelper(colors, "AnnotationsInitialized", true).Set(1);
-  vtkSMPropertyHelper(colors, "IndexedLookup").Set(1);
+  volumic::SetCategories(colors, categories);
   this->LastComponent = last;
-  SetReady(colors);
 }
 
 //------------------------------------------------------------------------------
@@ -258,7 +233,7 @@ std::string vtkSMVolumicSurfaceRepresentationProxy::FindBlockToShow()
 }
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicSurfaceRepresentationProxy::StartChoosingBlock()
+void vtkSMVolumicSurfaceRepresentationProxy::StartPresets()
 {
   this->IsChoosingBlock = true;
   this->ChooseBlock();

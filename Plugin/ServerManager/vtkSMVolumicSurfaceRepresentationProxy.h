@@ -32,8 +32,11 @@ public:
   vtkTypeMacro(vtkSMVolumicSurfaceRepresentationProxy, vtkSMPVRepresentationProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** From now on, shows the block that the hint names, as long as nobody chooses others. */
-  void StartChoosingBlock();
+  /**
+   * For a new display: from now on, shows the block that the hint names, as long as nobody chooses
+   * others.
+   */
+  virtual void StartPresets();
 
   void ViewUpdated(vtkSMProxy* view) override;
 
@@ -43,6 +46,12 @@ protected:
 
   void CreateVTKObjects() override;
   int ReadXMLAttributes(vtkSMSessionProxyManager* manager, vtkPVXMLElement* element) override;
+
+  /** Of a colour map that is this display's own, in use for the array. */
+  virtual void AdaptColorsOf(
+    const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data);
+  /** What is known of the input, or of a block of it; null: it has none. */
+  vtkPVDataInformation* GetInputInformation(const std::string& block = "");
 
 private:
   vtkSMVolumicSurfaceRepresentationProxy(const vtkSMVolumicSurfaceRepresentationProxy&) = delete;
@@ -57,7 +66,6 @@ private:
   void AdaptResidualColors(vtkSMProxy* colors, vtkPVDataInformation* data);
   void AdaptComponentColors(vtkSMProxy* colors, vtkPVDataInformation* data);
   void ChooseBlock();
-  vtkPVDataInformation* GetInputInformation(const std::string& block = "");
   /** Empty if there is none. */
   std::string FindBlockToShow();
 

@@ -119,7 +119,9 @@ void pqAbortButtonBehavior::watch(pqPipelineSource* source)
 {
   vtkSMProxy* proxy = source->getProxy();
   auto* filter = vtkAlgorithm::SafeDownCast(proxy ? proxy->GetClientSideObject() : nullptr);
-  if (filter && (filter->IsA("vtkDeformableSurface") || filter->IsA("vtkImagePyramid")))
+  if (filter &&
+    (filter->IsA("vtkDeformableSurface") || filter->IsA("vtkImagePyramid") ||
+      filter->IsA("vtkLabelsToSurfaces")))
   {
     pqCoreUtilities::connect(filter, vtkCommand::StartEvent, this, SLOT(onStart(vtkObject*)));
     pqCoreUtilities::connect(filter, vtkCommand::ProgressEvent, this, SLOT(onProgress()));

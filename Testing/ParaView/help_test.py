@@ -32,7 +32,7 @@ class HelpTest(unittest.TestCase):
     def test_pages_name_all_properties(self):
         testing.load_plugin()
         texts = pages()
-        for name in ("DeformableSurface", "ImagePyramid", "VolumeToSurface"):
+        for name in ("DeformableSurface", "ImagePyramid", "LabelsToSurfaces", "VolumeToSurface"):
             text = next(texts[page] for page in texts if page.endswith(f"filters.{name}.html"))
             described = re.findall(r"<th>([^<]*)</th>", text)[1:]  # after the head
             self.assertEqual(len(described), len(set(described)))

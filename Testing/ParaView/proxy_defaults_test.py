@@ -48,7 +48,7 @@ def values_of(proxy):
         command = property_.GetCommand() or ""
         if property_.IsA("vtkSMVectorProperty") and command.startswith("Set") \
                 and not property_.IsA("vtkSMStringVectorProperty") \
-                and not property_.GetInformationOnly():
+                and not property_.GetInformationOnly() and not property_.GetRepeatable():
             yield name, property_, command
 
 
@@ -69,7 +69,8 @@ class ProxyDefaultsTest(unittest.TestCase):
     def test_there_are_proxies(self):
         names = {element.get("name") for _, element in self.elements}
         self.assertEqual(
-            names, {"DeformableSurface", "ImagePyramid", "OtsuThreshold", "VolumeToSurface"})
+            names, {"DeformableSurface", "ImagePyramid", "LabelLegend", "LabelList",
+                    "LabelsToSurfaces", "OtsuThreshold", "VolumeToSurface"})
 
     def test_values_agree(self):
         compared = set()
@@ -178,6 +179,27 @@ class ProxyDefaultsTest(unittest.TestCase):
             held.SetElement(0, "/some/folder")
             proxy.UpdateVTKObjects()
             self.assertEqual(object_.GetScratchDirectory(), "/some/folder")
+
+    def test_lists_of_labels_reach_the_object(self):
+        proxy = self.new_proxy("filters", "LabelsToSurfaces")
+        object_ = proxy.GetClientSideObject()
+        held = proxy.GetProperty("Labels")
+        self.assertEqual((held.GetNumberOfElements(), object_.GetNumberOfLabels()), (0, 0))
+        for labels in ([3, -1, 70000], [5], []):
+            held.SetNumberOfElements(len(labels))
+            for i, label in enumerate(labels):
+                held.SetElement(i, label)
+            proxy.UpdateVTKObjects()
+            found = {object_.GetLabel(i) for i in range(object_.GetNumberOfLabels())}
+            self.assertEqual(found, set(labels))
+        names = proxy.GetProperty("LabelNames")
+        for given in (["3", "liver", "-1", "a b"], []):
+            names.SetNumberOfElements(len(given))
+            for i, text in enumerate(given):
+                names.SetElement(i, text)
+            proxy.UpdateVTKObjects()
+            found = [object_.GetLabelName(label) or "" for label in (3, -1)]
+            self.assertEqual(found, given[1::2] or ["", ""])
 
     def test_groups_of_the_panel(self):
         """Each group holds what its label says; no property is in two."""

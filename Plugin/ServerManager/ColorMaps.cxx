@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ColorMaps.h"
+
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMTransferFunctionManager.h>
+
+namespace volumic
+{
+//------------------------------------------------------------------------------
+void SetNumbers(vtkSMProxy* colors, const char* property, const std::vector<double>& values)
+{
+  vtkSMPropertyHelper(colors, property, true)
+    .Set(values.data(), static_cast<unsigned int>(values.size()));
+}
+
+//------------------------------------------------------------------------------
+bool HasGotItsRange(vtkSMProxy* colors)
+{
+  return vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).GetAsInt() != 0;
+}
+
+//------------------------------------------------------------------------------
+void SetReady(vtkSMProxy* colors)
+{
+  vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode", true)
+    .Set(static_cast<int>(vtkSMTransferFunctionManager::NEVER));
+  vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).Set(1);
+  colors->UpdateVTKObjects();
+}
+
+//------------------------------------------------------------------------------
+void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categories)
+{
+  std::vector<double> shown;
+  vtkSMPropertyHelper annotations(colors, "Annotations");
+  annotations.SetNumberOfElements(2 * static_cast<unsigned int>(categories.size()));
+  unsigned int place = 0;
+  for (const ColorCategory& category : categories)
+  {
+    annotations.Set(place++, category.Value.c_str());
+    annotations.Set(place++, category.Text.c_str());
+    shown.insert(shown.end(), category.Color.begin(), category.Color.end());
+  }
+  SetNumbers(colors, "IndexedColors", shown);
+  SetNumbers(colors, "NanColor", { 0.5, 0.5, 0.5 });
+  vtkSMPropertyHelper(colors, "AnnotationsInitialized", true).Set(1);
+  vtkSMPropertyHelper(colors, "IndexedLookup").Set(1);
+  SetReady(colors);
+}
+
+//------------------------------------------------------------------------------
+std::vector<ColorCategory> CategoriesOf(vtkSMProxy* colors)
+{
+  vtkSMPropertyHelper annotations(colors, "Annotations", true);
+  vtkSMPropertyHelper shown(colors, "IndexedColors", true);
+  std::vector<ColorCategory> categories(annotations.GetNumberOfElements() / 2);
+  for (unsigned int i = 0; i < categories.size(); ++i)
+  {
+    categories[i] = { annotations.GetAsString(2 * i), annotations.GetAsString(2 * i + 1), {} };
+    for (unsigned int c = 0; c < 3 && 3 * i + c < shown.GetNumberOfElements(); ++c)
+    {
+      categories[i].Color[c] = shown.GetAsDouble(3 * i + c);
+    }
+  }
+  return categories;
+}
+}

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/** What displays set of ParaView's colour maps (proxies of PVLookupTable). */
+#ifndef volumicColorMaps_h
+#define volumicColorMaps_h
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkSMProxy;
+
+namespace volumic
+{
+/** A value that a colour map tells apart from others, instead of a range. */
+struct ColorCategory
+{
+  std::string Value;
+  std::string Text; ///< beside its colour, in a legend
+  std::array<double, 3> Color;
+
+  bool operator==(const ColorCategory& other) const
+  {
+    return this->Value == other.Value && this->Text == other.Text && this->Color == other.Color;
+  }
+};
+
+void SetNumbers(vtkSMProxy* colors, const char* property, const std::vector<double>& values);
+
+/** Whether somebody, here, in ParaView or at it, has given it a range or categories. */
+bool HasGotItsRange(vtkSMProxy* colors);
+
+/** ParaView shall neither rescale it at Apply nor look for values by itself. */
+void SetReady(vtkSMProxy* colors);
+
+/** A grey is given to all other values. */
+void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categories);
+
+std::vector<ColorCategory> CategoriesOf(vtkSMProxy* colors);
+}
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelRows.h"
+
+#include <vtkPVDataInformation.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSmartPointer.h>
+
+namespace
+{
+/** The helper, where the producer is, and after it; null: there is none. */
+vtkSmartPointer<vtkSMSourceProxy> NewHelper(
+  const char* name, vtkSMSourceProxy* producer, unsigned int port)
+{
+  auto proxy = vtkSmartPointer<vtkSMProxy>::Take(
+    producer->GetSessionProxyManager()->NewProxy("internal_filters", name));
+  vtkSmartPointer<vtkSMSourceProxy> helper = vtkSMSourceProxy::SafeDownCast(proxy);
+  if (helper)
+  {
+    helper->SetLocation(producer->GetLocation());
+    vtkSMPropertyHelper(helper, "Input").Set(producer, port);
+  }
+  return helper;
+}
+
+/** At the time that is shown, so that nothing before the helper has to run again. */
+void Run(vtkSMSourceProxy* helper, vtkPVDataInformation* data)
+{
+  helper->UpdateVTKObjects();
+  if (data && data->GetHasTime())
+  {
+    helper->UpdatePipeline(data->GetTime());
+  }
+  else
+  {
+    helper->UpdatePipeline();
+  }
+  helper->UpdatePropertyInformation();
+}
+
+std::vector<volumic::LabelRow> RowsOf(vtkSMSourceProxy* helper, bool hasVoxels)
+{
+  vtkSMPropertyHelper labels(helper, "Labels");
+  vtkSMPropertyHelper names(helper, "Names");
+  vtkSMPropertyHelper colors(helper, "Colors");
+  std::vector<volumic::LabelRow> rows(labels.GetNumberOfElements());
+  if (names.GetNumberOfElements() != rows.size() ||
+    colors.GetNumberOfElements() != 3 * rows.size())
+  {
+    return {};
+  }
+  for (unsigned int i = 0; i < rows.size(); ++i)
+  {
+    rows[i].Label = labels.GetAsInt(i);
+    rows[i].Name = names.GetAsString(i);
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      rows[i].Color[c] = colors.GetAsDouble(3 * i + c);
+    }
+    if (hasVoxels)
+    {
+      rows[i].Voxels = vtkSMPropertyHelper(helper, "Voxels").GetAsIdType(i);
+    }
+  }
+  return rows;
+}
+}
+
+namespace volumic
+{
+//------------------------------------------------------------------------------
+LabelRows FetchLabelsOfMap(
+  vtkSMSourceProxy* producer, unsigned int port, const std::array<std::string, 5>& array)
+{
+  LabelRows labels;
+  if (const auto helper = NewHelper("LabelList", producer, port))
+  {
+    if (!array[4].empty())
+    {
+      vtkSMPropertyHelper selection(helper, "SetInputArrayToProcess");
+      for (unsigned int i = 0; i < array.size(); ++i)
+      {
+        selection.Set(i, array[i].c_str());
+      }
+    }
+    Run(helper, producer->GetDataInformation(port));
+    labels.Rows = RowsOf(helper, true);
+    labels.Problem = vtkSMPropertyHelper(helper, "Problem").GetAsString();
+  }
+  return labels;
+}
+
+//------------------------------------------------------------------------------
+LabelRows FetchLabelsOfSurfaces(vtkSMSourceProxy* producer, unsigned int port)
+{
+  LabelRows labels;
+  if (const auto helper = NewHelper("LabelLegend", producer, port))
+  {
+    Run(helper, producer->GetDataInformation(port));
+    labels.Rows = RowsOf(helper, false);
+  }
+  return labels;
+}
+}

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The labels of a label map, or of surfaces, on ParaView's client: found where the data is, by the
+ * helper proxies (internal_filters, LabelList) and (internal_filters, LabelLegend).
+ */
+#ifndef volumicLabelRows_h
+#define volumicLabelRows_h
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkSMSourceProxy;
+
+namespace volumic
+{
+struct LabelRow
+{
+  int Label = 0;
+  std::string Name;
+  long long Voxels = 0; ///< of surfaces: not known, 0
+  std::array<double, 3> Color = { { 0.0, 0.0, 0.0 } };
+
+  bool operator==(const LabelRow& other) const
+  {
+    return this->Label == other.Label && this->Name == other.Name &&
+      this->Voxels == other.Voxels && this->Color == other.Color;
+  }
+};
+
+struct LabelRows
+{
+  std::vector<LabelRow> Rows; ///< of a label map by value, of surfaces in the order of their blocks
+  std::string Problem;        ///< why there are none
+};
+
+/** Of a label map. `array` is as SetInputArrayToProcess has it; empty: the active scalars. */
+LabelRows FetchLabelsOfMap(
+  vtkSMSourceProxy* producer, unsigned int port, const std::array<std::string, 5>& array);
+
+/** Of what the filter Labels to Surfaces puts out. */
+LabelRows FetchLabelsOfSurfaces(vtkSMSourceProxy* producer, unsigned int port);
+}
+
+#endif

@@ -1,0 +1,274 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Labels to Surfaces filter of the installed plugin, in scripts of pvbatch and pvpython."""
+
+import math
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import servermanager
+from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import label_maps
+import plugin_testing as testing
+from label_maps import BALLS, COLORS, NAMES
+
+
+def labels_of(surface):
+    """Those of the triangles."""
+    return set(vtk_to_numpy(surface.GetCellData().GetArray("Label")).tolist())
+
+
+def list_of(source, array=None):
+    """What the panel lists: {label: (name, voxels, colour)}, and what is wrong."""
+    manager = servermanager.ProxyManager().SMProxyManager
+    helper = servermanager._getPyProxy(manager.NewProxy("internal_filters", "LabelList"))
+    helper.Input = source
+    if array:
+        helper.Voxels = ["", "", "", *array]
+    helper.SMProxy.UpdateVTKObjects()
+    helper.UpdatePipeline()
+    helper.SMProxy.UpdatePropertyInformation()
+    labels, names, voxels, colors = (
+        list(helper.GetProperty(name)) for name in ("Labels", "Names", "NumberOfVoxels", "Colors"))
+    listed = {label: (names[i], voxels[i], tuple(colors[3 * i:3 * i + 3]))
+              for i, label in enumerate(labels)}
+    return listed, helper.SMProxy.GetProperty("Problem").GetElement(0)
+
+
+class LabelsTestCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+
+    def tearDown(self):
+        testing.delete_sources()
+
+    def blocks(self, filter_):
+        """{name: surface}, without a message on the way."""
+        with testing.CapturedMessages() as messages:
+            output = testing.fetch(filter_)
+        self.assertEqual(messages.text, "")
+        return dict(zip(testing.names(output), testing.levels(output)))
+
+    def check_ball(self, surface, label, unit=1.0, start=0.0):
+        centre, radius = BALLS[label]
+        self.assertEqual(testing.field(surface, "StopReason"), "converged")
+        self.assertEqual(testing.field(surface, "Label"), label)
+        self.assertEqual(testing.field(surface, "NumberOfComponents"), 1)
+        self.assertEqual(testing.field(surface, "EulerCharacteristic"), 2)
+        self.assertEqual(labels_of(surface), {label})
+        voxels = testing.field(surface, "LabelVoxels")
+        self.assertEqual(voxels, int((label_maps.values() == label).sum()))
+        self.assertLess(testing.field(surface, "WrongVoxels"), 0.01 * voxels)
+        volume = testing.field(surface, "Volume") / unit**3
+        self.assertAlmostEqual(volume / voxels, 1.0, delta=0.03)
+        points = vtk_to_numpy(surface.GetPoints().GetData())
+        distance = numpy.linalg.norm(points - start - unit * numpy.array(centre), axis=1)
+        self.assertLess(numpy.abs(distance - unit * radius).max(), 0.8 * unit)
+
+
+class LabelsTest(LabelsTestCase):
+    def test_apply_is_enough(self):
+        filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()))
+        self.assertEqual(len(filter_.Labels), 0)
+        blocks = self.blocks(filter_)
+        self.assertEqual(list(blocks), ["Label 3", "Label 7", "Label 12"])
+        for label in BALLS:
+            self.check_ball(blocks[f"Label {label}"], label)
+
+    def test_chosen_labels(self):
+        filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), Labels=[12, 3])
+        self.assertEqual(list(self.blocks(filter_)), ["Label 3", "Label 12"])
+        filter_.Labels = [7]
+        self.check_ball(self.blocks(filter_)["Label 7"], 7)
+        filter_.Labels = []
+        self.assertEqual(len(self.blocks(filter_)), 3)
+        filter_.BackgroundLabel = 7
+        self.assertEqual(list(self.blocks(filter_)), ["Label 0", "Label 3", "Label 12"])
+
+    def test_types_and_places(self):
+        for kind in (numpy.uint8, numpy.int8, numpy.uint16, numpy.int32, numpy.int64):
+            with self.subTest(type=kind):
+                source = testing.produce(label_maps.image(kind, start=(-5, 2, 9)))
+                surface = self.blocks(simple.LabelstoSurfaces(source, Labels=[7]))["Label 7"]
+                self.check_ball(surface, 7, start=numpy.array((-5, 2, 9)))
+        source = testing.produce(label_maps.image(spacing=(2.5,) * 3, origin=(-100, 5, 1e3)))
+        surface = self.blocks(simple.LabelstoSurfaces(source, Labels=[7]))["Label 7"]
+        self.check_ball(surface, 7, 2.5, numpy.array((-100, 5, 1e3)))
+
+    def test_cells(self):
+        filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.cells()))
+        self.assertEqual(list(filter_.Voxels), ["CELLS", "labels"])
+        for label, surface in zip(BALLS, self.blocks(filter_).values()):
+            self.check_ball(surface, label)
+
+    def test_source_that_was_never_updated(self):
+        path = testing.write_volume("labels.vti", label_maps.image())
+        filter_ = simple.LabelstoSurfaces(simple.XMLImageDataReader(FileName=path), Labels=[7])
+        self.check_ball(self.blocks(filter_)["Label 7"], 7)
+
+    def test_second_array(self):
+        image = label_maps.image()
+        testing.add_array(image, numpy.random.default_rng(1).random(label_maps.SIZE**3), "noise")
+        image.GetPointData().SetActiveScalars("noise")
+        filter_ = simple.LabelstoSurfaces(testing.produce(image))
+        self.assertEqual(list(filter_.Voxels), ["POINTS", "noise"])
+        filter_.Voxels = ["POINTS", "labels"]
+        self.assertEqual(len(self.blocks(filter_)), 3)
+
+    def test_names_and_colors(self):
+        source = testing.produce(label_maps.add_names(label_maps.image()))
+        filter_ = simple.LabelstoSurfaces(source)
+        blocks = self.blocks(filter_)
+        self.assertEqual(list(blocks), list(NAMES.values()))
+        for label, surface in zip(BALLS, blocks.values()):
+            self.check_ball(surface, label)
+            color = surface.GetFieldData().GetArray("LabelColor").GetTuple(0)
+            numpy.testing.assert_allclose(color, COLORS[label], atol=1e-6)
+        filter_.LabelNames = ["7", "ren sinister"]
+        blocks = self.blocks(filter_)
+        self.assertEqual(list(blocks), ["liver", "ren sinister", "spleen"])
+        filter_.LabelNames = []
+        self.assertEqual(list(self.blocks(filter_)), list(NAMES.values()))
+
+    def test_merge(self):
+        filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), Labels=[3, 7],
+                                          Merge=1)
+        blocks = self.blocks(filter_)
+        self.assertEqual(list(blocks), ["Labels 3, 7"])
+        surface = blocks["Labels 3, 7"]
+        self.assertEqual(labels_of(surface), {3, 7})
+        fields = surface.GetFieldData()
+        names = fields.GetAbstractArray("LabelName")
+        self.assertEqual([names.GetValue(i) for i in range(names.GetNumberOfValues())],
+                         ["Label 3", "Label 7"])
+        self.assertEqual(fields.GetArray("LabelColor").GetNumberOfTuples(), 2)
+        # The two balls touch.
+        self.assertEqual(testing.field(surface, "NumberOfComponents"), 1)
+
+    def test_properties_have_their_effect(self):
+        source = testing.produce(label_maps.image(spacing=(2.0,) * 3))
+        filter_ = simple.LabelstoSurfaces(source, Labels=[3])
+        usual = self.blocks(filter_)["Label 3"]
+        for name, value in (("Gap", 2.0), ("FinestLevel", 1), ("EdgeLength", 4.0)):
+            with self.subTest(property=name):
+                before = getattr(filter_, name)
+                setattr(filter_, name, value)
+                other = self.blocks(filter_)["Label 3"]
+                if name == "Gap":
+                    drawn_back = 1 - 3 * 1.0 / (2.0 * BALLS[3][1])
+                    ratio = testing.field(other, "Volume") / testing.field(usual, "Volume")
+                    self.assertAlmostEqual(ratio, drawn_back, delta=0.05)
+                else:
+                    self.assertLess(other.GetNumberOfPoints(), 0.6 * usual.GetNumberOfPoints())
+                setattr(filter_, name, before)
+        filter_.Smoothing = 0
+        self.assertGreater(testing.field(self.blocks(filter_)["Label 3"], "Area"),
+                           1.005 * testing.field(usual, "Area"))
+
+    def test_states(self):
+        path = testing.write_volume("labels-state.vti", label_maps.image())
+        for name in ("labels.pvsm", "labels-state.py"):
+            with self.subTest(name=name):
+                reader = simple.XMLImageDataReader(registrationName="Map", FileName=path)
+                reader.UpdatePipeline()
+                filter_ = simple.LabelstoSurfaces(reader, registrationName="Saved")
+                filter_.Labels = [7, 12]
+                filter_.LabelNames = ["7", "kidney"]
+                filter_.Gap = 0.5
+                self.assertEqual(list(self.blocks(filter_)), ["kidney", "Label 12"])
+                simple.SaveState(testing.output_path(name))
+                self.tearDown()
+                simple.LoadState(testing.output_path(name))
+                again = simple.FindSource("Saved")
+                self.assertEqual((list(again.Labels), again.Gap), ([7, 12], 0.5))
+                self.assertEqual(list(self.blocks(again)), ["kidney", "Label 12"])
+                self.tearDown()
+
+
+class LabelErrorsTest(LabelsTestCase):
+    def check_error(self, filter_, *words):
+        with testing.CapturedMessages() as messages:
+            output = testing.fetch(filter_)
+        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
+        for word in words:
+            self.assertIn(word, messages.text)
+        self.assertEqual(output.GetNumberOfBlocks(), 0)
+
+    def test_good_bad_good(self):
+        filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), FinestLevel=1)
+        self.assertEqual(len(self.blocks(filter_)), 3)
+        for name, bad, good, words in (
+                ("Labels", [3, 9], [], ("9", "3", "7", "12")),
+                ("Gap", -1.0, 0.0, ("-1",)),
+                ("Gap", math.nan, 0.0, ("nan",)),
+                ("Smoothing", -0.5, 2.0, ("-0.5",)),
+                ("EdgeLength", -1.0, 0.0, ("-1",)),
+                ("FinestLevel", -2, 1, ("-2",))):
+            with self.subTest(property=name, value=bad):
+                setattr(filter_, name, bad)
+                self.check_error(filter_, *words)
+                setattr(filter_, name, good)
+                self.assertEqual(len(self.blocks(filter_)), 3)
+
+    def test_voxels_that_are_no_integers(self):
+        image = label_maps.image(numpy.float32)
+        filter_ = simple.LabelstoSurfaces(testing.produce(image))
+        with testing.CapturedMessages() as messages:
+            output = testing.fetch(filter_)
+        self.assertEqual(output.GetNumberOfBlocks(), 3)
+        self.assertEqual(messages.text.count("Warning: "), 1, messages.text)
+        values = label_maps.values(numpy.float32)
+        values[0, 0, 0] = 0.25
+        bad = simple.LabelstoSurfaces(testing.produce(testing.make_image(values, name="labels")))
+        self.check_error(bad, "0.25")
+
+    def test_too_many_and_none(self):
+        many = numpy.arange(label_maps.SIZE**3, dtype=numpy.int32).reshape(label_maps.values().shape)
+        filter_ = simple.LabelstoSurfaces(testing.produce(testing.make_image(many, name="many")))
+        self.check_error(filter_, "4096")
+        nothing = simple.LabelstoSurfaces(testing.produce(label_maps.image(balls={0: ((9,) * 3, 1)})))
+        self.check_error(nothing, "0")
+
+
+class LabelListTest(LabelsTestCase):
+    def test_list(self):
+        source = testing.produce(label_maps.add_names(label_maps.image()))
+        listed, problem = list_of(source)
+        self.assertEqual(problem, "")
+        self.assertEqual(list(listed), [0, *BALLS])
+        values = label_maps.values()
+        for label, (name, voxels, color) in listed.items():
+            self.assertEqual(voxels, int((values == label).sum()))
+            self.assertEqual(name, NAMES.get(label, "Label 0"))
+            if label:
+                numpy.testing.assert_allclose(color, COLORS[label], atol=1e-6)
+
+    def test_list_of_an_array_of_cells(self):
+        listed, problem = list_of(testing.produce(label_maps.cells()), ["1", "labels"])
+        self.assertEqual((list(listed), problem), ([0, *BALLS], ""))
+
+    def test_what_is_wrong_is_no_error(self):
+        values = numpy.random.default_rng(1).random((8, 8, 8))
+        with testing.CapturedMessages() as messages:
+            listed, problem = list_of(testing.produce(testing.make_image(values)))
+        self.assertEqual((listed, messages.text), ({}, ""))
+        self.assertRegex(problem, r"^Input port 0: .*[a-z.]$")
+        # And floats that are integers are a warning of the filter only.
+        with testing.CapturedMessages() as messages:
+            listed, problem = list_of(testing.produce(label_maps.image(numpy.float64)))
+        self.assertEqual((list(listed), problem, messages.text), ([0, *BALLS], "", ""))
+
+    def test_making_a_filter_says_nothing(self):
+        source = testing.produce(testing.make_image(numpy.random.default_rng(1).random((9, 9, 9))))
+        with testing.CapturedMessages() as messages:
+            simple.LabelstoSurfaces(source)
+        self.assertEqual(messages.text, "")
+
+
+testing.main()

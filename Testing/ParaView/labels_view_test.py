@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the surfaces of labels look in views: colours of labels, that follow the data."""
+
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import simple
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import label_maps
+import plugin_testing as testing
+import view_testing as views
+from label_maps import COLORS, NAMES
+
+OTHER_NAMES = {3: "pelvis", 7: "femur", 12: "sacrum"}
+OTHER_COLORS = {3: (0.9, 0.8, 0.1), 7: (0.8, 0.1, 0.9), 12: (0.1, 0.9, 0.9)}
+
+
+def hues(pixels):
+    """Which of red, green, blue are drawn, alone: the colours of the three labels."""
+    bright = pixels.astype(int)
+    found = set()
+    for name, channel in (("red", 0), ("green", 1), ("blue", 2)):
+        others = numpy.delete(bright, channel, axis=2).max(axis=2)
+        if int((bright[..., channel] > 2 * others + 20).sum()) > 200:
+            found.add(name)
+    return found
+
+
+def legend(display):
+    """{value: (text, colour)} of the colour map in use."""
+    colors = display.LookupTable
+    texts, shown = list(colors.Annotations), list(colors.IndexedColors)
+    return {int(texts[2 * i]): (texts[2 * i + 1], tuple(shown[3 * i:3 * i + 3]))
+            for i in range(len(texts) // 2)}
+
+
+class LabelsViewTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        views.open_screen()
+        testing.load_plugin()
+
+    def tearDown(self):
+        testing.delete_views()
+        testing.delete_sources()
+
+    def show(self, source=None, **properties):
+        source = source or testing.produce(label_maps.add_names(label_maps.image()))
+        self.filter = simple.LabelstoSurfaces(source, FinestLevel=1, **properties)
+        self.view = views.new_view("RenderView")
+        self.display = simple.Show(self.filter, self.view)
+        simple.ResetCamera(self.view)
+        return self.display
+
+    def picture(self, name):
+        return views.picture_of(self.view, f"labels-{name}.png")
+
+    def check_legend(self, labels, names=None, colors=None, display=None):
+        names, colors = names or NAMES, colors or COLORS
+        found = legend(display or self.display)
+        self.assertEqual(list(found), labels)
+        for label, (name, color) in found.items():
+            self.assertEqual(name, names[label])
+            numpy.testing.assert_allclose(color, colors[label], atol=1e-6)
+
+    def check_same(self, pixels, wanted):
+        """But for what the depth of the view does to a pixel here and there."""
+        difference = numpy.abs(pixels.astype(int) - wanted).max(axis=2)
+        self.assertLess(int((difference > 16).sum()), 20)
+
+    def test_all_blocks_have_their_colors(self):
+        self.show()
+        # In the very first picture.
+        self.assertEqual(hues(self.picture("first")), {"red", "green", "blue"})
+        self.assertEqual(list(self.display.ColorArrayName), ["CELLS", "Label"])
+        self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
+        self.check_legend([3, 7, 12])
+
+    def test_merged_surface(self):
+        self.show(Labels=[3, 7], Merge=1)
+        self.assertEqual(hues(self.picture("merged")), {"red", "green"})
+        self.check_legend([3, 7])
+
+    def test_colors_follow_the_data(self):
+        self.show(Labels=[3])
+        self.assertEqual(hues(self.picture("one")), {"red"})
+        self.filter.Labels = [7, 12]
+        self.assertEqual(hues(self.picture("two")), {"green", "blue"})
+        self.check_legend([7, 12])
+        other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
+        self.filter.Input = testing.produce(other)
+        self.picture("other")
+        self.check_legend([7, 12], OTHER_NAMES, OTHER_COLORS)
+
+    def test_edited_colors_stay(self):
+        self.show(Labels=[3, 7])
+        self.picture("to-be-edited")
+        self.display.LookupTable.IndexedColors = [0.1, 0.1, 1.0, *COLORS[7]]
+        self.assertEqual(hues(self.picture("edited")), {"green", "blue"})
+        # What comes anew gets its colour, too.
+        self.filter.Labels = [3, 7, 12]
+        self.picture("edited-more")
+        self.check_legend([3, 7, 12], colors={**COLORS, 3: (0.1, 0.1, 1.0)})
+
+    def test_another_array_stays(self):
+        self.show()
+        self.picture("label")
+        simple.ColorBy(self.display, ("CELLS", "Component"), separate=True)
+        self.picture("component")
+        self.filter.Labels = [3]
+        self.picture("component-of-one")
+        self.assertEqual(self.display.ColorArrayName[1], "Component")
+
+    def test_error_first_and_then_a_good_run(self):
+        source = testing.produce(label_maps.add_names(label_maps.image()))
+        with testing.CapturedMessages() as messages:
+            self.show(source, Gap=-1.0)
+            self.assertEqual(views.drawn(self.picture("bad")), 0)
+        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
+        self.filter.Gap = 0.0
+        self.filter.UpdatePipeline()
+        simple.ResetCamera(self.view)
+        self.assertEqual(hues(self.picture("good")), {"red", "green", "blue"})
+        good = self.picture("good")
+        with testing.CapturedMessages():
+            self.filter.Labels = [3, 99]
+            self.assertEqual(views.drawn(self.picture("bad")), 0)
+        self.filter.Labels = []
+        self.check_same(self.picture("good-again"), good)
+
+    def test_two_maps_in_a_view(self):
+        first = self.show()
+        self.picture("first-map")
+        other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
+        second = simple.LabelstoSurfaces(testing.produce(other), FinestLevel=1)
+        display = simple.Show(second, self.view)
+        self.picture("both-maps")
+        self.check_legend([3, 7, 12], display=first)
+        self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, display)
+
+    def test_saved_state(self):
+        path = testing.write_volume("labels-view.vti", label_maps.image())
+        reader = simple.XMLImageDataReader(FileName=path)
+        reader.UpdatePipeline()
+        self.show(reader, LabelNames=["3", "liver", "7", "left kidney", "12", "spleen"])
+        before = self.picture("before-the-state")
+        colors = {label: color for label, (_, color) in legend(self.display).items()}
+        for name in ("labels-view.pvsm", "labels-view-state.py"):
+            with self.subTest(name=name):
+                simple.SaveState(testing.output_path(name))
+                self.tearDown()
+                simple.LoadState(testing.output_path(name))
+                self.filter = next(source for source in simple.GetSources().values()
+                                   if source.GetXMLName() == "LabelsToSurfaces")
+                self.view = simple.GetViews()[0]
+                self.display = simple.GetRepresentation(self.filter, self.view)
+                self.check_same(self.picture("after-the-state"), before)
+                self.check_legend([3, 7, 12], colors=colors)
+
+
+testing.main()
