@@ -175,6 +175,16 @@ TEST(LabelNeighbours, AreApartWithAGap)
   }
 }
 
+TEST(LabelNeighbours, AreDrawnBackByHalfTheGap)
+{
+  DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 64);
+  shapes.Map.Spacing = { 0.4, 0.4, 0.4 };
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  const double before = FieldOf(BlockOf(filter), "Volume");
+  filter->SetGap(0.4);
+  EXPECT_NEAR(FieldOf(BlockOf(filter), "Volume") / before, std::pow(19.5 / 20.0, 3.0), 0.004);
+}
+
 //------------------------------------------------------------------------------
 TEST(LabelGeometry, DoesNotMatter)
 {
