@@ -105,6 +105,10 @@ LabelOutput OutputOf(const std::string& name)
 
 void CheckLabelOutput(const ToolOptions& options, const std::string& name)
 {
+  if (name == "-")
+  {
+    throw UsageError("surfaces of labels are not written to the standard output");
+  }
   if (OutputOf(name) == LabelOutput::Folder)
   {
     if (options.HasProperty("Merge"))

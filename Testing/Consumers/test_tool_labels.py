@@ -259,8 +259,14 @@ class WhatIsReadTest(LabelsTest):
                      self.map_file("half.vti", label_image(voxels)), self.path("o/"), "--labels",
                      "all")
         many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
-        self.refused("many.vti: .*more than 4096", self.map_file("many.vti", label_image(many)),
-                     self.path("o/"), "--labels", "all")
+        many[label_voxels() == 7] = 7
+        volume = self.map_file("many.vti", label_image(many))
+        self.refused("many.vti: .*more than 4096", volume, self.path("o/"), "--labels", "all")
+        self.refused("many.vti: .*has no label 99999", volume, self.path("o/"), "--labels",
+                     "7,99999")
+        row = self.rows(volume, self.path("o/"), "--labels", "7")[7]
+        self.assertEqual((row["voxels"], os.listdir(self.path("o"))),
+                         ((many == 7).sum(), ["label-7.vtp"]))
         self.refused("has no label but Background|there is no label 'all'",
                      self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1"))),
                      self.path("o/"), "--labels", "all")
@@ -376,7 +382,7 @@ class OptionsTest(LabelsTest):
                 ("no surface format", ["o/", "--format", "dwg"]),
                 ("not written in pieces", ["o/", "--format", "pvtp"]),
                 ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
-                ("no surface format", ["o.dwg"]), ("no file to write", []),
+                ("no surface format", ["o.dwg"]), ("the standard output", ["-"]), ("no file to write", []),
                 ("--merge makes one surface: give it a file", ["o/", "--merge"]),
                 ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
             self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
