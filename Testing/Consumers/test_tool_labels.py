@@ -316,7 +316,7 @@ class OptionsTest(LabelsTest):
         volume = self.map_file()
         values = {"BackgroundLabel": ("--background", "1"), "Gap": ("--gap", "0.25"),
                   "Smoothing": ("--smoothing", "0.5"), "Metric": ("--metric", "voxels"),
-                  "EdgeLength": ("--edge-length", "1.5"), "FinestLevel": ("--finest", "1"),
+                  "EdgeLength": ("--edge-length", "1.2"), "FinestLevel": ("--finest", "1"),
                   "KeepComponents": ("--keep", "large"),
                   "MinimumComponentVolume": ("--minimum-component-volume", "2"),
                   "NumberOfThreads": ("--threads", "1"), "MemoryLimit": ("--memory", "3000M"),
@@ -339,7 +339,7 @@ class OptionsTest(LabelsTest):
         plain = volume_of()
         self.assertLess(volume_of("--gap", "0.5")["volume"], 0.9 * plain["volume"])
         self.assertNotEqual(volume_of("--smoothing", "0")["area"], plain["area"])
-        for options in (("--finest", "1"), ("--edge-length", "1.5")):
+        for options in (("--finest", "1"), ("--edge-length", "1.2")):
             self.assertLess(volume_of(*options)["vertices"], 0.6 * plain["vertices"])
         self.assertNotEqual(volume_of("--metric", "voxels")["vertices"], plain["vertices"])
         voxels = label_voxels(blobs={1: ((8, 8, 8), (6, 5, 5)), 2: ((20, 20, 9), (4, 3, 3))})
