@@ -98,8 +98,8 @@ class OutputsTest(LabelsTest):
         volume, names = self.map_file(), self.names_file()
         for suffix in ("stl", "ply", "obj", "vtk"):
             out = self.path(suffix)  # not there, without a suffix or slash
-            self.run_tool(volume, out, "--labels", "1,2", "--format", suffix, "--label-names",
-                          names)
+            self.run_tool(volume, out, "--labels", "1,2", "--format",
+                          "." * (suffix == "ply") + suffix, "--label-names", names)
             self.assertEqual(sorted(os.listdir(out)), [f"Left_lung.{suffix}", f"liver.{suffix}"])
         self.assertGreater(read_surface(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
         self.assertIn(b"liver", self.content("stl/liver.stl")[:80])
@@ -382,7 +382,7 @@ class OptionsTest(LabelsTest):
                 ("no surface format", ["o/", "--format", "dwg"]),
                 ("not written in pieces", ["o/", "--format", "pvtp"]),
                 ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
-                ("no surface format", ["o.dwg"]), ("the standard output", ["-"]), ("no file to write", []),
+                ("no surface format .*, .vtm; a folder is o.v1/", ["o.v1"]), ("the standard output", ["-"]), ("no file to write", []),
                 ("--merge makes one surface: give it a file", ["o/", "--merge"]),
                 ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
             self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
