@@ -63,6 +63,46 @@ vtkSmartPointer<vtkInformation> SelectScalars()
   return selection;
 }
 
+/**
+ * The field in a larger image, so that a coarser level of it has the voxels that it needs, and room
+ * about the object.
+ */
+vtkSmartPointer<vtkImageData> PadForLevel(vtkImageData* field, double factor, int level)
+{
+  constexpr double leastVoxels = 10.0; // At the level, along each axis.
+  constexpr double room = 2.0;         // Voxels of the level on each side.
+  const double scale = std::pow(factor, level);
+  int old[6];
+  int box[6];
+  field->GetExtent(old);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int size = old[2 * axis + 1] - old[2 * axis] + 1;
+    const int wanted =
+      static_cast<int>(std::ceil(std::max(size + 2.0 * room * scale, leastVoxels * scale)));
+    box[2 * axis] = old[2 * axis] - (wanted - size) / 2;
+    box[2 * axis + 1] = box[2 * axis] + wanted - 1;
+  }
+  auto padded = vtkSmartPointer<vtkImageData>::New();
+  padded->CopyStructure(field);
+  padded->SetExtent(box);
+  padded->AllocateScalars(VTK_FLOAT, 1);
+  padded->GetPointData()->GetScalars()->SetName("Distance");
+  auto* values = static_cast<float*>(padded->GetScalarPointer());
+  std::fill(values, values + padded->GetNumberOfPoints(),
+    *static_cast<float*>(field->GetScalarPointer())); // A corner of the box is far outside.
+  for (int k = old[4]; k <= old[5]; ++k)
+  {
+    for (int j = old[2]; j <= old[3]; ++j)
+    {
+      const auto* row = static_cast<float*>(field->GetScalarPointer(old[0], j, k));
+      std::copy(row, row + (old[1] - old[0] + 1),
+        static_cast<float*>(padded->GetScalarPointer(old[0], j, k)));
+    }
+  }
+  return padded;
+}
+
 /** Multiplies the residuals, which are in smallest distances of voxels. */
 void ScaleResidual(vtkPolyData* surface, double unit)
 {
@@ -167,7 +207,7 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   if (settings.EdgeLength != 0.0)
   {
     const EdgeLengthPlan plan =
-      PlanEdgeLength(settings.EdgeLength, settings.Options.SamplingRatio, field, pyramid);
+      PlanEdgeLength(settings.EdgeLength, settings.Options.SamplingRatio, this->Image, pyramid);
     settings.End.FinestLevel = plan.FinestLevel;
     settings.Options.SamplingRatio = plan.SamplingRatio;
     volume.FactorBelowLevel0 = plan.ReductionFactor;
@@ -177,9 +217,14 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   settings.CoarsestLevel = std::max(settings.End.FinestLevel, 0);
   pyramid->SetNumberOfLevels(settings.CoarsestLevel + 1);
   pyramid->SetNumberOfThreads(1);
+  vtkSmartPointer<vtkImageData> image = field;
+  if (settings.CoarsestLevel > 0)
+  {
+    image = PadForLevel(field, pyramid->GetReductionFactor(), settings.CoarsestLevel);
+  }
   volume.LevelsAreOwn = true;
   SingleRank alone;
-  volume.Levels = BuildPyramid(alone, pyramid, field, volume.Selection,
+  volume.Levels = BuildPyramid(alone, pyramid, image, volume.Selection,
     [&](double) { return progress(FieldShare, "Pyramid of the field"); });
   return volume;
 }

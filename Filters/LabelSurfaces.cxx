@@ -186,6 +186,10 @@ std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const Labe
   const auto doAll = [&](const std::string& text,
                        const std::function<void(std::size_t, int, HostThreads&)>& work)
   {
+    if (!tell(text))
+    {
+      return;
+    }
     for (std::size_t i = 0; i < alone && tell(text); ++i)
     {
       work(order[i], numberOfThreads, threads);

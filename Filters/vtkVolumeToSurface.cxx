@@ -18,6 +18,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 
 #include <cmath>
 #include <string>
@@ -69,6 +70,15 @@ volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* inp
   pyramid->SetReductionFactor(this->ReductionFactor);
   this->MakeLevels(pyramid, voxels.Image, volume);
   return volume;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkVolumeToSurface::HintAtLabels(vtkImageData* image)
+{
+  vtkDataArray* voxels = image ? image->GetPointData()->GetScalars() : nullptr;
+  const bool isOne =
+    voxels && voxels->GetNumberOfComponents() == 1 && voxels->HasStandardMemoryLayout();
+  return isOne ? volumic::HintAtLabels(voxels, image->GetDimensions()) : std::string();
 }
 
 //------------------------------------------------------------------------------

@@ -62,6 +62,12 @@ public:
   vtkGetMacro(ReductionFactor, double);
   ///@}
 
+  /**
+   * What is told of an image whose active point scalars look like a label map: that there is
+   * vtkLabelsToSurfaces; empty: they don't.
+   */
+  static std::string HintAtLabels(vtkImageData* image);
+
 protected:
   vtkVolumeToSurface();
   ~vtkVolumeToSurface() override;

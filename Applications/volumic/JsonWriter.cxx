@@ -3,6 +3,7 @@
 #include "JsonWriter.h"
 
 #include "ParseNumbers.h"
+#include "Texts.h"
 
 #include <cmath>
 #include <cstdio>
@@ -11,30 +12,6 @@ namespace tool
 {
 namespace
 {
-/** Bytes of the UTF-8 character that begins here; 0 if none does (RFC 3629). */
-std::size_t CharacterBytes(const std::string& text, std::size_t at)
-{
-  const auto byte = [&](std::size_t i)
-  { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
-  const unsigned int first = byte(0);
-  const std::size_t count = first < 0x80 ? 1
-    : first >= 0xC2 && first < 0xE0      ? 2
-    : first >= 0xE0 && first < 0xF0      ? 3
-    : first >= 0xF0 && first < 0xF5      ? 4
-                                         : 0;
-  for (std::size_t i = 1; i < count; ++i)
-  {
-    if ((byte(i) & 0xC0) != 0x80)
-    {
-      return 0;
-    }
-  }
-  // Long forms, halves of pairs, and what lies behind the last character.
-  const bool isRefused = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
-    (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F);
-  return isRefused ? 0 : count;
-}
-
 /** Names of files may be any bytes: those that are not UTF-8 become the replacement character. */
 std::string ValidText(const std::string& text)
 {

@@ -89,7 +89,8 @@ void TryFile(const std::string& name)
 /** The folder of an output that consists of several files; empty for others. */
 fs::path PiecesFolder(const OutputName& output)
 {
-  return output.Form == OutputName::Kind::Folder ? fs::path(output.Name)
+  return output.Form == OutputName::Kind::Folder || output.Form == OutputName::Kind::Place
+    ? fs::path(output.Name)
     : output.Form == OutputName::Kind::Blocks
     ? fs::path(FollowLinks(output.Name)).replace_extension()
     : fs::path();
@@ -98,6 +99,10 @@ fs::path PiecesFolder(const OutputName& output)
 /** Whether the output may come to write a file of this name in its folder. */
 bool IsPieceName(const OutputName& output, const std::string& name)
 {
+  if (output.Form == OutputName::Kind::Place)
+  {
+    return false;
+  }
   const std::string start = output.Form == OutputName::Kind::Folder
     ? output.Prefix + "-"
     : PiecesFolder(output).filename().string() + "_";
@@ -126,7 +131,7 @@ void CheckPieces(const OutputName& output, const FileNames& taken)
 
 void TryOutput(const OutputName& output, const FileNames& inputs)
 {
-  if (output.Form != OutputName::Kind::Folder)
+  if (output.Form == OutputName::Kind::File || output.Form == OutputName::Kind::Blocks)
   {
     TryFile(output.Name);
     FileId id;

@@ -15,7 +15,8 @@ struct OutputName
   {
     File,
     Blocks, ///< a .vtm or .pvtp, and the files STEM/STEM_... beside it
-    Folder  ///< the files Prefix-....vtp in it; it may have to be made
+    Folder, ///< the files Prefix-....vtp in it; it may have to be made
+    Place   ///< a folder likewise, of files that are not known yet
   };
   std::string Name;
   Kind Form = Kind::File;

@@ -8,6 +8,7 @@
 #include "BinaryFile.h"
 #include "Bunzip.h"
 #include "Inflate.h"
+#include "LabelNames.h"
 #include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
@@ -43,8 +44,11 @@ std::string ReadBytes(const std::string& name, std::uint64_t start = 0,
   return file.Text(start, std::min(most, file.Size() - start));
 }
 
-/** Fields by lower-case name; `dataStart` is where the data of an attached file begin. */
-Fields ParseHeader(const std::string& content, std::size_t& dataStart)
+/**
+ * Fields by lower-case name; `dataStart` is where the data of an attached file begin.
+ * @param pairs given the header's own pairs of keys and values
+ */
+Fields ParseHeader(const std::string& content, std::size_t& dataStart, Fields& pairs)
 {
   if (content.compare(0, 7, "NRRD000") != 0)
   {
@@ -64,9 +68,12 @@ Fields ParseHeader(const std::string& content, std::size_t& dataStart)
       break;
     }
     const std::size_t colon = line.find(':');
-    const bool isField =
-      line[0] != '#' && colon != std::string::npos && line.compare(colon, 2, ":=") != 0;
-    if (isField)
+    const bool isField = line[0] != '#' && colon != std::string::npos;
+    if (isField && line.compare(colon, 2, ":=") == 0)
+    {
+      pairs[line.substr(0, colon)] = line.substr(colon + 2);
+    }
+    else if (isField)
     {
       const std::string key = Lower(Trimmed(line.substr(0, colon)));
       fields[key == "datafile" ? "data file" : key] = Trimmed(line.substr(colon + 1));
@@ -128,7 +135,7 @@ void SkipLines(std::string& data, int count)
 void Decode(std::string data, const Fields& fields, vtkDataArray* values)
 {
   const std::size_t size =
-    static_cast<std::size_t>(values->GetNumberOfTuples()) * values->GetDataTypeSize();
+    static_cast<std::size_t>(values->GetNumberOfValues()) * values->GetDataTypeSize();
   const int skip = ParseNumber<int>(Field(fields, "byte skip", "0"));
   SkipLines(data, ParseNumber<int>(Field(fields, "line skip", "0")));
   const std::string encoding = Lower(Field(fields, "encoding", "raw"));
@@ -136,13 +143,14 @@ void Decode(std::string data, const Fields& fields, vtkDataArray* values)
   {
     std::istringstream stream(data);
     double value = 0.0;
-    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    const int components = values->GetNumberOfComponents();
+    for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
     {
       if (!(stream >> value))
       {
         throw Failure("fewer values than the sizes ask for");
       }
-      values->SetComponent(i, 0, value);
+      values->SetComponent(i / components, static_cast<int>(i % components), value);
     }
     return;
   }
@@ -189,7 +197,8 @@ std::vector<Vector3> ParseVectors(const std::string& text)
   return vectors;
 }
 
-VolumePlacement PlacementOf(const Fields& fields)
+/** @param hasComponents Whether the first axis is none of space */
+VolumePlacement PlacementOf(const Fields& fields, bool hasComponents)
 {
   VolumePlacement placement;
   const std::string origin = Field(fields, "space origin", "(0,0,0)");
@@ -210,7 +219,12 @@ VolumePlacement PlacementOf(const Fields& fields)
     placement.SetSteps({ steps[0], steps[1], steps[2] });
     return placement;
   }
-  std::istringstream spacings(Field(fields, "spacings", "1 1 1"));
+  std::istringstream spacings(Field(fields, "spacings", hasComponents ? "nan 1 1 1" : "1 1 1"));
+  std::string none;
+  if (hasComponents)
+  {
+    spacings >> none;
+  }
   for (double& spacing : placement.Spacing)
   {
     std::string word;
@@ -237,7 +251,9 @@ constexpr std::uint64_t HeaderBytes = 1 << 20;
 struct Header
 {
   Fields All;
+  Fields Pairs; ///< what programs tell each other
   std::array<int, 3> Size = { 0, 0, 0 };
+  int Components = 1;
   int Type = 0;
   VolumePlacement Placement;
   std::string WorldAxes;       ///< may be empty
@@ -245,21 +261,34 @@ struct Header
   std::uint64_t DataStart = 0; ///< bytes before the data in it
 };
 
+/** Whether each voxel has several numbers, one behind the other, as the layers of segmentations. */
+bool FirstAxisIsComponents(const Fields& fields)
+{
+  static const std::vector<std::string> kinds = { "list", "vector", "covariant-vector" };
+  std::istringstream stream(Lower(Field(fields, "kinds", "")));
+  std::string kind;
+  stream >> kind;
+  return Field(fields, "dimension", "") == "4" &&
+    std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
 Header ReadHeader(const std::string& name)
 {
   Header header;
   std::size_t start = 0;
-  header.All = ParseHeader(ReadBytes(name, 0, HeaderBytes), start);
+  header.All = ParseHeader(ReadBytes(name, 0, HeaderBytes), start, header.Pairs);
   try
   {
     std::array<int, 3>& size = header.Size;
     std::istringstream sizes(Field(header.All, "sizes", ""));
     std::string more;
-    if (!(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more ||
+    const bool hasComponents = FirstAxisIsComponents(header.All);
+    if ((hasComponents && !(sizes >> header.Components)) ||
+      !(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more || header.Components < 1 ||
       *std::min_element(size.begin(), size.end()) < 1)
     {
       throw Failure("sizes '" + Field(header.All, "sizes", "") +
-        "'; a volume with one scalar component has three");
+        "'; a volume with one scalar component has three, one with several a list of them first");
     }
     header.Type = TypeOf(Lower(Field(header.All, "type", "")));
     const std::string file = Field(header.All, "data file", "");
@@ -270,7 +299,7 @@ Header ReadHeader(const std::string& name)
     header.DataFile =
       file.empty() ? name : (std::filesystem::path(name).parent_path() / file).string();
     header.DataStart = file.empty() ? start : 0;
-    header.Placement = PlacementOf(header.All);
+    header.Placement = PlacementOf(header.All, hasComponents);
     header.WorldAxes = WorldAxesOf(Field(header.All, "space", ""));
     return header;
   }
@@ -289,6 +318,7 @@ vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
     auto values =
       vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(header.Type));
     const std::array<int, 3>& size = header.Size;
+    values->SetNumberOfComponents(header.Components);
     values->SetNumberOfTuples(static_cast<vtkIdType>(size[0]) * size[1] * size[2]);
     Decode(ReadBytes(header.DataFile, header.DataStart), header.All, values);
     vtkSmartPointer<vtkImageData> image = MakeImage(size, values, header.Placement);
@@ -304,13 +334,19 @@ vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
   }
 }
 
+LabelNames NamesInNrrd(const std::string& name)
+{
+  const Header header = ReadHeader(name);
+  return NamesOfSegments(header.Pairs, header.Components);
+}
+
 std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirectory& scratch)
 {
   const Header header = ReadHeader(name);
   const std::string encoding = Lower(Field(header.All, "encoding", "raw"));
   const bool isPacked = encoding == "gzip" || encoding == "gz";
   const bool hasLines = Field(header.All, "line skip", "0") != "0";
-  if (hasLines || (!isPacked && encoding != "raw"))
+  if (hasLines || header.Components > 1 || (!isPacked && encoding != "raw"))
   {
     return nullptr;
   }

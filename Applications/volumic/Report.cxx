@@ -24,15 +24,12 @@
 
 namespace tool
 {
-namespace
-{
-void WriteInput(JsonWriter& json, const ReportInput& input)
+void WriteInput(JsonWriter& json, const std::string& name, const VolumeFacts& volume)
 {
   double numbers[3];
-  const VolumeFacts& volume = input.Volume;
   json.Name("input");
   json.BeginObject();
-  json.Member("name", input.VolumeName);
+  json.Member("name", name);
   const std::array<int, 3> size = volume.Size();
   std::copy_n(size.begin(), 3, numbers);
   json.Numbers("dimensions", numbers, 3);
@@ -43,7 +40,6 @@ void WriteInput(JsonWriter& json, const ReportInput& input)
   json.EndObject();
 }
 
-/** Size and shape of a surface, from its field data. */
 void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize& size)
 {
   static const char* const facts[][2] = { { "components", "NumberOfComponents" },
@@ -64,7 +60,6 @@ void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize
   json.Member("stop_reason", StopReason(surface));
 }
 
-/** An object per component, the one of the largest area first. */
 void WriteComponents(JsonWriter& json, vtkPolyData* surface)
 {
   static const char* const facts[][2] = { { "area", "ComponentArea" },
@@ -94,6 +89,8 @@ void WriteComponents(JsonWriter& json, vtkPolyData* surface)
   json.EndArray();
 }
 
+namespace
+{
 double SecondsOfRow(vtkTable* history, vtkIdType row)
 {
   double seconds = 0.0;
@@ -169,13 +166,16 @@ void WriteSeconds(JsonWriter& json, const ReportInput& input)
   json.EndObject();
 }
 
-void WriteProperties(JsonWriter& json, const FilterPair& filters)
+void WriteProperties(JsonWriter& json, const FilterTrio& filters)
 {
   json.Name("properties");
   json.BeginObject();
   for (const PropertyOption& property : SurfaceProperties())
   {
-    json.Member(property.Property, property.Get(filters));
+    if (!IsOfLabelsOnly(property))
+    {
+      json.Member(property.Property, property.Get(filters));
+    }
   }
   json.EndObject();
 }
@@ -201,7 +201,7 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   vtkPolyData* surface = filter->GetOutput();
   JsonWriter json(out);
   json.BeginObject();
-  WriteInput(json, input);
+  WriteInput(json, input.VolumeName, input.Volume);
   json.Member("iso_value", filter->GetIsoValue());
   json.Member("finished", input.IsFinished);
   WriteSurfaceFacts(json, surface, input.Size);
@@ -219,9 +219,15 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   }
   json.EndObject();
   WriteProperties(json, input.Filters);
+  WriteEnd(json, input.Warnings);
+  json.EndObject();
+}
+
+void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings)
+{
   json.Name("warnings");
   json.BeginArray();
-  for (const std::string& warning : input.Warnings)
+  for (const std::string& warning : warnings)
   {
     json.Value(warning);
   }
@@ -230,7 +236,6 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   json.BeginObject();
   json.Member("volumic", VOLUMIC_VERSION);
   json.Member("vtk", vtkVersion::GetVTKVersion());
-  json.EndObject();
   json.EndObject();
 }
 }

@@ -15,6 +15,8 @@ class vtkPolyData;
 
 namespace tool
 {
+class JsonWriter;
+
 /**
  * All that a report tells; the names in it are those of the quickstart's report.json, and besides
  * `finished` (false: interrupted, at the time or the iteration limit) and `properties`.
@@ -23,7 +25,7 @@ struct ReportInput
 {
   std::string VolumeName;
   VolumeFacts Volume;
-  FilterPair Filters;
+  FilterTrio Filters;
   std::string StopReason; ///< of the surface
   bool IsFinished = false;
   double PyramidSeconds = 0.0;
@@ -37,6 +39,20 @@ struct ReportInput
 
 /** Write the report as JSON. Lengths, areas and volumes are in world units. */
 void WriteReport(std::ostream& out, const ReportInput& input);
+
+// ---- Parts of reports ---------------------------------------------------------------------------
+
+/** The member `input`: what the volume is. */
+void WriteInput(JsonWriter& json, const std::string& name, const VolumeFacts& volume);
+
+/** Members of the size and shape of a surface, from its field data. */
+void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize& size);
+
+/** The member `component_features`: an object per component, the one of the largest area first. */
+void WriteComponents(JsonWriter& json, vtkPolyData* surface);
+
+/** The members `warnings` and `versions`. */
+void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings);
 
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();

@@ -4,6 +4,7 @@
 
 #include "Announcer.h"
 #include "GatherSurface.h"
+#include "LabelMap.h"
 #include "LoadVolume.h"
 #include "ParseNumbers.h"
 #include "Ranks.h"
@@ -196,6 +197,18 @@ void TakeOtsuThreshold(const Job& job)
     " by Otsu's threshold; choose another one with --iso");
 }
 
+/** To whoever searches an isopotential in a label map. vtkVolumeToSurface says so itself. */
+void TellOfLabels(const Job& job)
+{
+  const std::string hint = vtkVolumeToSurface::SafeDownCast(job.Filter)
+    ? std::string()
+    : vtkVolumeToSurface::HintAtLabels(job.Volume.Image);
+  if (!hint.empty())
+  {
+    job.Says.Say("warning: " + job.Options.Volume + ": " + hint + " (--labels all)");
+  }
+}
+
 /** Run the filters. @param results given their times and warnings */
 void FindSurface(const Job& job, ReportInput& results)
 {
@@ -240,10 +253,10 @@ void FindSurface(const Job& job, ReportInput& results)
 }
 }
 
-ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
-  vtkDeformableSurface* filter, Ranks& ranks)
+ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
 {
-  Job job = { options, pyramid, filter, ranks, Announcer(options), LoadedVolume() };
+  vtkDeformableSurface* filter = filters.Surface;
+  Job job = { options, filters.Pyramid, filter, ranks, Announcer(options), LoadedVolume() };
   ranks.OnFirst([&] { CheckFiles(options); });
   const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
   job.Volume = LoadVolume(options, filter, holder, job.Says, ranks);
@@ -257,12 +270,17 @@ ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
   if (!options.WrittenVolume.empty())
   {
     ranks.OnFirst(
-      [&] { WriteVolume(job.Volume.Image, options.WrittenVolume, job.Says.Style); });
+      [&]
+      {
+        NameLabels(options, job.Volume.Image, job.Says);
+        WriteVolume(job.Volume.Image, options.WrittenVolume, job.Says.Style);
+      });
   }
   if (!options.WantsSurface())
   {
     return Success;
   }
+  TellOfLabels(job);
   SetStart(options, filter, ranks);
   const vtkNew<vtkImagePyramid> edgesHolder;
   SetEdges(options, job.Volume.Image, filter, edgesHolder, job.Says, ranks);
@@ -278,7 +296,7 @@ ExitCode SegmentVolume(const ToolOptions& options, vtkImagePyramid* pyramid,
   filter->SetSelectedComponent(component); // as it was chosen
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = job.Volume.Part ? job.Volume.Part->FactsOfAll(ranks) : job.Volume.Facts;
-  results.Filters = { pyramid, filter };
+  results.Filters = filters;
   WriteOutputs(options, results, job.Says.Style, ranks);
   RemoveCheckpointOfEnded(job, results.StopReason);
 

@@ -7,6 +7,7 @@
 
 #include <vtkDeformableSurface.h>
 #include <vtkImagePyramid.h>
+#include <vtkLabelsToSurfaces.h>
 
 #include <algorithm>
 
@@ -34,13 +35,13 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
   return static_cast<int>(found - names.begin());
 }
 
-// A line per property. FILTER is Surface or Pyramid; the type of a number is its getter's.
+// A line per property. FILTER is Surface, Pyramid or Labels; the type of a number is its getter's.
 #define VOLUMIC_NUMBER(FILTER, CLASS, PROPERTY, OPTION, ARGUMENT, HELP)                            \
   PropertyOption                                                                                   \
   {                                                                                                \
     OPTION, ARGUMENT, CLASS, #PROPERTY, HELP,                                                      \
-      [](const FilterPair& filters) { return NumberText(filters.FILTER->Get##PROPERTY()); },       \
-      [](const FilterPair& filters, const std::string& text)                                       \
+      [](const FilterTrio& filters) { return NumberText(filters.FILTER->Get##PROPERTY()); },       \
+      [](const FilterTrio& filters, const std::string& text)                                       \
     {                                                                                              \
       filters.FILTER->Set##PROPERTY(ParseNumber<decltype(filters.FILTER->Get##PROPERTY())>(text)); \
     }                                                                                              \
@@ -49,15 +50,17 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
   VOLUMIC_NUMBER(Surface, "vtkDeformableSurface", PROPERTY, OPTION, ARGUMENT, HELP)
 #define PYRAMID_NUMBER(PROPERTY, OPTION, ARGUMENT, HELP) \
   VOLUMIC_NUMBER(Pyramid, "vtkImagePyramid", PROPERTY, OPTION, ARGUMENT, HELP)
+#define LABELS_NUMBER(PROPERTY, OPTION, ARGUMENT, HELP) \
+  VOLUMIC_NUMBER(Labels, "vtkLabelsToSurfaces", PROPERTY, OPTION, ARGUMENT, HELP)
 
 // An option without argument that gives a boolean property the value that is not its default.
 #define SURFACE_SWITCH(PROPERTY, VALUE, OPTION, HELP)                                              \
   PropertyOption                                                                                   \
   {                                                                                                \
     OPTION, "", "vtkDeformableSurface", #PROPERTY, HELP,                                           \
-      [](const FilterPair& filters)                                                                \
+      [](const FilterTrio& filters)                                                                \
     { return std::string(filters.Surface->Get##PROPERTY() ? "on" : "off"); },                      \
-      [](const FilterPair& filters, const std::string&) { filters.Surface->Set##PROPERTY(VALUE); } \
+      [](const FilterTrio& filters, const std::string&) { filters.Surface->Set##PROPERTY(VALUE); } \
   }
 
 // An enumeration; its names in the order of its values.
@@ -66,8 +69,8 @@ PropertyOption Menu(const char* property, const char* option, const char* help,
   const std::vector<std::string>& names, Getter get, Setter set)
 {
   return PropertyOption{ option, JoinNames(names), "vtkDeformableSurface", property, help,
-    [=](const FilterPair& filters) { return names.at(get(filters.Surface)); },
-    [=](const FilterPair& filters, const std::string& text)
+    [=](const FilterTrio& filters) { return names.at(get(filters.Surface)); },
+    [=](const FilterTrio& filters, const std::string& text)
     { set(filters.Surface, FindName(names, text)); } };
 }
 #define SURFACE_MENU(PROPERTY, OPTION, HELP, ...)                           \
@@ -160,14 +163,14 @@ std::vector<PropertyOption> MakeProperties()
     { "memory", "SIZE", "vtkDeformableSurface", "MemoryLimit",
       "memory that the process may have, such as 2G or 1500M; what does not fit waits in files of "
       "--scratch; 0: no limit; the result does not depend on it",
-      [](const FilterPair& filters) { return MebibytesText(filters.Surface->GetMemoryLimit()); },
-      [](const FilterPair& filters, const std::string& text)
+      [](const FilterTrio& filters) { return MebibytesText(filters.Surface->GetMemoryLimit()); },
+      [](const FilterTrio& filters, const std::string& text)
       { filters.Surface->SetMemoryLimit(ParseMebibytes(text)); } },
     { "scratch", "DIR", "vtkDeformableSurface", "ScratchDirectory",
       "with --memory: the folder for these files, on a disk with room for all of them; they vanish "
       "with the process; empty: TMPDIR of the environment, or /var/tmp",
-      [](const FilterPair& filters) { return std::string(filters.Surface->GetScratchDirectory()); },
-      [](const FilterPair& filters, const std::string& text)
+      [](const FilterTrio& filters) { return std::string(filters.Surface->GetScratchDirectory()); },
+      [](const FilterTrio& filters, const std::string& text)
       { filters.Surface->SetScratchDirectory(text.c_str()); } },
     SURFACE_SWITCH(Resume, true, "resume",
       "go on from the checkpoint that a run with the same volume and options, which was killed or "
@@ -176,6 +179,18 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_SWITCH(Profile, true, "profile", "put into --history where the time goes"),
     SURFACE_NUMBER(SnapshotInterval, "snapshot-interval", "N",
       "iterations from one of the --snapshots to the next; 0: none"),
+    LABELS_NUMBER(BackgroundLabel, "background", "LABEL",
+      "with --labels: the label that is nothing, and not one of all"),
+    { "merge", "", "vtkLabelsToSurfaces", "Merge",
+      "with --labels: one surface about all of them together",
+      [](const FilterTrio& filters)
+      { return std::string(filters.Labels->GetMerge() ? "on" : "off"); },
+      [](const FilterTrio& filters, const std::string&) { filters.Labels->SetMerge(true); } },
+    LABELS_NUMBER(Smoothing, "smoothing", "VOXELS",
+      "with --labels: how far the stairs between voxels are smoothed, in voxels of the axis along "
+      "which they are longest; 0: not at all"),
+    LABELS_NUMBER(Gap, "gap", "LENGTH",
+      "with --labels: the space between the surfaces of neighbours, in world units"),
   };
 }
 }
@@ -184,5 +199,34 @@ const std::vector<PropertyOption>& SurfaceProperties()
 {
   static const std::vector<PropertyOption> properties = MakeProperties();
   return properties;
+}
+
+bool IsOfLabelsOnly(const PropertyOption& option)
+{
+  return option.Class == "vtkLabelsToSurfaces";
+}
+
+bool IsOfLabels(const PropertyOption& option)
+{
+  static const std::vector<std::string> shared = { "Metric", "EdgeLength", "FinestLevel",
+    "KeepComponents", "MinimumComponentVolume", "NumberOfThreads", "MemoryLimit",
+    "ScratchDirectory" };
+  // The component is taken out of the volume before.
+  return IsOfLabelsOnly(option) || option.Property == "SelectedComponent" ||
+    std::find(shared.begin(), shared.end(), option.Property) != shared.end();
+}
+
+void ShareProperties(const FilterTrio& filters)
+{
+  vtkDeformableSurface* surface = filters.Surface;
+  vtkLabelsToSurfaces* labels = filters.Labels;
+  labels->SetMetric(surface->GetMetric());
+  labels->SetEdgeLength(surface->GetEdgeLength());
+  labels->SetFinestLevel(surface->GetFinestLevel());
+  labels->SetKeepComponents(surface->GetKeepComponents());
+  labels->SetMinimumComponentVolume(surface->GetMinimumComponentVolume());
+  labels->SetNumberOfThreads(surface->GetNumberOfThreads());
+  labels->SetMemoryLimit(surface->GetMemoryLimit());
+  labels->SetScratchDirectory(surface->GetScratchDirectory());
 }
 }

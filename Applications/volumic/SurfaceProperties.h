@@ -9,14 +9,16 @@
 
 class vtkDeformableSurface;
 class vtkImagePyramid;
+class vtkLabelsToSurfaces;
 
 namespace tool
 {
-/** The two filters that the options set properties of. */
-struct FilterPair
+/** The three filters that the options set properties of. */
+struct FilterTrio
 {
   vtkImagePyramid* Pyramid = nullptr;
   vtkDeformableSurface* Surface = nullptr;
+  vtkLabelsToSurfaces* Labels = nullptr; ///< what it shares with the surface is set there
 };
 
 /** An option of the command line that stands for a property of a filter. */
@@ -28,13 +30,22 @@ struct PropertyOption
   std::string Property; ///< as in Set..., Get...
   std::string Help;
   /** The value of the property as text that Set would take. */
-  std::function<std::string(const FilterPair&)> Get;
+  std::function<std::string(const FilterTrio&)> Get;
   /** @throws UsageError if the text (empty for an option without argument) is no value for it. */
-  std::function<void(const FilterPair&, const std::string& text)> Set;
+  std::function<void(const FilterTrio&, const std::string& text)> Set;
 };
 
 /** All of them, in the order of the help. A test holds the list to the filters' Set methods. */
 const std::vector<PropertyOption>& SurfaceProperties();
+
+/** Whether the property means something for the surfaces of labels (--labels). */
+bool IsOfLabels(const PropertyOption& option);
+
+/** Whether it means nothing for others. */
+bool IsOfLabelsOnly(const PropertyOption& option);
+
+/** Give the labels' filter what it shares with that of the surface. */
+void ShareProperties(const FilterTrio& filters);
 }
 
 #endif

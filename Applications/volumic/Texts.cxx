@@ -31,4 +31,70 @@ std::string SuffixOf(const std::string& name)
 {
   return Lower(std::filesystem::path(name).extension().string());
 }
+
+std::size_t CharacterBytes(const std::string& text, std::size_t at)
+{
+  const auto byte = [&](std::size_t i)
+  { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
+  const unsigned int first = byte(0);
+  const std::size_t count = first < 0x80 ? 1
+    : first >= 0xC2 && first < 0xE0      ? 2
+    : first >= 0xE0 && first < 0xF0      ? 3
+    : first >= 0xF0 && first < 0xF5      ? 4
+                                         : 0;
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    if ((byte(i) & 0xC0) != 0x80)
+    {
+      return 0;
+    }
+  }
+  // Long forms, halves of pairs, and what lies behind the last character.
+  const bool isRefused = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
+    (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F);
+  return isRefused ? 0 : count;
+}
+
+std::string Utf8Character(unsigned int code)
+{
+  const auto byte = [](unsigned int bits) { return static_cast<char>(bits); };
+  if ((code >= 0xD800 && code < 0xE000) || code > 0x10FFFF)
+  {
+    return "\xEF\xBF\xBD";
+  }
+  if (code < 0x80)
+  {
+    return { byte(code) };
+  }
+  if (code < 0x800)
+  {
+    return { byte(0xC0 | code >> 6), byte(0x80 | (code & 0x3F)) };
+  }
+  if (code < 0x10000)
+  {
+    return { byte(0xE0 | code >> 12), byte(0x80 | (code >> 6 & 0x3F)),
+      byte(0x80 | (code & 0x3F)) };
+  }
+  return { byte(0xF0 | code >> 18), byte(0x80 | (code >> 12 & 0x3F)),
+    byte(0x80 | (code >> 6 & 0x3F)), byte(0x80 | (code & 0x3F)) };
+}
+
+std::string AsUtf8(const std::string& text)
+{
+  std::size_t at = 0;
+  while (at < text.size() && CharacterBytes(text, at) > 0)
+  {
+    at += CharacterBytes(text, at);
+  }
+  if (at >= text.size())
+  {
+    return text;
+  }
+  std::string characters;
+  for (const char byte : text)
+  {
+    characters += Utf8Character(static_cast<unsigned char>(byte));
+  }
+  return characters;
+}
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ToolOptions.h"
 
+#include "CheckOptions.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 
@@ -98,6 +99,13 @@ const std::vector<ProgramOption>& InputOptions()
     Text("edges", "NAME|FILE", &ToolOptions::Edges,
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
+    { "labels", "all|LIST",
+      "the volume is a label map: make a surface of each of these labels, given as numbers, ranges "
+      "and names with commas between, such as 1,7-9,liver,lung_*",
+      [](ToolOptions& options, const std::string& text) { options.Labels.push_back(text); } },
+    Text("label-names", "FILE", &ToolOptions::NamesOfLabels,
+      "names and colours of labels: JSON, ITK-SNAP's label descriptions, a colour table or .csv; "
+      "without this option those of the volume, or of a file beside it"),
   };
   return options;
 }
@@ -105,6 +113,8 @@ const std::vector<ProgramOption>& InputOptions()
 const std::vector<ProgramOption>& OutputOptions()
 {
   static const std::vector<ProgramOption> options = {
+    Text("format", "SUFFIX", &ToolOptions::Format,
+      "with --labels: what the files in a folder are, such as stl (default: vtp)"),
     Text("history", "FILE.csv", &ToolOptions::History, "write a line per iteration"),
     Text("levels-output", "FILE.vtm|DIR", &ToolOptions::Levels,
       "write the surface of each level: as blocks, or as level-0.vtp, level-1.vtp, ... in a "
@@ -172,38 +182,6 @@ void ApplyOption(ToolOptions& options, const FoundOption& found, const std::stri
   else
   {
     options.Properties.emplace_back(found.Property, text);
-  }
-}
-
-void CheckComplete(ToolOptions& options)
-{
-  if (options.Task != ToolOptions::Task::Segment && options.Task != ToolOptions::Task::ListFiles)
-  {
-    return;
-  }
-  if (options.Volume.empty())
-  {
-    throw UsageError("no volume is given");
-  }
-  if (options.Task == ToolOptions::Task::ListFiles)
-  {
-    return;
-  }
-  if (!options.WantsSurface() && options.WrittenVolume.empty())
-  {
-    throw UsageError("no file to write is given");
-  }
-  if (options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"))
-  {
-    throw UsageError("--edge-attraction needs --edges");
-  }
-  if (!options.Seeds.empty() && !options.InitialSurface.empty())
-  {
-    throw UsageError("--seeds and --initial-surface exclude each other");
-  }
-  if (!options.SeedPositions.empty() && !options.InitialSurface.empty())
-  {
-    throw UsageError("--seed-position and --initial-surface exclude each other");
   }
 }
 
@@ -294,11 +272,11 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
       throw UsageError("--" + name + ": " + error.what());
     }
   }
-  CheckComplete(options);
+  CheckOptions(options);
   return options;
 }
 
-void ApplyProperties(const ToolOptions& options, const FilterPair& filters)
+void ApplyProperties(const ToolOptions& options, const FilterTrio& filters)
 {
   for (const auto& [property, text] : options.Properties)
   {
@@ -313,7 +291,7 @@ void ApplyProperties(const ToolOptions& options, const FilterPair& filters)
   }
 }
 
-void PrintHelp(std::ostream& out, const FilterPair& filters)
+void PrintHelp(std::ostream& out, const FilterTrio& filters)
 {
   out << "Usage: volumic [OPTION]... VOLUME SURFACE...\n"
          "\n"
@@ -323,6 +301,7 @@ void PrintHelp(std::ostream& out, const FilterPair& filters)
          "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
          "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
          "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; all are written\n"
+         "         (with --labels also a folder for a file per label, OUT/, or a .vtm)\n"
          "\n"
          "Input:\n";
   for (const ProgramOption& option : InputOptions())
@@ -348,7 +327,7 @@ void PrintHelp(std::ostream& out, const FilterPair& filters)
          "written.\n";
 }
 
-void PrintProperties(std::ostream& out, const FilterPair& filters)
+void PrintProperties(std::ostream& out, const FilterTrio& filters)
 {
   for (const PropertyOption& option : SurfaceProperties())
   {

@@ -38,6 +38,9 @@ struct ToolOptions
   Positions SeedPositions;                      ///< beside those of the file
   Positions AttractingPositions;                ///< beside those of the file
   std::string Edges;                            ///< point array of the volume, or file of a volume
+  std::vector<std::string> Labels; ///< which of them get surfaces; empty: it is no label map
+  std::string NamesOfLabels;       ///< file of names; empty: as the volume has them
+  std::string Format;              ///< suffix of surfaces in a folder, without its dot
   std::string History;                          ///< .csv
   std::string Levels;                           ///< .vtm, or a folder
   std::string Snapshots;                        ///< .vtm, or a folder
@@ -60,13 +63,13 @@ struct ToolOptions
 ToolOptions ParseOptions(int argc, const char* const argv[]);
 
 /** Set the chosen properties. @throws UsageError if a text is no value of its property. */
-void ApplyProperties(const ToolOptions& options, const FilterPair& filters);
+void ApplyProperties(const ToolOptions& options, const FilterTrio& filters);
 
 /** The text of --help; the defaults of the properties are the filters' own. */
-void PrintHelp(std::ostream& out, const FilterPair& filters);
+void PrintHelp(std::ostream& out, const FilterTrio& filters);
 
 /** A line per property: class, property, option, default; separated by tabs. */
-void PrintProperties(std::ostream& out, const FilterPair& filters);
+void PrintProperties(std::ostream& out, const FilterTrio& filters);
 }
 
 #endif

@@ -5,12 +5,14 @@
 //   volumic --help
 #include "InputFiles.h"
 #include "Ranks.h"
+#include "SegmentLabels.h"
 #include "SegmentVolume.h"
 #include "SurfaceProperties.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
 #include <vtkImagePyramid.h>
+#include <vtkLabelsToSurfaces.h>
 #include <vtkNew.h>
 #include <vtkSMPTools.h>
 #include <vtkSmartPointer.h>
@@ -35,7 +37,8 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
   {
     filter = vtkSmartPointer<vtkVolumeToSurface>::New();
   }
-  const FilterPair filters{ pyramid, filter };
+  vtkNew<vtkLabelsToSurfaces> labels;
+  const FilterTrio filters{ pyramid, filter, labels };
   switch (options.Task)
   {
     case ToolOptions::Task::ShowHelp:
@@ -59,7 +62,8 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
   ranks.Together([&] { ApplyProperties(options, filters); });
   try
   {
-    return SegmentVolume(options, pyramid, filter, ranks);
+    return options.Labels.empty() ? SegmentVolume(options, filters, ranks)
+                                  : SegmentLabels(options, filters, ranks);
   }
   catch (const std::bad_alloc&)
   {

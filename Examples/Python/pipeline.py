@@ -91,9 +91,9 @@ def prepare_surface(source, iso, properties=None):
     return surface
 
 
-def check_properties(properties):
-    """ValueError where prepare_surface would refuse them: before anything has been read."""
-    surface = volumic().vtkDeformableSurface()
+def check_properties(properties, kind="vtkDeformableSurface"):
+    """ValueError where a filter of this class would refuse them: before anything has been read."""
+    surface = getattr(volumic(), kind)()
     for name, value in properties.items():
         set_property(surface, name, value)
 
@@ -115,7 +115,15 @@ def property_names(algorithm):
     """What the filter's own class lets one set to a number, a switch or a text."""
     names = [name[3:] for name in vars(type(algorithm)) if name.startswith("Set")]
     return sorted(name for name in names
-                  if isinstance(getattr(algorithm, "Get" + name, lambda: None)(), (int, float, str)))
+                  if isinstance(value_of(algorithm, name), (int, float, str)))
+
+
+def value_of(algorithm, name):
+    """Of a property; None of what is no single value, such as the names of labels."""
+    try:
+        return getattr(algorithm, "Get" + name, lambda: None)()
+    except TypeError:
+        return None
 
 
 def set_property(algorithm, name, value):

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Read a volume of one of the usual medical formats as vtkImageData.
 
-As a module: `image = read_volume("scan.nii.gz")`. On the command line it converts to VTK's format:
+As a module: `image = read_volume("scan.nii.gz")`, or `read_labels("labels.nii.gz")` for label maps.
+On the command line it converts to VTK's format:
 
     read_volume.py IN OUT.vti
 
@@ -43,6 +44,25 @@ def read_volume(path):
     return image
 
 
+def read_labels(path, names=None):
+    """vtkImageData with labels as its active scalars, those of the points, or else of the cells.
+
+    names: a file of names of labels, see LABEL MAPS in `man volumic`. These, or those that the
+    volume has or that lie beside it, are field data then, as vtkLabelsToSurfaces takes them.
+    """
+    path = os.fspath(path)
+    with tempfile.TemporaryDirectory(prefix="volumic-") as folder:
+        written = os.path.join(folder, "volume.vti")
+        run_command("--labels", "all", "--write-volume", written,
+                    *(["--label-names", os.fspath(names)] if names else []), "--", path)
+        image = read_vti(written, path)
+    scalars = image.GetPointData().GetScalars() or image.GetCellData().GetScalars()
+    if scalars.GetNumberOfComponents() != 1:
+        raise VolumeError(f"{path}: {scalars.GetNumberOfComponents()} components per voxel; one is"
+                          " needed. The command volumic takes them by its --component")
+    return image
+
+
 def read_vti(written, path):
     """The image of a .vti file that the command has written of the volume `path`."""
     reader = vtkXMLImageDataReader()
@@ -54,7 +74,8 @@ def read_vti(written, path):
         raise VolumeError(f"{path}: not enough memory to read it; crop it, or resample it to fewer"
                           " voxels") from error
     image = reader.GetOutput()
-    if reader.GetErrorCode() or image.GetPointData().GetScalars() is None:
+    scalars = image.GetPointData().GetScalars() or image.GetCellData().GetScalars()
+    if reader.GetErrorCode() or scalars is None:
         raise VolumeError(f"{path}: cannot be read again from {written}")
     return image
 

@@ -6,11 +6,14 @@
     segment.py scan.nii.gz bone.stl --iso 226.5
     segment.py scan.nii.gz airways.ply --iso -500 --dark --set FinestLevel=1
     segment.py scan.nii.gz bone.stl --iso 226.5 --set EdgeLength=2.5
+    segment.py organs.nii.gz organs/ --labels all --format stl
+    segment.py organs.nii.gz lungs.stl --labels 'lung_*' --merge --set Smoothing=1
 
 VOLUME is what read_volume.py can read. The suffix of OUTPUT tells its format: .stl (binary), .ply
 (binary, with normals), .obj or .vtp (VTK's, with all arrays and field data). A bar shows how far it
 is. Ctrl-C ends the evolution early: the surface as it is then is written, closed and free of
-self-intersections.
+self-intersections. With --labels the volume is a label map, and OUTPUT a folder for a surface of
+each label, a .vtm, or a file of one surface.
 
 Ends with 0, or 1 after an error, 2 if the command line is wrong, 3 if Ctrl-C or the limit of the
 iterations stopped it: then the surface as it was is written.
@@ -19,6 +22,7 @@ iterations stopped it: then the surface as it was is written.
 import argparse
 import sys
 
+from label_surfaces import is_folder, segment_labels
 from output_files import check_output
 from pipeline import (
     build_pyramid, check_properties, load_volume, prepare_surface, run_surface)
@@ -41,15 +45,47 @@ def add_filter_options(parser):
                         " FinestLevel=1 or Recovery=0; may be given several times")
 
 
+def add_label_options(parser):
+    """The options of label maps."""
+    parser.add_argument("--labels", metavar="LIST", help="the volume is a label map: a surface of"
+                        " each of these labels, 'all' or such as 1,7-9,liver,lung_*; --set is of"
+                        " vtkLabelsToSurfaces then")
+    parser.add_argument("--label-names", metavar="FILE",
+                        help="names of labels; default: those of the volume or beside it")
+    parser.add_argument("--merge", action="store_true", help="one surface about all of the labels")
+    parser.add_argument("--format", metavar="SUFFIX",
+                        help="what the files in a folder are; default: vtp")
+
+
+def label_properties(arguments):
+    """As filter_properties, of vtkLabelsToSurfaces; ValueError for options that are of others."""
+    for option, value in (("--iso", arguments.iso is not None), ("--dark", arguments.dark)):
+        if value:
+            raise ValueError(f"{option} and --labels exclude each other")
+    if arguments.format and not is_folder(arguments.output):
+        raise ValueError("--format is that of the files in a folder: give one to write to")
+    properties = {"Merge": "on"} if arguments.merge else {}
+    properties.update(parse_settings(arguments.properties))
+    check_properties(properties, "vtkLabelsToSurfaces")
+    return properties
+
+
 def filter_properties(arguments):
     """Names and values of the properties that add_filter_options asked for."""
     properties = {"ObjectIsBright": "off"} if arguments.dark else {}
-    for setting in arguments.properties:
+    properties.update(parse_settings(arguments.properties))
+    check_properties(properties)
+    return properties
+
+
+def parse_settings(settings):
+    """{NAME: VALUE} of the texts NAME=VALUE."""
+    properties = {}
+    for setting in settings:
         name, equals, value = setting.partition("=")
         if not equals:
             raise ValueError(f"--set {setting}: NAME=VALUE is wanted")
         properties[name] = value
-    check_properties(properties)
     return properties
 
 
@@ -83,10 +119,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      epilog=f"Formats: {', '.join(SURFACE_WRITERS)}.")
     parser.add_argument("volume", help="volume that read_volume.py can read")
-    parser.add_argument("output", help="file to write")
+    parser.add_argument("output", help="file to write; with --labels a folder, or .vtm")
     add_filter_options(parser)
+    add_label_options(parser)
     arguments = parser.parse_args()
+    for option in ("label_names", "merge", "format"):
+        if getattr(arguments, option) and arguments.labels is None:
+            parser.error(f"--{option.replace('_', '-')} needs --labels")
     try:
+        if arguments.labels is not None:
+            is_finished = segment_labels(
+                arguments.volume, arguments.output, arguments.labels, label_properties(arguments),
+                arguments.label_names, arguments.format or "vtp")
+            return 0 if is_finished else INTERRUPTED
         return segment(arguments.volume, arguments.output, arguments.iso,
                        filter_properties(arguments))
     except Interrupted as error:

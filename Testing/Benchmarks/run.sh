@@ -31,10 +31,14 @@ The surface:
   --model              also what 2 to 64 threads would gain, by a model, on the same two
   --memory             also what memory it takes, resampled to 512^3 and 1024^3 voxels
   --limit LIST         also what limits of memory cost, such as 300M,1G: measure_limit.py
+Surfaces of labels:
+  --labels             also these: digitised shapes, the label maps of Debian's mricron-data, those
+                       made of ../shared/data where that is, and one with the size of a body
+  --labels-only        nothing else
   --help               this text
 Tables are printed; all figures are left in build/benchmarks: every repetition of the pyramid in
 *.json, the surface in surface-NAME*.csv and surface-NAME.vtp, the others in growth-NAME*.csv,
-threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv, limit-NAME.csv.
+threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv, limit-NAME.csv, labels-NAME*.csv.
 USAGE
 }
 
@@ -42,6 +46,7 @@ generated_size=512
 repetitions=
 with_pyramid=yes
 with_surface=yes
+with_labels=
 volume=
 iso=
 all_scans=
@@ -57,6 +62,16 @@ take_option()
     --with-itk) packages+=(libinsighttoolkit5-dev) ;;
     --surface-only) with_pyramid= ;;
     --pyramid-only) with_surface= ;;
+    --labels)
+      with_labels=yes
+      packages+=(mricron-data)
+      ;;
+    --labels-only)
+      with_labels=yes
+      with_pyramid=
+      with_surface=
+      packages+=(mricron-data)
+      ;;
     --slow | --no-recovery) surface_options+=("$1") ;;
     --all-scans) all_scans=yes ;;
     --growth) growth=yes ;;
@@ -148,6 +163,34 @@ measure_surface()
   fi
 }
 
+# measure_labels NAME OPTION...
+measure_labels()
+{
+  local name=$1
+  shift
+  say ""
+  "$build/vtk/bin/BenchmarkLabels" --repetitions "${repetitions:-1}" "$@" \
+    --csv "$results/labels-$name.csv" || failed=yes
+}
+
+measure_all_labels()
+{
+  local maps=/usr/share/mricron/templates scan=$root/../shared/data/brain_mr_u8.vti name
+  measure_labels shapes --sizes 64,128
+  measure_labels shapes-large --sizes 256 --stretches 1 --shapes Sphere,Torus,Gyroid,ThinShell
+  for name in aal JHU-WhiteMatter-labels-1mm inia19-NeuroMaps; do
+    measure_labels "$name" --map "$maps/$name.nii.gz"
+  done
+  measure_labels ch2bet --map "$maps/ch2bet.nii.gz" --mask
+  # The same as a mask that somebody has looked at: without single voxels.
+  measure_labels ch2bet-median --scan "$maps/ch2bet.nii.gz" --thresholds 20
+  if [ -f "$scan" ]; then
+    measure_labels head --scan "$scan" --thresholds 22
+    measure_labels tissues --scan "$scan" --thresholds 22,60,110
+  fi
+  measure_labels body --body 512,512,400 --runs us --threads "$(nproc)"
+}
+
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
 if [ -n "$with_pyramid" ]; then
   "$build/vtk/bin/BenchmarkImagePyramid" --volume "$results/skull.vti" \
@@ -171,4 +214,5 @@ if [ -n "$with_surface" ]; then
     done < "$results/scans"
   fi
 fi
+[ -z "$with_labels" ] || measure_all_labels
 [ -z "$failed" ] || fail "Some runs failed; see above."

@@ -16,18 +16,24 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonExecutionModel import vtkImageAlgorithm, vtkPolyDataAlgorithm
+from vtkmodules.vtkCommonExecutionModel import (
+    vtkImageAlgorithm, vtkMultiBlockDataSetAlgorithm, vtkPolyDataAlgorithm)
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
 
 from tool_test_case import (
     CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image)
-from volumic import vtkDeformableSurface, vtkImagePyramid
+from volumic import vtkDeformableSurface, vtkImagePyramid, vtkLabelsToSurfaces
 
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
                                         "Controller", "ShowLevels"},
+               # Those that it has in common with vtkDeformableSurface.
+               "vtkLabelsToSurfaces": {"EdgeLength", "FinestLevel", "KeepComponents", "LabelColor",
+                                       "LabelName", "MemoryLimit", "Metric",
+                                       "MinimumComponentVolume", "NumberOfThreads",
+                                       "ScratchDirectory"},
                "vtkImagePyramid": {"Controller", "MemoryLimit", "NaNIsBackground",
                                    "NumberOfThreads", "ScratchDirectory", "SelectedComponent"}}
 
@@ -46,6 +52,7 @@ class OptionTableTest(ToolTestCase):
 
     def test_every_property_has_an_option(self):
         for filter_class, base in ((vtkDeformableSurface, vtkPolyDataAlgorithm),
+                                   (vtkLabelsToSurfaces, vtkMultiBlockDataSetAlgorithm),
                                    (vtkImagePyramid, vtkImageAlgorithm)):
             name = filter_class.__name__
             in_table = [row[1] for row in self.table() if row[0] == name]
@@ -55,6 +62,7 @@ class OptionTableTest(ToolTestCase):
 
     def test_defaults_are_the_filters(self):
         filters = {"vtkDeformableSurface": vtkDeformableSurface(),
+                   "vtkLabelsToSurfaces": vtkLabelsToSurfaces(),
                    "vtkImagePyramid": vtkImagePyramid()}
         for class_name, name, option, text in self.table():
             value = getattr(filters[class_name], "Get" + name)()
@@ -75,7 +83,9 @@ class OptionTableTest(ToolTestCase):
             "component": "0", "time-limit": "100", "metric": "voxels", "edge-length": "1.1",
             "keep": "largest", "memory": "3000M", "scratch": self.folder}
         before = self.report(volume, "--iso", ISO)["properties"]
-        for _, name, option, default in self.table():
+        for class_name, name, option, default in self.table():
+            if class_name == "vtkLabelsToSurfaces":
+                continue  # see test_tool_labels.py
             option = option[2:]
             is_switch = default in ("on", "off")
             value = values.get(option, "0.3")

@@ -94,6 +94,9 @@ class PropertiesTest(ReferenceTest):
     def test_threshold(self):
         self.check(volumic.vtkOtsuThreshold)
 
+    def test_labels(self):
+        self.check(volumic.vtkLabelsToSurfaces)
+
     def test_no_class_is_left_out(self):
         classes = [name for name in dir(volumic) if re.fullmatch(r"vtk[A-Z]\w+", name)
                    and hasattr(getattr(volumic, name), "GetOutputPort")]
@@ -185,6 +188,40 @@ class ThresholdTest(ReferenceTest):
         self.compare("Columns of the threshold", arrays_of(threshold.GetOutput().GetRowData()))
         self.assertEqual(threshold.GetOutput().GetValueByName(0, "Threshold").ToDouble(),
                          threshold.GetThreshold())
+
+
+class LabelsTest(ReferenceTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.labels = make_image((ring_voxels() > RING_ISO).astype("uint8"), RING_SPACING)
+
+    def test_arrays(self):
+        surfaces = volumic.vtkLabelsToSurfaces()
+        surfaces.SetInputData(self.labels)
+        surfaces.Update()
+        block, = blocks_of(surfaces.GetOutput())
+        self.assertEqual(surfaces.GetOutput().GetMetaData(0).Get(vtkCompositeDataSet.NAME()),
+                         "Label 1")
+        self.compare("Point arrays of a surface", arrays_of(block.GetPointData()))
+        self.assertEqual({**self.tables["Cell arrays of a surface"],
+                          **self.tables["Cell arrays of a label"]},
+                         arrays_of(block.GetCellData()))
+        self.assertEqual({**self.tables["Field data of a surface"],
+                          **self.tables["Field data of a label"]},
+                         arrays_of(block.GetFieldData()))
+
+    def test_names_are_in_the_help_too(self):
+        text = re.sub(r"[\s|]+", " ", volumic.vtkLabelsToSurfaces.__doc__)
+        for heading in ("Cell arrays of a label", "Field data of a label"):
+            for name in self.tables[heading]:
+                self.assertIn(f"`{name}`", text)
+
+    def test_table(self):
+        table = volumic.vtkLabelTable()
+        table.SetInputData(self.labels)
+        table.Update()
+        self.compare("Columns of the label table", arrays_of(table.GetOutput().GetRowData()))
 
 
 if __name__ == "__main__":

@@ -125,7 +125,8 @@ class StubsTest(unittest.TestCase):
                     self.assertEqual(type(current).__name__, types[0], f"{name}.{member}")
                     getattr(an_object, member)(current)
                     taken += 1
-            self.assertGreater(taken, 0, name)
+            if name != "vtkLabelTable":  # It has no property.
+                self.assertGreater(taken, 0, name)
 
     def test_texts_come_along(self):
         for name, value in CLASSES.items():

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The only file that includes CGAL: it takes a while to compile.
+// CGAL takes a while to compile: only this file and JudgeOverlap.cxx include it.
 
 #include "SurfaceJudge.h"
 

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * Scenes and surfaces to and from VTK. Inline, so that the support library itself needs no VTK; who
- * includes it links VTK::CommonCore, VTK::CommonDataModel.
+ * Scenes, label maps and surfaces to and from VTK. Inline, so that the support library itself needs
+ * no VTK; who includes it links VTK::CommonCore, VTK::CommonDataModel.
  */
 
 #ifndef volumicSupportVtkConversions_h
 #define volumicSupportVtkConversions_h
 
+#include "LabelShapes.h"
 #include "SurfaceJudge.h"
 #include "SyntheticScenes.h"
 
@@ -19,6 +20,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkShortArray.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
@@ -40,6 +42,21 @@ inline vtkSmartPointer<vtkImageData> ToImage(const Scene& scene)
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(scene.Size[0], scene.Size[1], scene.Size[2]);
   image->SetSpacing(scene.Spacing[0], scene.Spacing[1], scene.Spacing[2]);
+  image->GetPointData()->SetScalars(values);
+  return image;
+}
+
+/** With its values as point scalars `Labels`. */
+inline vtkSmartPointer<vtkImageData> ToImage(const LabelMap& map)
+{
+  vtkNew<vtkShortArray> values;
+  values->SetName("Labels");
+  values->SetNumberOfTuples(static_cast<vtkIdType>(map.Values.size()));
+  std::copy(map.Values.begin(), map.Values.end(), values->GetPointer(0));
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(map.Size.data());
+  image->SetSpacing(map.Spacing.data());
+  image->SetOrigin(map.Origin.data());
   image->GetPointData()->SetScalars(values);
   return image;
 }

@@ -14,13 +14,14 @@ namespace volumic
 namespace support
 {
 
-double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
+std::vector<char> EnclosedVoxels(
+  const TriangleSurface& surface, const std::array<int, 3>& size)
 {
-  const auto [nx, ny, nz] = scene.Size;
+  const auto [nx, ny, nz] = size;
   // Crossings of the rows, a little beside the voxels so that no row hits an edge.
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(ny) * nz);
-  constexpr double dy = 1.234567e-4;
-  constexpr double dz = 2.345678e-4;
+  constexpr double dy = 1.234567e-7;
+  constexpr double dz = 2.345678e-7;
   for (const auto& triangle : surface.Triangles)
   {
     const auto& a = surface.Points[triangle[0]];
@@ -53,19 +54,32 @@ double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
       }
     }
   }
-  std::size_t wrong = 0;
+  std::vector<char> enclosed(static_cast<std::size_t>(nx) * ny * nz);
   std::size_t index = 0;
-  for (int k = 0; k < nz; ++k)
+  for (auto& row : crossings)
   {
-    for (int j = 0; j < ny; ++j)
+    std::sort(row.begin(), row.end());
+    auto next = row.begin();
+    bool isInside = false;
+    for (int i = 0; i < nx; ++i, ++index)
     {
-      const auto& row = crossings[static_cast<std::size_t>(k) * ny + j];
-      for (int i = 0; i < nx; ++i, ++index)
+      for (; next != row.end() && *next < i; ++next)
       {
-        const auto before = std::count_if(row.begin(), row.end(), [i](double x) { return x < i; });
-        wrong += (before % 2 == 1) != (scene.Inside[index] != 0) ? 1 : 0;
+        isInside = !isInside;
       }
+      enclosed[index] = isInside;
     }
+  }
+  return enclosed;
+}
+
+double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
+{
+  const std::vector<char> enclosed = EnclosedVoxels(surface, scene.Size);
+  std::size_t wrong = 0;
+  for (std::size_t v = 0; v < enclosed.size(); ++v)
+  {
+    wrong += (enclosed[v] != 0) != (scene.Inside[v] != 0);
   }
   const auto object = std::count(scene.Inside.begin(), scene.Inside.end(), 1);
   return static_cast<double>(wrong) / static_cast<double>(object);

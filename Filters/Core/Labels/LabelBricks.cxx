@@ -22,6 +22,50 @@ void AddTo(std::vector<LabelMap::Number>& objects, LabelMap::Number object)
   }
 }
 
+/** Bricks in which objects matter to a brick, along each axis. */
+constexpr int Reach = 2;
+
+/** Different objects: which, of one or two; of more only that they are. */
+struct FewObjects
+{
+  int Count = 0;
+  LabelMap::Number First = 0;
+  LabelMap::Number Second = 0;
+
+  void Add(LabelMap::Number object)
+  {
+    if (this->Count == 0)
+    {
+      this->First = object;
+      this->Count = 1;
+    }
+    else if (this->Count == 1 && object != this->First)
+    {
+      this->Second = object;
+      this->Count = 2;
+    }
+    else if (this->Count == 2 && object != this->First && object != this->Second)
+    {
+      this->Count = 3;
+    }
+  }
+  void Add(const FewObjects& others)
+  {
+    if (others.Count == 3)
+    {
+      this->Count = 3;
+    }
+    if (others.Count > 0)
+    {
+      this->Add(others.First);
+    }
+    if (others.Count > 1)
+    {
+      this->Add(others.Second);
+    }
+  }
+};
+
 /** The objects of the voxels [first, end) of a brick, which may reach beyond the map. */
 void FindObjectsIn(const LabelMap& map, const std::array<int, 3>& first,
   std::vector<LabelMap::Number>& objects)
@@ -147,46 +191,51 @@ void LabelBricks::FindExtents(Executor& executor)
 void LabelBricks::FindContested(Executor& executor)
 {
   const VoxelBox all = VoxelBox::Of(this->Count);
-  this->Contested.assign(static_cast<std::size_t>(all.Count()), 0);
+  std::vector<FewObjects> met(static_cast<std::size_t>(all.Count()));
   const auto layers = static_cast<std::size_t>(this->Count[2]);
-  std::vector<unsigned char> any(layers, 0);
-  ForBlocks(executor, layers, 1,
-    [&](std::size_t layer, std::size_t, std::size_t)
-    {
-      const int k = static_cast<int>(layer);
-      std::vector<LabelMap::Number> met;
-      for (int j = 0; j < this->Count[1]; ++j)
+  const auto forBricks = [&](const auto& visit)
+  {
+    ForBlocks(executor, layers, 1,
+      [&](std::size_t layer, std::size_t, std::size_t)
       {
-        for (int i = 0; i < this->Count[0]; ++i)
+        const int k = static_cast<int>(layer);
+        for (int j = 0; j < this->Count[1]; ++j)
         {
-          met.clear();
-          const VoxelBox about = VoxelBox{ { i - 1, j - 1, k - 1 }, { i + 2, j + 2, k + 2 } };
-          const VoxelBox near = about.CommonWith(all);
-          if (near.Count() < about.Count())
+          for (int i = 0; i < this->Count[0]; ++i)
           {
-            met.push_back(0); // Outside the map there is no object.
-          }
-          for (int c = near.First[2]; c < near.End[2] && met.size() < 3; ++c)
-          {
-            for (int b = near.First[1]; b < near.End[1]; ++b)
-            {
-              for (int a = near.First[0]; a < near.End[0]; ++a)
-              {
-                for (LabelMap::Number object : this->ObjectsIn(a, b, c))
-                {
-                  AddTo(met, object);
-                }
-              }
-            }
-          }
-          if (met.size() >= 3)
-          {
-            this->Contested[static_cast<std::size_t>(all.NumberOf(i, j, k))] = 1;
-            any[layer] = 1;
+            visit(std::array<int, 3>{ i, j, k }, static_cast<std::size_t>(all.NumberOf(i, j, k)));
           }
         }
+      });
+  };
+  forBricks(
+    [&](const std::array<int, 3>& at, std::size_t brick)
+    {
+      for (LabelMap::Number object : this->ObjectsIn(at[0], at[1], at[2]))
+      {
+        met[brick].Add(object);
       }
     });
-  this->AnyContested = std::find(any.begin(), any.end(), 1) != any.end();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<FewObjects> before = met;
+    forBricks(
+      [&](std::array<int, 3> at, std::size_t brick)
+      {
+        const int middle = at[axis];
+        for (at[axis] = middle - Reach; at[axis] <= middle + Reach; ++at[axis])
+        {
+          // Outside the map there is no object.
+          met[brick].Add(all.Contains(at)
+              ? before[static_cast<std::size_t>(all.NumberOf(at[0], at[1], at[2]))]
+              : FewObjects{ 1, 0, 0 });
+        }
+      });
+  }
+  this->Contested.resize(met.size());
+  std::transform(met.begin(), met.end(), this->Contested.begin(),
+    [](const FewObjects& few) { return static_cast<unsigned char>(few.Count == 3 ? 1 : 0); });
+  this->AnyContested =
+    std::find(this->Contested.begin(), this->Contested.end(), 1) != this->Contested.end();
 }
 }

@@ -49,7 +49,10 @@ public:
   /** Of a brick within the map. */
   Range ObjectsIn(int i, int j, int k) const;
 
-  /** Whether at least three objects, 0 among them, meet in a brick or those about it. */
+  /**
+   * Whether at least three objects, 0 among them, meet within two bricks: as far as one of them
+   * changes the fields of the others.
+   */
   bool IsContested(int i, int j, int k) const
   {
     return this->Contested[static_cast<std::size_t>(

@@ -19,6 +19,8 @@ namespace
 {
 /** Only voxels nearer to the boundary than this can come to the wrong side of it. */
 constexpr float MostWrong = 1.5f;
+/** What the field has at a voxel at least, where not all constraints can be met. */
+constexpr float LeastSize = 0.05f;
 /** The Laplacian of the distance is taken this near to the boundary. */
 constexpr float MostBent = 2.5f;
 
@@ -98,6 +100,7 @@ public:
   }
 
 private:
+  float SideOf(int i, int j, int k) const { return this->IsObject(i, j, k) ? 1.f : -1.f; }
   bool IsObject(int i, int j, int k) const { return this->Map.At(i, j, k) == this->Object; }
   float* RowAt(int i, int j, int k)
   {
@@ -247,10 +250,12 @@ private:
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
+        // Kernels reach beyond the constraints, and those may have been too many to be met.
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          values[x] = std::clamp(values[x], -LabelField::Far, LabelField::Far);
+          const float side = this->SideOf(i + x, j, k);
+          values[x] = side * std::clamp(side * values[x], LeastSize, LabelField::Far);
         }
       });
   }
@@ -275,7 +280,7 @@ private:
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
     {
-      const float side = this->IsObject(i + x, j, k) ? 1.f : -1.f;
+      const float side = this->SideOf(i + x, j, k);
       if (side * values[x] >= MostWrong)
       {
         continue;

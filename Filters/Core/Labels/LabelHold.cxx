@@ -19,8 +19,6 @@ constexpr int MostReach = 3;
 constexpr int MostSweeps = 40;
 /** A constraint that is met but for this is met. */
 constexpr float Tolerance = 0.01f;
-/** What the field has at least, where not all constraints can be met. */
-constexpr float LeastMargin = 0.05f;
 
 /** The kernel about a voxel, by rows along x. */
 class Kernel
@@ -116,11 +114,6 @@ void HoldToLabels(LabelField& field, const std::array<double, 3>& spacing,
         areMet = false;
       }
     }
-  }
-  for (const VoxelConstraint& constraint : constraints)
-  {
-    float& value = field.Values[static_cast<std::size_t>(constraint.Place)];
-    value = constraint.Side * std::max(constraint.Side * value, LeastMargin);
   }
 }
 }

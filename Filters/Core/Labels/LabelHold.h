@@ -21,8 +21,8 @@ struct VoxelConstraint
 
 /**
  * Changes the field by the smallest sum of kernels about these voxels that meets the constraints:
- * step 4 of MakeLabelField(). Those that cannot be met, being all too near to others, are met as
- * far as they can; the sign always is.
+ * step 4 of MakeLabelField(). Where they are too many and too different, they are met as far as a
+ * bounded number of sweeps over them gets.
  */
 void HoldToLabels(LabelField& field, const std::array<double, 3>& spacing,
   const std::vector<VoxelConstraint>& constraints);

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelOutputs.h"
+
+#include "InputFiles.h"
+#include "LabelNames.h"
+#include "OutputChecks.h"
+#include "Report.h"
+#include "Texts.h"
+#include "ToolErrors.h"
+#include "ToolOptions.h"
+#include "WriteResults.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+
+#include <filesystem>
+
+namespace tool
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+std::string SuffixIn(const ToolOptions& options)
+{
+  return "." + (options.Format.empty() ? "vtp" : options.Format);
+}
+
+/** The inputs, and the outputs that are not surfaces. */
+std::vector<std::string> InputsOf(const ToolOptions& options)
+{
+  std::vector<std::string> inputs = FilesOfVolume(options.Volume);
+  inputs.push_back(options.NamesOfLabels);
+  for (const std::string& file : FilesBeside(options.Volume))
+  {
+    inputs.push_back(file);
+  }
+  return inputs;
+}
+
+std::vector<OutputName> OtherOutputs(const ToolOptions& options)
+{
+  std::vector<OutputName> outputs;
+  for (const std::string& name : { options.WrittenVolume, options.Report })
+  {
+    if (!name.empty() && name != "-")
+    {
+      outputs.push_back({ name, OutputName::Kind::File, "" });
+    }
+  }
+  return outputs;
+}
+
+OutputName::Kind FormOf(const std::string& name)
+{
+  return OutputOf(name) == LabelOutput::Blocks || HasPieces(name) ? OutputName::Kind::Blocks
+                                                                  : OutputName::Kind::File;
+}
+
+std::string PathIn(const std::string& folder, const LabelSurface& surface,
+  const ToolOptions& options)
+{
+  return (fs::path(folder) / (surface.FileName + SuffixIn(options))).string();
+}
+
+SurfaceWriting WritingOf(
+  const ToolOptions& options, const LabelSurface& surface, ProgressStyle style)
+{
+  return { "volumic " VOLUMIC_VERSION ", " + surface.Name +
+      (surface.IsUnfinished() ? ", UNFINISHED: " + StopReason(surface.Surface) : ""),
+    options.PieceSize, style };
+}
+
+void WriteAsBlocks(
+  const std::vector<LabelSurface>& surfaces, const std::string& name, ProgressStyle style)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (const LabelSurface& surface : surfaces)
+  {
+    const unsigned int block = blocks->GetNumberOfBlocks();
+    blocks->SetBlock(block, surface.Surface);
+    blocks->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), surface.Name.c_str());
+  }
+  WriteBlocks(blocks, name, style);
+}
+}
+
+bool LabelSurface::IsUnfinished() const
+{
+  const std::string reason = StopReason(this->Surface);
+  return reason == "cancelled" || reason == "time limit" || reason == "iteration limit";
+}
+
+LabelOutput OutputOf(const std::string& name)
+{
+  std::error_code failed;
+  const bool isFolder =
+    EndsWith(name, "/") || SuffixOf(name).empty() || fs::is_directory(name, failed);
+  return isFolder ? LabelOutput::Folder
+                  : (SuffixOf(name) == ".vtm" ? LabelOutput::Blocks : LabelOutput::File);
+}
+
+void CheckLabelOutput(const ToolOptions& options, const std::string& name)
+{
+  if (OutputOf(name) == LabelOutput::Folder)
+  {
+    if (options.HasProperty("Merge"))
+    {
+      throw UsageError(name + ": --merge makes one surface: give it a file, not a folder");
+    }
+    CheckSurfaceName("labels" + SuffixIn(options));
+    if (HasPieces(SuffixIn(options)) || SuffixIn(options) == ".pvtp")
+    {
+      throw UsageError("--format: surfaces in a folder are not written in pieces");
+    }
+  }
+  else if (OutputOf(name) == LabelOutput::File)
+  {
+    CheckSurfaceName(name);
+  }
+}
+
+void CheckLabelFiles(const ToolOptions& options)
+{
+  std::vector<OutputName> outputs = OtherOutputs(options);
+  for (const std::string& name : options.Surfaces)
+  {
+    const bool isFolder = OutputOf(name) == LabelOutput::Folder;
+    outputs.push_back({ name, isFolder ? OutputName::Kind::Place : FormOf(name), "" });
+  }
+  if (!options.WrittenVolume.empty())
+  {
+    CheckVolumeName(options.WrittenVolume);
+  }
+  CheckOutputs(outputs, InputsOf(options));
+}
+
+MadeFolders::~MadeFolders()
+{
+  std::error_code failed;
+  for (auto name = this->Names.rbegin(); name != this->Names.rend(); ++name)
+  {
+    fs::remove(*name, failed); // only if it is empty
+  }
+}
+
+void MadeFolders::Make(const std::string& name)
+{
+  fs::path folder = fs::path(name);
+  folder = folder.has_filename() ? folder : folder.parent_path();
+  if (folder.empty() || fs::is_directory(folder))
+  {
+    return;
+  }
+  this->Make(folder.parent_path().string());
+  std::error_code failed;
+  fs::create_directory(folder, failed);
+  if (failed)
+  {
+    throw Failure(name + ": cannot be written: " + failed.message());
+  }
+  this->Names.push_back(folder.string());
+}
+
+void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurface>& surfaces,
+  MadeFolders& folders)
+{
+  const std::vector<std::string> inputs = InputsOf(options);
+  std::vector<OutputName> outputs = OtherOutputs(options);
+  for (const std::string& name : options.Surfaces)
+  {
+    if (OutputOf(name) != LabelOutput::Folder)
+    {
+      outputs.push_back({ name, FormOf(name), "" });
+    }
+    if (OutputOf(name) == LabelOutput::File && surfaces.size() > 1)
+    {
+      const std::string stem = fs::path(name).replace_extension().string();
+      throw Failure(name + ": " + std::to_string(surfaces.size()) +
+        " labels have as many surfaces: give a folder (" + stem + "/ --format " +
+        SuffixOf(name).substr(1) + ") or blocks (" + stem +
+        ".vtm), or make one of them with --merge");
+    }
+  }
+  for (const std::string& name : options.Surfaces)
+  {
+    if (OutputOf(name) != LabelOutput::Folder)
+    {
+      continue;
+    }
+    folders.Make(name);
+    for (const LabelSurface& surface : surfaces)
+    {
+      // Their names differ from each other.
+      outputs.push_back({ PathIn(name, surface, options), OutputName::Kind::File, "" });
+      CheckOutputs(outputs, inputs);
+      outputs.pop_back();
+    }
+  }
+}
+
+std::string WriteLabelSurfaces(
+  const ToolOptions& options, std::vector<LabelSurface>& surfaces, ProgressStyle style)
+{
+  std::string failures;
+  // The failure of one must not take the others with it.
+  const auto attempt = [&failures](const auto& write)
+  {
+    try
+    {
+      write();
+    }
+    catch (const Failure& failure)
+    {
+      failures += (failures.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
+    }
+  };
+  for (const std::string& name : options.Surfaces)
+  {
+    if (OutputOf(name) == LabelOutput::Blocks)
+    {
+      attempt([&] { WriteAsBlocks(surfaces, name, style); });
+      continue;
+    }
+    // Of many files in a folder not each has a line of its own.
+    const bool isFolder = OutputOf(name) == LabelOutput::Folder;
+    ProgressLine line("Writing", isFolder ? style : ProgressStyle::None);
+    double done = 0.0;
+    for (LabelSurface& surface : surfaces)
+    {
+      const std::string path = isFolder ? PathIn(name, surface, options) : name;
+      line.Show(done++ / static_cast<double>(surfaces.size()), path);
+      if (surface.Surface->GetNumberOfPoints() > 0)
+      {
+        attempt(
+          [&]
+          {
+            WriteSurface(surface.Surface, path,
+              WritingOf(options, surface, isFolder ? ProgressStyle::None : style));
+            surface.Files.push_back(path);
+          });
+      }
+    }
+  }
+  return failures;
+}
+}

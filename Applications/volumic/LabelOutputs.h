@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelOutputs_h
+#define volumicLabelOutputs_h
+
+#include "LabelChoice.h"
+#include "ProgressLine.h"
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+namespace tool
+{
+struct ToolOptions;
+
+/** A surface about a label, or, with --merge, about several. */
+struct LabelSurface
+{
+  std::vector<KnownLabel> Labels; ///< of the surface, at least one
+  std::string Name;               ///< of its block
+  std::string FileName;           ///< in a folder, without suffix
+  vtkSmartPointer<vtkPolyData> Surface; ///< may have no points
+  std::vector<std::string> Files;       ///< that were written of it alone
+
+  /** Whether something stopped it on its way, or before it began. */
+  bool IsUnfinished() const;
+};
+
+/** What a name on the command line asks for. */
+enum class LabelOutput
+{
+  Folder, ///< it ends with a slash, is one, or has no suffix
+  Blocks, ///< .vtm
+  File    ///< of one surface
+};
+
+LabelOutput OutputOf(const std::string& name);
+
+/** @throws UsageError if a surface of labels cannot be written to such a name. */
+void CheckLabelOutput(const ToolOptions& options, const std::string& name);
+
+/** As CheckFiles, when the names of the surfaces are not known yet. */
+void CheckLabelFiles(const ToolOptions& options);
+
+/** A folder that was made before the work begins, and goes if nothing comes into it. */
+class MadeFolders
+{
+public:
+  MadeFolders() = default;
+  ~MadeFolders();
+  MadeFolders(const MadeFolders&) = delete;
+  MadeFolders& operator=(const MadeFolders&) = delete;
+
+  void Make(const std::string& name);
+
+private:
+  std::vector<std::string> Names; ///< that were not there, each before those in it
+};
+
+/**
+ * As CheckFiles, now that the surfaces are known; makes the folders.
+ * @throws Failure if a file is to hold several of them, too.
+ */
+void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurface>& surfaces,
+  MadeFolders& folders);
+
+/**
+ * Write the surfaces that have points, as the options ask for.
+ * @param surfaces get their Files here
+ * @return what could not be written, a line for each; empty: nothing
+ */
+std::string WriteLabelSurfaces(
+  const ToolOptions& options, std::vector<LabelSurface>& surfaces, ProgressStyle style);
+}
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelReport.h"
+
+#include "JsonWriter.h"
+#include "Report.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkPolyData.h>
+
+namespace tool
+{
+namespace
+{
+void WriteNames(JsonWriter& json, const LabelSurface& surface)
+{
+  vtkIdType voxels = 0;
+  std::vector<double> labels;
+  for (const KnownLabel& label : surface.Labels)
+  {
+    labels.push_back(label.Label);
+    voxels += label.Voxels;
+  }
+  if (labels.size() == 1)
+  {
+    json.Member("label", labels[0]);
+  }
+  json.Numbers("labels", labels.data(), static_cast<int>(labels.size()));
+  json.Member("name", surface.Name);
+  json.Numbers("color", surface.Labels[0].Color.data(), 3);
+  json.Member("layer", surface.Labels[0].Layer);
+  json.Member("voxels", static_cast<double>(voxels));
+  json.Name("files");
+  json.BeginArray();
+  for (const std::string& file : surface.Files)
+  {
+    json.Value(file);
+  }
+  json.EndArray();
+}
+
+void WriteProperties(JsonWriter& json, const FilterTrio& filters)
+{
+  json.Name("properties");
+  json.BeginObject();
+  for (const PropertyOption& property : SurfaceProperties())
+  {
+    if (IsOfLabels(property))
+    {
+      json.Member(property.Property, property.Get(filters));
+    }
+  }
+  json.EndObject();
+}
+}
+
+vtkIdType WrongVoxels(vtkPolyData* surface)
+{
+  vtkDataArray* wrong = surface->GetFieldData()->GetArray("WrongVoxels");
+  return wrong && wrong->GetNumberOfTuples() > 0
+    ? static_cast<vtkIdType>(wrong->GetComponent(0, 0))
+    : 0;
+}
+
+void WriteReport(std::ostream& out, const LabelReport& report)
+{
+  JsonWriter json(out);
+  json.BeginObject();
+  WriteInput(json, report.VolumeName, report.Volume);
+  json.Member("finished", report.IsFinished);
+  json.Name("labels");
+  json.BeginArray();
+  for (const LabelSurface& each : report.Surfaces)
+  {
+    vtkPolyData* surface = each.Surface;
+    json.BeginObject();
+    WriteNames(json, each);
+    json.Member("wrong_voxels", static_cast<double>(WrongVoxels(surface)));
+    WriteSurfaceFacts(
+      json, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
+    WriteComponents(json, surface);
+    json.EndObject();
+  }
+  json.EndArray();
+  json.Name("seconds");
+  json.BeginObject();
+  json.Member("surface", report.Seconds);
+  json.EndObject();
+  json.Name("memory");
+  json.BeginObject();
+  json.Member("reader", report.ReaderMemory);
+  json.Member("peak", PeakMemory());
+  json.EndObject();
+  WriteProperties(json, report.Filters);
+  WriteEnd(json, report.Warnings);
+  json.EndObject();
+}
+}

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelReport_h
+#define volumicLabelReport_h
+
+#include "LabelOutputs.h"
+#include "SurfaceProperties.h"
+#include "VolumePart.h"
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace tool
+{
+/** All that a report of labels tells; names in it are those of WriteReport where it has them. */
+struct LabelReport
+{
+  std::string VolumeName;
+  VolumeFacts Volume;
+  FilterTrio Filters;
+  const std::vector<LabelSurface>& Surfaces;
+  bool IsFinished = false;
+  double Seconds = 0.0;      ///< of the surfaces
+  double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
+  std::vector<std::string> Warnings;
+};
+
+/** Write the report as JSON, `labels` with an object for each surface. */
+void WriteReport(std::ostream& out, const LabelReport& report);
+
+/** Of a surface's field data: voxel centres on the wrong side; 0 where that is not told. */
+vtkIdType WrongVoxels(vtkPolyData* surface);
+}
+
+#endif

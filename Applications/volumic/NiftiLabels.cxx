@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The table of labels that TotalSegmentator and Connectome Workbench put behind the header of NIfTI,
+// in XML:
+//   <Label Key="1" Red="1" Green="0" Blue="0.5" Alpha="1"><![CDATA[spleen]]></Label>
+#include "BinaryFile.h"
+#include "LabelNames.h"
+#include "ParseNumbers.h"
+#include "ToolErrors.h"
+
+#include <vtk_zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <type_traits>
+
+namespace tool
+{
+namespace
+{
+/** More than any table has. */
+constexpr std::uint64_t LargestTable = 16 << 20;
+
+/** As GzipHead, but without a look at the rest of the file, which has been read. */
+std::string FirstBytes(const std::string& name, std::size_t count)
+{
+  std::string bytes(count, '\0');
+  using Closing = int (*)(gzFile);
+  const std::unique_ptr<std::remove_pointer_t<gzFile>, Closing> file(
+    gzopen(name.c_str(), "rb"), gzclose);
+  const int there =
+    file ? gzread(file.get(), bytes.data(), static_cast<unsigned int>(count)) : 0;
+  bytes.resize(static_cast<std::size_t>(std::max(there, 0)));
+  return bytes;
+}
+
+/** The bytes between the header of NIfTI-1 or -2 and the voxels. */
+std::string Extensions(const std::string& name)
+{
+  const std::string header = FirstBytes(name, 544);
+  if (header.size() < 352)
+  {
+    return "";
+  }
+  bool isBig = false;
+  std::uint64_t size = NumberOf(header.substr(0, 4), false);
+  if (size != 348 && size != 540)
+  {
+    isBig = true;
+    size = NumberOf(header.substr(0, 4), true);
+  }
+  std::uint64_t voxels = 0;
+  if (size == 348)
+  {
+    const auto bits = static_cast<std::uint32_t>(NumberOf(header.substr(108, 4), isBig));
+    float offset = 0.f;
+    std::memcpy(&offset, &bits, sizeof(offset));
+    voxels = offset > 0.f && offset < 1e9f ? static_cast<std::uint64_t>(offset) : 0;
+  }
+  else if (size == 540 && header.size() == 544)
+  {
+    voxels = NumberOf(header.substr(168, 8), isBig);
+  }
+  return voxels <= size + 4 ? "" : FirstBytes(name, std::min(voxels, LargestTable));
+}
+
+/** What stands for a text in XML. */
+std::string TextOf(const std::string& content)
+{
+  static const std::string begin = "<![CDATA[";
+  static const std::string end = "]]>";
+  const std::size_t at = content.find(begin);
+  if (at != std::string::npos)
+  {
+    const std::size_t start = at + begin.size();
+    return content.substr(start, content.find(end, start) - start);
+  }
+  static const std::pair<const char*, const char*> entities[] = { { "&lt;", "<" }, { "&gt;", ">" },
+    { "&quot;", "\"" }, { "&apos;", "'" }, { "&amp;", "&" } };
+  std::string text = content;
+  for (const auto& [entity, sign] : entities)
+  {
+    for (std::size_t found = text.find(entity); found != std::string::npos;
+         found = text.find(entity, found + 1))
+    {
+      text.replace(found, std::strlen(entity), sign);
+    }
+  }
+  return text;
+}
+
+/** The number that an attribute of an element is; nothing if it has none. */
+std::optional<double> AttributeOf(const std::string& element, const std::string& name)
+{
+  const std::string begin = " " + name + "=\"";
+  const std::size_t at = element.find(begin);
+  const std::size_t start = at == std::string::npos ? element.size() : at + begin.size();
+  const std::size_t end = element.find('"', start);
+  if (end == std::string::npos)
+  {
+    return std::nullopt;
+  }
+  try
+  {
+    return ParseNumber<double>(element.substr(start, end - start));
+  }
+  catch (const UsageError&)
+  {
+    return std::nullopt;
+  }
+}
+}
+
+LabelNames NamesInNifti(const std::string& name)
+{
+  const std::string text = Extensions(name);
+  LabelNames names;
+  const std::string begin = "<Label ";
+  const std::string end = "</Label>";
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1))
+  {
+    const std::size_t open = text.find('>', at);
+    const std::size_t close = text.find(end, at);
+    if (open == std::string::npos || close == std::string::npos || open > close)
+    {
+      break;
+    }
+    const std::string element = text.substr(at, open - at);
+    const std::optional<double> key = AttributeOf(element, "Key");
+    if (!key || *key != std::floor(*key) || std::abs(*key) > std::numeric_limits<int>::max())
+    {
+      continue;
+    }
+    LabelName label;
+    label.Label = static_cast<int>(*key);
+    label.Name = PlainName(TextOf(text.substr(open + 1, close - open - 1)));
+    const std::optional<double> red = AttributeOf(element, "Red");
+    const std::optional<double> green = AttributeOf(element, "Green");
+    const std::optional<double> blue = AttributeOf(element, "Blue");
+    if (red && green && blue)
+    {
+      label.Color = Vector3{ *red, *green, *blue };
+    }
+    names.push_back(label);
+  }
+  return names;
+}
+}

@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentLabels.h"
+
+#include "Announcer.h"
+#include "LabelMap.h"
+#include "LabelOutputs.h"
+#include "LabelReport.h"
+#include "ParseNumbers.h"
+#include "Ranks.h"
+#include "Report.h"
+#include "RunFilter.h"
+#include "SurfaceProperties.h"
+#include "ToolOptions.h"
+#include "WriteResults.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkImagePyramid.h>
+#include <vtkInformation.h>
+#include <vtkLabelTable.h>
+#include <vtkLabelsToSurfaces.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+namespace tool
+{
+namespace
+{
+/** Have a filter work on the labels of a layer. */
+void SetInput(vtkAlgorithm* filter, const LabelMap& map, int layer)
+{
+  filter->SetInputDataObject(0, map.Layers[static_cast<std::size_t>(layer)]);
+  filter->SetInputArrayToProcess(0, 0, 0,
+    map.IsOfCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS
+                  : vtkDataObject::FIELD_ASSOCIATION_POINTS,
+    vtkDataSetAttributes::SCALARS);
+}
+
+/** What fails is told with the name of the volume. */
+template <class Work>
+auto OfVolume(const ToolOptions& options, const Work& work) -> decltype(work())
+{
+  try
+  {
+    return work();
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(options.Volume + ": " + failure.what());
+  }
+}
+
+std::vector<KnownLabel> KnownLabels(
+  const ToolOptions& options, const LabelMap& map, const Announcer& announcer)
+{
+  std::vector<KnownLabel> known;
+  for (int layer = 0; layer < static_cast<int>(map.Layers.size()); ++layer)
+  {
+    vtkNew<vtkLabelTable> table;
+    SetInput(table, map, layer);
+    const FilterRun run = OfVolume(options,
+      [&] { return RunFilter(table, "Looking for labels", ProgressStyle::None); });
+    for (const std::string& warning : run.Warnings)
+    {
+      announcer.Say("warning: " + options.Volume + ": " + warning);
+    }
+    const std::vector<KnownLabel> more = LabelsOf(table->GetOutput(), layer);
+    known.insert(known.end(), more.begin(), more.end());
+  }
+  return known;
+}
+
+vtkSmartPointer<vtkPolyData> NoSurface(const std::string& reason)
+{
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkStringArray> text;
+  text->SetName("StopReason");
+  text->InsertNextValue(reason);
+  surface->GetFieldData()->AddArray(text);
+  return surface;
+}
+
+/** The surfaces that are wanted, none of which is there yet. */
+std::vector<LabelSurface> PlanSurfaces(
+  const ToolOptions& options, const std::vector<KnownLabel>& known, vtkLabelsToSurfaces* filter)
+{
+  const std::vector<std::string> fileNames = FileNamesOf(known);
+  std::vector<LabelSurface> surfaces;
+  const std::vector<std::size_t> chosen = OfVolume(options,
+    [&] { return ChooseLabels(options.Labels, known, filter->GetBackgroundLabel()); });
+  for (const std::size_t i : chosen)
+  {
+    if (!filter->GetMerge() || surfaces.empty())
+    {
+      surfaces.push_back(
+        { { known[i] }, known[i].Name, fileNames[i], NoSurface("cancelled"), {} });
+      continue;
+    }
+    LabelSurface& merged = surfaces.front();
+    if (merged.Labels.front().Layer != known[i].Layer)
+    {
+      throw Failure("--merge: the labels lie in several layers of the file, of which those of one "
+                    "can be merged; choose it with --component");
+    }
+    merged.Labels.push_back(known[i]);
+  }
+  return surfaces;
+}
+
+/** Have the filter work on the labels of a layer; its blocks take the place of what is planned. */
+FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
+  vtkLabelsToSurfaces* filter, std::vector<LabelSurface>& surfaces, ProgressStyle style)
+{
+  std::vector<LabelSurface*> own; // by their labels, as the blocks
+  filter->ClearLabels();
+  for (LabelSurface& surface : surfaces)
+  {
+    if (surface.Labels.front().Layer == layer)
+    {
+      own.push_back(&surface);
+      for (const KnownLabel& label : surface.Labels)
+      {
+        filter->AddLabel(label.Label);
+      }
+    }
+  }
+  if (own.empty() || WasInterrupted())
+  {
+    return FilterRun();
+  }
+  SetInput(filter, map, layer);
+  const FilterRun run =
+    OfVolume(options, [&] { return RunFilter(filter, "Making surfaces", style); });
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  for (unsigned int i = 0; i < own.size() && i < blocks->GetNumberOfBlocks(); ++i)
+  {
+    own[i]->Surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i));
+    const char* name = blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME());
+    own[i]->Name = name ? name : own[i]->Name;
+  }
+  return run;
+}
+
+/** Make all surfaces. @param report given times and warnings */
+void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSurfaces* filter,
+  std::vector<LabelSurface>& surfaces, const Announcer& announcer, LabelReport& report)
+{
+  for (int layer = 0; layer < static_cast<int>(map.Layers.size()); ++layer)
+  {
+    const FilterRun run = RunOnLayer(options, map, layer, filter, surfaces, announcer.Style);
+    report.Seconds += run.Seconds;
+    for (const std::string& warning : run.Warnings)
+    {
+      announcer.Say("warning: " + warning);
+      report.Warnings.push_back(warning);
+    }
+  }
+  const bool isThere = std::any_of(surfaces.begin(), surfaces.end(),
+    [](const LabelSurface& surface) { return surface.Surface->GetNumberOfPoints() > 0; });
+  report.IsFinished = std::none_of(surfaces.begin(), surfaces.end(),
+    [](const LabelSurface& surface) { return surface.IsUnfinished(); });
+  if (!isThere)
+  {
+    throw Failure(report.IsFinished
+        ? options.Volume + ": none of the labels has a surface (--finest -1)"
+        : "interrupted before there was a surface; nothing is written");
+  }
+}
+
+/** Write surfaces and report. @throws Failure if not all could be written. */
+void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
+  const LabelReport& report, ProgressStyle style)
+{
+  std::string failures = WriteLabelSurfaces(options, surfaces, style);
+  std::ostringstream text;
+  if (!options.Report.empty())
+  {
+    WriteReport(text, report);
+  }
+  if (options.Report == "-")
+  {
+    std::cout << text.str();
+  }
+  else if (!options.Report.empty())
+  {
+    try
+    {
+      WriteText(text.str(), options.Report);
+    }
+    catch (const Failure& failure)
+    {
+      failures += (failures.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
+    }
+  }
+  if (!failures.empty())
+  {
+    throw Failure(failures);
+  }
+}
+
+void TellEnd(const std::vector<LabelSurface>& surfaces, const Announcer& announcer)
+{
+  vtkIdType vertices = 0;
+  vtkIdType wrong = 0;
+  std::size_t count = 0;
+  std::string unfinished;
+  std::string missing;
+  for (const LabelSurface& surface : surfaces)
+  {
+    const vtkIdType points = surface.Surface->GetNumberOfPoints();
+    vertices += points;
+    wrong += WrongVoxels(surface.Surface);
+    count += points > 0 ? 1 : 0;
+    std::string& list = points > 0 ? unfinished : missing;
+    list += surface.IsUnfinished() ? (list.empty() ? "" : ", ") + surface.Name : "";
+  }
+  announcer.Say(std::to_string(count) + (count == 1 ? " surface, " : " surfaces, ") +
+    std::to_string(vertices) + " vertices" +
+    (wrong > 0 ? "; " + std::to_string(wrong) + " voxel centres are on the wrong side" : ""));
+  if (!unfinished.empty() || !missing.empty())
+  {
+    std::cerr << "volumic: unfinished (cancelled); what is finished was written"
+              << (missing.empty() ? "" : "; there is no surface of " + missing)
+              << (unfinished.empty() ? "" : "; as they were then, those of " + unfinished) << "\n";
+  }
+}
+
+/** The volume, with its names. @return the labels in it */
+std::vector<KnownLabel> Announce(
+  const ToolOptions& options, const LabelMap& map, int background, const Announcer& announcer)
+{
+  const std::vector<KnownLabel> known = KnownLabels(options, map, announcer);
+  const auto count = std::count_if(known.begin(), known.end(),
+    [background](const KnownLabel& label) { return label.Label != background; });
+  const std::array<int, 3> size = map.Facts.Size();
+  const std::size_t layers = map.Layers.size();
+  announcer.Say(options.Volume + ": " + NumberText(size[0]) + " x " + NumberText(size[1]) + " x " +
+    NumberText(size[2]) + " voxels, " + vtkImageScalarTypeNameMacro(map.Facts.Type) + ", " +
+    std::to_string(count) + (count == 1 ? " label" : " labels") +
+    (layers > 1 ? " in " + std::to_string(layers) + " layers" : ""));
+  return known;
+}
+}
+
+ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
+{
+  ranks.Together(
+    [&]
+    {
+      if (!ranks.IsOne())
+      {
+        throw UsageError("--labels works in one process: start it without mpirun");
+      }
+    });
+  const Announcer announcer(options);
+  CheckLabelFiles(options);
+  ShareProperties(filters);
+  const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
+  const LabelMap map = LoadLabelMap(options, filters.Surface, holder, announcer);
+  const double readerMemory = PeakMemory();
+  if (!options.WrittenVolume.empty())
+  {
+    WriteVolume(map.Image, options.WrittenVolume, announcer.Style);
+  }
+  if (!options.WantsSurface())
+  {
+    return Success;
+  }
+  const std::vector<KnownLabel> known =
+    Announce(options, map, filters.Labels->GetBackgroundLabel(), announcer);
+  std::vector<LabelSurface> surfaces = PlanSurfaces(options, known, filters.Labels);
+  MadeFolders folders;
+  CheckLabelSurfaces(options, surfaces, folders);
+  LabelReport report{ std::filesystem::path(options.Volume).filename().string(), map.Facts,
+    filters, surfaces };
+  report.ReaderMemory = readerMemory;
+  CatchInterrupts(ranks);
+  MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report);
+  WriteAll(options, surfaces, report, announcer.Style);
+  TellEnd(surfaces, announcer);
+  return report.IsFinished ? Success : Unfinished;
+}
+}

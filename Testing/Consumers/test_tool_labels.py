@@ -1,0 +1,465 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`volumic --labels`: a surface for each label, its files, the choice of labels, errors."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkImageData
+from vtkmodules.vtkIOGeometry import vtkSTLReader
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
+
+from tool_test_case import ISO, PROGRAM, TURNED, ToolTestCase, make_image
+from volumic import vtkLabelsToSurfaces
+
+SPACING, ORIGIN = np.array([0.5, 0.75, 1.0]), np.array([-7.0, 8.0, 9.5])
+# Centres and half axes in voxels along x, y, z; 1 and 2 touch each other.
+BLOBS = {1: ((8, 8, 8), (6, 5, 5)), 2: ((18, 8, 8), (5, 5, 5)), 7: ((8, 20, 8), (6, 4, 5)),
+         -3: ((20, 20, 9), (5, 5, 6))}
+NAMES = {1: "liver", 2: "Left lung", 7: "spleen/x"}
+
+
+def label_voxels(dtype="i2", blobs=None):
+    """[z, y, x]"""
+    z, y, x = np.mgrid[0:18, 0:28, 0:28]
+    voxels = np.zeros(x.shape, dtype)
+    for label, (centre, axes) in (blobs or BLOBS).items():
+        inside = sum(((n - c) / a) ** 2 for n, c, a in zip((x, y, z), centre, axes)) < 1
+        voxels[inside & (voxels == 0)] = label
+    return voxels
+
+
+def label_image(voxels=None, direction=np.eye(3)):
+    return make_image(label_voxels() if voxels is None else voxels, SPACING, ORIGIN, direction)
+
+
+def read_surface(path):
+    reader = vtkXMLPolyDataReader() if path.endswith(".vtp") else vtkSTLReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def read_blocks(path):
+    """{name: surface}"""
+    reader = vtkXMLMultiBlockDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    blocks = reader.GetOutput()
+    return {blocks.GetMetaData(i).Get(vtkCompositeDataSet.NAME()): blocks.GetBlock(i)
+            for i in range(blocks.GetNumberOfBlocks())}
+
+
+class LabelsTest(ToolTestCase):
+    def map_file(self, name="map.vti", image=None):
+        return self.write(vtkXMLImageDataWriter(), name, image or label_image())
+
+    def names_file(self, name="names.json"):
+        text = json.dumps({str(label): text for label, text in NAMES.items()})
+        return self.write_bytes(name, text.encode())
+
+    def rows(self, *arguments, status=0):
+        """{label: row of the report}"""
+        return {row["label"]: row for row in self.report(*arguments, status=status)["labels"]}
+
+    def bounds_of(self, label):
+        """Of the voxels' centres, in world coordinates, for the identity as direction."""
+        places = np.argwhere(label_voxels() == label)[:, ::-1] * SPACING + ORIGIN
+        return np.ravel(list(zip(places.min(0), places.max(0))))
+
+
+class OutputsTest(LabelsTest):
+    def test_a_folder_has_a_file_for_each_label(self):
+        out = self.path("new/out/")
+        rows = self.rows(self.map_file(), out, "--labels", "all", "--label-names",
+                         self.names_file())
+        self.assertEqual(sorted(os.listdir(out)),
+                         ["Left_lung.vtp", "label--3.vtp", "liver.vtp", "spleen_x.vtp"])
+        for label, row in rows.items():
+            surface = read_surface(row["files"][0])
+            self.assertEqual(row["files"], [os.path.join(out, os.path.basename(row["files"][0]))])
+            self.assertEqual(row["name"], NAMES.get(label, f"Label {label}"))
+            self.assertEqual(row["voxels"], (label_voxels() == label).sum())
+            self.assertEqual(row["triangles"], surface.GetNumberOfPolys())
+            self.assertEqual(surface.GetFieldData().GetArray("Label").GetValue(0), label)
+            # Half a voxel beyond the centres.
+            np.testing.assert_allclose(surface.GetBounds(), self.bounds_of(label), atol=0.75)
+            self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.06)
+
+    def test_formats(self):
+        volume, names = self.map_file(), self.names_file()
+        for suffix in ("stl", "ply", "obj", "vtk"):
+            out = self.path(suffix)  # not there, without a suffix or slash
+            self.run_tool(volume, out, "--labels", "1,2", "--format", suffix, "--label-names",
+                          names)
+            self.assertEqual(sorted(os.listdir(out)), [f"Left_lung.{suffix}", f"liver.{suffix}"])
+        self.assertGreater(read_surface(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
+        self.assertIn(b"liver", self.content("stl/liver.stl")[:80])
+
+    def test_blocks(self):
+        names = self.write_bytes("n.csv", b'label,name\n1,"a<b & ""c"""\n2,two\n')
+        self.run_tool(self.map_file(), self.path("out.vtm"), "--labels", "1,2", "--label-names",
+                      names)
+        blocks = read_blocks(self.path("out.vtm"))
+        self.assertEqual(list(blocks), ['a<b & "c"', "two"])
+        labels = vtk_to_numpy(blocks["two"].GetCellData().GetArray("Label"))
+        self.assertEqual(set(labels), {2})
+
+    def test_merged_into_one_file(self):
+        volume = self.map_file()
+        report = self.report(volume, self.path("both.vtp"), "--labels", "1,2", "--merge")
+        row, = report["labels"]
+        self.assertEqual((row["labels"], row["name"], row["components"]),
+                         ([1, 2], "Labels 1, 2", 1))
+        labels = vtk_to_numpy(read_surface(self.path("both.vtp")).GetCellData().GetArray("Label"))
+        self.assertEqual(set(labels), {1, 2})
+        self.run_tool(volume, self.path("both.vtm"), "--labels", "1,2", "--merge")
+        self.assertEqual(list(read_blocks(self.path("both.vtm"))), ["Labels 1, 2"])
+
+    def test_one_label_goes_into_one_file(self):
+        volume = self.map_file()
+        self.run_tool(volume, self.path("a.stl"), "--labels", "2")
+        self.assertGreater(read_surface(self.path("a.stl")).GetNumberOfPolys(), 100)
+        self.refused(r"b.stl: 4 labels have as many surfaces: give a folder \(.*b/ --format stl\) "
+                     r"or blocks \(.*b.vtm\), or .*--merge", volume, self.path("b.stl"),
+                     "--labels", "all")
+        self.assertFalse(os.path.exists(self.path("b.stl")))
+
+    def test_several_outputs_at_once(self):
+        self.run_tool(self.map_file(), self.path("a/"), self.path("b.vtm"), "--labels", "1,2",
+                      "--report", self.path("r.json"), "--write-volume", self.path("v.vti"))
+        self.assertEqual(sorted(os.listdir(self.path("a"))), ["label-1.vtp", "label-2.vtp"])
+        self.assertEqual(len(read_blocks(self.path("b.vtm"))), 2)
+        self.assertTrue(os.path.getsize(self.path("v.vti")))
+
+    def test_names_of_files_are_safe_and_different(self):
+        names = {1: "../Up", 2: "up", 7: "..", -3: "C:\\con?*\u00e9 1"}
+        file = self.write_bytes("n.json", json.dumps(names).encode())
+        self.run_tool(self.map_file(), self.path("o/"), "--labels", "all", "--label-names", file)
+        # Of two that differ in nothing but the case of letters each has its number.
+        self.assertEqual(sorted(os.listdir(self.path("o"))),
+                         ["C__con__\u00e9_1.vtp", "Up-1.vtp",
+                          "label-7.vtp", "up-2.vtp"])
+        same = self.write_bytes("s.json", json.dumps({n: "x" * 300 for n in BLOBS}).encode())
+        self.run_tool(self.map_file(), self.path("p/"), "--labels", "1,2", "--label-names", same)
+        self.assertEqual(sorted(os.listdir(self.path("p"))),
+                         ["x" * 120 + "-1.vtp", "x" * 120 + "-2.vtp"])
+
+    def test_a_name_does_not_depend_on_the_choice(self):
+        file = self.write_bytes("n.json", b'{"1": "a", "2": "A"}')
+        self.run_tool(self.map_file(), self.path("o/"), "--labels", "1", "--label-names", file)
+        self.assertEqual(os.listdir(self.path("o")), ["a-1.vtp"])
+
+    def test_the_inputs_are_not_replaced(self):
+        volume = self.map_file("label-1.vti")
+        os.rename(volume, self.path("label-1.vtp"))
+        for name in (self.folder, self.path("label-1.vtp")):
+            self.refused("label-1.vtp", self.path("label-1.vtp"), name, "--labels", "1")
+        names = self.names_file()
+        self.refused("names.json: cannot be written: it is the input", self.map_file(),
+                     "--labels", "1", "--label-names", names, "--report", names)
+
+    def test_a_folder_that_cannot_be_made(self):
+        self.write_bytes("file", b"")
+        self.refused("file.*is no folder", self.map_file(), self.path("file/out/"), "--labels",
+                     "1")
+        self.refused("there is no label '9'", self.map_file(), self.path("none/of/"), "--labels",
+                     "9")
+        self.assertFalse(os.path.exists(self.path("none")))
+
+    def test_one_file_that_fails_does_not_take_the_others(self):
+        os.makedirs(self.path("out/label-2.vtp/in"))
+        process = self.run_tool(self.map_file(), self.path("out/"), "--labels", "1,2", status=1)
+        self.assertIn("label-2.vtp: cannot be written: it is a folder", process.stderr)
+        self.assertFalse(os.path.exists(self.path("out/label-1.vtp")), "told before the work")
+
+
+class ChoiceTest(LabelsTest):
+    def chosen(self, *arguments, volume=None):
+        """Labels of the surfaces, of a coarse level."""
+        return sorted(self.rows(volume or self.map_file(), "--label-names", self.names_file(),
+                                "--finest", "1", *arguments))
+
+    def test_numbers_ranges_and_names(self):
+        for text, labels in (
+                ("all", [-3, 1, 2, 7]), ("ALL", [-3, 1, 2, 7]), ("1", [1]), ("7,1,1", [1, 7]),
+                ("2-9", [2, 7]), ("-5--1,7", [-3, 7]), ("-3-1", [-3, 1]), ("liver", [1]),
+                ("LIVER, left lung", [1, 2]), ("l*", [1, 2]), ("*", [1, 2, 7]),
+                ("Label -3", [-3]), ("spleen/x,0", [0, 7])):
+            with self.subTest(text):
+                self.assertEqual(self.chosen("--labels", text), sorted(labels))
+        self.assertEqual(self.chosen("--labels", "1", "--labels", "7"), [1, 7])
+
+    def test_a_name_with_commas_or_brackets(self):
+        file = self.write_bytes("n.json", b'{"1": "lung, left", "2": "a[1]", "7": "a1"}')
+        for text, label in (("lung, left", 1), ("a[*", 2), ("a[1]", 2)):
+            rows = self.rows(self.map_file(), "--labels", text, "--label-names", file)
+            self.assertEqual(list(rows), [label])
+
+    def test_another_background(self):
+        self.assertEqual(self.chosen("--labels", "all", "--background", "1"), [-3, 0, 2, 7])
+
+    def test_those_that_are_not_there(self):
+        volume = self.map_file()
+        for text in ("9", "kidney", "10-20", "1,kidney", "", "k*"):
+            with self.subTest(text):
+                self.refused(r"map.vti: there is no label '[^,]*' \(--labels\); there are -3, 0, "
+                             "1 liver, 2 Left lung, 7 spleen/x$", volume, self.path("o/"),
+                             "--labels", text, "--label-names", self.names_file())
+        self.assertFalse(os.path.exists(self.path("o")))
+
+    def test_many_are_not_all_told(self):
+        voxels = np.arange(18 * 28 * 28).reshape(18, 28, 28) // 200
+        process = self.run_tool(self.map_file("many.vti", label_image(voxels.astype("i2"))),
+                                self.path("o/"), "--labels", "liver", status=1)
+        self.assertRegex(process.stderr, "there are 0, 1, .*, 19 and 51 more")
+
+
+class WhatIsReadTest(LabelsTest):
+    def test_cells(self):
+        voxels = label_voxels()
+        image = vtkImageData()
+        image.SetDimensions(np.array(voxels.shape[::-1]) + 1)
+        image.SetSpacing(SPACING)
+        image.SetOrigin(ORIGIN - SPACING / 2)
+        array = numpy_to_vtk(voxels.ravel(), deep=True)
+        array.SetName("segments")
+        image.GetCellData().AddArray(array)
+        volume = self.map_file("cells.vti", image)
+        for more in ((), ("--array", "segments")):
+            report = self.report(volume, self.path("o/"), "--labels", "1", *more)
+            self.assertEqual(report["input"]["dimensions"], [28, 28, 18])
+            surface = read_surface(self.path("o/label-1.vtp"))
+            np.testing.assert_allclose(surface.GetBounds(), self.bounds_of(1), atol=0.75)
+        self.refused("no point array none", volume, self.path("o/"), "--labels", "1", "--array",
+                     "none")
+
+    def test_types_of_voxels(self):
+        surfaces = {}
+        for dtype in ("i2", "i1", "i4", "i8", "f4", "f8"):
+            volume = self.map_file(f"{dtype}.vti", label_image(label_voxels(dtype)))
+            process = self.run_tool(volume, self.path(dtype), "--labels", "all")
+            surfaces[dtype] = self.content(f"{dtype}/label--3.vtp")
+            told = re.search("warning: .*integers", process.stderr)
+            self.assertEqual(bool(told), dtype[0] == "f", process.stderr)
+        self.assertEqual(len(set(surfaces.values())), 1)
+
+    def test_values_that_are_no_labels(self):
+        voxels = label_voxels("f4")
+        voxels[3, 3, 3] = 0.5
+        self.refused("half.vti: .*0.5; labels must be integers",
+                     self.map_file("half.vti", label_image(voxels)), self.path("o/"), "--labels",
+                     "all")
+        many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
+        self.refused("many.vti: .*more than 4096", self.map_file("many.vti", label_image(many)),
+                     self.path("o/"), "--labels", "all")
+        self.refused("has no label but Background|there is no label 'all'",
+                     self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1"))),
+                     self.path("o/"), "--labels", "all")
+        self.refused("one slice", self.map_file("flat.vti", label_image(label_voxels()[8:9])),
+                     self.path("o/"), "--labels", "all")
+
+    def test_directions_and_spacing(self):
+        turned = self.map_file("turned.vti", label_image(direction=TURNED))
+        self.run_tool(turned, self.path("t/"), "--labels", "7")
+        self.run_tool(self.map_file(), self.path("s/"), "--labels", "7", "--spacing", "1,1.5,2")
+        places = np.argwhere(label_voxels() == 7)[:, ::-1] * SPACING
+        for path, world in (("t", places @ TURNED.T), ("s", 2 * places)):
+            bounds = read_surface(self.path(f"{path}/label-7.vtp")).GetBounds()
+            expected = np.ravel(list(zip(world.min(0), world.max(0)))) + np.repeat(ORIGIN, 2)
+            np.testing.assert_allclose(bounds, expected, atol=1.5)
+
+    def test_components(self):
+        voxels = np.stack([label_voxels(), label_voxels()[:, :, ::-1]], axis=-1)
+        image = label_image(label_voxels())
+        array = numpy_to_vtk(voxels.reshape(-1, 2), deep=True)
+        array.SetName("two")
+        image.GetPointData().SetScalars(array)
+        volume = self.map_file("two.vti", image)
+        self.refused("two.vti: voxels have 2 components; choose the one .* --component", volume,
+                     self.path("o/"), "--labels", "1")
+        self.refused("no component 2", volume, self.path("o/"), "--labels", "1", "--component", 2)
+        for component in (0, 1):
+            self.run_tool(volume, self.path("o/"), "--labels", "1", "--component", component)
+            bounds = self.bounds_of(1)
+            if component == 1:
+                bounds[:2] = 2 * ORIGIN[0] + 27 * SPACING[0] - bounds[1::-1]
+            found = read_surface(self.path("o/label-1.vtp")).GetBounds()
+            np.testing.assert_allclose(found, bounds, atol=0.75)
+
+    def test_a_limit_of_memory_changes_nothing(self):
+        volume = self.map_file()
+        self.run_tool(volume, self.path("a/"), "--labels", "all")
+        self.run_tool(volume, self.path("b/"), "--labels", "all", "--memory", "500M", "--scratch",
+                      self.folder, "--threads", "1")
+        for label in BLOBS:
+            self.assertEqual(self.content(f"a/label-{label}.vtp"),
+                             self.content(f"b/label-{label}.vtp"))
+
+
+class OptionsTest(LabelsTest):
+    def test_every_property_of_labels_is_set(self):
+        volume = self.map_file()
+        values = {"BackgroundLabel": ("--background", "1"), "Gap": ("--gap", "0.25"),
+                  "Smoothing": ("--smoothing", "0.5"), "Metric": ("--metric", "voxels"),
+                  "EdgeLength": ("--edge-length", "1.5"), "FinestLevel": ("--finest", "1"),
+                  "KeepComponents": ("--keep", "large"),
+                  "MinimumComponentVolume": ("--minimum-component-volume", "2"),
+                  "NumberOfThreads": ("--threads", "1"), "MemoryLimit": ("--memory", "3000M"),
+                  "ScratchDirectory": ("--scratch", self.folder),
+                  "SelectedComponent": ("--component", "0"), "Merge": ("--merge", "on")}
+        before = self.report(volume, "--labels", "2")["properties"]
+        self.assertEqual(set(before), set(values))
+        for name, (option, value) in values.items():
+            arguments = (option,) if option == "--merge" else (option, value)
+            after = self.report(volume, "--labels", "2", *arguments)["properties"]
+            self.assertEqual({n: v for n, v in after.items() if v != before[n]}, {name: value})
+
+    def test_properties_reach_the_filter(self):
+        """What is in common with vtkDeformableSurface is set there first."""
+        volume = self.map_file()
+
+        def volume_of(*options):
+            return self.rows(volume, "--labels", "1,2", *options)[1]
+
+        plain = volume_of()
+        self.assertLess(volume_of("--gap", "0.5")["volume"], 0.9 * plain["volume"])
+        self.assertNotEqual(volume_of("--smoothing", "0")["area"], plain["area"])
+        for options in (("--finest", "1"), ("--edge-length", "1.5")):
+            self.assertLess(volume_of(*options)["vertices"], 0.6 * plain["vertices"])
+        self.assertNotEqual(volume_of("--metric", "voxels")["vertices"], plain["vertices"])
+        voxels = label_voxels(blobs={1: ((8, 8, 8), (6, 5, 5)), 2: ((20, 20, 9), (4, 3, 3))})
+        volume = self.map_file("parts.vti", label_image((voxels > 0).astype("u1")))
+        parts = self.rows(volume, "--labels", "1")[1]["component_features"]
+        self.assertEqual(len(parts), 2)
+        between = (parts[0]["volume"] + parts[1]["volume"]) / 2
+        for options in (("--keep", "largest"),
+                        ("--keep", "large", "--minimum-component-volume", between)):
+            self.assertEqual(self.rows(volume, "--labels", "1", *options)[1]["components"], 1)
+
+    def test_defaults_are_those_of_the_filter(self):
+        labels = vtkLabelsToSurfaces()
+        rows = [line.split("\t") for line in self.run_tool("--list-properties").stdout.splitlines()]
+        checked = 0
+        for _, name, _, text in rows:
+            getter = getattr(labels, "Get" + name, None)
+            if getter and re.fullmatch("[-0-9.e]+", text):
+                self.assertEqual(float(text), getter(), name)
+                checked += 1
+        self.assertGreater(checked, 6)
+
+    def test_what_excludes_what(self):
+        for option, value in (
+                ("--iso", "3"), ("--dark", None), ("--seeds", "a.txt"), ("--history", "h.csv"),
+                ("--levels-output", "l"), ("--snapshots", "s"), ("--edges", "e"),
+                ("--initial-surface", "a.stl"), ("--seed-position", "1,2,3"),
+                ("--attracting-points", "p"), ("--attracting-position", "1,2,3"),
+                ("--levels", "2"), ("--preview", None), ("--resume", None),
+                ("--time-limit", "3"), ("--tension", "3"), ("--no-snap", None),
+                ("--keep", "at-points"), ("--profile", None), ("--border", "replicate")):
+            with self.subTest(option):
+                arguments = [option] if value is None else [option, value]
+                self.refused(f"{option}( at-points)? and --labels exclude each other", "a.vti",
+                             "out/", "--labels", "1", *arguments, status=2)
+        for option in (("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--background", "1"),
+                       ("--format", "stl"), ("--label-names", "n")):
+            self.refused(f"{option[0]} needs --labels", "a.vti", "out.stl", *option, status=2)
+        for reason, arguments in (
+                ("no surface format", ["o/", "--format", "dwg"]),
+                ("not written in pieces", ["o/", "--format", "pvtp"]),
+                ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
+                ("no surface format", ["o.dwg"]), ("no file to write", []),
+                ("--merge makes one surface: give it a file", ["o/", "--merge"]),
+                ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
+            self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
+
+    def test_what_the_filter_refuses(self):
+        volume = self.map_file()
+        self.refused("map.vti: .*Gap", volume, self.path("o/"), "--labels", "1", "--gap", "-1")
+        self.refused("Smoothing", volume, self.path("o/"), "--labels", "1", "--smoothing", "-1")
+        self.assertFalse(os.path.exists(self.path("o")))
+        self.run_tool(volume, self.path("o/"), "--labels", "1")
+
+    def test_labels_that_are_lost_are_told(self):
+        voxels = label_voxels()
+        voxels[2, 2, 26] = 9
+        volume = self.map_file("dot.vti", label_image(voxels))
+        process = self.run_tool(volume, self.path("o/"), "--labels", "1,9", "--report",
+                                self.path("r.json"))
+        self.assertRegex(process.stderr, "warning: .*Label 9")
+        self.assertEqual(os.listdir(self.path("o")), ["label-1.vtp"])
+        report = json.loads(self.content("r.json"))
+        row = [row for row in report["labels"] if row["label"] == 9][0]
+        self.assertEqual((row["triangles"], row["files"], row["voxels"]), (0, [], 1))
+        self.assertIn("Label 9", report["warnings"][0])
+        self.refused("none of the labels has a surface", volume, self.path("p/"), "--labels", "9")
+        self.assertFalse(os.path.exists(self.path("p")))
+
+    @unittest.skipUnless(os.environ.get("VOLUMIC_MPIRUN"), "no mpirun")
+    def test_many_processes_are_refused(self):
+        process = subprocess.run(
+            [os.environ["VOLUMIC_MPIRUN"], "-n", "2", PROGRAM, self.map_file(), self.path("o/"),
+             "--labels", "1"], capture_output=True, text=True, check=False, timeout=100)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertIn("--labels works in one process", process.stderr)
+
+
+class RunTest(LabelsTest):
+    def test_an_isopotential_of_a_label_map_is_told(self):
+        volume = self.map_file()
+        for more in ((), ("--edge-length", "1.2")):
+            process = self.run_tool(volume, self.path("a.stl"), "--iso", "0.5", *more)
+            told = re.findall("warning: .*looks like a label map", process.stderr)
+            self.assertEqual(len(told), 1, process.stderr)
+        process = self.run_tool(volume, self.path("o/"), "--labels", "1")
+        self.assertNotIn("looks like", process.stderr)
+        process = self.run_tool(self.ball_file(), self.path("a.stl"), "--iso", ISO)
+        self.assertNotIn("looks like", process.stderr)
+
+    def test_progress_and_quiet(self):
+        volume = self.map_file()
+        process = self.run_tool(volume, self.path("o/"), "--labels", "all", "--progress")
+        self.assertRegex(process.stderr, r"(?m)^Making surfaces: +\d+ %")
+        self.assertRegex(process.stderr, "map.vti: 28 x 28 x 18 voxels, short, 4 labels\n")
+        self.assertRegex(process.stderr, r"volumic: 4 surfaces, \d+ vertices")
+        self.assertEqual(self.run_tool(volume, self.path("o/"), "--labels", "all", "-q").stderr, "")
+
+    def test_interrupt_keeps_what_is_finished(self):
+        z, y, x = np.mgrid[0:90, 0:90, 0:90]
+        voxels = 1 + (x // 15) + 6 * (y // 15) + 36 * (z // 15)
+        voxels[((x % 15 - 7) ** 2 + (y % 15 - 7) ** 2 + (z % 15 - 7) ** 2) > 50] = 0
+        volume = self.map_file("many.vti", make_image(voxels.astype("u1"), (1, 1, 1)))
+        command = [PROGRAM, volume, self.path("o/"), "--labels", "all", "--progress",
+                   "--threads", "1", "--finest", "-1", "--report", self.path("r.json")]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            for line in process.stderr:
+                if line.startswith("Making surfaces") and "Surfaces of" in line and "  0 %" \
+                        not in line:
+                    break
+            process.send_signal(signal.SIGINT)
+            started = time.monotonic()
+            rest = process.stderr.read()
+            self.assertEqual(process.wait(timeout=60), 3, rest)
+        self.assertLess(time.monotonic() - started, 30)
+        self.assertIn("unfinished (cancelled); what is finished was written", rest)
+        self.assertIn("there is no surface of Label ", rest)
+        report = json.loads(self.content("r.json"))
+        self.assertFalse(report["finished"])
+        self.assertEqual(len(report["labels"]), 216)
+        done = [row for row in report["labels"] if row["stop_reason"] != "cancelled"]
+        self.assertTrue(0 < len(done) < 216)
+        written = {name for row in report["labels"] for name in row["files"]}
+        self.assertEqual({self.path("o/") + name for name in os.listdir(self.path("o"))}, written)
+        self.assertLessEqual({row["files"][0] for row in done}, written)
+
+
+if __name__ == "__main__":
+    unittest.main()

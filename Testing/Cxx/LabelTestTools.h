@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelTestTools_h
+#define volumicLabelTestTools_h
+
+#include "Core/Labels/LabelBricks.h"
+#include "Core/Labels/LabelField.h"
+#include "Core/Labels/LabelMap.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+namespace volumic
+{
+/** A map with the object that objectAt(i, j, k) names. */
+inline LabelMap MakeLabelMap(const std::array<int, 3>& size, int objects,
+  const std::function<int(int, int, int)>& objectAt)
+{
+  LabelMap map;
+  map.Size = size;
+  map.NumberOfObjects = objects;
+  for (int k = 0; k < size[2]; ++k)
+  {
+    for (int j = 0; j < size[1]; ++j)
+    {
+      for (int i = 0; i < size[0]; ++i)
+      {
+        map.Voxels.push_back(static_cast<LabelMap::Number>(objectAt(i, j, k)));
+      }
+    }
+  }
+  return map;
+}
+
+/** Each voxel one of `objects` or none, by chance, but always the same. */
+inline LabelMap NoisyLabelMap(const std::array<int, 3>& size, int objects, unsigned seed)
+{
+  return MakeLabelMap(size, objects,
+    [&](int, int, int)
+    {
+      seed = seed * 1664525u + 1013904223u;
+      return static_cast<int>((seed >> 16) % (static_cast<unsigned>(objects) + 1));
+    });
+}
+
+/** 1 in a ball about the middle of a cube of n voxels. */
+inline LabelMap BallMap(int n, double radius)
+{
+  const double middle = 0.5 * (n - 1) + 0.1;
+  return MakeLabelMap({ n, n, n }, 1, [=](int i, int j, int k)
+    { return std::hypot(i - middle, j - middle, k - middle) < radius ? 1 : 0; });
+}
+
+inline float ValueAt(const LabelField& field, int i, int j, int k)
+{
+  return field.Values[static_cast<std::size_t>(field.Box.NumberOf(i, j, k))];
+}
+
+/** Calls visit(i, j, k, value) for each voxel of the field, also beyond the map. */
+template <typename Visitor>
+void ForVoxelsOf(const LabelField& field, Visitor&& visit)
+{
+  for (int k = field.Box.First[2]; k < field.Box.End[2]; ++k)
+  {
+    for (int j = field.Box.First[1]; j < field.Box.End[1]; ++j)
+    {
+      for (int i = field.Box.First[0]; i < field.Box.End[0]; ++i)
+      {
+        visit(i, j, k, ValueAt(field, i, j, k));
+      }
+    }
+  }
+}
+}
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/StandardThreads.h"
+#include "Core/Labels/BoundaryRows.h"
+#include "LabelTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+std::vector<int> ObjectsOf(const LabelBricks& bricks, int i, int j, int k)
+{
+  const LabelBricks::Range range = bricks.ObjectsIn(i, j, k);
+  return { range.begin(), range.end() };
+}
+}
+
+TEST(LabelBricks, KnowTheObjectsOfEachBrick)
+{
+  const LabelMap map = NoisyLabelMap({ 9, 10, 11 }, 3, 5);
+  StandardThreads threads(3);
+  const LabelBricks bricks(map, threads);
+  EXPECT_EQ(bricks.Size(), (std::array<int, 3>{ 3, 3, 3 }));
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        std::set<int> wanted;
+        for (int v = 0; v < 64; ++v)
+        {
+          wanted.insert(map.At(4 * i + v % 4, 4 * j + v / 4 % 4, 4 * k + v / 16));
+        }
+        EXPECT_EQ(ObjectsOf(bricks, i, j, k), std::vector<int>(wanted.begin(), wanted.end()));
+      }
+    }
+  }
+}
+
+TEST(LabelBricks, BricksThatEndOutsideHaveWhatIsNoObject)
+{
+  const LabelMap map = MakeLabelMap({ 8, 8, 9 }, 1, [](int, int, int) { return 1; });
+  const LabelBricks bricks(map, OnThisThread());
+  EXPECT_EQ(ObjectsOf(bricks, 0, 0, 0), (std::vector<int>{ 1 }));
+  EXPECT_EQ(ObjectsOf(bricks, 0, 0, 2), (std::vector<int>{ 0, 1 }));
+}
+
+TEST(LabelBricks, TellWhereAnObjectIsAndHowLarge)
+{
+  const LabelMap map = MakeLabelMap({ 20, 20, 20 }, 2,
+    [](int i, int j, int k) { return i >= 5 && i < 9 && j == 12 && k > 2 && k < 6 ? 2 : 0; });
+  const LabelBricks bricks(map, OnThisThread());
+  EXPECT_EQ(bricks.ExtentOf(2).Voxels, 12);
+  EXPECT_EQ(bricks.ExtentOf(2).Bricks, (VoxelBox{ { 1, 3, 0 }, { 3, 4, 2 } }));
+  EXPECT_EQ(bricks.ExtentOf(1).Voxels, 0);
+  EXPECT_TRUE(bricks.ExtentOf(1).Bricks.IsEmpty());
+  EXPECT_EQ(bricks.ExtentOf(0).Voxels, 20 * 20 * 20 - 12);
+}
+
+TEST(LabelBricks, AreContestedWhereThreeMeet)
+{
+  // Two halves of a slab that fills the map but for its upper part.
+  const auto slab = [](int i, int, int k) { return k >= 16 ? 0 : i < 16 ? 1 : 2; };
+  const LabelMap map = MakeLabelMap({ 48, 48, 48 }, 2,
+    [&](int i, int j, int k) { return slab(i - 8, j, k - 16); });
+  const LabelBricks bricks(map, OnThisThread());
+  EXPECT_TRUE(bricks.HasContested());
+  EXPECT_TRUE(bricks.IsContested(5, 6, 7));
+  EXPECT_TRUE(bricks.IsContested(6, 6, 9));
+  EXPECT_FALSE(bricks.IsContested(5, 6, 5)) << "only the two, and nothing outside near";
+  EXPECT_TRUE(bricks.IsContested(5, 6, 1)) << "the two, and the outside";
+  EXPECT_FALSE(bricks.IsContested(2, 6, 7)) << "one object, and what is none";
+  EXPECT_FALSE(LabelBricks(BallMap(32, 10.), OnThisThread()).HasContested());
+}
+
+TEST(BoundaryRows, AreWhatIsNearTheBoundaryAndNothingElse)
+{
+  const LabelMap map = BallMap(48, 18.);
+  const LabelBricks bricks(map, OnThisThread());
+  const BoundaryRows rows(bricks, 1);
+  std::vector<char> isThere(static_cast<std::size_t>(rows.Box().Count()), 0);
+  int count = 0;
+  rows.For(OnThisThread(),
+    [&](int i, int j, int k, int length)
+    {
+      for (int x = 0; x < length; ++x)
+      {
+        ++isThere[static_cast<std::size_t>(rows.Box().NumberOf(i + x, j, k))];
+        ++count;
+      }
+    });
+  EXPECT_LT(count, rows.Box().Count() * 9 / 10);
+  const double middle = 23.6;
+  int near = 0;
+  ForRowsOf(rows.Box(), rows.Box(),
+    [&](std::int64_t first, std::int64_t length)
+    {
+      const int row = static_cast<int>(first / rows.Box().Length(0));
+      const int j = rows.Box().First[1] + row % rows.Box().Length(1);
+      const int k = rows.Box().First[2] + row / rows.Box().Length(1);
+      for (int x = 0; x < length; ++x)
+      {
+        const char times = isThere[static_cast<std::size_t>(first + x)];
+        ASSERT_LE(times, 1) << "each once";
+        const double distance = std::abs(
+          std::hypot(rows.Box().First[0] + x - middle, j - middle, k - middle) - 18.);
+        near += distance < 4.;
+        ASSERT_TRUE(times == 1 || distance >= 4.);
+        ASSERT_TRUE(times == 0 || distance < 16.) << "two bricks and their diagonals at most";
+      }
+    });
+  EXPECT_GT(near, 10000);
+}

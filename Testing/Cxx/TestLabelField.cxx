@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Labels/BoundaryGaussian.h"
+#include "Core/Labels/LabelClaims.h"
+#include "Core/Labels/LabelHold.h"
+#include "LabelTestTools.h"
+#include "ThreadTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+LabelField FieldOf(const LabelMap& map, int object, double sigma = 2.,
+  Executor& executor = OnThisThread())
+{
+  LabelFieldOptions options;
+  options.Sigma = sigma;
+  return MakeLabelField(LabelBricks(map, executor), object, options, executor);
+}
+
+/** Voxel centres at which the field has the sign of the other side, or none. */
+int CountWrongSigns(const LabelMap& map, int object, const LabelField& field)
+{
+  int wrong = 0;
+  ForVoxelsOf(field, [&](int i, int j, int k, float value)
+    { wrong += (map.At(i, j, k) == object) != (value > 0.f) || value == 0.f; });
+  return wrong;
+}
+}
+
+TEST(BoundaryGaussian, IsTheSumOfItsWeights)
+{
+  LabelMap map = MakeLabelMap({ 24, 24, 24 }, 1,
+    [](int i, int j, int k) { return i > 7 && j > 9 && k > 11 && i < 17 ? 1 : 0; });
+  const LabelBricks bricks(map, OnThisThread());
+  const BoundaryRows rows(bricks, 1);
+  const std::array<double, 3> sigma = { 1., 1.5, 0.5 };
+  BoundaryGaussian gaussian(rows, sigma);
+  LargeVector<float> smooth(static_cast<std::size_t>(rows.Box().Count()));
+  gaussian.Smooth(
+    [&](int i, int j, int k, int count, float* values)
+    {
+      for (int x = 0; x < count; ++x)
+      {
+        values[x] = map.At(i + x, j, k) == 1 ? 1.f : 0.f;
+      }
+    },
+    smooth, OnThisThread());
+  const auto along = [](double s, int n) { return std::exp(-0.5 * n * n / (s * s)); };
+  int tested = 0;
+  rows.For(OnThisThread(),
+    [&](int i, int j, int k, int)
+    {
+      double sum = 0.;
+      double all = 0.;
+      for (int c = -2; c <= 2; ++c)
+      {
+        for (int b = -5; b <= 5; ++b)
+        {
+          for (int a = -3; a <= 3; ++a)
+          {
+            const double weight = along(1., a) * along(1.5, b) * along(0.5, c);
+            all += weight;
+            sum += map.At(i + a, j + b, k + c) == 1 ? weight : 0.;
+          }
+        }
+      }
+      ++tested;
+      ASSERT_NEAR(smooth[static_cast<std::size_t>(rows.Box().NumberOf(i, j, k))], sum / all, 1e-5);
+    });
+  EXPECT_GT(tested, 100);
+}
+
+TEST(LabelField, HasTheSignOfEachVoxelEvenInNoise)
+{
+  for (const double sigma : { 0., 0.5, 2., 6. })
+  {
+    const LabelMap map = NoisyLabelMap({ 17, 14, 12 }, 2, 11);
+    EXPECT_EQ(CountWrongSigns(map, 1, FieldOf(map, 1, sigma)), 0) << sigma;
+    EXPECT_EQ(CountWrongSigns(map, 2, FieldOf(map, 2, sigma)), 0) << sigma;
+  }
+}
+
+TEST(LabelField, KeepsWhatIsAVoxelThin)
+{
+  const auto sheetAndThread = [](int i, int j, int k)
+  { return (i == 10 && j > 3 && j < 18) || (j == 12 && k == 9 && i > 3 && i < 18) ? 1 : 0; };
+  const LabelMap map = MakeLabelMap({ 22, 22, 22 }, 1, sheetAndThread);
+  const LabelField field = FieldOf(map, 1);
+  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
+  EXPECT_GE(ValueAt(field, 10, 10, 10), 0.35f) << "far enough for triangles about it";
+  EXPECT_GE(ValueAt(field, 5, 12, 9), 0.35f);
+}
+
+TEST(LabelField, IsTheDistanceToASphere)
+{
+  const double radius = 14.;
+  const LabelMap map = BallMap(40, radius);
+  const LabelField field = FieldOf(map, 1);
+  double sum = 0.;
+  double most = 0.;
+  int count = 0;
+  ForVoxelsOf(field,
+    [&](int i, int j, int k, float value)
+    {
+      const double distance = radius - std::hypot(i - 19.6, j - 19.6, k - 19.6);
+      if (std::abs(distance) < 1.)
+      {
+        const double off = std::abs(value - distance);
+        sum += off;
+        most = std::max(most, off);
+        ++count;
+      }
+    });
+  ASSERT_GT(count, 3000);
+  EXPECT_LT(sum / count, 0.08);
+  EXPECT_LT(most, 0.6);
+}
+
+TEST(LabelField, IsInLengthsOfTheWorldWhereVoxelsAreLong)
+{
+  LabelMap map = MakeLabelMap({ 48, 48, 16 }, 1, [](int i, int j, int k)
+    { return std::hypot(i - 23.4, j - 23.7, 3. * (k - 7.6)) < 15. ? 1 : 0; });
+  map.Spacing = { 1., 1., 3. };
+  const LabelField field = FieldOf(map, 1, 6.);
+  double sum = 0.;
+  int count = 0;
+  ForVoxelsOf(field,
+    [&](int i, int j, int k, float value)
+    {
+      const double distance = 15. - std::hypot(i - 23.4, j - 23.7, 3. * (k - 7.6));
+      if (std::abs(distance) < 1.)
+      {
+        sum += std::abs(value - distance);
+        ++count;
+      }
+    });
+  ASSERT_GT(count, 500);
+  EXPECT_LT(sum / count, 0.2);
+  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
+}
+
+TEST(LabelField, OfTwoObjectsThatMeetIsTheSameButForTheSign)
+{
+  const auto wave = [](int i, int j, int k)
+  { return i < 20. + 3. * std::sin(0.3 * j) + 2. * std::cos(0.25 * k) ? 1 : 2; };
+  const LabelMap map = MakeLabelMap({ 40, 40, 40 }, 2, wave);
+  const LabelField one = FieldOf(map, 1);
+  const LabelField other = FieldOf(map, 2);
+  for (int k = 14; k < 26; ++k)
+  {
+    for (int j = 14; j < 26; ++j)
+    {
+      for (int i = 14; i < 26; ++i)
+      {
+        ASSERT_NEAR(ValueAt(one, i, j, k), -ValueAt(other, i, j, k), 0.02);
+      }
+    }
+  }
+}
+
+TEST(LabelField, ReachesBeyondTheMapWhereTheObjectDoes)
+{
+  const LabelMap map = MakeLabelMap({ 28, 28, 28 }, 1, [](int, int, int) { return 1; });
+  const LabelField field = FieldOf(map, 1);
+  EXPECT_LE(field.Box.First[0], -4);
+  EXPECT_GE(field.Box.End[0], 32);
+  EXPECT_GT(ValueAt(field, 0, 14, 14), 0.f);
+  EXPECT_LT(ValueAt(field, -1, 14, 14), 0.f);
+  // The boundary is where voxels end.
+  EXPECT_NEAR(ValueAt(field, 0, 14, 14), -ValueAt(field, -1, 14, 14), 0.05);
+}
+
+TEST(LabelField, WithoutSmoothingIsTheMembership)
+{
+  const LabelMap map = BallMap(20, 6.);
+  ForVoxelsOf(FieldOf(map, 1, 0.), [&](int i, int j, int k, float value)
+    { ASSERT_EQ(value, map.At(i, j, k) == 1 ? 0.5f : -0.5f); });
+}
+
+TEST(LabelField, IsTheSameBitsOnAnyThreads)
+{
+  const LabelMap map = NoisyLabelMap({ 33, 30, 29 }, 3, 2);
+  const LabelField alone = FieldOf(map, 2);
+  DelayedThreads threads(4, 1, 50, 3);
+  EXPECT_EQ(FieldOf(map, 2, 2., threads).Values, alone.Values);
+}
+
+TEST(LabelField, HoldsVoxelsFurther)
+{
+  const LabelMap map = BallMap(32, 11.3);
+  const LabelBricks bricks(map, OnThisThread());
+  const LabelFieldOptions options;
+  LabelField field = MakeLabelField(bricks, 1, options, OnThisThread());
+  int i = 16;
+  while (map.At(i + 1, 16, 16) == 1)
+  {
+    ++i;
+  }
+  ASSERT_LT(ValueAt(field, i, 16, 16), 0.85f);
+  HoldFurther(field, bricks, 1, options, { { VoxelBox::Of(map.Size).NumberOf(i, 16, 16), 0.9f } },
+    OnThisThread());
+  EXPECT_GE(ValueAt(field, i, 16, 16), 0.88f);
+  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
+}
+
+TEST(HoldToLabels, MeetsItsConstraintsAndLeavesTheRest)
+{
+  LabelField field;
+  field.Box = { { 0, 0, 0 }, { 30, 30, 30 } };
+  field.Values.assign(27000, 0.f);
+  ForVoxelsOf(field, [&](int i, int j, int k, float)
+    { field.Values[static_cast<std::size_t>(field.Box.NumberOf(i, j, k))] = 15.2f - i; });
+  const LabelField before = field;
+  std::vector<VoxelConstraint> constraints;
+  for (int n = 0; n < 20; ++n)
+  {
+    constraints.push_back({ field.Box.NumberOf(14 + n % 3, 10 + n % 7, 8 + n % 11),
+      n % 2 == 0 ? 1.f : -1.f, 0.2f });
+  }
+  HoldToLabels(field, { 1., 1., 1. }, constraints);
+  for (const VoxelConstraint& constraint : constraints)
+  {
+    EXPECT_GE(constraint.Side * field.Values[static_cast<std::size_t>(constraint.Place)], 0.18f);
+  }
+  EXPECT_EQ(ValueAt(field, 14, 24, 8), ValueAt(before, 14, 24, 8)) << "far from all of them";
+  // What is met already changes nothing.
+  LabelField again = before;
+  HoldToLabels(again, { 1., 1., 1. }, { { field.Box.NumberOf(3, 3, 3), 1.f, 0.2f } });
+  EXPECT_EQ(again.Values, before.Values);
+}
+
+TEST(LabelClaims, SettledFieldsAreNeverPositiveTogether)
+{
+  // Three sectors about a line, and a fourth object that is a voxel thin along it.
+  const auto sectors = [](int i, int j, int)
+  {
+    const double angle = std::atan2(j - 17.3, i - 16.6);
+    return i == 17 && j == 17 ? 4 : angle < -1. ? 1 : angle < 1.2 ? 2 : 3;
+  };
+  const LabelMap map = MakeLabelMap({ 34, 34, 20 }, 4, sectors);
+  const LabelBricks bricks(map, OnThisThread());
+  LabelClaims claims(bricks);
+  std::vector<LabelField> fields;
+  double before = -1.;
+  for (int object = 1; object <= 4; ++object)
+  {
+    fields.push_back(FieldOf(map, object));
+    claims.Add(object, fields.back());
+  }
+  const auto mostTogether = [&]
+  {
+    double most = -8.;
+    for (int k = 0; k < 20; ++k)
+    {
+      for (int v = 0; v < 34 * 34; ++v)
+      {
+        std::vector<float> values;
+        for (const LabelField& field : fields)
+        {
+          const std::array<int, 3> at = { v % 34, v / 34, k };
+          values.push_back(
+            field.Box.Contains(at) ? ValueAt(field, at[0], at[1], at[2]) : -LabelField::Far);
+        }
+        std::sort(values.begin(), values.end());
+        most = std::max<double>(most, values[2] + values[3]);
+      }
+    }
+    return most;
+  };
+  before = mostTogether();
+  EXPECT_GT(before, 0.1) << "there is something to settle";
+  for (int object = 1; object <= 4; ++object)
+  {
+    claims.Settle(object, fields[static_cast<std::size_t>(object - 1)]);
+    EXPECT_EQ(CountWrongSigns(map, object, fields[static_cast<std::size_t>(object - 1)]), 0);
+  }
+  EXPECT_LE(mostTogether(), 0.02);
+}

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelImages.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <gtest/gtest.h>
+
+using namespace volumic;
+
+namespace
+{
+/** What vtkVolumeToSurface warns of. */
+std::string WarningsOf(vtkVolumeToSurface* filter, vtkImageData* image)
+{
+  filter->SetInputData(image);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0) << "it is made all the same";
+  return warnings.Get();
+}
+}
+
+TEST(LabelHint, WhoGivesALabelMapToVolumeToSurfaceIsToldOnce)
+{
+  for (const int type : { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_FLOAT })
+  {
+    vtkNew<vtkVolumeToSurface> filter;
+    filter->SetIsoValue(0.5);
+    const std::string warnings =
+      WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type));
+    EXPECT_NE(warnings.find("array 'Labels' looks like a label map: 3 different integers"),
+      std::string::npos) << warnings;
+    EXPECT_NE(warnings.find("Labels to Surfaces"), std::string::npos) << warnings;
+    EXPECT_EQ(WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type)), "") << "once";
+  }
+}
+
+TEST(LabelHint, ScansAreNoLabelMaps)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetIsoValue(50.);
+  EXPECT_EQ(WarningsOf(filter, BallImage(30, 30, 30)), "");
+  EXPECT_EQ(WarningsOf(filter, RandomImage(20, 20, 20, VTK_UNSIGNED_CHAR)), "");
+  // Integers of 8 bits that change from voxel to voxel.
+  const auto soft = [](int i, int j, int k)
+  { return std::floor(100. - 5. * std::hypot(i - 14., j - 14., k - 14.)); };
+  EXPECT_EQ(WarningsOf(filter, LabelImageOf(28, 28, 28, soft, VTK_SIGNED_CHAR)), "");
+}

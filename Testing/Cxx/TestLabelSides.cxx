@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Labels/DrawBack.h"
+#include "Core/Labels/WrongVoxels.h"
+#include "LabelTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace volumic;
+
+TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
+{
+  LabelMap map = MakeLabelMap({ 32, 32, 32 }, 1, [](int i, int j, int k)
+    { return std::min({ i, j, k }) >= 8 && std::max({ i, j, k }) <= 20 ? 1 : 0; });
+  IndexedSurface cube;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const auto at = [corner](int axis) { return (corner >> axis & 1) != 0 ? 20.5 : 7.5; };
+    cube.Points.push_back({ at(0), at(1), at(2) });
+  }
+  cube.Triangles = { { 0, 2, 3 }, { 0, 3, 1 }, { 4, 5, 7 }, { 4, 7, 6 }, { 0, 1, 5 }, { 0, 5, 4 },
+    { 2, 6, 7 }, { 2, 7, 3 }, { 0, 4, 6 }, { 0, 6, 2 }, { 1, 3, 7 }, { 1, 7, 5 } };
+  EXPECT_TRUE(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube).empty());
+  const auto place = [&](int i, int j, int k)
+  { return static_cast<std::size_t>(VoxelBox::Of(map.Size).NumberOf(i, j, k)); };
+  map.Voxels[place(15, 15, 15)] = 0;
+  map.Voxels[place(15, 15, 27)] = 1;
+  EXPECT_EQ(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube),
+    (std::vector<std::int64_t>{ static_cast<std::int64_t>(place(15, 15, 15)),
+      static_cast<std::int64_t>(place(15, 15, 27)) }));
+  const std::vector<std::int64_t> all =
+    FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, IndexedSurface());
+  EXPECT_EQ(static_cast<std::int64_t>(all.size()),
+    LabelBricks(map, OnThisThread()).ExtentOf(1).Voxels)
+    << "without a surface all are outside";
+}
+
+TEST(FindWrongVoxels, RowsThroughCornersAndEdgesAreNoTrouble)
+{
+  // A surface whose corners are at the places of voxels.
+  const LabelMap map = BallMap(24, 6.);
+  IndexedSurface octahedron;
+  octahedron.Points = { { 4, 12, 12 }, { 20, 12, 12 }, { 12, 4, 12 }, { 12, 20, 12 },
+    { 12, 12, 4 }, { 12, 12, 20 } };
+  octahedron.Triangles = { { 1, 3, 5 }, { 3, 0, 5 }, { 0, 2, 5 }, { 2, 1, 5 }, { 3, 1, 4 },
+    { 0, 3, 4 }, { 2, 0, 4 }, { 1, 2, 4 } };
+  const std::vector<std::int64_t> wrong =
+    FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, octahedron);
+  std::vector<std::int64_t> wanted;
+  std::vector<std::int64_t> found;
+  for (int v = 0; v < 24 * 24 * 24; ++v)
+  {
+    const int i = v % 24;
+    const int j = v / 24 % 24;
+    const int k = v / 576;
+    const int way = std::abs(i - 12) + std::abs(j - 12) + std::abs(k - 12);
+    if (way != 8 && (way < 8) != (map.At(i, j, k) == 1)) // On it they may be on either side.
+    {
+      wanted.push_back(v);
+    }
+  }
+  for (const std::int64_t v : wrong)
+  {
+    const int way = static_cast<int>(std::abs(v % 24 - 12) + std::abs(v / 24 % 24 - 12) +
+      std::abs(v / 576 - 12));
+    if (way != 8)
+    {
+      found.push_back(v);
+    }
+  }
+  EXPECT_EQ(found, wanted);
+  EXPECT_GT(wanted.size(), 50u);
+}
+
+TEST(DrawBackWithin, LowersTheFieldWhereTheSurfaceLeavesItsInside)
+{
+  const LabelMap map = BallMap(32, 9.);
+  const LabelField original =
+    MakeLabelField(LabelBricks(map, OnThisThread()), 1, LabelFieldOptions(), OnThisThread());
+  const Point middle = { 15.6, 15.6, 15.6 };
+  LabelField field = original;
+  EXPECT_FALSE(
+    DrawBackWithin(original, DividedIcosahedron(middle, 8.2, 1.), 0.3f, field));
+  EXPECT_EQ(field.Values, original.Values);
+  IndexedSurface sphere = DividedIcosahedron(middle, 8.2, 1.);
+  for (Point& p : sphere.Points)
+  {
+    p[2] += p[2] > 23. ? 1.5 : 0.; // A bump that leaves the ball.
+  }
+  EXPECT_TRUE(DrawBackWithin(original, sphere, 0.3f, field));
+  EXPECT_NEAR(ValueAt(field, 15, 15, 25), ValueAt(original, 15, 15, 25) - 0.3f, 1e-5);
+  EXPECT_EQ(ValueAt(field, 15, 15, 7), ValueAt(original, 15, 15, 7)) << "the other side stays";
+}

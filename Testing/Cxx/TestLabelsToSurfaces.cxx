@@ -1,0 +1,451 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelImages.h"
+#include "SameOutputs.h"
+#include "SurfaceTestTools.h"
+#include "vtkLabelTable.h"
+#include "vtkLabelsToSurfaces.h"
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+vtkSmartPointer<vtkImageData> BallsImage(int type = VTK_SHORT)
+{
+  return LabelImageOf(34, 28, 28, TwoBalls, type);
+}
+
+using Names = std::vector<std::string>;
+
+/** Names and colours of labels 3 and 7. */
+void AddNames(vtkImageData* image)
+{
+  vtkNew<vtkIntArray> values;
+  values->SetName("LabelValues");
+  values->InsertNextValue(7);
+  values->InsertNextValue(3);
+  vtkNew<vtkStringArray> names;
+  names->SetName("LabelNames");
+  names->InsertNextValue("kidney");
+  names->InsertNextValue("liver");
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("LabelColors");
+  colors->SetNumberOfComponents(3);
+  colors->InsertNextTuple3(255, 0, 51);
+  colors->InsertNextTuple3(0, 102, 0);
+  image->GetFieldData()->AddArray(values);
+  image->GetFieldData()->AddArray(names);
+  image->GetFieldData()->AddArray(colors);
+}
+
+/** How many points of one surface are inside a ball. */
+int PointsInBall(vtkPolyData* surface, const double* centre, double radius)
+{
+  int count = 0;
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    count += std::sqrt(vtkMath::Distance2BetweenPoints(surface->GetPoint(i), centre)) < radius;
+  }
+  return count;
+}
+}
+
+TEST(LabelsToSurfaces, GivesEachLabelAClosedSmoothSurface)
+{
+  const auto filter = LabelSurfacesOf(BallsImage());
+  EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 3", "Label 7" }));
+  const double first[3] = { 11., 14., 14. };
+  const double second[3] = { 25., 14., 14. };
+  for (const unsigned int block : { 0u, 1u })
+  {
+    vtkPolyData* surface = BlockOf(filter, block);
+    ASSERT_GT(surface->GetNumberOfPoints(), 100);
+    EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+    EXPECT_EQ(FieldOf(surface, "Genus"), 0.);
+    EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 1.);
+    EXPECT_EQ(FieldOf(surface, "Label"), block == 0 ? 3. : 7.);
+    EXPECT_LE(FieldOf(surface, "WrongVoxels"), 3.);
+    EXPECT_EQ(StopReason(surface), "converged");
+    EXPECT_NEAR(EnclosedVolume(surface), FieldOf(surface, "LabelVoxels"),
+      0.01 * FieldOf(surface, "LabelVoxels"));
+    auto* labels = vtkIntArray::SafeDownCast(surface->GetCellData()->GetArray("Label"));
+    ASSERT_TRUE(labels);
+    EXPECT_EQ(labels->GetRange()[0], block == 0 ? 3. : 7.);
+    EXPECT_EQ(labels->GetRange()[1], block == 0 ? 3. : 7.);
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+    {
+      const double radius = std::sqrt(
+        vtkMath::Distance2BetweenPoints(surface->GetPoint(i), block == 0 ? first : second));
+      ASSERT_NEAR(radius, block == 0 ? 8. : 7., 0.75) << "no stairs";
+    }
+  }
+}
+
+TEST(LabelsToSurfaces, TakesIntegersOfAnyTypeAsPointsOrCells)
+{
+  const auto wanted = LabelSurfacesOf(BallsImage());
+  for (const int type : { VTK_UNSIGNED_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_SHORT, VTK_INT,
+         VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG, VTK_ID_TYPE, VTK_CHAR })
+  {
+    SCOPED_TRACE(type);
+    ExpectSameBlocks(LabelSurfacesOf(BallsImage(type))->GetOutput(), wanted->GetOutput());
+  }
+  const auto points = BallsImage();
+  vtkNew<vtkImageData> cells;
+  cells->SetDimensions(35, 29, 29);
+  cells->SetOrigin(-0.5, -0.5, -0.5);
+  cells->GetCellData()->SetScalars(points->GetPointData()->GetScalars());
+  ExpectSameBlocks(LabelSurfacesOf(cells)->GetOutput(), wanted->GetOutput());
+}
+
+TEST(LabelsToSurfaces, TakesRealNumbersThatAreIntegersWithAWarning)
+{
+  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    vtkNew<vtkLabelsToSurfaces> filter;
+    filter->SetInputData(BallsImage(type));
+    const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+    filter->Update();
+    EXPECT_TRUE(warnings.Has("array 'Labels' is of type")) << warnings.Get();
+    ExpectSameBlocks(filter->GetOutput(), LabelSurfacesOf(BallsImage())->GetOutput());
+  }
+}
+
+TEST(LabelsToSurfaces, AreTheSameBitsOnAnyNumberOfThreadsAndAgain)
+{
+  // Many that meet by threes, and large ones.
+  const auto cells = [](int i, int j, int k)
+  { return i < 20 ? 1 + i / 10 + 2 * (j / 14) + 4 * (k / 14) : j < 14 ? 20 : 0; };
+  const auto image = LabelImageOf(40, 28, 28, cells);
+  vtkNew<vtkLabelsToSurfaces> one;
+  one->SetInputData(image);
+  one->SetNumberOfThreads(1);
+  one->Update();
+  EXPECT_EQ(one->GetOutput()->GetNumberOfBlocks(), 9u);
+  for (const int threads : { 2, 3, 0 })
+  {
+    vtkNew<vtkLabelsToSurfaces> more;
+    more->SetInputData(image);
+    more->SetNumberOfThreads(threads);
+    more->Update();
+    ExpectSameBlocks(more->GetOutput(), one->GetOutput());
+  }
+}
+
+TEST(LabelsToSurfaces, MakesThoseThatAreChosen)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(BallsImage());
+  filter->AddLabel(7);
+  filter->AddLabel(7);
+  filter->Update();
+  EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 7" }));
+  EXPECT_EQ(filter->GetNumberOfLabels(), 2);
+  EXPECT_EQ(filter->GetLabel(1), 7);
+  EXPECT_EQ(filter->GetLabel(2), 0) << "BackgroundLabel";
+  filter->ClearLabels();
+  filter->AddLabel(0);
+  filter->Update();
+  ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 0" })) << "the background, asked for";
+  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.) << "a block with a cavity";
+  filter->ClearLabels();
+  filter->SetBackgroundLabel(3);
+  filter->Update();
+  EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 0", "Label 7" }));
+}
+
+TEST(LabelsToSurfaces, MergesLabelsToOneSurface)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(BallsImage());
+  filter->MergeOn();
+  filter->Update();
+  ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Labels 3, 7" }));
+  vtkPolyData* surface = BlockOf(filter, 0);
+  EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 1.);
+  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+  EXPECT_EQ(surface->GetFieldData()->GetArray("Label")->GetNumberOfTuples(), 2);
+  vtkDataArray* labels = surface->GetCellData()->GetArray("Label");
+  int rightOnes = 0;
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    double bounds[6];
+    surface->GetCellBounds(c, bounds);
+    const double label = labels->GetComponent(c, 0);
+    rightOnes += bounds[1] < 18. ? label == 3. : bounds[0] > 20. ? label == 7. : 1;
+  }
+  EXPECT_EQ(rightOnes, surface->GetNumberOfCells());
+}
+
+TEST(LabelsToSurfaces, DrawsNeighboursBackByAGap)
+{
+  const auto image = BallsImage();
+  image->SetSpacing(0.5, 0.5, 0.5);
+  const auto together = LabelSurfacesOf(image);
+  vtkNew<vtkLabelsToSurfaces> apart;
+  apart->SetInputData(image);
+  apart->SetGap(0.4);
+  apart->Update();
+  for (const unsigned int block : { 0u, 1u })
+  {
+    const double radius = block == 0 ? 4. : 3.5;
+    const double thinner =
+      4. / 3. * vtkMath::Pi() * (std::pow(radius, 3) - std::pow(radius - 0.2, 3));
+    EXPECT_NEAR(EnclosedVolume(BlockOf(together, block)) - EnclosedVolume(BlockOf(apart, block)),
+      thinner, 0.15 * thinner);
+    EXPECT_EQ(OpenOrNonManifoldEdges(BlockOf(apart, block)), 0);
+  }
+  const double second[3] = { 12.5, 7., 7. };
+  EXPECT_EQ(PointsInBall(BlockOf(apart, 0), second, 3.4), 0);
+}
+
+TEST(LabelsToSurfaces, HasNamesAndColoursOfTheImageAndItsOwn)
+{
+  const auto image = BallsImage();
+  AddNames(image);
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(image);
+  filter->SetLabelName(3, "Leber");
+  filter->SetLabelColor(3, 0.1, 0.2, 0.3);
+  filter->Update();
+  EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Leber", "kidney" }));
+  EXPECT_STREQ(filter->GetLabelName(3), "Leber");
+  EXPECT_STREQ(filter->GetLabelName(4), "");
+  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "LabelColor", 2), 0.3);
+  EXPECT_NEAR(FieldOf(BlockOf(filter, 1), "LabelColor", 2), 0.2, 1e-9) << "51 of 255";
+  auto* name = vtkStringArray::SafeDownCast(
+    BlockOf(filter, 1)->GetFieldData()->GetAbstractArray("LabelName"));
+  ASSERT_TRUE(name);
+  EXPECT_EQ(name->GetValue(0), "kidney");
+  filter->ClearLabelNames();
+  filter->ClearLabelColors();
+  filter->Update();
+  EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "liver", "kidney" }));
+  EXPECT_NEAR(FieldOf(BlockOf(filter, 0), "LabelColor", 1), 0.4, 1e-9);
+}
+
+TEST(LabelsToSurfaces, KeepsToOriginSpacingDirectionAndExtent)
+{
+  const auto plain = LabelSurfacesOf(BallsImage());
+  const auto image = BallsImage();
+  image->SetExtent(5, 38, -7, 20, 100, 127);
+  image->SetOrigin(10., 20., 30.);
+  image->SetSpacing(2., 2., 2.);
+  // A mirror among them.
+  const double direction[9] = { 0., 1., 0., 1., 0., 0., 0., 0., 1. };
+  image->SetDirectionMatrix(direction);
+  const auto moved = LabelSurfacesOf(image);
+  for (const unsigned int block : { 0u, 1u })
+  {
+    EXPECT_NEAR(EnclosedVolume(BlockOf(moved, block)), 8. * EnclosedVolume(BlockOf(plain, block)),
+      0.01 * EnclosedVolume(BlockOf(moved, block)))
+      << "outward in a mirror, too";
+    EXPECT_LE(FieldOf(BlockOf(moved, block), "WrongVoxels"), 3.);
+    double index[3];
+    double centre[3];
+    BlockOf(moved, block)->GetCenter(centre);
+    image->TransformPhysicalPointToContinuousIndex(centre, index);
+    EXPECT_NEAR(index[0], (block == 0 ? 11. : 25.) + 5., 0.3);
+    EXPECT_NEAR(index[1], 14. - 7., 0.3);
+    EXPECT_NEAR(index[2], 14. + 100., 0.3);
+  }
+}
+
+TEST(LabelsToSurfaces, CloseAtTheBorderOfTheImage)
+{
+  const auto filter =
+    LabelSurfacesOf(LabelImageOf(16, 16, 16, [](int i, int, int) { return i < 8 ? -5 : 2; }));
+  EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label -5", "Label 2" }));
+  for (const unsigned int block : { 0u, 1u })
+  {
+    EXPECT_EQ(OpenOrNonManifoldEdges(BlockOf(filter, block)), 0);
+    EXPECT_NEAR(EnclosedVolume(BlockOf(filter, block)), 8 * 16 * 16, 0.03 * 8 * 16 * 16)
+      << "to where voxels end";
+  }
+}
+
+TEST(LabelsToSurfaces, TrianglesAreAsLargeAsAskedFor)
+{
+  const auto image = BallsImage();
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(image);
+  filter->Update();
+  const vtkIdType atLevel0 = BlockOf(filter, 0)->GetNumberOfCells();
+  filter->SetFinestLevel(-1);
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "Level"), -1.);
+  EXPECT_GT(BlockOf(filter, 0)->GetNumberOfCells(), 2.2 * atLevel0);
+  filter->SetFinestLevel(1);
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "Level"), 1.);
+  EXPECT_LT(BlockOf(filter, 0)->GetNumberOfCells(), 0.6 * atLevel0);
+  EXPECT_EQ(OpenOrNonManifoldEdges(BlockOf(filter, 0)), 0);
+  filter->SetFinestLevel(0);
+  filter->SetEdgeLength(2.5);
+  filter->Update();
+  vtkPolyData* surface = BlockOf(filter, 0);
+  double sum = 0.;
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    surface->GetCellPoints(c, size, ids);
+    double p[3];
+    double q[3];
+    surface->GetPoint(ids[0], p);
+    surface->GetPoint(ids[1], q);
+    sum += std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
+  }
+  EXPECT_NEAR(sum / static_cast<double>(surface->GetNumberOfCells()), 2.5, 0.3);
+}
+
+TEST(LabelsToSurfaces, KeepComponentsThatAreLarge)
+{
+  const auto islands = [](int i, int j, int k)
+  {
+    return std::hypot(i - 12., j - 12., k - 12.) < 8. || std::hypot(i - 26., j - 12., k - 12.) < 4.
+      ? 1
+      : 0;
+  };
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(LabelImageOf(34, 24, 24, islands));
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.);
+  filter->SetKeepComponents(1);
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 1.);
+  EXPECT_GT(FieldOf(BlockOf(filter, 0), "WrongVoxels"), 200.) << "those of what was not kept";
+  filter->SetKeepComponents(3);
+  filter->SetMinimumComponentVolume(100.);
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.);
+}
+
+TEST(LabelsToSurfaces, SmoothingRemovesStairsButNoVoxels)
+{
+  const auto image = BallsImage();
+  const auto roughness = [&](double smoothing)
+  {
+    vtkNew<vtkLabelsToSurfaces> filter;
+    filter->SetInputData(image);
+    filter->SetSmoothing(smoothing);
+    filter->Update();
+    vtkPolyData* surface = BlockOf(filter, 0);
+    const double centre[3] = { 11., 14., 14. };
+    double sum = 0.;
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+    {
+      double* p = surface->GetPoint(i);
+      double outward[3];
+      vtkMath::Subtract(p, centre, outward);
+      vtkMath::Normalize(outward);
+      sum += 1. - vtkMath::Dot(outward, surface->GetPointData()->GetNormals()->GetTuple(i));
+    }
+    EXPECT_LE(FieldOf(surface, "WrongVoxels"), smoothing > 0. ? 3. : 40.);
+    return sum / static_cast<double>(surface->GetNumberOfPoints());
+  };
+  EXPECT_LT(roughness(2.), 0.25 * roughness(0.));
+}
+
+TEST(LabelsToSurfaces, TellsProgressAndCanBeStopped)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(BallsImage());
+  filter->SetNumberOfThreads(1);
+  ProgressListener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
+  EXPECT_EQ(listener.Shares.back(), 1.);
+  const vtkIdType all = BlockOf(filter, 0)->GetNumberOfCells();
+
+  listener.StopAt = 0.;
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  for (const unsigned int block : { 0u, 1u })
+  {
+    EXPECT_EQ(StopReason(BlockOf(filter, block)), "cancelled");
+    EXPECT_TRUE(BlockOf(filter, block)->GetCellData()->HasArray("Label"));
+  }
+  listener.StopAt = 2.;
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(BlockOf(filter, 0)->GetNumberOfCells(), all) << "works again";
+}
+
+TEST(LabelsToSurfaces, PrintsAllThatIsSet)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->AddLabel(4);
+  filter->SetGap(0.25);
+  filter->SetNumberOfThreads(-3);
+  filter->SetScratchDirectory("/scratch");
+  std::ostringstream text;
+  filter->Print(text);
+  for (const char* part : { "Labels: 4\n", "BackgroundLabel: 0", "Merge: 0", "Smoothing: 2",
+         "Gap: 0.25", "Metric: 1", "EdgeLength: 0", "FinestLevel: 0", "KeepComponents: 0",
+         "MinimumComponentVolume: 0", "NumberOfThreads: 0", "MemoryLimit: 0",
+         "ScratchDirectory: /scratch" })
+  {
+    EXPECT_NE(text.str().find(part), std::string::npos) << part;
+  }
+}
+
+TEST(LabelTable, ListsTheLabelsOfAnImage)
+{
+  const auto image = BallsImage();
+  AddNames(image);
+  image->GetFieldData()->RemoveArray("LabelColors");
+  vtkNew<vtkLabelTable> table;
+  table->SetInputData(image);
+  table->Update();
+  vtkTable* labels = table->GetOutput();
+  ASSERT_EQ(labels->GetNumberOfRows(), 3);
+  EXPECT_EQ(labels->GetValueByName(0, "Label").ToInt(), 0);
+  EXPECT_EQ(labels->GetValueByName(0, "Name").ToString(), "Label 0");
+  EXPECT_EQ(labels->GetValueByName(2, "Label").ToInt(), 7);
+  EXPECT_EQ(labels->GetValueByName(2, "Name").ToString(), "kidney");
+  const double sum = labels->GetValueByName(0, "Voxels").ToDouble() +
+    labels->GetValueByName(1, "Voxels").ToDouble() + labels->GetValueByName(2, "Voxels").ToDouble();
+  EXPECT_EQ(sum, 34. * 28. * 28.);
+  auto* colors = vtkDoubleArray::SafeDownCast(labels->GetColumnByName("Color"));
+  ASSERT_TRUE(colors);
+  EXPECT_EQ(colors->GetNumberOfComponents(), 3);
+  EXPECT_NE(colors->GetComponent(1, 0), colors->GetComponent(2, 0)) << "a palette";
+}
+
+TEST(LabelTable, RefusesWhatIsNoLabelMap)
+{
+  vtkNew<vtkLabelTable> table;
+  table->SetInputData(RandomImage(30, 30, 30));
+  const MessagesOf errors(table);
+  table->Update();
+  EXPECT_TRUE(errors.Has("labels must be integers")) << errors.Get();
+  EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 0);
+  table->SetInputData(BallsImage());
+  table->Update();
+  EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 3);
+}

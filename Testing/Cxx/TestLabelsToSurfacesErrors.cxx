@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelImages.h"
+#include "SurfaceTestTools.h"
+#include "vtkLabelsToSurfaces.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** A filter that would work: each test spoils one thing, expects to be told, and mends it. */
+class LabelsToSurfacesErrors : public ::testing::Test
+{
+protected:
+  void SetUp() override { this->Filter->SetInputData(Balls()); }
+  void TearDown() override
+  {
+    this->Filter->SetInputData(Balls());
+    this->Filter->ClearLabels();
+    this->Filter->SetBackgroundLabel(0);
+    this->Filter->SetSmoothing(2.);
+    this->Filter->SetGap(0.);
+    this->Filter->SetMetric(1);
+    this->Filter->SetEdgeLength(0.);
+    this->Filter->SetFinestLevel(0);
+    this->Filter->SetKeepComponents(0);
+    this->Filter->SetMinimumComponentVolume(0.);
+    this->Filter->SetMemoryLimit(0);
+    this->Filter->Update();
+    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
+    ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u) << "works again";
+    EXPECT_GT(BlockOf(this->Filter, 1)->GetNumberOfCells(), 100);
+  }
+
+  static vtkSmartPointer<vtkImageData> Balls() { return LabelImageOf(34, 28, 28, TwoBalls); }
+
+  void ExpectError(const std::vector<std::string>& parts)
+  {
+    MessagesOf errors(this->Filter);
+    this->Filter->Update();
+    for (const std::string& part : parts)
+    {
+      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
+    }
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
+    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UserError);
+  }
+
+  vtkNew<vtkLabelsToSurfaces> Filter;
+};
+}
+
+TEST_F(LabelsToSurfacesErrors, LabelsThatAreNotThereAreNamedWithThoseThatAre)
+{
+  this->Filter->AddLabel(3);
+  this->Filter->AddLabel(4);
+  this->ExpectError({ "Labels", "'Labels'", "no label 4", "0, 3, 7" });
+}
+
+TEST_F(LabelsToSurfacesErrors, AnImageOfBackgroundAlone)
+{
+  this->Filter->SetInputData(LabelImageOf(9, 9, 9, [](int, int, int) { return 0; }));
+  this->ExpectError({ "Input port 0", "no label but Background Label, 0" });
+}
+
+TEST_F(LabelsToSurfacesErrors, ValuesThatAreNoIntegers)
+{
+  const auto image = LabelImageOf(9, 9, 9, [](int i, int, int) { return 0.5 * i; }, VTK_DOUBLE);
+  this->Filter->SetInputData(image);
+  this->ExpectError({ "Input port 0", "'Labels' has the value 0.5", "integers",
+    "Volume to Surface" });
+  image->GetPointData()->GetScalars()->SetComponent(0, 0, std::nan(""));
+  image->Modified();
+  this->ExpectError({ "'Labels' has the value nan" });
+}
+
+TEST_F(LabelsToSurfacesErrors, IntegersThatAreTooLarge)
+{
+  this->Filter->SetInputData(LabelImageOf(
+    9, 9, 9, [](int i, int, int) { return i > 4 ? 5e9 : 0.; }, VTK_LONG_LONG));
+  this->ExpectError({ "'Labels' has the value 5000000000", "32 bits" });
+}
+
+TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
+{
+  this->Filter->SetInputData(
+    LabelImageOf(17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
+  this->ExpectError({ "4913 different values", "4096", "no label map", "Volume to Surface" });
+  // Some of them can be chosen.
+  this->Filter->AddLabel(100);
+  this->Filter->Update();
+  EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
+}
+
+TEST_F(LabelsToSurfacesErrors, AnImageOfOneSlice)
+{
+  this->Filter->SetInputData(LabelImageOf(9, 9, 1, [](int i, int, int) { return i / 4; }));
+  this->ExpectError({ "Input port 0", "9 x 9 x 1", "at least 2" });
+}
+
+TEST_F(LabelsToSurfacesErrors, SeveralComponents)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(9, 9, 9);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  this->Filter->SetInputData(image);
+  this->ExpectError({ "Input port 0", "components" });
+}
+
+TEST_F(LabelsToSurfacesErrors, DataThatAreNoImage)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  this->Filter->SetInputDataObject(grid);
+  this->ExpectError({ "Input port 0", "vtkUnstructuredGrid", "Resample To Image" });
+}
+
+TEST_F(LabelsToSurfacesErrors, AnArrayThatIsNotThere)
+{
+  this->Filter->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "segmentation");
+  this->ExpectError({ "Input port 0", "'segmentation'", "'Labels'" });
+  this->Filter->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Labels");
+}
+
+TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
+{
+  this->Filter->SetSmoothing(-1.);
+  this->ExpectError({ "Smoothing is -1" });
+  this->Filter->SetSmoothing(11.);
+  this->ExpectError({ "Smoothing is 11", "at most 10" });
+  this->Filter->SetSmoothing(std::nan(""));
+  this->ExpectError({ "Smoothing is nan" });
+  this->Filter->SetSmoothing(2.);
+  this->Filter->SetGap(-0.5);
+  this->ExpectError({ "Gap is -0.5" });
+  this->Filter->SetGap(0.);
+  this->Filter->SetMetric(2);
+  this->ExpectError({ "Metric is 2" });
+  this->Filter->SetMetric(0);
+  this->Filter->SetEdgeLength(-2.);
+  this->ExpectError({ "Edge Length is -2" });
+  this->Filter->SetEdgeLength(0.);
+  this->Filter->SetFinestLevel(-2);
+  this->ExpectError({ "Finest Level is -2" });
+  this->Filter->SetFinestLevel(0);
+  this->Filter->SetKeepComponents(2);
+  this->ExpectError({ "Keep Components is 2" });
+  this->Filter->SetKeepComponents(0);
+  this->Filter->SetMinimumComponentVolume(std::numeric_limits<double>::infinity());
+  this->ExpectError({ "Minimum Component Volume is inf" });
+  this->Filter->SetMinimumComponentVolume(0.);
+  this->Filter->SetMemoryLimit(-1);
+  this->ExpectError({ "Memory Limit is -1" });
+}
+
+TEST_F(LabelsToSurfacesErrors, NamesThatAreNotAsManyAsLabels)
+{
+  const auto image = Balls();
+  vtkNew<vtkIntArray> values;
+  values->SetName("LabelValues");
+  values->InsertNextValue(3);
+  vtkNew<vtkStringArray> names;
+  names->SetName("LabelNames");
+  image->GetFieldData()->AddArray(values);
+  image->GetFieldData()->AddArray(names);
+  this->Filter->SetInputData(image);
+  this->ExpectError({ "Input port 0", "'LabelNames' has 0 entries", "'LabelValues' has 1" });
+  names->InsertNextValue("liver");
+  vtkNew<vtkDoubleArray> colors;
+  colors->SetName("LabelColors");
+  colors->InsertNextValue(1.);
+  image->GetFieldData()->AddArray(colors);
+  image->Modified();
+  this->ExpectError({ "'LabelColors' has 1 components", "3" });
+}
+
+TEST_F(LabelsToSurfacesErrors, LabelsTooSmallForTrianglesAreNamedAndTheOthersMade)
+{
+  const auto speck = [](int i, int j, int k)
+  { return i == 30 && j == 3 && k == 3 ? 9. : TwoBalls(i, j, k); };
+  this->Filter->SetInputData(LabelImageOf(34, 28, 28, speck));
+  this->Filter->SetFinestLevel(2);
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  this->Filter->Update();
+  EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
+  ASSERT_EQ(BlockNames(this->Filter->GetOutput()),
+    (std::vector<std::string>{ "Label 3", "Label 7", "Label 9" }));
+  EXPECT_GT(BlockOf(this->Filter, 0)->GetNumberOfCells(), 20);
+  EXPECT_EQ(BlockOf(this->Filter, 2)->GetNumberOfCells(), 0);
+  EXPECT_EQ(StopReason(BlockOf(this->Filter, 2)), "vanished");
+  EXPECT_EQ(FieldOf(BlockOf(this->Filter, 2), "WrongVoxels"), 1.);
+  EXPECT_TRUE(warnings.Has("No surface is left of Label 9")) << warnings.Get();
+}

@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "LabelShapes.h"
+
+#include "SceneShapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace volumic
+{
+namespace support
+{
+namespace
+{
+
+using Vector = std::array<double, 3>;
+using Implicit = std::function<double(const Vector&)>;
+
+constexpr double Pi = 3.14159265358979323846;
+/** Of the smallest extent, as in SceneShape. */
+constexpr double ReferenceSize = 64.0;
+
+/** A label in reference units, around 0. */
+struct ReferenceShape
+{
+  int Label;
+  Implicit Distance;
+  double Volume;        ///< 0: to be measured
+  bool IsSmooth = true; ///< sharp ones have no distance for the judge
+};
+
+double Length(const Vector& p)
+{
+  return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+}
+
+Implicit Ball(const Vector& centre, double radius)
+{
+  return [centre, radius](const Vector& p)
+  { return Length({ p[0] - centre[0], p[1] - centre[1], p[2] - centre[2] }) - radius; };
+}
+
+double BallVolume(double radius)
+{
+  return 4.0 / 3.0 * Pi * radius * radius * radius;
+}
+
+/** The larger one, rounded where both are about 0 with a radius of about .7 `rounding`. */
+double RoundedMaximum(double a, double b, double rounding)
+{
+  const double h = std::max(rounding - std::abs(a - b), 0.0) / rounding;
+  return std::max(a, b) + 0.25 * h * h * rounding;
+}
+
+double GyroidInBall(const Vector& p)
+{
+  const double turns = 2.0 * Pi / 27.0;
+  const double x = turns * (p[0] + 3.1), y = turns * (p[1] - 1.7), z = turns * (p[2] + 0.9);
+  const double sheet = std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) +
+    std::sin(z) * std::cos(x);
+  const Vector slope = { std::cos(x) * std::cos(y) - std::sin(z) * std::sin(x),
+    std::cos(y) * std::cos(z) - std::sin(x) * std::sin(y),
+    std::cos(z) * std::cos(x) - std::sin(y) * std::sin(z) };
+  const double distance = sheet / std::hypot(Length(slope), 0.3) / turns;
+  return RoundedMaximum(distance, Length(p) - 27.0, 8.0);
+}
+
+/** Between two half planes that leave the z axis at these angles, less than half a turn apart. */
+Implicit Sector(double from, double to)
+{
+  return [from, to](const Vector& p)
+  {
+    return std::max(std::sin(from) * p[0] - std::cos(from) * p[1],
+      std::cos(to) * p[1] - std::sin(to) * p[0]);
+  };
+}
+
+std::vector<ReferenceShape> CutBallShapes()
+{
+  std::vector<ReferenceShape> shapes;
+  for (int s = 0; s < 3; ++s)
+  {
+    const double from = 0.4 + 2.0 * Pi / 3.0 * s;
+    const Implicit sector = Sector(from, from + 2.0 * Pi / 3.0);
+    shapes.push_back({ s + 1,
+      [sector](const Vector& p) { return std::max(sector(p), Length(p) - 24.3); }, 0.0, false });
+  }
+  // Last: it covers the others.
+  shapes.push_back({ 4, Ball({ 0.3, 0.2, -0.4 }, 10.2), BallVolume(10.2) });
+  return shapes;
+}
+
+/** `voxel`: in reference units. */
+std::vector<ReferenceShape> ShapesOf(LabelShapeKind kind, double voxel)
+{
+  const double outer = 25.3, wall = 1.6 * voxel;
+  const Vector axis = { 0.3 / 0.9981, 0.5 / 0.9981, 0.81 / 0.9981 };
+  const auto along = [&axis](double t) { return Vector{ axis[0] * t, axis[1] * t, axis[2] * t }; };
+  switch (kind)
+  {
+    case LabelShapeKind::Sphere:
+      return { { 1, MakeSceneShape(SceneKind::Sphere, 0.0).Distance, BallVolume(20.0) } };
+    case LabelShapeKind::Torus:
+      return { { 1, MakeSceneShape(SceneKind::Torus, 0.0).Distance,
+        2.0 * Pi * Pi * 17.0 * 7.5 * 7.5 } };
+    case LabelShapeKind::Gyroid:
+      return { { 1, GyroidInBall, 0.0 } };
+    case LabelShapeKind::ThinShell:
+      return { { 1,
+        [=, middle = Ball({ 0.3, 0.2, -0.4 }, outer - 0.5 * wall)](const Vector& p)
+        { return std::abs(middle(p)) - 0.5 * wall; },
+        BallVolume(outer) - BallVolume(outer - wall) } };
+    case LabelShapeKind::TouchingBalls:
+    {
+      // As far apart as both radii together, but for the rounding of the axis.
+      const double length = Length(axis);
+      return { { 1, Ball(along(-12.0 / length), 14.1), BallVolume(14.1) },
+        { 2, Ball(along(13.0 / length), 10.9), BallVolume(10.9) } };
+    }
+    case LabelShapeKind::CutBall:
+      return CutBallShapes();
+  }
+  throw std::invalid_argument("Digitise: unknown kind of shape");
+}
+
+/** By counting points of a grid .4 apart. */
+double MeasuredVolume(const Implicit& distance)
+{
+  const int count = 160;
+  const double step = ReferenceSize / count;
+  std::size_t inside = 0;
+  for (int k = 0; k < count; ++k)
+  {
+    for (int j = 0; j < count; ++j)
+    {
+      for (int i = 0; i < count; ++i)
+      {
+        const auto at = [step](int n) { return (n + 0.5) * step - 0.5 * ReferenceSize; };
+        inside += distance({ at(i), at(j), at(k) }) < 0.0;
+      }
+    }
+  }
+  return static_cast<double>(inside) * step * step * step;
+}
+
+/** Gives `label` to the voxels with negative `value`, within a ball of `reach`; units: voxels. */
+void Paint(LabelMap& map, int label, const Vector& centre, double reach, const Implicit& value)
+{
+  std::array<int, 3> from, to;
+  for (int a = 0; a < 3; ++a)
+  {
+    from[a] = std::max(0, static_cast<int>(std::floor(centre[a] - reach)));
+    to[a] = std::min(map.Size[a] - 1, static_cast<int>(std::ceil(centre[a] + reach)));
+  }
+  for (int k = from[2]; k <= to[2]; ++k)
+  {
+    for (int j = from[1]; j <= to[1]; ++j)
+    {
+      for (int i = from[0]; i <= to[0]; ++i)
+      {
+        if (value({ i - centre[0], j - centre[1], k - centre[2] }) < 0.0)
+        {
+          map.Values[(static_cast<std::size_t>(k) * map.Size[1] + j) * map.Size[0] + i] =
+            static_cast<std::int16_t>(label);
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+double LabelMap::ShortestSpacing() const
+{
+  return *std::min_element(this->Spacing.begin(), this->Spacing.end());
+}
+
+std::vector<LabelShapeKind> AllLabelShapeKinds()
+{
+  return { LabelShapeKind::Sphere, LabelShapeKind::Torus, LabelShapeKind::Gyroid,
+    LabelShapeKind::ThinShell, LabelShapeKind::TouchingBalls, LabelShapeKind::CutBall };
+}
+
+std::string LabelShapeName(LabelShapeKind kind)
+{
+  switch (kind)
+  {
+    case LabelShapeKind::Sphere:
+      return "Sphere";
+    case LabelShapeKind::Torus:
+      return "Torus";
+    case LabelShapeKind::Gyroid:
+      return "Gyroid";
+    case LabelShapeKind::ThinShell:
+      return "ThinShell";
+    case LabelShapeKind::TouchingBalls:
+      return "TouchingBalls";
+    case LabelShapeKind::CutBall:
+      return "CutBall";
+  }
+  throw std::invalid_argument("LabelShapeName: unknown kind of shape");
+}
+
+//------------------------------------------------------------------------------
+DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
+{
+  if (size < 32 || !(stretch >= 1.0))
+  {
+    throw std::invalid_argument("Digitise: at least 32 voxels are needed, and a stretch of 1");
+  }
+  DigitisedShapes result;
+  result.Name = LabelShapeName(kind);
+  LabelMap& map = result.Map;
+  map.Size = { size, size, static_cast<int>(std::ceil(size / stretch)) };
+  map.Spacing = { 1.0, 1.0, stretch };
+  map.Values.resize(static_cast<std::size_t>(size) * size * map.Size[2]);
+  Vector centre;
+  for (int a = 0; a < 3; ++a)
+  {
+    centre[a] = 0.5 * (map.Size[a] - 1) * map.Spacing[a];
+  }
+  const double unit = size / ReferenceSize;
+  for (const ReferenceShape& shape : ShapesOf(kind, 1.0 / unit))
+  {
+    const Implicit distance = [=](const Vector& p)
+    {
+      return unit *
+        shape.Distance(
+          { (p[0] - centre[0]) / unit, (p[1] - centre[1]) / unit, (p[2] - centre[2]) / unit });
+    };
+    std::size_t voxel = 0;
+    for (int k = 0; k < map.Size[2]; ++k)
+    {
+      for (int j = 0; j < size; ++j)
+      {
+        for (int i = 0; i < size; ++i, ++voxel)
+        {
+          if (distance({ 1.0 * i, 1.0 * j, stretch * k }) < 0.0)
+          {
+            map.Values[voxel] = static_cast<std::int16_t>(shape.Label);
+          }
+        }
+      }
+    }
+    LabelShape truth;
+    truth.Label = shape.Label;
+    if (shape.IsSmooth)
+    {
+      truth.Distance = distance;
+      truth.Volume = unit * unit * unit *
+        (shape.Volume > 0.0 ? shape.Volume : MeasuredVolume(shape.Distance));
+    }
+    result.Shapes.push_back(truth);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+LabelMap MakeBodyMap(const std::array<int, 3>& size, int labels)
+{
+  LabelMap map;
+  map.Size = size;
+  map.Spacing = { 1.5, 1.5, 1.5 };
+  map.Values.resize(static_cast<std::size_t>(size[0]) * size[1] * size[2]);
+  std::mt19937 generator(17);
+  const auto random = [&generator](double from, double to)
+  { return from + (to - from) * (generator() / 4294967296.0); };
+  const double shortest = *std::min_element(size.begin(), size.end());
+  for (int label = 1; label <= labels; ++label)
+  {
+    Vector centre;
+    for (int a = 0; a < 3; ++a)
+    {
+      centre[a] = random(0.25, 0.75) * size[a];
+    }
+    // Many small ones, a few large ones.
+    const double radius = shortest * 0.02 * std::pow(7.0, std::pow(random(0.0, 1.0), 2.0));
+    if (label % 3 != 0)
+    {
+      const Vector half = { radius * random(0.6, 1.4), radius * random(0.6, 1.4),
+        radius * random(0.6, 1.4) };
+      Paint(map, label, centre, 1.5 * radius,
+        [half](const Vector& p)
+        { return Length({ p[0] / half[0], p[1] / half[1], p[2] / half[2] }) - 1.0; });
+      continue;
+    }
+    // A vessel or a rib: a ring of which one side is left out.
+    const double thin = std::max(1.6, 0.25 * radius), turn = random(0.0, 2.0 * Pi);
+    Paint(map, label, centre, 3.0 * radius + thin,
+      [=](const Vector& p)
+      {
+        const double u = std::cos(turn) * p[0] + std::sin(turn) * p[1];
+        const double v = std::cos(turn) * p[1] - std::sin(turn) * p[0];
+        const double ring = std::hypot(std::hypot(u, p[2]) - 3.0 * radius, v) - thin;
+        return std::max(ring, u - 1.5 * radius);
+      });
+  }
+  return map;
+}
+
+} // namespace support
+} // namespace volumic
