@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelBlocks.h"
 
+#include "Core/Common/Communicator.h"
 #include "SurfaceOutput.h"
 
 #include <vtkCellData.h>
@@ -128,5 +129,24 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
       ": too small or too thin for the triangles. With Finest Level -1 these are smaller.";
   }
   return warning;
+}
+
+void ShareBlocks(Communicator& ranks, vtkMultiBlockDataSet* output)
+{
+  MessageWriter names;
+  const unsigned int count = ranks.Rank() == 0 ? output->GetNumberOfBlocks() : 0;
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    names.AddArray(std::string(output->GetMetaData(i)->Get(vtkCompositeDataSet::NAME())));
+  }
+  const Message told = ranks.Broadcast(names.Take());
+  MessageReader reader(told);
+  for (unsigned int i = 0; ranks.Rank() != 0 && !reader.IsAtEnd(); ++i)
+  {
+    std::string name;
+    reader.TakeArray(name);
+    output->SetBlock(i, vtkNew<vtkPolyData>());
+    output->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+  }
 }
 }

@@ -14,6 +14,8 @@ class vtkMultiBlockDataSet;
 
 namespace volumic
 {
+class Communicator;
+
 /** Of which labels there are surfaces, and what they are called. */
 struct LabelChoice
 {
@@ -28,6 +30,12 @@ struct LabelChoice
  */
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const std::vector<LabelSurface>& surfaces, vtkMultiBlockDataSet* output);
+
+/**
+ * The first rank has the surfaces. Gives the others its blocks, empty: writers and readers of
+ * ParaView wait for each other where ranks have different ones.
+ */
+void ShareBlocks(Communicator& ranks, vtkMultiBlockDataSet* output);
 }
 
 #endif

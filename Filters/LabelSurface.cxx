@@ -151,6 +151,17 @@ LabelSurfaceMaker::LabelSurfaceMaker(
 {
   const std::array<double, 3>& spacing = bricks.Map().Spacing;
   this->Options.Sigma = settings.Smoothing * *std::max_element(spacing.begin(), spacing.end());
+  if (settings.EdgeLength != 0.0)
+  {
+    // Fields get as much room as their levels need, whatever the size of the image.
+    constexpr int enough = 1 << 12;
+    vtkNew<vtkImageData> frame;
+    frame->SetDimensions(enough, enough, enough);
+    frame->SetSpacing(image->GetSpacing());
+    vtkNew<vtkImagePyramid> pyramid;
+    this->Plan =
+      PlanEdgeLength(settings.EdgeLength, SurfaceOptions().SamplingRatio, frame, pyramid);
+  }
 }
 
 void LabelSurfaceMaker::AddClaim(int object, HostThreads& threads)
@@ -206,11 +217,10 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   vtkNew<vtkImagePyramid> pyramid;
   if (settings.EdgeLength != 0.0)
   {
-    const EdgeLengthPlan plan =
-      PlanEdgeLength(settings.EdgeLength, settings.Options.SamplingRatio, this->Image, pyramid);
-    settings.End.FinestLevel = plan.FinestLevel;
-    settings.Options.SamplingRatio = plan.SamplingRatio;
-    volume.FactorBelowLevel0 = plan.ReductionFactor;
+    settings.End.FinestLevel = this->Plan.FinestLevel;
+    settings.Options.SamplingRatio = this->Plan.SamplingRatio;
+    pyramid->SetReductionFactor(this->Plan.ReductionFactor);
+    volume.FactorBelowLevel0 = this->Plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
   // No coarser ones: what is thin, or hollow, would be lost there.

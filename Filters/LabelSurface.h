@@ -3,6 +3,7 @@
 #ifndef volumicLabelSurface_h
 #define volumicLabelSurface_h
 
+#include "Core/Evolution/EdgeLengthPlan.h"
 #include "Core/Labels/LabelClaims.h"
 #include "Core/Labels/LabelField.h"
 #include "HostThreads.h"
@@ -53,6 +54,7 @@ public:
   /**
    * @param image its geometry is the map's
    * All must outlive it.
+   * @throws std::invalid_argument naming the lengths that are possible, if EdgeLength is none.
    */
   LabelSurfaceMaker(
     const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings);
@@ -88,6 +90,7 @@ private:
   vtkImageData* Image;
   const LabelSettings& Settings;
   LabelFieldOptions Options;
+  EdgeLengthPlan Plan; ///< with EdgeLength
   LabelClaims Claims;
 };
 }

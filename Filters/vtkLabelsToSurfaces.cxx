@@ -3,6 +3,7 @@
 #include "vtkLabelsToSurfaces.h"
 
 #include "AlgorithmErrors.h"
+#include "ControllerRanks.h"
 #include "Core/Common/FreeMemory.h"
 #include "HostThreads.h"
 #include "InputImage.h"
@@ -23,6 +24,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 
 #include <algorithm>
@@ -251,16 +253,22 @@ int vtkLabelsToSurfaces::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  const auto ranks = volumic::RanksOf(
+    vtkMultiProcessController::GetGlobalController(), request, outputVector);
   if (!volumic::IsFirstProcess(request, outputVector))
   {
+    if (ranks->NumberOfRanks() > 1)
+    {
+      volumic::ShareBlocks(*ranks, output);
+    }
     return 1;
   }
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   try
   {
-    this->MakeSurfaces(
-      vtkDataObject::GetData(inputVector[0]), vtkMultiBlockDataSet::GetData(outputVector));
+    this->MakeSurfaces(vtkDataObject::GetData(inputVector[0]), output);
     for (const std::string& warning : this->Internals->Memory.TakeWarnings())
     {
       vtkWarningMacro(<< warning);
@@ -279,6 +287,7 @@ int vtkLabelsToSurfaces::RequestData(
     this->SetErrorCode(volumic::ErrorCodeOf(error));
     vtkErrorMacro(<< error.what());
   }
+  volumic::ShareBlocks(*ranks, output);
   volumic::ForgetAbort(this);
   volumic::GiveBackFreeMemory();
   return 1;

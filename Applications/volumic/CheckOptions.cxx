@@ -6,7 +6,8 @@
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
-#include <algorithm>
+#include <string>
+#include <utility>
 
 namespace tool
 {

@@ -222,6 +222,37 @@ std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
   return { chosen.begin(), chosen.end() };
 }
 
+std::vector<KnownLabel> NumberedLabels(
+  const std::vector<std::string>& texts, const LabelNames& names)
+{
+  std::map<int, KnownLabel> labels;
+  for (const std::string& text : texts)
+  {
+    for (const std::string& part : SplitAtCommas(text))
+    {
+      const std::optional<int> value = AsLabel(part);
+      if (!value)
+      {
+        return {};
+      }
+      labels[*value] = { *value, "Label " + std::to_string(*value) };
+      for (const LabelName& name : names)
+      {
+        if (name.Label == *value && !name.Name.empty())
+        {
+          labels[*value].Name = name.Name;
+        }
+      }
+    }
+  }
+  std::vector<KnownLabel> known;
+  for (const auto& entry : labels)
+  {
+    known.push_back(entry.second);
+  }
+  return known;
+}
+
 std::vector<std::string> FileNamesOf(const std::vector<KnownLabel>& known)
 {
   std::vector<std::string> names;

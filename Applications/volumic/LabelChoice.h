@@ -3,7 +3,7 @@
 #ifndef volumicLabelChoice_h
 #define volumicLabelChoice_h
 
-#include "VolumeImage.h"
+#include "LabelNames.h"
 
 #include <vtkType.h>
 
@@ -37,6 +37,10 @@ std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer);
  */
 std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
   const std::vector<KnownLabel>& known, int background);
+
+/** The labels of texts that have but numbers, if all do; none otherwise. */
+std::vector<KnownLabel> NumberedLabels(
+  const std::vector<std::string>& texts, const LabelNames& names);
 
 /**
  * For each label a name of a file without suffix: its name, with other signs in the place of those

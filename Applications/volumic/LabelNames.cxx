@@ -15,9 +15,11 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 namespace tool
 {
@@ -233,8 +235,13 @@ LabelNames GetLabelNames(vtkImageData* image)
   const double scale = colors && colors->GetDataType() == VTK_UNSIGNED_CHAR ? 1.0 / 255.0 : 1.0;
   for (vtkIdType i = 0; i < count; ++i)
   {
+    const double value = values->GetComponent(i, 0);
+    if (!(std::abs(value) <= std::numeric_limits<int>::max()))
+    {
+      continue; // an array of something else
+    }
     LabelName name;
-    name.Label = static_cast<int>(values->GetComponent(i, 0));
+    name.Label = static_cast<int>(value);
     name.Name = fits(texts, 1) ? std::string(texts->GetValue(i)) : "";
     if (fits(colors, 3))
     {

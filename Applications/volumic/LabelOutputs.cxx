@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 
 std::string SuffixIn(const ToolOptions& options)
 {
-  return "." + (options.Format.empty() ? "vtp" : options.Format);
+  const std::string suffix = options.Format.empty() ? "vtp" : options.Format;
+  return suffix[0] == '.' ? suffix : "." + suffix;
 }
 
 /** The inputs, and the outputs that are not surfaces. */
@@ -105,6 +106,10 @@ LabelOutput OutputOf(const std::string& name)
 
 void CheckLabelOutput(const ToolOptions& options, const std::string& name)
 {
+  if (name == "-")
+  {
+    throw UsageError("surfaces of labels are not written to the standard output");
+  }
   if (OutputOf(name) == LabelOutput::Folder)
   {
     if (options.HasProperty("Merge"))
@@ -119,7 +124,14 @@ void CheckLabelOutput(const ToolOptions& options, const std::string& name)
   }
   else if (OutputOf(name) == LabelOutput::File)
   {
-    CheckSurfaceName(name);
+    try
+    {
+      CheckSurfaceName(name);
+    }
+    catch (const UsageError& error)
+    {
+      throw UsageError(std::string(error.what()) + ", .vtm; a folder is " + name + "/");
+    }
   }
 }
 

@@ -15,12 +15,16 @@ namespace
 {
 void WriteNames(JsonWriter& json, const LabelSurface& surface)
 {
-  vtkIdType voxels = 0;
+  double voxels = 0;
   std::vector<double> labels;
   for (const KnownLabel& label : surface.Labels)
   {
     labels.push_back(label.Label);
-    voxels += label.Voxels;
+    voxels += static_cast<double>(label.Voxels);
+  }
+  if (vtkDataArray* counted = surface.Surface->GetFieldData()->GetArray("LabelVoxels"))
+  {
+    voxels = counted->GetComponent(0, 0);
   }
   if (labels.size() == 1)
   {
@@ -30,7 +34,7 @@ void WriteNames(JsonWriter& json, const LabelSurface& surface)
   json.Member("name", surface.Name);
   json.Numbers("color", surface.Labels[0].Color.data(), 3);
   json.Member("layer", surface.Labels[0].Layer);
-  json.Member("voxels", static_cast<double>(voxels));
+  json.Member("voxels", voxels);
   json.Name("files");
   json.BeginArray();
   for (const std::string& file : surface.Files)

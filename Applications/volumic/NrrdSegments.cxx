@@ -11,6 +11,7 @@
 #include "ParseNumbers.h"
 #include "ToolErrors.h"
 
+#include <locale>
 #include <sstream>
 
 namespace tool

@@ -4,6 +4,7 @@
 
 #include "Announcer.h"
 #include "LabelMap.h"
+#include "LabelNames.h"
 #include "LabelOutputs.h"
 #include "LabelReport.h"
 #include "ParseNumbers.h"
@@ -70,14 +71,27 @@ std::vector<KnownLabel> KnownLabels(
   {
     vtkNew<vtkLabelTable> table;
     SetInput(table, map, layer);
-    const FilterRun run = OfVolume(options,
-      [&] { return RunFilter(table, "Looking for labels", ProgressStyle::None); });
-    for (const std::string& warning : run.Warnings)
+    try
     {
-      announcer.Say("warning: " + options.Volume + ": " + warning);
+      const FilterRun run = RunFilter(table, "Looking for labels", ProgressStyle::None);
+      for (const std::string& warning : run.Warnings)
+      {
+        announcer.Say("warning: " + options.Volume + ": " + warning);
+      }
+      const std::vector<KnownLabel> more = LabelsOf(table->GetOutput(), layer);
+      known.insert(known.end(), more.begin(), more.end());
     }
-    const std::vector<KnownLabel> more = LabelsOf(table->GetOutput(), layer);
-    known.insert(known.end(), more.begin(), more.end());
+    catch (const Failure& failure)
+    {
+      // A few of very many labels can be chosen by their numbers.
+      const std::vector<KnownLabel> some =
+        NumberedLabels(options.Labels, GetLabelNames(map.Layers[static_cast<std::size_t>(layer)]));
+      if (some.empty() || map.Layers.size() > 1)
+      {
+        throw Failure(options.Volume + ": " + failure.what());
+      }
+      return some;
+    }
   }
   return known;
 }
@@ -174,7 +188,8 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
   if (!isThere)
   {
     throw Failure(report.IsFinished
-        ? options.Volume + ": none of the labels has a surface (--finest -1)"
+        ? options.Volume + ": none of the labels has a surface; smaller triangles may hold them "
+                           "(--finest, --edge-length)"
         : "interrupted before there was a surface; nothing is written");
   }
 }

@@ -102,7 +102,7 @@ const std::vector<ProgramOption>& InputOptions()
     { "labels", "all|LIST",
       "the volume is a label map: make a surface of each of these labels, given as numbers, ranges "
       "and names with commas between, such as 1,7-9,liver,lung_*",
-      [](ToolOptions& options, const std::string& text) { options.Labels.push_back(text); } },
+      [](ToolOptions& chosen, const std::string& text) { chosen.Labels.push_back(text); } },
     Text("label-names", "FILE", &ToolOptions::NamesOfLabels,
       "names and colours of labels: JSON, ITK-SNAP's label descriptions, a colour table or .csv; "
       "without this option those of the volume, or of a file beside it"),

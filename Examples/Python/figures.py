@@ -13,13 +13,15 @@
                with the paper's settings and with the defaults
     evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
     vessels    the paper's figure 6, with recovery and without               --vessels
+    labels     surfaces of a label map                                       --label-map
 
 The paper's settings are four levels and no recovery.
 
 Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any
 scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the first
 is drawn as vessels.png, any other as vessels-NAME.png after its file; without it there is no such
-picture. Each picture is less than 300 kB.
+picture. --label-map names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package
+mricron-data; without it there is no picture of labels. Each picture is less than 300 kB.
 """
 
 import argparse
@@ -30,6 +32,7 @@ import numpy as np
 
 import render
 from history_chart import comparison_chart
+from label_picture import label_picture
 from pipeline import SKULL, SKULL_ISO
 from pyramid_picture import grey_window, index_bounds, pyramid_picture
 from read_volume import VolumeError
@@ -158,6 +161,10 @@ def vessels(scan):
                            "With recovery of parts and cavities, from the coarsest level"])
 
 
+def labels(path):
+    return label_picture(path, panel_width(4))
+
+
 def all_levels_row(surface, coarsest, frame, bounds):
     """Panels and captions of all levels from the coarsest, empty where there is no surface."""
     counts = {level: count for level, count, _ in iterations(surface)}
@@ -197,13 +204,14 @@ def write_picture(draw, scan, folder, name=None):
 
 def main():
     folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Documentation")
-    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels"]
+    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
     parser.add_argument("--only", nargs="+", choices=known, default=known, metavar="PICTURE",
                         help=", ".join(known))
     parser.add_argument("--vessels", nargs=2, metavar=("VOLUME", "ISO"), action="append",
                         default=[], help="may be repeated: vessels.png, then vessels-NAME.png")
+    parser.add_argument("--label-map", metavar="FILE", help="for labels.png")
     parser.add_argument("--skull", nargs=2, metavar=("VOLUME", "ISO"), default=(SKULL, SKULL_ISO),
                         help="another volume in the place of the skull")
     arguments = parser.parse_args()
@@ -218,6 +226,8 @@ def main():
             stem = os.path.basename(path).partition(".")[0]
             write_picture(vessels, Scan(path, float(iso)), arguments.output,
                           f"vessels-{stem}" if number else "vessels")
+        if "labels" in arguments.only and arguments.label_map:
+            write_picture(labels, arguments.label_map, arguments.output)
         if "vessels" in arguments.only and not wanted:
             print("No --vessels: their pictures stay as they are")
     except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:

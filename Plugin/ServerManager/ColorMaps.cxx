@@ -6,6 +6,9 @@
 #include <vtkSMProxy.h>
 #include <vtkSMTransferFunctionManager.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace volumic
 {
 //------------------------------------------------------------------------------
@@ -65,5 +68,17 @@ std::vector<ColorCategory> CategoriesOf(vtkSMProxy* colors)
     }
   }
   return categories;
+}
+
+//------------------------------------------------------------------------------
+bool AreSame(const std::vector<ColorCategory>& one, const std::vector<ColorCategory>& other)
+{
+  const auto isNear = [](double a, double b) { return std::abs(a - b) < 1e-4; };
+  const auto isSame = [&](const ColorCategory& a, const ColorCategory& b)
+  {
+    return a.Value == b.Value && a.Text == b.Text &&
+      std::equal(a.Color.begin(), a.Color.end(), b.Color.begin(), isNear);
+  };
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(), isSame);
 }
 }

@@ -18,11 +18,6 @@ struct ColorCategory
   std::string Value;
   std::string Text; ///< beside its colour, in a legend
   std::array<double, 3> Color;
-
-  bool operator==(const ColorCategory& other) const
-  {
-    return this->Value == other.Value && this->Text == other.Text && this->Color == other.Color;
-  }
 };
 
 void SetNumbers(vtkSMProxy* colors, const char* property, const std::vector<double>& values);
@@ -37,6 +32,9 @@ void SetReady(vtkSMProxy* colors);
 void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categories);
 
 std::vector<ColorCategory> CategoriesOf(vtkSMProxy* colors);
+
+/** But for what ParaView's editor of colour maps rounds, also where nobody edits: to 16 bits. */
+bool AreSame(const std::vector<ColorCategory>& one, const std::vector<ColorCategory>& other);
 }
 
 #endif

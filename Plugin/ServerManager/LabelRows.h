@@ -21,12 +21,6 @@ struct LabelRow
   std::string Name;
   long long Voxels = 0; ///< of surfaces: not known, 0
   std::array<double, 3> Color = { { 0.0, 0.0, 0.0 } };
-
-  bool operator==(const LabelRow& other) const
-  {
-    return this->Label == other.Label && this->Name == other.Name &&
-      this->Voxels == other.Voxels && this->Color == other.Color;
-  }
 };
 
 struct LabelRows

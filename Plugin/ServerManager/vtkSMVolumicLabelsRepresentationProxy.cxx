@@ -88,7 +88,7 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
     return; // An error: what is there serves again.
   }
   std::vector<volumic::ColorCategory> present = volumic::CategoriesOf(colors);
-  if (volumic::HasGotItsRange(colors) && !(present == this->Given))
+  if (volumic::HasGotItsRange(colors) && !volumic::AreSame(present, this->Given))
   {
     Complete(present, wanted);
     wanted = present;

@@ -49,7 +49,7 @@ public:
     this->setData(Column::Voxels, Qt::DisplayRole, voxels);
     for (int column : { Column::Label, Column::Voxels })
     {
-      this->setTextAlignment(column, static_cast<int>(Qt::AlignRight | Qt::AlignVCenter));
+      this->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
     }
     this->setCheckState(Column::Name, Qt::Unchecked);
   }

@@ -151,6 +151,7 @@ class FilesTest(NamesTest):
                 self.check_names(text, "a.csv", True)
 
     def test_encodings(self):
+        self.assertEqual(self.names_in("\ufeff1 liver")[0], {1: "liver"})
         self.assertEqual(self.names_in("1 R\u00fcckenmark")[0], {1: "R\u00fcckenmark"})
         self.assertEqual(self.names_in("1 R\u00fcckenmark".encode("latin-1"))[0],
                          {1: "R\u00fcckenmark"})
@@ -408,6 +409,12 @@ class SegmentsTest(NamesTest):
                                             "tumour": [1, 1, 0]}[name])
         self.run_tool(volume, self.path("all.vtm"), "--labels", "all")
         self.assertEqual(len(os.listdir(self.path("all"))), 5)
+
+    def test_layers_that_were_written_as_vti(self):
+        self.run_tool(self.layer_file(), "--write-volume", self.path("layers.vti"))
+        report = self.report(self.path("layers.vti"), "--labels", "tumour,liver")
+        self.assertEqual({(row["name"], row["layer"]) for row in report["labels"]},
+                         {("tumour", 1), ("liver", 0)})
 
     def test_choices_in_layers(self):
         volume = self.layer_file()

@@ -98,8 +98,8 @@ class OutputsTest(LabelsTest):
         volume, names = self.map_file(), self.names_file()
         for suffix in ("stl", "ply", "obj", "vtk"):
             out = self.path(suffix)  # not there, without a suffix or slash
-            self.run_tool(volume, out, "--labels", "1,2", "--format", suffix, "--label-names",
-                          names)
+            self.run_tool(volume, out, "--labels", "1,2", "--format",
+                          "." * (suffix == "ply") + suffix, "--label-names", names)
             self.assertEqual(sorted(os.listdir(out)), [f"Left_lung.{suffix}", f"liver.{suffix}"])
         self.assertGreater(read_surface(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
         self.assertIn(b"liver", self.content("stl/liver.stl")[:80])
@@ -259,8 +259,14 @@ class WhatIsReadTest(LabelsTest):
                      self.map_file("half.vti", label_image(voxels)), self.path("o/"), "--labels",
                      "all")
         many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
-        self.refused("many.vti: .*more than 4096", self.map_file("many.vti", label_image(many)),
-                     self.path("o/"), "--labels", "all")
+        many[label_voxels() == 7] = 7
+        volume = self.map_file("many.vti", label_image(many))
+        self.refused("many.vti: .*more than 4096", volume, self.path("o/"), "--labels", "all")
+        self.refused("many.vti: .*has no label 99999", volume, self.path("o/"), "--labels",
+                     "7,99999")
+        row = self.rows(volume, self.path("o/"), "--labels", "7")[7]
+        self.assertEqual((row["voxels"], os.listdir(self.path("o"))),
+                         ((many == 7).sum(), ["label-7.vtp"]))
         self.refused("has no label but Background|there is no label 'all'",
                      self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1"))),
                      self.path("o/"), "--labels", "all")
@@ -310,7 +316,7 @@ class OptionsTest(LabelsTest):
         volume = self.map_file()
         values = {"BackgroundLabel": ("--background", "1"), "Gap": ("--gap", "0.25"),
                   "Smoothing": ("--smoothing", "0.5"), "Metric": ("--metric", "voxels"),
-                  "EdgeLength": ("--edge-length", "1.5"), "FinestLevel": ("--finest", "1"),
+                  "EdgeLength": ("--edge-length", "1.2"), "FinestLevel": ("--finest", "1"),
                   "KeepComponents": ("--keep", "large"),
                   "MinimumComponentVolume": ("--minimum-component-volume", "2"),
                   "NumberOfThreads": ("--threads", "1"), "MemoryLimit": ("--memory", "3000M"),
@@ -333,7 +339,7 @@ class OptionsTest(LabelsTest):
         plain = volume_of()
         self.assertLess(volume_of("--gap", "0.5")["volume"], 0.9 * plain["volume"])
         self.assertNotEqual(volume_of("--smoothing", "0")["area"], plain["area"])
-        for options in (("--finest", "1"), ("--edge-length", "1.5")):
+        for options in (("--finest", "1"), ("--edge-length", "1.2")):
             self.assertLess(volume_of(*options)["vertices"], 0.6 * plain["vertices"])
         self.assertNotEqual(volume_of("--metric", "voxels")["vertices"], plain["vertices"])
         voxels = label_voxels(blobs={1: ((8, 8, 8), (6, 5, 5)), 2: ((20, 20, 9), (4, 3, 3))})
@@ -376,7 +382,7 @@ class OptionsTest(LabelsTest):
                 ("no surface format", ["o/", "--format", "dwg"]),
                 ("not written in pieces", ["o/", "--format", "pvtp"]),
                 ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
-                ("no surface format", ["o.dwg"]), ("no file to write", []),
+                ("no surface format .*, .vtm; a folder is o.v1/", ["o.v1"]), ("the standard output", ["-"]), ("no file to write", []),
                 ("--merge makes one surface: give it a file", ["o/", "--merge"]),
                 ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
             self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)

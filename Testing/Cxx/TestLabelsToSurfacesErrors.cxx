@@ -158,6 +158,8 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   this->Filter->SetMetric(0);
   this->Filter->SetEdgeLength(-2.);
   this->ExpectError({ "Edge Length is -2" });
+  this->Filter->SetEdgeLength(1e-3);
+  this->ExpectError({ "Edge Length is 0.001" });
   this->Filter->SetEdgeLength(0.);
   this->Filter->SetFinestLevel(-2);
   this->ExpectError({ "Finest Level is -2" });

@@ -11,6 +11,7 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import label_maps
 import plugin_testing as testing
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -81,6 +82,29 @@ class ParallelTest(unittest.TestCase):
         sphere = simple.Sphere(Radius=14.0, ThetaResolution=12, PhiResolution=12)
         self.check_one_whole_surface(simple.Wavelet(), InitialSurface=sphere,
                                      Initialization="Input Surface")
+
+    def test_surfaces_of_labels(self):
+        """The first process makes them; the others have the same blocks, or ParaView would hang."""
+        path = testing.write_volume("labels-parallel.vti", label_maps.image())
+        filter_ = simple.LabelstoSurfaces(simple.XMLImageDataReader(FileName=path))
+        filter_.Labels = [3, 99]
+        with testing.CapturedMessages() as messages:
+            filter_.UpdatePipeline()
+        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
+        filter_.Labels = []
+        filter_.UpdatePipeline()
+        information = filter_.GetDataInformation()
+        count = information.GetNumberOfPoints()
+        self.assertGreater(count, 500)
+        saved = testing.output_path("labels-parallel.vtm")
+        simple.SaveData(saved, filter_)
+        with open(saved, encoding="utf-8") as file:
+            text = file.read()
+        for label in label_maps.BALLS:
+            self.assertEqual(text.count(f'name="Label {label}"'), 1, text)
+        again = simple.XMLMultiBlockDataReader(FileName=saved)
+        again.UpdatePipeline()
+        self.assertEqual(again.GetDataInformation().GetNumberOfPoints(), count)
 
 
 testing.main()

@@ -14,6 +14,7 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import label_maps
 import plugin_testing as testing
 
 
@@ -58,6 +59,12 @@ def wavelet_to_surface():
     return simple.VolumetoSurface(source, SnapshotInterval=30)
 
 
+def labels_to_surfaces(path):
+    reader = simple.XMLImageDataReader(FileName=path)
+    reader.UpdatePipeline()
+    return simple.LabelstoSurfaces(reader, Labels=[3, 7], LabelNames=["7", "kidney"])
+
+
 class RemoteServerTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -67,6 +74,8 @@ class RemoteServerTest(unittest.TestCase):
         filter_ = wavelet_to_surface()
         cls.local_iso_value = filter_.IsoValue
         cls.local_outputs = outputs_of(filter_)
+        cls.label_map = testing.write_volume("labels-remote.vti", label_maps.image())
+        cls.local_labels = testing.fetch(labels_to_surfaces(cls.label_map))
         port = free_port()
         cls.server = start_server(port)
         deadline = time.monotonic() + 30
@@ -116,6 +125,23 @@ class RemoteServerTest(unittest.TestCase):
         self.assertEqual(testing.names(snapshots), testing.names(here[3]))
         for there, local in zip(testing.levels(snapshots), testing.levels(here[3])):
             self.assertEqual(points(there), points(local))
+
+    def test_same_labels_as_without_a_server(self):
+        filter_ = labels_to_surfaces(self.label_map)
+        self.assertIsNone(filter_.GetClientSideObject(), "the filter runs on the server")
+        remote = testing.fetch(filter_)
+        self.assertEqual(testing.names(remote), ["Label 3", "kidney"])
+        for here, there in zip(testing.levels(self.local_labels), testing.levels(remote)):
+            self.assertGreater(there.GetNumberOfPolys(), 0)
+            self.assertEqual(points(there), points(here))
+        # Names and colours come from the server to the client's colour map.
+        view = simple.CreateView("RenderView")
+        display = simple.Show(filter_, view)
+        view.Update()
+        colors = display.LookupTable
+        self.assertEqual(list(colors.Annotations), ["3", "Label 3", "7", "kidney"])
+        color = self.local_labels.GetBlock(1).GetFieldData().GetArray("LabelColor").GetTuple(0)
+        self.assertEqual(tuple(colors.IndexedColors)[3:], color)
 
     def test_displays_on_the_client(self):
         filter_ = wavelet_to_surface()

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input."""
+
+import os
+import re
+import sys
+
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import gui_session as gui
+import label_maps
+import plugin_testing as testing
+import window_testing as window
+from label_maps import NAMES
+from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+
+FILTER = filter_of_the_menu("LabelsToSurfaces")
+TABLE = f"{PROPERTIES}/Labels"
+BASIC = ("SetInputArrayToProcess", "Labels", "BackgroundLabel", "Merge", "Smoothing", "Gap",
+         "FinestLevel", "EdgeLength")
+ADVANCED = ("KeepComponents", "Metric", "NumberOfThreads", "MemoryLimit", "ScratchDirectory")
+CHECKED, UNCHECKED = 2, 0
+
+CHANGE_FILE = """
+from paraview import simple
+filter_ = simple.FindSource("LabelstoSurfaces1")
+simple.ReplaceReaderFileName(filter_.Input, [{path!r}], "FileName")
+"""
+TELL = """
+from paraview import servermanager, simple
+filter_ = simple.FindSource("LabelstoSurfaces1")
+filter_.UpdatePipeline()
+blocks = servermanager.Fetch(filter_)
+legend = simple.GetRepresentation(filter_, simple.GetActiveView()).LookupTable.Annotations
+print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME())
+                                      for b in range(blocks.GetNumberOfBlocks())],
+      list(legend)[1::2], flush=True)
+"""
+
+
+def opened(path):
+    return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+            gui.pause(1000)]
+
+
+def note(text):
+    """Fails the session unless this is below the table."""
+    return gui.check(f"{TABLE}/Note", "text", text)
+
+
+def rows(count):
+    return gui.check(f"{TABLE}/Labels", "modelRowCount", str(count))
+
+
+def press(button):
+    return gui.event(f"{TABLE}/{button}", "activate") + "\n" + gui.pause(300)
+
+
+def search(text):
+    return gui.event(f"{TABLE}/Filter", "set_string", text) + "\n" + gui.pause(300)
+
+
+def set_box(row, state):
+    """Of a row of the table, as it is sorted."""
+    return gui.event(f"{TABLE}/Labels", "setCheckState", f"{row}.0,{state}") + "\n" + \
+        gui.pause(300)
+
+
+class LabelsWindowTest(window.WindowTestCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.path = testing.write_volume(
+            "labels-window.vti", label_maps.add_names(label_maps.image()))
+
+    def blocks_of(self, state):
+        """{block: name} of the filter in a saved state."""
+        filter_ = window.open_state(state, "LabelstoSurfaces1")
+        return list(filter_.Labels), testing.names(testing.fetch(filter_))
+
+    def test_panel_and_apply(self):
+        path, save = self.saved_state("labels-applied.pvsm")
+        pixels = self.play(opened(self.path) + [
+            FILTER, gui.pause(500), rows(4), note("3 of 4 labels"),
+            *[window.shown(name, True) for name in BASIC],
+            *[window.shown(name, False) for name in ADVANCED], window.as_wide_as_the_panel(),
+            APPLY, gui.pause(1000), *save, gui.pause(1000)], "labels-applied")
+        self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
+        self.assertEqual(window.proxies_of(path).count("VolumicLabelsRepresentation"), 1)
+        # All three in their colours.
+        bright = pixels[200:, 400:].astype(int)
+        for channel in range(3):
+            others = numpy.delete(bright, channel, axis=2).max(axis=2)
+            self.assertGreater(int((bright[..., channel] > 2 * others + 20).sum()), 300)
+
+    def test_advanced_panel(self):
+        self.play(opened(self.path) + [
+            FILTER, SHOW_ADVANCED, gui.pause(1000),
+            *[window.shown(name, True) for name in BASIC + ADVANCED],
+            window.shown("MinimumComponentVolume", False),
+            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
+            gui.pause(300), window.shown("MinimumComponentVolume", True),
+            window.as_wide_as_the_panel()], "labels-advanced")
+
+    def test_choice(self):
+        path, save = self.saved_state("labels-chosen.pvsm")
+        self.play(opened(self.path) + [
+            FILTER, gui.pause(500), set_box(1, UNCHECKED), note("2 of 4 labels"),
+            APPLY, gui.pause(500), *save, gui.pause(500)], "labels-chosen")
+        self.assertEqual(self.blocks_of(path), ([7, 12], [NAMES[7], NAMES[12]]))
+        self.session.close_window()
+        path, save = self.saved_state("labels-found.pvsm")
+        self.play(opened(self.path) + [
+            FILTER, gui.pause(500), press("None"),
+            note("<b>Note:</b> Where none is checked, all but the background get a surface."),
+            search("KID"), press("All"), search(""), note("1 of 4 labels"),
+            APPLY, gui.pause(500), *save, gui.pause(500)], "labels-found")
+        self.assertEqual(self.blocks_of(path), ([7], [NAMES[7]]))
+
+    def test_all_again_is_the_default(self):
+        path, save = self.saved_state("labels-all.pvsm")
+        self.play(opened(self.path) + [
+            FILTER, gui.pause(500), press("None"), set_box(2, CHECKED), APPLY, gui.pause(500),
+            press("All"), note("3 of 4 labels"), APPLY, gui.pause(500), *save, gui.pause(500)],
+            "labels-all")
+        self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
+
+    def test_background(self):
+        path, save = self.saved_state("labels-background.pvsm")
+        background = f"{PROPERTIES}/BackgroundLabel/LineEdit0"
+        self.play(opened(self.path) + [
+            FILTER, gui.pause(500), gui.event(background, "set_string", "7"), gui.pause(300),
+            note("3 of 4 labels"), gui.event(background, "set_string", "5"), gui.pause(300),
+            note("4 of 4 labels"), gui.event(background, "set_string", "3"), gui.pause(300),
+            set_box(0, UNCHECKED), note("2 of 4 labels"),
+            APPLY, gui.pause(500), *save, gui.pause(500)], "labels-background")
+        self.assertEqual(self.blocks_of(path), ([7, 12], [NAMES[7], NAMES[12]]))
+
+    def test_no_label_map(self):
+        # Without an error before Apply: the panel says it.
+        self.play(source("RTAnalyticSource") + [
+            FILTER, gui.pause(500), window.shown("Labels/Labels", False),
+            window.shown("Labels/Note", True), window.as_wide_as_the_panel()], "labels-none")
+        self.assertNotIn("Input port 0", self.session.output)
+
+    def test_error_and_another_file(self):
+        others = label_maps.image(balls={3: ((9, 10, 11), 6.3), 40: ((20, 20, 20), 6.3)})
+        others = testing.write_volume("labels-others.vti", others)
+        no_map = testing.write_volume("labels-no-map.vti", testing.make_image(
+            numpy.random.default_rng(1).random((12, 12, 12)), name="labels"))
+        change = {name: self.session.add_macro(f"labels_{name}", CHANGE_FILE.format(path=path))
+                  for name, path in (("others", others), ("no_map", no_map), ("back", self.path))}
+        told = self.session.add_macro("labels_tell", TELL)
+
+        def changed(name):
+            return [change[name], gui.pause(500), window.in_the_pipeline(0), gui.pause(300),
+                    APPLY, window.in_the_pipeline(0, 0), gui.pause(500)]
+
+        # Errors open a box, so not self.play().
+        succeeded = self.session.play(opened(self.path) + [
+            FILTER, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500), told,
+            # Of the labels chosen, 12 is not there: an error, and a row to uncheck.
+            *changed("others"), rows(4), note("2 of 4 labels"), told,
+            set_box(2, UNCHECKED), note("1 of 4 labels"), APPLY, gui.pause(500), told,
+            *changed("no_map"), window.shown("Labels/Note", True), told,
+            *changed("back"), rows(4), note("1 of 4 labels"), told,
+            press("All"), APPLY, gui.pause(500), told, gui.pause(500)])
+        self.session.screenshot(testing.output_path("labels-changed.png"))
+        self.assertTrue(succeeded, self.session.output)
+        runs = re.findall(r"Told: (\[.*\]) (\[.*\]) (\[.*\])", self.session.output)
+        # The legend of an error is that of the run before.
+        self.assertEqual([run[:2] for run in runs], [
+            ("[3, 12]", "['liver', 'spleen']"), ("[3, 12]", "[]"), ("[3]", "['Label 3']"),
+            ("[3]", "[]"), ("[3]", "['liver']"), ("[]", "['liver', 'left kidney', 'spleen']")])
+        self.assertEqual([run[2] for run in runs if run[1] != "[]"],
+                         [run[1] for run in runs if run[1] != "[]"])
+
+
+window.main()
