@@ -5,10 +5,12 @@
 #include "LabelRows.h"
 
 #include <vtkDataObject.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
+#include <vtkSMTransferFunctionManager.h>
 
 #include <algorithm>
 
@@ -80,13 +82,21 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
   {
     return;
   }
-  std::vector<volumic::ColorCategory> wanted =
+  const std::vector<volumic::ColorCategory> wanted =
     CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
   this->AdaptedTime = data->GetMTime();
-  if (wanted.empty())
+  // Of an error there are none: what is there serves again.
+  if (!wanted.empty())
   {
-    return; // An error: what is there serves again.
+    this->GiveCategories(colors, wanted);
+    this->GiveToOthers(wanted);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::GiveCategories(
+  vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted)
+{
   std::vector<volumic::ColorCategory> present = volumic::CategoriesOf(colors);
   if (volumic::HasGotItsRange(colors) && !volumic::AreSame(present, this->Given))
   {
@@ -98,6 +108,21 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
     this->Given = wanted;
   }
   volumic::SetCategories(colors, wanted);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::GiveToOthers(
+  const std::vector<volumic::ColorCategory>& wanted)
+{
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  vtkSMProxy* colors =
+    manager->GetColorTransferFunction("Label", this->GetSessionProxyManager());
+  if (colors && (!volumic::HasGotItsRange(colors) ||
+    volumic::AreSame(volumic::CategoriesOf(colors), this->GivenToOthers)))
+  {
+    volumic::SetCategories(colors, wanted);
+    this->GivenToOthers = wanted;
+  }
 }
 
 //------------------------------------------------------------------------------

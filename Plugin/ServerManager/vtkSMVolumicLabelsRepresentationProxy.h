@@ -8,6 +8,9 @@
  * array `Label` as soon as there is one. Its colour map has a category per label, with the name and
  * the colour that the field data of the surfaces tell. As long as nobody has edited the categories,
  * they are those of the data; after that, labels that come anew get one in addition.
+ *
+ * What is made of the surfaces, such as a clip, is coloured by the map that all displays of `Label`
+ * share. It gets the same categories, unless others have given it a range or categories before.
  */
 #ifndef vtkSMVolumicLabelsRepresentationProxy_h
 #define vtkSMVolumicLabelsRepresentationProxy_h
@@ -38,8 +41,13 @@ private:
   vtkSMVolumicLabelsRepresentationProxy(const vtkSMVolumicLabelsRepresentationProxy&) = delete;
   void operator=(const vtkSMVolumicLabelsRepresentationProxy&) = delete;
 
+  /** Sets the categories that the map has from here; completes what others have edited. */
+  void GiveCategories(vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted);
+  void GiveToOthers(const std::vector<volumic::ColorCategory>& wanted);
+
   bool IsWaitingForLabels = false;
-  std::vector<volumic::ColorCategory> Given; ///< the categories that were set here last
+  std::vector<volumic::ColorCategory> Given;         ///< what was set here last
+  std::vector<volumic::ColorCategory> GivenToOthers; ///< likewise, of the map that is shared
   vtkMTimeType AdaptedTime = 0;              ///< of what was known of the data then
 };
 

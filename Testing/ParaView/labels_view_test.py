@@ -142,6 +142,25 @@ class LabelsViewTest(unittest.TestCase):
         self.check_legend([3, 7, 12], display=first)
         self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, display)
 
+    def test_what_is_made_of_the_surfaces(self):
+        """Has the same colours, by the map that all displays of this array share."""
+        self.show()
+        self.picture("to-be-clipped")
+        clip = simple.Clip(self.filter)
+        clip.ClipType.Normal = [0.0, 0.0, 1.0]
+        clip.ClipType.Origin = [16.0, 16.0, 13.0]
+        display = simple.Show(clip, self.view)
+        simple.Hide(self.filter, self.view)
+        self.assertEqual(hues(self.picture("clipped")), {"red", "green"})
+        self.check_legend([3, 7, 12], display=display)
+        self.assertFalse(display.UseSeparateColorMap)
+        # Another map of labels has colours of its own; those that are shared stay.
+        other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
+        second = simple.LabelstoSurfaces(testing.produce(other), FinestLevel=1)
+        simple.Show(second, self.view)
+        self.picture("clipped-with-another")
+        self.check_legend([3, 7, 12], display=display)
+
     def test_saved_state(self):
         path = testing.write_volume("labels-view.vti", label_maps.image())
         reader = simple.XMLImageDataReader(FileName=path)
