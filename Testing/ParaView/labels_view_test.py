@@ -76,13 +76,22 @@ class LabelsViewTest(unittest.TestCase):
         self.show()
         # In the very first picture.
         self.assertEqual(hues(self.picture("first")), {"red", "green", "blue"})
-        self.assertEqual(list(self.display.ColorArrayName), ["CELLS", "Label"])
+        self.assertEqual(list(self.display.ColorArrayName), ["FIELD", "Label"])
         self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
         self.check_legend([3, 7, 12])
 
     def test_merged_surface(self):
         self.show(Labels=[3, 7], Merge=1)
         self.assertEqual(hues(self.picture("merged")), {"red", "green"})
+        self.check_legend([3, 7])
+        self.filter.Merge = 0
+        self.assertEqual(hues(self.picture("no-longer-merged")), {"red", "green"})
+
+    def test_merged_later(self):
+        self.show(Labels=[3, 7])
+        self.assertEqual(hues(self.picture("not-yet-merged")), {"red", "green"})
+        self.filter.Merge = 1
+        self.assertEqual(hues(self.picture("merged-later")), {"red", "green"})
         self.check_legend([3, 7])
 
     def test_colors_follow_the_data(self):
