@@ -43,6 +43,12 @@ constexpr double FieldShare = 0.2;
  */
 constexpr std::array<float, 2> FurtherMargins = { 0.3f, 0.5f };
 
+/**
+ * Smoothing is in smallest distances of voxels, or in this share of the longest, if that is more:
+ * stairs are as high as voxels are long; but with all of it what is thin along the other axes, bulges.
+ */
+constexpr double ShareOfLongest = 0.625;
+
 /** The same for a gap, times which triangles that leave their own field's inside are drawn back. */
 constexpr int RoundsOfGap = 6;
 
@@ -150,7 +156,8 @@ LabelSurfaceMaker::LabelSurfaceMaker(
   , Claims(bricks)
 {
   const std::array<double, 3>& spacing = bricks.Map().Spacing;
-  this->Options.Sigma = settings.Smoothing * *std::max_element(spacing.begin(), spacing.end());
+  const double longest = *std::max_element(spacing.begin(), spacing.end());
+  this->Options.Sigma = settings.Smoothing * std::max(1.0, ShareOfLongest * longest);
   if (settings.EdgeLength != 0.0)
   {
     // Fields get as much room as their levels need, whatever the size of the image.

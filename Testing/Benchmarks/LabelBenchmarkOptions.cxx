@@ -184,7 +184,7 @@ const char* const LabelBenchmarkUsage =
   "  --least N          only labels of at least N voxels (default 64)\n"
   "  --runs LIST        these runs (default: all that this build has): us, of all labels at once;\n"
   "                     us-gap, with a Gap of .3 voxel; us-alone, each label cut out; windowed,\n"
-  "                     windowed-more: vtkDiscreteFlyingEdges3D and vtkWindowedSincPolyDataFilter;\n"
+  "                     windowed-more: vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter;\n"
   "                     nets: vtkSurfaceNets3D; antialiased: ITK; remeshed: windowed and CGAL\n"
   "  --threads N        of us; peers have one (default 1)\n"
   "  --smoothing S --finest LEVEL   of us\n"

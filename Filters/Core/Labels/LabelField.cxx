@@ -19,6 +19,8 @@ namespace
 {
 /** Only voxels nearer to the boundary than this can come to the wrong side of it. */
 constexpr float MostWrong = 1.5f;
+/** More than that is the ridge of a thin part, which is no bend. */
+constexpr float MostCurvature = 0.35f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
 /** The Laplacian of the distance is taken this near to the boundary. */
@@ -208,9 +210,10 @@ private:
     std::array<float, 3> weight;
     for (int axis = 0; axis < 3; ++axis)
     {
-      weight[axis] = static_cast<float>(this->Options.ChordCorrection /
-        (this->Map.Spacing[axis] * this->Map.Spacing[axis]));
+      weight[axis] =
+        static_cast<float>(1. / (this->Map.Spacing[axis] * this->Map.Spacing[axis]));
     }
+    const auto correction = static_cast<float>(this->Options.ChordCorrection);
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
@@ -226,10 +229,12 @@ private:
         {
           if (std::abs(old[x]) < MostBent)
           {
+            float laplacian = 0.f;
             for (int axis = 0; axis < 3; ++axis)
             {
-              values[x] -= weight[axis] * (old[x - step[axis]] - 2.f * old[x] + old[x + step[axis]]);
+              laplacian += weight[axis] * (old[x - step[axis]] - 2.f * old[x] + old[x + step[axis]]);
             }
+            values[x] -= correction * std::clamp(laplacian, -MostCurvature, MostCurvature);
           }
         }
       });
@@ -260,6 +265,23 @@ private:
       });
   }
 
+  /** Whether one of the other side beside it is: it must not take all of the way between. */
+  bool IsBesideThin(int i, int j, int k) const
+  {
+    const bool side = this->IsObject(i, j, k);
+    const auto isThinOther = [&](int a, int b, int c)
+    { return this->IsObject(a, b, c) != side && this->IsThin(a, b, c); };
+    return isThinOther(i - 1, j, k) || isThinOther(i + 1, j, k) || isThinOther(i, j - 1, k) ||
+      isThinOther(i, j + 1, k) || isThinOther(i, j, k - 1) || isThinOther(i, j, k + 1);
+  }
+
+  double MarginAt(int i, int j, int k) const
+  {
+    return this->IsThin(i, j, k)       ? this->Options.ThinMargin
+      : this->IsBesideThin(i, j, k) ? this->Options.MarginBesideThin
+                                    : this->Options.Margin;
+  }
+
   std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
   {
     std::vector<std::vector<VoxelConstraint>> ofLayers(
@@ -285,8 +307,7 @@ private:
       {
         continue;
       }
-      auto margin = static_cast<float>(
-        this->IsThin(i + x, j, k) ? this->Options.ThinMargin : this->Options.Margin);
+      auto margin = static_cast<float>(this->MarginAt(i + x, j, k));
       const VoxelBox all = VoxelBox::Of(this->Map.Size);
       const std::int64_t voxel =
         all.Contains({ i + x, j, k }) ? all.NumberOf(i + x, j, k) : std::int64_t(-1);

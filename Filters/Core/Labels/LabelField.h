@@ -23,8 +23,10 @@ struct LabelFieldOptions
    * centre that triangles cut it off, with more stairs come back.
    */
   double Margin = 0.1;
-  /** The same for a voxel whose two neighbours along an axis are both on the other side. */
+  /** The same for a voxel whose two neighbours along an axis are both on the other side, */
   double ThinMargin = 0.4;
+  /** and for these: with less a part that is a voxel thin gets the thickness of two. */
+  double MarginBesideThin = 0.25;
   /**
    * How much of its Laplacian is taken off the distance: triangles whose corners are on a bent
    * surface cut off e^2 / 16 of it in the mean, e being the length of their edges.
