@@ -4,13 +4,17 @@
 
 #include "LabelRows.h"
 
+#include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
+#include <vtkSMTransferFunctionManager.h>
 
 #include <algorithm>
+#include <cstring>
 
 vtkStandardNewMacro(vtkSMVolumicLabelsRepresentationProxy);
 
@@ -56,13 +60,53 @@ void vtkSMVolumicLabelsRepresentationProxy::StartPresets()
 //------------------------------------------------------------------------------
 void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
-  vtkPVDataInformation* data = this->IsWaitingForLabels ? this->GetInputInformation() : nullptr;
-  if (data && data->GetArrayInformation("Label", vtkDataObject::CELL))
-  {
-    this->IsWaitingForLabels = false;
-    this->SetScalarColoring("Label", vtkDataObject::CELL);
-  }
+  // Before this, what is known of the data is that of the run before.
   this->Superclass::ViewUpdated(view);
+  if (vtkPVDataInformation* data = this->GetInputInformation())
+  {
+    this->ChooseLabels(data);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::FetchCategories(vtkPVDataInformation* data)
+{
+  vtkSMPropertyHelper input(this, "Input", true);
+  auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
+  if (source && data->GetMTime() != this->WantedTime)
+  {
+    this->Wanted = CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
+    this->WantedTime = data->GetMTime();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMVolumicLabelsRepresentationProxy::IsMerged(vtkPVDataInformation* data)
+{
+  this->FetchCategories(data);
+  vtkDataAssembly* hierarchy = data->GetHierarchy();
+  return hierarchy && this->Wanted.size() >
+    hierarchy->GetChildNodes(vtkDataAssembly::GetRootNode(), false).size();
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(vtkPVDataInformation* data)
+{
+  vtkSMPropertyHelper array(this, "ColorArrayName");
+  const bool isByBlock = array.GetInputArrayNameToProcess() &&
+    std::strcmp(array.GetInputArrayNameToProcess(), "Label") == 0 &&
+    array.GetInputArrayAssociation() == vtkDataObject::FIELD;
+  if (!data->GetArrayInformation("Label", vtkDataObject::CELL) ||
+    !(this->IsWaitingForLabels || isByBlock))
+  {
+    return;
+  }
+  const bool isMerged = this->IsMerged(data);
+  if (this->IsWaitingForLabels || isMerged)
+  {
+    this->SetScalarColoring("Label", isMerged ? vtkDataObject::CELL : vtkDataObject::FIELD);
+  }
+  this->IsWaitingForLabels = false;
 }
 
 //------------------------------------------------------------------------------
@@ -74,19 +118,20 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
     this->Superclass::AdaptColorsOf(array, colors, data);
     return;
   }
-  vtkSMPropertyHelper input(this, "Input", true);
-  auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
-  if (!source || data->GetMTime() == this->AdaptedTime)
+  this->FetchCategories(data);
+  // Of an error there are none: what is there serves again.
+  if (this->WantedTime != this->AdaptedTime && !this->Wanted.empty())
   {
-    return;
+    this->GiveCategories(colors, this->Wanted);
+    this->GiveToOthers(this->Wanted);
   }
-  std::vector<volumic::ColorCategory> wanted =
-    CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
-  this->AdaptedTime = data->GetMTime();
-  if (wanted.empty())
-  {
-    return; // An error: what is there serves again.
-  }
+  this->AdaptedTime = this->WantedTime;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::GiveCategories(
+  vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted)
+{
   std::vector<volumic::ColorCategory> present = volumic::CategoriesOf(colors);
   if (volumic::HasGotItsRange(colors) && !volumic::AreSame(present, this->Given))
   {
@@ -98,6 +143,21 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
     this->Given = wanted;
   }
   volumic::SetCategories(colors, wanted);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::GiveToOthers(
+  const std::vector<volumic::ColorCategory>& wanted)
+{
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  vtkSMProxy* colors =
+    manager->GetColorTransferFunction("Label", this->GetSessionProxyManager());
+  if (colors && (!volumic::HasGotItsRange(colors) ||
+    volumic::AreSame(volumic::CategoriesOf(colors), this->GivenToOthers)))
+  {
+    volumic::SetCategories(colors, wanted);
+    this->GivenToOthers = wanted;
+  }
 }
 
 //------------------------------------------------------------------------------

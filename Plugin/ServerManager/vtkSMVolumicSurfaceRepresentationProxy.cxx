@@ -68,7 +68,7 @@ int vtkSMVolumicSurfaceRepresentationProxy::ReadXMLAttributes(
   vtkSMProperty* input = geometry ? geometry->GetProperty("Input") : nullptr;
   auto* domain = vtkSMInputArrayDomain::SafeDownCast(
     input ? input->GetDomain("input_array_any") : nullptr);
-  if (domain)
+  if (domain && !this->IsFieldDataOffered())
   {
     InputArrayDomain::LeaveOutFieldData(domain);
   }

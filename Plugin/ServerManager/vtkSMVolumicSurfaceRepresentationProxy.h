@@ -47,6 +47,8 @@ protected:
   void CreateVTKObjects() override;
   int ReadXMLAttributes(vtkSMSessionProxyManager* manager, vtkPVXMLElement* element) override;
 
+  /** Whether arrays of field data are among the colours to choose from. */
+  virtual bool IsFieldDataOffered() const { return false; }
   /** Of a colour map that is this display's own, in use for the array. */
   virtual void AdaptColorsOf(
     const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data);

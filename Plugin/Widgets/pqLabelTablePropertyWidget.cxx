@@ -118,7 +118,7 @@ pqLabelTablePropertyWidget::pqLabelTablePropertyWidget(
   pqCoreUtilities::connect(property, vtkCommand::DomainModifiedEvent, this, SLOT(fillTable()));
   if (vtkSMProperty* background = proxy->GetProperty("BackgroundLabel"))
   {
-    for (const unsigned long event :
+    for (const vtkCommand::EventIds event :
       { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
     {
       pqCoreUtilities::connect(background, event, this, SLOT(checkRows()));

@@ -11,6 +11,7 @@ import numpy
 from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import label_maps
@@ -64,9 +65,10 @@ class LabelsTestCase(unittest.TestCase):
         self.assertEqual(labels_of(surface), {label})
         voxels = testing.field(surface, "LabelVoxels")
         self.assertEqual(voxels, int((label_maps.values() == label).sum()))
-        self.assertLess(testing.field(surface, "WrongVoxels"), 0.01 * voxels)
+        self.assertLess(testing.field(surface, "WrongVoxels"), 0.02 * voxels)
+        # Of so small a ball: counting voxels alone is as wrong.
         volume = testing.field(surface, "Volume") / unit**3
-        self.assertAlmostEqual(volume / voxels, 1.0, delta=0.03)
+        self.assertAlmostEqual(volume / voxels, 1.0, delta=0.06)
         points = vtk_to_numpy(surface.GetPoints().GetData())
         distance = numpy.linalg.norm(points - start - unit * numpy.array(centre), axis=1)
         self.assertLess(numpy.abs(distance - unit * radius).max(), 0.8 * unit)
@@ -170,6 +172,41 @@ class LabelsTest(LabelsTestCase):
         filter_.Smoothing = 0
         self.assertGreater(testing.field(self.blocks(filter_)["Label 3"], "Area"),
                            1.005 * testing.field(usual, "Area"))
+
+    def test_what_is_offered(self):
+        """By the menu; and that the only image of a composite dataset serves."""
+        bare = label_maps.image()
+        bare.GetPointData().Initialize()
+        vectors = label_maps.image()
+        vectors.GetPointData().Initialize()
+        testing.add_array(vectors, numpy.zeros(1), "colours")
+        array = vectors.GetPointData().GetArray("colours")
+        array.SetNumberOfComponents(3)
+        array.SetNumberOfTuples(label_maps.SIZE**3)
+        nested = vtkMultiBlockDataSet()
+        nested.SetBlock(1, label_maps.image())
+        for data, wanted in ((label_maps.image(), True), (label_maps.cells(), True),
+                             (nested, True), (bare, False), (vectors, False)):
+            with self.subTest(data=data.GetClassName()), testing.CapturedMessages():
+                filter_ = simple.LabelstoSurfaces(testing.produce(data))
+                offered = filter_.SMProxy.GetProperty("Input").IsInDomains()
+                self.assertEqual(bool(offered), wanted)
+        filter_ = simple.LabelstoSurfaces(testing.produce(nested), Labels=[7])
+        self.check_ball(self.blocks(filter_)["Label 7"], 7)
+
+    def test_stopped_and_run_again(self):
+        filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()))
+        algorithm = filter_.GetClientSideObject()
+        # As the cross beside the progress bar does.
+        tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: caller.SetAbortExecute(
+            caller.GetProgressText() == "Fields of the labels"))
+        stopped = testing.levels(testing.fetch(filter_))
+        reasons = [testing.field(surface, "StopReason") for surface in stopped]
+        self.assertEqual(reasons, ["cancelled"] * 3)
+        algorithm.RemoveObserver(tag)
+        filter_.Smoothing = 1.9
+        for label, surface in zip(BALLS, self.blocks(filter_).values()):
+            self.check_ball(surface, label)
 
     def test_states(self):
         path = testing.write_volume("labels-state.vti", label_maps.image())

@@ -76,13 +76,22 @@ class LabelsViewTest(unittest.TestCase):
         self.show()
         # In the very first picture.
         self.assertEqual(hues(self.picture("first")), {"red", "green", "blue"})
-        self.assertEqual(list(self.display.ColorArrayName), ["CELLS", "Label"])
+        self.assertEqual(list(self.display.ColorArrayName), ["FIELD", "Label"])
         self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
         self.check_legend([3, 7, 12])
 
     def test_merged_surface(self):
         self.show(Labels=[3, 7], Merge=1)
         self.assertEqual(hues(self.picture("merged")), {"red", "green"})
+        self.check_legend([3, 7])
+        self.filter.Merge = 0
+        self.assertEqual(hues(self.picture("no-longer-merged")), {"red", "green"})
+
+    def test_merged_later(self):
+        self.show(Labels=[3, 7])
+        self.assertEqual(hues(self.picture("not-yet-merged")), {"red", "green"})
+        self.filter.Merge = 1
+        self.assertEqual(hues(self.picture("merged-later")), {"red", "green"})
         self.check_legend([3, 7])
 
     def test_colors_follow_the_data(self):
@@ -141,6 +150,25 @@ class LabelsViewTest(unittest.TestCase):
         self.picture("both-maps")
         self.check_legend([3, 7, 12], display=first)
         self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, display)
+
+    def test_what_is_made_of_the_surfaces(self):
+        """Has the same colours, by the map that all displays of this array share."""
+        self.show()
+        self.picture("to-be-clipped")
+        clip = simple.Clip(self.filter)
+        clip.ClipType.Normal = [0.0, 0.0, 1.0]
+        clip.ClipType.Origin = [16.0, 16.0, 13.0]
+        display = simple.Show(clip, self.view)
+        simple.Hide(self.filter, self.view)
+        self.assertEqual(hues(self.picture("clipped")), {"red", "green"})
+        self.check_legend([3, 7, 12], display=display)
+        self.assertFalse(display.UseSeparateColorMap)
+        # Another map of labels has colours of its own; those that are shared stay.
+        other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
+        second = simple.LabelstoSurfaces(testing.produce(other), FinestLevel=1)
+        simple.Show(second, self.view)
+        self.picture("clipped-with-another")
+        self.check_legend([3, 7, 12], display=display)
 
     def test_saved_state(self):
         path = testing.write_volume("labels-view.vti", label_maps.image())

@@ -71,7 +71,7 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
     pictures = {
         # Two: the menu of a volume that has been opened.
         "paraview-menu.png": ("", start + open_menu_of_volumic() + [gui.pause(500),
-            *[gui.event(f"{FILTERS}/Volumic", "keyEvent", KEY_DOWN)] * 2, gui.pause(1500)]),
+            *[gui.event(f"{FILTERS}/Volumic", "keyEvent", KEY_DOWN)] * 3, gui.pause(1500)]),
         # Four: the surface.
         "paraview-volume-to-surface.png": ("", start + [
             filter_of_the_menu("VolumeToSurface"), gui.event(ISO_VALUE, "set_string", iso_value),
