@@ -49,6 +49,12 @@ constexpr std::array<float, 2> FurtherMargins = { 0.3f, 0.5f };
  */
 constexpr double ShareOfLongest = 0.625;
 
+/**
+ * Of a coarser level: how much of its Laplacian is taken off the field, times the square of the
+ * level's unit less 1. A quarter makes up for the Gaussian of the pyramid, the rest for chords.
+ */
+constexpr double BendPerLevel = 0.4;
+
 /** The same for a gap, times which triangles that leave their own field's inside are drawn back. */
 constexpr int RoundsOfGap = 6;
 
@@ -184,6 +190,17 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
   FieldImage made;
   threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, this->Options, threads); });
   this->Claims.Settle(object, made.Field);
+  const int level = this->Settings.EdgeLength != 0.0 ? this->Plan.FinestLevel
+                                                     : this->Settings.FinestLevel;
+  if (level > 0)
+  {
+    const double squaredFactor = std::pow(this->LevelFactor(), 2 * level);
+    threads.Run(
+      [&]
+      {
+        CorrectBends(made.Field, this->Bricks, object, BendPerLevel * (squaredFactor - 1.0), threads);
+      });
+  }
   made.Image = vtkSmartPointer<vtkImageData>::New();
   const int* extent = this->Image->GetExtent();
   int box[6];

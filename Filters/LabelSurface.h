@@ -11,6 +11,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -74,6 +75,11 @@ private:
     LabelField Field;
     vtkSmartPointer<vtkImageData> Image;
   };
+  /** Unit of a level over that of the level below. */
+  double LevelFactor() const
+  {
+    return this->Settings.EdgeLength != 0.0 ? this->Plan.ReductionFactor : std::sqrt(3.0);
+  }
   FieldImage MakeField(int object, HostThreads& threads) const;
   SegmentationVolume MakeVolume(vtkImageData* field, const Progress& progress) const;
   std::vector<std::int64_t> FindWrong(int object, vtkPolyData* surface) const;

@@ -96,3 +96,39 @@ TEST(DrawBackWithin, LowersTheFieldWhereTheSurfaceLeavesItsInside)
   EXPECT_NEAR(ValueAt(field, 15, 15, 25), ValueAt(original, 15, 15, 25) - 0.3f, 1e-5);
   EXPECT_EQ(ValueAt(field, 15, 15, 7), ValueAt(original, 15, 15, 7)) << "the other side stays";
 }
+
+TEST(DrawBackWithin, LooksAtTrianglesBetweenTheirCorners)
+{
+  const LabelMap map = MakeLabelMap({ 40, 20, 20 }, 1, [](int i, int j, int k)
+    { return std::hypot(std::abs(i - 19.5) - 11., j - 9.6, k - 9.6) < 6. ? 1 : 0; });
+  const LabelField original =
+    MakeLabelField(LabelBricks(map, OnThisThread()), 1, LabelFieldOptions(), OnThisThread());
+  LabelField field = original;
+  IndexedSurface triangle;
+  triangle.Points = { { 8.5, 8., 9. }, { 8.5, 11., 9. }, { 30.5, 9.6, 9. } };
+  triangle.Triangles = { { 0, 1, 2 } };
+  EXPECT_TRUE(DrawBackWithin(original, triangle, 0.3f, field)) << "it crosses the space between";
+}
+
+TEST(CorrectBends, LetsBentBoundariesGoOut)
+{
+  const LabelMap map = BallMap(32, 9.);
+  const LabelBricks bricks(map, OnThisThread());
+  const LabelField before =
+    MakeLabelField(bricks, 1, LabelFieldOptions(), OnThisThread());
+  LabelField after = before;
+  CorrectBends(after, bricks, 1, 0.8, OnThisThread());
+  double sum = 0.;
+  int count = 0;
+  ForVoxelsOf(before,
+    [&](int i, int j, int k, float value)
+    {
+      if (std::abs(value) < 0.7f)
+      {
+        sum += ValueAt(after, i, j, k) - value;
+        ++count;
+      }
+    });
+  // The Laplacian of the distance to a sphere is 2 over its radius.
+  EXPECT_NEAR(sum / count, 0.8 * 2. / 9., 0.05);
+}

@@ -88,10 +88,17 @@ public:
     if (this->Options.Sigma > 0.)
     {
       this->MakeDistance();
-      this->CorrectChords();
+      this->CorrectBends(this->Options.ChordCorrection);
       this->Hold({});
     }
     return std::move(this->Field);
+  }
+
+  void CorrectBendsOf(LabelField& field, double amount)
+  {
+    this->Field = std::move(field);
+    this->CorrectBends(amount);
+    field = std::move(this->Field);
   }
 
   void HoldFurther(LabelField& field, const std::vector<HeldVoxel>& held)
@@ -201,7 +208,7 @@ private:
     }
   }
 
-  void CorrectChords()
+  void CorrectBends(double amount)
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
@@ -213,7 +220,7 @@ private:
       weight[axis] =
         static_cast<float>(1. / (this->Map.Spacing[axis] * this->Map.Spacing[axis]));
     }
-    const auto correction = static_cast<float>(this->Options.ChordCorrection);
+    const auto correction = static_cast<float>(amount);
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
@@ -323,7 +330,7 @@ private:
 
   const LabelMap& Map;
   LabelMap::Number Object;
-  const LabelFieldOptions& Options;
+  LabelFieldOptions Options;
   Executor& Threads;
   BoundaryRows Rows;
   LabelField Field;
@@ -334,6 +341,12 @@ LabelField MakeLabelField(
   const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
 {
   return FieldMaker(bricks, object, options, executor).Make();
+}
+
+void CorrectBends(LabelField& field, const LabelBricks& bricks, int object, double amount,
+  Executor& executor)
+{
+  FieldMaker(bricks, object, LabelFieldOptions(), executor).CorrectBendsOf(field, amount);
 }
 
 void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,

@@ -76,6 +76,13 @@ LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFiel
   Executor& executor);
 
 /**
+ * For surfaces of a coarser level: takes so much of its Laplacian off the field, as step 3 does.
+ * Signs at voxel centres are not held afterwards.
+ */
+void CorrectBends(LabelField& field, const LabelBricks& bricks, int object, double amount,
+  Executor& executor);
+
+/**
  * Step 4 again, from the field as it is, with larger margins for some voxels.
  * @param held sorted by Voxel
  */
