@@ -93,6 +93,7 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const std::vector<LabelSurface>& surfaces, vtkMultiBlockDataSet* output)
 {
   std::vector<std::string> empty;
+  std::vector<std::string> lost;
   output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
@@ -121,12 +122,22 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     {
       empty.push_back(name);
     }
+    else if (isThere && choice.AllIsKept && 2 * surfaces[i].WrongVoxels > voxels)
+    {
+      lost.push_back(name);
+    }
   }
   std::string warning;
   if (!empty.empty())
   {
     warning = "No surface is left of " + Listed(empty) +
       ": too small or too thin for the triangles. With Finest Level -1 these are smaller.";
+  }
+  if (!lost.empty())
+  {
+    warning += (warning.empty() ? "" : " ") +
+      std::string("More voxels than half are on the wrong side of the surface of ") +
+      Listed(lost) + ": they are scattered, or in parts too thin for the triangles.";
   }
   return warning;
 }

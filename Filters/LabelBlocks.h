@@ -21,6 +21,7 @@ struct LabelChoice
 {
   std::vector<int> Labels; ///< sorted
   bool IsMerged = false;   ///< one surface about all
+  bool AllIsKept = true;   ///< neither components nor a gap are taken away on purpose
   LabelNames Names;
 };
 

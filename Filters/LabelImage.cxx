@@ -192,7 +192,7 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
 }
 
 LabelMap LabelImage::MakeMap(
-  const std::vector<int>& labels, bool merge, Executor& executor) const
+  const std::vector<int>& labels, bool merge, int background, Executor& executor) const
 {
   LabelMap map;
   std::copy_n(this->Geometry->GetDimensions(), 3, map.Size.begin());
@@ -203,6 +203,14 @@ LabelMap LabelImage::MakeMap(
     const int last = map.NumberOfObjects;
     map.NumberOfObjects = merge ? 1 : last + 1;
     objects[label] = static_cast<LabelMap::Number>(map.NumberOfObjects);
+  }
+  for (const auto& entry : this->Counts)
+  {
+    if (entry.first != background && objects.count(entry.first) == 0 &&
+      map.NumberOfObjects < std::numeric_limits<LabelMap::Number>::max())
+    {
+      objects[entry.first] = static_cast<LabelMap::Number>(++map.NumberOfObjects);
+    }
   }
   const auto count = static_cast<std::size_t>(this->Voxels->GetNumberOfTuples());
   map.Voxels.resize(count);

@@ -51,8 +51,12 @@ public:
    */
   std::vector<int> Choose(const std::vector<int>& wanted, int background) const;
 
-  /** Objects are labels in this order, from 1; or one object of all of them. */
-  LabelMap MakeMap(const std::vector<int>& labels, bool merge, Executor& executor) const;
+  /**
+   * Objects are labels in this order, from 1, or one object of all of them; then those that nobody
+   * asks for, but for the background, as they have their share of the places between.
+   */
+  LabelMap MakeMap(
+    const std::vector<int>& labels, bool merge, int background, Executor& executor) const;
 
   /** For each triangle the label of the voxel nearest to its centroid, of those given, sorted. */
   void FindNearest(vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const;

@@ -139,10 +139,10 @@ private:
 };
 
 /** About the work that an object is: the bricks that it is in. */
-std::vector<double> SizesOf(const LabelBricks& bricks)
+std::vector<double> SizesOf(const LabelBricks& bricks, int wanted)
 {
   std::vector<double> sizes;
-  for (int object = 1; object <= bricks.Map().NumberOfObjects; ++object)
+  for (int object = 1; object <= wanted; ++object)
   {
     const LabelExtent& extent = bricks.ExtentOf(object);
     sizes.push_back(1.0 +
@@ -153,9 +153,9 @@ std::vector<double> SizesOf(const LabelBricks& bricks)
 }
 
 std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
-  int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
+  int wanted, int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
 {
-  const std::vector<double> sizes = SizesOf(bricks);
+  const std::vector<double> sizes = SizesOf(bricks, wanted);
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
@@ -214,6 +214,13 @@ std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const Labe
           course.Tell(item, 1.0);
         }
       });
+    for (const int neighbour : bricks.NeighboursOf(wanted))
+    {
+      if (tell("Fields of the labels about them"))
+      {
+        maker.AddClaim(neighbour, threads);
+      }
+    }
     before = claimShare;
     whole = 1.0 - claimShare;
     for (std::size_t i = 0; i < sizes.size(); ++i)

@@ -11,15 +11,17 @@
 namespace volumic
 {
 /**
- * The surfaces of all objects of a label map: those that are large one after another, each by all
+ * The surfaces of objects of a label map: those that are large one after another, each by all
  * threads; the others side by side, each by one.
  *
+ * @param wanted          the objects from 1 to this one get surfaces; those beyond it only claim
+ *                        places between
  * @param numberOfThreads 0: all
  * @param progress        called on the calling thread; after false, what is not finished is stopped
- * @return one for each object, from 1
+ * @return one for each of them
  */
 std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
-  int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress);
+  int wanted, int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress);
 }
 
 #endif

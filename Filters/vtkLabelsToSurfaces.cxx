@@ -226,6 +226,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
       choice.Names = internals.Names;
       choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));
       choice.IsMerged = internals.Merge;
+      choice.AllIsKept = internals.Settings.KeepComponents == 0 && internals.Settings.Gap == 0.0 &&
+        internals.Settings.FinestLevel <= 0 && internals.Settings.EdgeLength == 0.0;
       return 0;
     });
   if (!image->Warning().empty())
@@ -235,12 +237,14 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
   threads.Run(
     [&]
     {
-      map = image->MakeMap(choice.Labels, internals.Merge, threads);
+      map = image->MakeMap(
+        choice.Labels, internals.Merge, internals.BackgroundLabel, threads);
       bricks.emplace(map, threads);
     });
   volumic::LabelSurfaceMaker maker(*bricks, image->Image(), internals.Settings);
+  const int wanted = internals.Merge ? 1 : static_cast<int>(choice.Labels.size());
   const std::vector<volumic::LabelSurface> surfaces =
-    volumic::MakeLabelSurfaces(maker, *bricks, internals.NumberOfThreads, threads, show);
+    volumic::MakeLabelSurfaces(maker, *bricks, wanted, internals.NumberOfThreads, threads, show);
   const std::string warning = volumic::FillBlocks(choice, *image, surfaces, output);
   if (!warning.empty())
   {

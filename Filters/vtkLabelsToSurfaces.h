@@ -22,7 +22,7 @@
  * A vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order of the labels' values,
  * named by the label's name, or `Label 3`; with Merge one block, named `Labels 1, 3`, or `Label 3`.
  * A label that asks for more than the triangles can hold, such as a single voxel, has an empty
- * block, and a warning tells which. World coordinates; arrays and field data of each block as
+ * block, and a warning tells which; and of which more voxels than half are on the wrong side. World coordinates; arrays and field data of each block as
  * vtkDeformableSurface has them, and:
  * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
  * - field data: with an entry for the label, with Merge for each that was merged, `Label` (int),
@@ -33,12 +33,14 @@
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made
- * of each label by itself, see Core/Labels/LabelField.h: its membership, smoothed by a Gaussian,
- * as a distance; corrected so that as much volume is inside near each place as there is in voxels;
+ * of each label by itself, see Core/Labels/LabelField.h: its membership, smoothed by a Gaussian, as
+ * a distance; corrected so that as much volume is inside near each place as there is in voxels;
  * then held to the labels by the smallest correction (of a Gaussian kernel's norm) that gives all
  * voxel centres the right sign. Where three labels meet, that of the others' that claim the place
- * most is taken off, so that fields of two labels are never both positive. The surface starts as
- * the field's iso-surface at FinestLevel, so that no part is lost by coarser levels.
+ * most is taken off, so that fields of two labels are never both positive: also what labels claim
+ * that are not among Labels, so that a label has the same surface whichever others are made. The
+ * surface starts as the field's iso-surface at FinestLevel, so that no part is lost by coarser
+ * levels.
  * @par
  * Only the voxels about a label are worked on. Labels are made side by side by the threads; results
  * do not depend on their number.

@@ -117,3 +117,15 @@ TEST(BoundaryRows, AreWhatIsNearTheBoundaryAndNothingElse)
     });
   EXPECT_GT(near, 10000);
 }
+
+TEST(LabelBricks, KnowWhoMeetsWhomWithAThird)
+{
+  // Three slabs on one another, 1 to 3, and 4 far from them.
+  const LabelMap map = MakeLabelMap({ 80, 24, 48 }, 4,
+    [](int i, int, int k) { return i > 70 ? 4 : i > 24 ? 0 : 1 + k / 16; });
+  const LabelBricks bricks(map, OnThisThread());
+  EXPECT_EQ(bricks.NeighboursOf(1), (std::vector<int>{ 2 }));
+  EXPECT_EQ(bricks.NeighboursOf(2), (std::vector<int>{ 3 }));
+  EXPECT_TRUE(bricks.NeighboursOf(3).empty());
+  EXPECT_TRUE(bricks.NeighboursOf(4).empty());
+}

@@ -176,6 +176,23 @@ TEST(LabelsToSurfaces, MakesThoseThatAreChosen)
   EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 0", "Label 7" }));
 }
 
+TEST(LabelsToSurfaces, ALabelHasTheSameSurfaceWhicheverOthersAreMade)
+{
+  const auto sectors = [](int i, int j, int k)
+  { return k < 8 ? 9 : std::atan2(j - 15.3, i - 15.6) < -1. ? 1 : i < 16 ? 2 : 3; };
+  const auto image = LabelImageOf(32, 32, 24, sectors);
+  const auto all = LabelSurfacesOf(image);
+  for (const int label : { 1, 2, 3, 9 })
+  {
+    vtkNew<vtkLabelsToSurfaces> one;
+    one->SetInputData(image);
+    one->AddLabel(label);
+    one->Update();
+    ExpectSameSurfaces(
+      BlockOf(one, 0), BlockOf(all, static_cast<unsigned int>(label == 9 ? 3 : label - 1)));
+  }
+}
+
 TEST(LabelsToSurfaces, MergesLabelsToOneSurface)
 {
   vtkNew<vtkLabelsToSurfaces> filter;

@@ -212,3 +212,14 @@ TEST_F(LabelsToSurfacesErrors, LabelsTooSmallForTrianglesAreNamedAndTheOthersMad
   EXPECT_EQ(FieldOf(BlockOf(this->Filter, 2), "WrongVoxels"), 1.);
   EXPECT_TRUE(warnings.Has("No surface is left of Label 9")) << warnings.Get();
 }
+
+TEST_F(LabelsToSurfacesErrors, LabelsOfDustAreNamed)
+{
+  const auto dust = [](int i, int j, int k)
+  { return i > 24 && (i + j + k) % 4 == 0 && j % 2 == 0 ? 9. : TwoBalls(i, j, k); };
+  this->Filter->SetInputData(LabelImageOf(34, 28, 28, dust));
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  this->Filter->Update();
+  EXPECT_TRUE(warnings.Has("Label 9")) << warnings.Get();
+  EXPECT_FALSE(warnings.Has("Label 3")) << warnings.Get();
+}

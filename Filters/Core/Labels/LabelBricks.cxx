@@ -117,6 +117,64 @@ LabelBricks::Range LabelBricks::ObjectsIn(int i, int j, int k) const
     this->Objects.data() + this->First[brick + 1] };
 }
 
+std::vector<int> LabelBricks::NeighboursOf(int last) const
+{
+  std::vector<bool> isNeighbour(this->Extents.size(), false);
+  const VoxelBox all = VoxelBox::Of(this->Count);
+  for (int object = 1; object <= last && last + 1 < static_cast<int>(this->Extents.size());
+       ++object)
+  {
+    const VoxelBox& box = this->Extents[static_cast<std::size_t>(object)].Bricks;
+    ForRowsOf(box, all,
+      [&](std::int64_t first, std::int64_t count)
+      {
+        for (std::int64_t brick = first; brick < first + count; ++brick)
+        {
+          const std::array<int, 3> at = { static_cast<int>(brick % this->Count[0]),
+            static_cast<int>(brick / this->Count[0] % this->Count[1]),
+            static_cast<int>(brick / this->Count[0] / this->Count[1]) };
+          if (this->IsContested(at[0], at[1], at[2]) &&
+            this->ObjectsIn(at[0], at[1], at[2]).Has(static_cast<LabelMap::Number>(object)))
+          {
+            this->MarkNear(at, isNeighbour);
+          }
+        }
+      });
+  }
+  std::vector<int> neighbours;
+  for (int object = last + 1; object < static_cast<int>(isNeighbour.size()); ++object)
+  {
+    if (isNeighbour[static_cast<std::size_t>(object)])
+    {
+      neighbours.push_back(object);
+    }
+  }
+  return neighbours;
+}
+
+void LabelBricks::MarkNear(const std::array<int, 3>& brick, std::vector<bool>& objects) const
+{
+  VoxelBox about;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    about.First[axis] = std::max(0, brick[axis] - Reach);
+    about.End[axis] = std::min(this->Count[axis], brick[axis] + Reach + 1);
+  }
+  for (int k = about.First[2]; k < about.End[2]; ++k)
+  {
+    for (int j = about.First[1]; j < about.End[1]; ++j)
+    {
+      for (int i = about.First[0]; i < about.End[0]; ++i)
+      {
+        for (const LabelMap::Number object : this->ObjectsIn(i, j, k))
+        {
+          objects[object] = true;
+        }
+      }
+    }
+  }
+}
+
 void LabelBricks::FindObjects(Executor& executor)
 {
   const auto bricksOfLayer = static_cast<std::size_t>(this->Count[0]) * this->Count[1];

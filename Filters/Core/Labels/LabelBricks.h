@@ -58,9 +58,13 @@ public:
     return this->Contested[static_cast<std::size_t>(
              VoxelBox::Of(this->Count).NumberOf(i, j, k))] != 0;
   }
+  /** The objects beyond `last` that meet some of those up to it, and a third one, sorted. */
+  std::vector<int> NeighboursOf(int last) const;
   bool HasContested() const { return this->AnyContested; }
 
 private:
+  /** Marks the objects that matter to a brick. */
+  void MarkNear(const std::array<int, 3>& brick, std::vector<bool>& objects) const;
   void FindObjects(Executor& executor);
   void FindExtents(Executor& executor);
   void FindContested(Executor& executor);
