@@ -41,6 +41,7 @@ set(volumic_core_sources
   Mesh/EdgeSplit.cxx
   Mesh/LatticeInside.cxx
   Mesh/LatticeSurface.cxx
+  Mesh/RingRelief.cxx
   Mesh/SelfIntersections.cxx
   Mesh/StarMerge.cxx
   Mesh/SurfaceCheck.cxx
@@ -153,6 +154,7 @@ set(volumic_core_headers
   Mesh/LatticeInside.h
   Mesh/LatticeSurface.h
   Mesh/ObliqueRotation.h
+  Mesh/RingRelief.h
   Mesh/RowCrossing.h
   Mesh/SelfIntersections.h
   Mesh/StarMerge.h

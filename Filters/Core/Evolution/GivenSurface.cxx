@@ -5,6 +5,7 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/LatticeSurface.h"
 #include "Core/Mesh/ObliqueRotation.h"
+#include "Core/Mesh/RingRelief.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 
@@ -182,14 +183,15 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
 
 void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool isSound)
 {
-  const IndexedSurface surface = WithoutUnusedPoints(given);
+  IndexedSurface surface = WithoutUnusedPoints(given);
   // A mesh that is near to the constraints is brought within them as it is, by the edits of an
   // iteration. They rely on edges that are not too long and rings that have room; where long edges,
   // slivers or fans deny them that, the same surface gets another mesh first.
   const SurfaceState& s = this->State;
   const EdgeLengths lengths = LengthsOf(surface);
   if (lengths.Longest <= SizingField::LongestEdgeInDelta * s.Sizing.OfLevel() &&
-    FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel()))
+    (isSound ? RelieveRings(surface)
+             : FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel())))
   {
     this->Begin(surface);
     if (this->Iteration.Intersections().empty())
