@@ -128,6 +128,16 @@ class LabelsWindowTest(window.WindowTestCase):
             "labels-all")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
 
+    def test_undo(self):
+        path, save = self.saved_state("labels-undone.pvsm")
+        undo = gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", "actionEditUndo")
+        self.play(opened(self.path) + [
+            FILTER, APPLY, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500),
+            # The window's editor of colour maps makes a step of its own of what follows the data.
+            note("2 of 4 labels"), undo, undo, gui.pause(1000), note("3 of 4 labels"),
+            *save, gui.pause(500)], "labels-undone")
+        self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
+
     def test_background(self):
         path, save = self.saved_state("labels-background.pvsm")
         background = f"{PROPERTIES}/BackgroundLabel/LineEdit0"
