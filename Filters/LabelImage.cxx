@@ -151,7 +151,8 @@ void LabelImage::CheckNumberOfLabels() const
   if (this->Counts.size() > MostLabels)
   {
     Refuse(NameOf(this->Voxels), " has ", this->Counts.size(), " different values, more than ",
-      MostLabels, ": it is likely no label map. For the surface of a volume apply Volume to Surface "
+      MostLabels,
+      ": it is likely no label map. For the surface of a volume apply Volume to Surface "
       "(vtkVolumeToSurface); of a label map choose some of its Labels.");
   }
 }

@@ -45,7 +45,7 @@ constexpr std::array<float, 2> FurtherMargins = { 0.3f, 0.5f };
 
 /**
  * Smoothing is in smallest distances of voxels, or in this share of the longest, if that is more:
- * stairs are as high as voxels are long; but with all of it what is thin along the other axes, bulges.
+ * stairs are as high as voxels are long; but with all of it bulges what is thin along other axes.
  */
 constexpr double ShareOfLongest = 0.625;
 
@@ -198,7 +198,8 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
     threads.Run(
       [&]
       {
-        CorrectBends(made.Field, this->Bricks, object, BendPerLevel * (squaredFactor - 1.0), threads);
+        CorrectBends(
+          made.Field, this->Bricks, object, BendPerLevel * (squaredFactor - 1.0), threads);
       });
   }
   made.Image = vtkSmartPointer<vtkImageData>::New();

@@ -24,7 +24,7 @@ namespace volumic
 /** What vtkLabelsToSurfaces is asked for, but for which labels. Numbers may be out of range. */
 struct LabelSettings
 {
-  double Smoothing = 2.0; ///< voxels of the longest axis
+  double Smoothing = 2.0; ///< smallest distances of voxels, or 5/8 of the longest
   double Gap = 0.0;       ///< world units
   int Metric = 1;
   double EdgeLength = 0.0;

@@ -153,7 +153,8 @@ std::vector<double> SizesOf(const LabelBricks& bricks, int wanted)
 }
 
 std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
-  int wanted, int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
+  int wanted, int numberOfThreads, HostThreads& threads,
+  const LabelSurfaceMaker::Progress& progress)
 {
   const std::vector<double> sizes = SizesOf(bricks, wanted);
   std::vector<std::size_t> order(sizes.size());

@@ -21,7 +21,8 @@ namespace volumic
  * @return one for each of them
  */
 std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
-  int wanted, int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress);
+  int wanted, int numberOfThreads, HostThreads& threads,
+  const LabelSurfaceMaker::Progress& progress);
 }
 
 #endif

@@ -12,8 +12,8 @@
  *
  * @par Output:
  * A vtkTable with a row per label, in the order of their values: `Label` (int), `Name` (string: the
- * one that comes with the image, or `Label 3`), `Voxels` (vtkIdType), `Color` (double, 3 components,
- * 0 to 1: that which comes with the image, or one of a fixed palette).
+ * one that comes with the image, or `Label 3`), `Voxels` (vtkIdType), `Color` (double, 3
+ * components, 0 to 1: that which comes with the image, or one of a fixed palette).
  *
  * @par Errors:
  * As vtkLabelsToSurfaces.

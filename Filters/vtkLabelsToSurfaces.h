@@ -22,14 +22,14 @@
  * A vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order of the labels' values,
  * named by the label's name, or `Label 3`; with Merge one block, named `Labels 1, 3`, or `Label 3`.
  * A label that asks for more than the triangles can hold, such as a single voxel, has an empty
- * block, and a warning tells which; and of which more voxels than half are on the wrong side. World coordinates; arrays and field data of each block as
- * vtkDeformableSurface has them, and:
+ * block, and a warning tells which; and of which more voxels than half are on the wrong side. World
+ * coordinates; arrays and field data of each block as vtkDeformableSurface has them, and:
  * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
  * - field data: with an entry for the label, with Merge for each that was merged, `Label` (int),
- *   `LabelName` (string) and `LabelColor` (double, 3 components, 0 to 1: as given, or one of a fixed
- *   palette); `LabelVoxels` (vtkIdType: voxels of the label), `WrongVoxels` (vtkIdType: of the
- *   label's that have their centres outside, and of others that have them inside; with Gap, those
- *   that it puts there count, too).
+ *   `LabelName` (string) and `LabelColor` (double, 3 components, 0 to 1: as given, or one of a
+ *   fixed palette); `LabelVoxels` (vtkIdType: voxels of the label), `WrongVoxels` (vtkIdType: of
+ *   the label's that have their centres outside, and of others that have them inside; with Gap,
+ *   those that it puts there count, too).
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made
@@ -112,10 +112,10 @@ public:
 
   ///@{
   /**
-   * Standard deviation of the Gaussian that smooths the labels, in voxels of the axis along which
-   * they are longest, the same length along all axes; 0: none, stairs stay. What it would take away
-   * is held: more smoothing makes smoother surfaces between the voxels' centres, not other
-   * objects. Default: 2.
+   * Standard deviation of the Gaussian that smooths the labels, the same length along all axes, in
+   * smallest distances of voxels, or, where that is more, in 5/8 of the longest; 0: none, stairs
+   * stay; at most 10. What it would take away is held: more smoothing makes smoother surfaces
+   * between the voxels' centres, not other objects. Default: 2.
    */
   void SetSmoothing(double voxels);
   double GetSmoothing();

@@ -187,8 +187,8 @@ std::vector<PropertyOption> MakeProperties()
       { return std::string(filters.Labels->GetMerge() ? "on" : "off"); },
       [](const FilterTrio& filters, const std::string&) { filters.Labels->SetMerge(true); } },
     LABELS_NUMBER(Smoothing, "smoothing", "VOXELS",
-      "with --labels: how far the stairs between voxels are smoothed, in voxels of the axis along "
-      "which they are longest; 0: not at all"),
+      "with --labels: how far the stairs between voxels are smoothed, in smallest distances of "
+      "voxels or 5/8 of the longest; 0: not at all"),
     LABELS_NUMBER(Gap, "gap", "LENGTH",
       "with --labels: the space between the surfaces of neighbours, in world units"),
   };

@@ -57,7 +57,8 @@ def label_picture(path, width, close_labels=CLOSE_LABELS):
             near]
     panels = []
     for number, surfaces in enumerate(rows):
-        bounds = np.array([surface.GetBounds() for surface, _ in (surfaces if number == 0 else near)])
+        shown = surfaces if number == 0 else near
+        bounds = np.array([surface.GetBounds() for surface, _ in shown])
         bounds = np.ravel([bounds[:, ::2].min(axis=0), bounds[:, 1::2].max(axis=0)], order="F")
         actors = [render.surface_actor(surface, color) for surface, color in surfaces]
         for actor in actors:

@@ -17,7 +17,7 @@ namespace volumic
 class BoundaryGaussian
 {
 public:
-  /** Writes the values of `count` voxels from (i, j, k) on along x; any place, 0 outside the box. */
+  /** Writes `count` values from voxel (i, j, k) on along x; any place, 0 outside the box. */
   using Source = std::function<void(int i, int j, int k, int count, float* values)>;
 
   /** @param sigma in voxels of each axis; 0: none. The rows must outlive it. */

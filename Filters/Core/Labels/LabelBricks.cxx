@@ -213,7 +213,8 @@ void LabelBricks::FindExtents(Executor& executor)
     {
       std::vector<LabelExtent> own(numberOfExtents);
       const auto rowLength = static_cast<std::size_t>(this->Labels->Size[0]);
-      const std::size_t last = std::min(end * Side, static_cast<std::size_t>(this->Labels->Size[2]));
+      const std::size_t last =
+        std::min(end * Side, static_cast<std::size_t>(this->Labels->Size[2]));
       const LabelMap::Number* voxel =
         this->Labels->Voxels.data() + begin * Side * rowsOfLayer * rowLength;
       const LabelMap::Number* const stop =

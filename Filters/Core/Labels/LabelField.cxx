@@ -239,7 +239,8 @@ private:
             float laplacian = 0.f;
             for (int axis = 0; axis < 3; ++axis)
             {
-              laplacian += weight[axis] * (old[x - step[axis]] - 2.f * old[x] + old[x + step[axis]]);
+              laplacian +=
+                weight[axis] * (old[x - step[axis]] - 2.f * old[x] + old[x + step[axis]]);
             }
             values[x] -= correction * std::clamp(laplacian, -MostCurvature, MostCurvature);
           }

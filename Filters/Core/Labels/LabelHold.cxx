@@ -103,8 +103,8 @@ void HoldToLabels(LabelField& field, const std::array<double, 3>& spacing,
     for (std::size_t c = 0; c < constraints.size(); ++c)
     {
       const VoxelConstraint& constraint = constraints[c];
-      const float missing =
-        constraint.Margin - constraint.Side * field.Values[static_cast<std::size_t>(constraint.Place)];
+      const auto place = static_cast<std::size_t>(constraint.Place);
+      const float missing = constraint.Margin - constraint.Side * field.Values[place];
       float& multiplier = multipliers[c];
       const float change = std::max(missing, -multiplier);
       if (change > Tolerance || change < -Tolerance)
