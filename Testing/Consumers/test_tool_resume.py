@@ -51,7 +51,7 @@ class ResumeTestCase(ToolTestCase):
         return self.arguments(volume, name, "--scratch", self.scratch, "--resume", *more)
 
     def contents(self, name):
-        """All that a run has written, but for its seconds."""
+        """All that a run has written, but for its seconds and the memory that it took."""
         files = {}
         folders = [self.path(name + "-levels"), self.path(name + "-snapshots")]
         for path in [self.path(name + ".vtp")] + [
@@ -65,6 +65,7 @@ class ResumeTestCase(ToolTestCase):
         with open(self.path(name + ".json"), encoding="utf-8") as file:
             report = json.load(file)
         seconds = report.pop("seconds")
+        del report["memory"]
         for level in report["levels"]:
             seconds[level["level"]] = level.pop("seconds")
         for property_ in OF_THE_RUN:

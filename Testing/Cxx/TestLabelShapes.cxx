@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
     Promise{ LabelShapeKind::TouchingBalls, 64, 1.0, 2.0, 0.1, 3.0, 0.005, 3e-4 },
     Promise{ LabelShapeKind::CutBall, 64, 1.0, 2.0, 0.1, 3.5, 0.015, 3e-3 },
     Promise{ LabelShapeKind::Sphere, 64, 3.0, 2.0, 0.1, 3.0, 0.012, 6e-4 },
-    Promise{ LabelShapeKind::Torus, 64, 3.0, 1.0, 0.11, 4.5, 0.02, 1e-3 }),
+    Promise{ LabelShapeKind::Torus, 64, 3.0, 2.0, 0.11, 4.5, 0.02, 1e-3 }),
   [](const testing::TestParamInfo<Promise>& info)
   {
     return LabelShapeName(info.param.Kind) + std::to_string(info.param.Size) +
