@@ -157,7 +157,7 @@ class LabelsViewTest(unittest.TestCase):
         self.picture("to-be-clipped")
         clip = simple.Clip(self.filter)
         clip.ClipType.Normal = [0.0, 0.0, 1.0]
-        clip.ClipType.Origin = [16.0, 16.0, 13.0]
+        clip.ClipType.Origin = [16.0, 16.0, 12.0]  # Below the spleen.
         display = simple.Show(clip, self.view)
         simple.Hide(self.filter, self.view)
         self.assertEqual(hues(self.picture("clipped")), {"red", "green"})
