@@ -16,7 +16,9 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
+#include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -118,11 +120,13 @@ vtkSmartPointer<vtkImageData> PadForLevel(vtkImageData* field, double factor, in
 /** Multiplies the residuals, which are in smallest distances of voxels. */
 void ScaleResidual(vtkPolyData* surface, double unit)
 {
-  auto* residual =
-    vtkFloatArray::SafeDownCast(surface->GetPointData()->GetArray("Residual"));
-  for (vtkIdType i = 0; residual && i < residual->GetNumberOfTuples(); ++i)
+  for (vtkDataArray* residual : { surface->GetPointData()->GetArray("Residual"),
+         surface->GetFieldData()->GetArray("ResidualQuantile") })
   {
-    residual->SetValue(i, static_cast<float>(unit * residual->GetValue(i)));
+    for (vtkIdType i = 0; residual && i < residual->GetNumberOfTuples(); ++i)
+    {
+      residual->SetComponent(i, 0, unit * residual->GetComponent(i, 0));
+    }
   }
 }
 }
@@ -330,7 +334,7 @@ LabelSurface LabelSurfaceMaker::Make(
   SegmentationRequest request;
   request.Progress = [&](double share, const std::string& text)
   { return progress(FieldShare + (1.0 - FieldShare) * share, text); };
-  request.Warn = [&](const std::string& text) { made.Warnings.push_back(text); };
+  request.Warn = [](const std::string&) {}; // Of all labels that are empty one warning tells.
   const LabelField original = this->Settings.Gap > 0.0 ? field.Field : LabelField();
   try
   {
@@ -361,6 +365,11 @@ LabelSurface LabelSurfaceMaker::Make(
     SurfaceSegmentation run(volume, request);
     run.Run();
     vtkPolyData* surface = run.Results().Outcome(run.EndsAt());
+    if (!surface)
+    {
+      made.Surface = nullptr;
+      return made;
+    }
     ScaleResidual(surface, Workspace(this->Image, Metric::World).WorldUnit());
     made.Surface = surface;
     made.WrongVoxels = static_cast<vtkIdType>(this->FindWrong(object, surface).size());

@@ -280,6 +280,15 @@ TEST(LabelsToSurfaces, KeepsToOriginSpacingDirectionAndExtent)
       0.01 * EnclosedVolume(BlockOf(moved, block)))
       << "outward in a mirror, too";
     EXPECT_LE(FieldOf(BlockOf(moved, block), "WrongVoxels"), 3.);
+    vtkDataArray* residual = BlockOf(moved, block)->GetPointData()->GetArray("Residual");
+    vtkIdType small = 0;
+    for (vtkIdType i = 0; i < residual->GetNumberOfTuples(); ++i)
+    {
+      small += std::abs(residual->GetComponent(i, 0)) <=
+        1.001 * FieldOf(BlockOf(moved, block), "ResidualQuantile");
+    }
+    EXPECT_NEAR(static_cast<double>(small) / static_cast<double>(residual->GetNumberOfTuples()),
+      0.98, 0.015) << "both in the same unit";
     double index[3];
     double centre[3];
     BlockOf(moved, block)->GetCenter(centre);
