@@ -374,9 +374,9 @@ LabelSurface LabelSurfaceMaker::Make(
     made.Surface = surface;
     made.WrongVoxels = static_cast<vtkIdType>(this->FindWrong(object, surface).size());
   }
-  catch (const std::invalid_argument& error)
+  catch (const std::invalid_argument&)
   {
-    made.Error = error.what(); // Too small or too thin for such triangles.
+    // Settings are checked before: it is too small or too thin for such triangles, and stays empty.
   }
   return made;
 }

@@ -41,7 +41,6 @@ struct LabelSurface
 {
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
   vtkIdType WrongVoxels = 0;
-  std::string Error; ///< why it is empty, where that is not plain
 };
 
 /** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */

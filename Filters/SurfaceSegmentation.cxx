@@ -352,11 +352,13 @@ bool SurfaceSegmentation::EvolveOn(
   const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
     reason != StopReason::Cancelled &&
     !SurfaceEvolution::AreInSweeps(this->Settings.Options, image.Size);
-  while (mayBeRevised && !surface.Points.empty() && this->Request.Revise(surface))
+  while (mayBeRevised && !evolution.IsStopped() && !surface.Points.empty() &&
+    this->Request.Revise(surface))
   {
     evolution.Revise(image);
     surface = evolution.Result();
   }
+  reason = evolution.IsStopped() ? StopReason::Cancelled : reason;
   return true;
 }
 

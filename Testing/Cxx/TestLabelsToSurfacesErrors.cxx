@@ -216,10 +216,16 @@ TEST_F(LabelsToSurfacesErrors, LabelsTooSmallForTrianglesAreNamedAndTheOthersMad
 TEST_F(LabelsToSurfacesErrors, LabelsOfDustAreNamed)
 {
   const auto dust = [](int i, int j, int k)
-  { return i > 24 && (i + j + k) % 4 == 0 && j % 2 == 0 ? 9. : TwoBalls(i, j, k); };
+  {
+    const bool isDust = k < 5 && i % 4 == 0 && j % 4 == 0 && k % 4 == 0;
+    const bool isSolid = std::hypot(i - 5., j - 5., k - 24.) < 2.6;
+    return isDust || isSolid ? 9. : TwoBalls(i, j, k);
+  };
   this->Filter->SetInputData(LabelImageOf(34, 28, 28, dust));
   const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
   this->Filter->Update();
-  EXPECT_TRUE(warnings.Has("Label 9")) << warnings.Get();
+  EXPECT_GT(BlockOf(this->Filter, 2)->GetNumberOfCells(), 20) << "of the solid part";
+  EXPECT_TRUE(warnings.Has("More voxels than half are on the wrong side of the surface of Label 9"))
+    << warnings.Get();
   EXPECT_FALSE(warnings.Has("Label 3")) << warnings.Get();
 }

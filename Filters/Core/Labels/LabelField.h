@@ -69,8 +69,7 @@ struct LabelField
  *
  * Tried instead: the sign alone held (single voxels stick out as spikes), the thin plate energy of
  * d under the same constraints (twice the error of the normals), Gaussians of higher order instead
- * of 2 (half a percent of the volume is lost).
- *
+ * of 2 (up to .9 % of the volume is lost).
  */
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor);
