@@ -334,10 +334,10 @@ public:
 
   ///@{
   /**
-   * What the surface starts from. EnclosingIcosahedron (default): an icosahedron about the image,
-   * shrunk to a rounded box. Seeds: icosahedra of SeedRadius that grow inside the object, at the
-   * SeedPositions and the points of port 1, or on a grid if there are neither. IsoSurface: the
-   * closed iso-surface of the coarsest level. InputSurface: the polygons of port 1.
+   * What the surface starts from. EnclosingIcosahedron (default): a rounded box about the image, in
+   * the place of the paper's icosahedron. Seeds: icosahedra of SeedRadius that grow inside the
+   * object, at the SeedPositions and the points of port 1, or on a grid if there are neither.
+   * IsoSurface: the closed iso-surface of the coarsest level. InputSurface: the polygons of port 1.
    */
   virtual void SetInitialization(int value);
   virtual int GetInitialization();

@@ -42,7 +42,8 @@ TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
     const double speed = evolution.Result().Delta / friction;
     EXPECT_NEAR(rows[20].KineticEnergy, 0.5 * speed * speed, 0.05 * speed * speed);
     EXPECT_LT(rows.back().KineticEnergy, 0.01 * speed * speed);
-    EXPECT_NEAR(rows[20].TimeStep, 0.5 * friction, 0.05 * friction);
+    EXPECT_LE(rows[20].TimeStep, 0.5 * friction * (1 + 1e-5));
+    EXPECT_GT(rows[20].TimeStep, 0.4 * friction) << "the edges of the box are a little faster";
   }
 }
 

@@ -376,7 +376,7 @@ TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
   Proximity proximity;
   proximity.Examine(state, All(state), Threads);
   EXPECT_TRUE(proximity.Pairs().empty());
-  EXPECT_EQ(state.NearOthers[0], 1) << "though edits must be verified there";
+  EXPECT_EQ(state.NearOthers[0], 1) << "though something else is near";
 }
 
 TEST(Proximity, FindsAStarThatIsFoldedOntoItself)

@@ -150,7 +150,6 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
     std::vector<int> all(state.Mesh.Size());
     std::iota(all.begin(), all.end(), 0);
     state.UpdateShape(all, threads);
-    state.NearOthers.Fill(1);
     SurfaceEditor editor(state);
     Dice dice(state.Mesh, seed);
     for (int step = 0; step < 800 && state.Mesh.NumberOfVertices() > 20; ++step)
@@ -189,7 +188,6 @@ TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
       if (did)
       {
         ++edits;
-        state.NearOthers.Fill(1);
         ASSERT_EQ(DescribeBrokenInvariant(state.Mesh), "") << "step " << step;
         ASSERT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
         ASSERT_EQ(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0) << "step " << step;

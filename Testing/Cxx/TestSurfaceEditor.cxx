@@ -44,10 +44,9 @@ struct Workbench : Bench
   explicit Workbench(double edge)
     : Bench(DividedIcosahedron({ 0, 0, 0 }, 10.2, edge)), Editor(this->State)
   {
-    this->State.NearOthers.Fill(0);
   }
 
-  /** Sets a small octahedron and marks what is near it, as examinations do. */
+  /** Sets a small octahedron. */
   void Obstruct(const Vector& place, double size)
   {
     const int first =
@@ -58,10 +57,6 @@ struct Workbench : Bench
     }
     this->State.EulerCharacteristic += 2;
     this->UpdateShape();
-    for (int v = 0; v < this->State.Mesh.Size(); ++v)
-    {
-      this->State.NearOthers[v] = Length(this->State.Mesh.Position[v] - place) < 4;
-    }
     ASSERT_TRUE(this->IsSound());
   }
 
@@ -167,7 +162,6 @@ TEST(SurfaceEditor, SmoothFlipKeepsToLegalLengths)
 TEST(SurfaceEditor, SmoothFlipLeavesCreases)
 {
   Bench bench(Octahedron({ 0, 0, 0 }, 1.2, 1.2, 1.2));
-  bench.State.NearOthers.Fill(0);
   EXPECT_FALSE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Smooth));
   EXPECT_TRUE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Loose))
     << "though it is possible";

@@ -126,6 +126,27 @@ TEST(SurfaceEvolution, ShrinksAnEnclosingSurfaceOntoABall)
   EXPECT_LT(residual / static_cast<double>(surface.Points.size()), 0.02);
 }
 
+TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
+{
+  // Voxels of 1 : 7.5 and noise. The icosahedron that was pressed onto this box intersected itself
+  // after an iteration.
+  std::mt19937 engine(60158);
+  std::uniform_real_distribution<double> noise(0., 1.);
+  TestVolume volume = MakeVolume(16, [&](double, double, double) { return noise(engine); });
+  volume.Image.Size = { 11, 17, 19 };
+  volume.Image.Step = { 3., 3.07, 22.6 };
+  volume.Image.Unit = 3.;
+  Inspector check;
+  SurfaceOptions options = IsoHalf();
+  options.MaximumNumberOfIterations = 12;
+  SurfaceEvolution evolution(options, Threads, check);
+  check.Evolution = &evolution;
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
+  EXPECT_EQ(check.Broken, 0);
+  ExpectSound(evolution);
+}
+
 TEST(SurfaceEvolution, GrowsSeedsUntilTheyMergeIntoATorus)
 {
   const int n = 40;

@@ -139,7 +139,7 @@ TEST(SurfaceResult, HasEvenTriangles)
     mean += ratio / static_cast<double>(surface.Triangles.size());
   }
   EXPECT_GT(worst, 0.7);
-  EXPECT_GT(mean, 0.97);
+  EXPECT_GT(mean, 0.96); // Of one level; divisions make them more even.
 }
 
 TEST(SurfaceStart, EnclosesTheWholeImage)

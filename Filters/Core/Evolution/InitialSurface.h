@@ -19,10 +19,11 @@ IndexedSurface Icosahedron(const Point& centre, double radius);
 IndexedSurface DividedIcosahedron(const Point& centre, double radius, double meanEdge);
 
 /**
- * The same mapped to a rounded box (|x/a|^4 + |y/b|^4 + |z/c|^4 = 1) that encloses the image: on
- * flat volumes it has far fewer vertices than a sphere and a shorter way to go.
+ * A box with edges and corners cut off that encloses the image and a voxel about it. Whatever the
+ * image's proportions, its edges are 1.1 to 2 delta long, legal by eq. (1): collapses and splits
+ * have nothing to do before the forces have. It is near the image, and has a short way to go.
  */
-IndexedSurface EnclosingSurface(const LevelImage& image, double meanEdge);
+IndexedSurface EnclosingSurface(const LevelImage& image, double delta);
 
 /**
  * Refuses a surface (workspace) that lies wholly outside the image, or is so much larger that its

@@ -79,7 +79,7 @@ void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
   Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
   self.State.Mesh.Clear();
-  self.State.Mesh.Append(EnclosingSurface(image, 2. * self.State.Sizing.OfLevel()));
+  self.State.Mesh.Append(EnclosingSurface(image, self.State.Sizing.OfLevel()));
   self.Reset();
   watch.Lap(Phase::Division);
   self.GoOn(Monitor::Activity::Starting, 1.);

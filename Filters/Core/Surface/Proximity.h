@@ -13,8 +13,8 @@ namespace volumic
 {
 /**
  * What lies near what: finds the close pairs of vertices that contacts and merges work on, marks
- * the vertices near which an edit must be verified, and tests the faces about all of them for
- * intersections, all in one search.
+ * the vertices that are near others, and tests the faces about all of them for intersections, all
+ * in one search.
  *
  * Vertices near along a smooth surface are near in space too. They are told apart by the normals:
  * a pair counts only if the cones of the face normals about the two are opposed, since the faces

@@ -90,17 +90,6 @@ void SurfaceEditor::AddToEulerCharacteristic(int change)
   (this->Share ? this->Share->EulerCharacteristic : this->State.EulerCharacteristic) += change;
 }
 
-bool SurfaceEditor::IsNearOthers(int u) const
-{
-  const Ring& ring = this->State.Mesh.Rings[u];
-  bool near = this->State.NearOthers[u];
-  for (int i = 0; i < ring.Count && !near; ++i)
-  {
-    near = this->State.NearOthers[ring.Item[i]];
-  }
-  return near;
-}
-
 Edit SurfaceEditor::Split(int u, int v)
 {
   SurfaceState& s = this->State;
@@ -164,9 +153,7 @@ Edit SurfaceEditor::CollapseInto(
   {
     return {};
   }
-  const bool verify = tolerance == EditTolerance::Loose || this->IsNearOthers(kept) ||
-    this->IsNearOthers(removed);
-  if (verify && NewFacesIntersect(s, this->Faces, { { kept, removed }, 2, false }))
+  if (NewFacesIntersect(s, this->Faces, { { kept, removed }, 2, false }))
   {
     return {};
   }
@@ -248,14 +235,10 @@ Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
   {
     return {};
   }
-  if (!smooth || s.NearOthers[u] || s.NearOthers[v] || s.NearOthers[flip.A] ||
-    s.NearOthers[flip.B])
+  this->Faces.assign({ first, second });
+  if (NewFacesIntersect(s, this->Faces, { { u, v }, 2, true }))
   {
-    this->Faces.assign({ first, second });
-    if (NewFacesIntersect(s, this->Faces, { { u, v }, 2, true }))
-    {
-      return {};
-    }
+    return {};
   }
   const std::size_t firstChange = this->Log.size();
   flip.Apply(s.Mesh);
@@ -282,7 +265,7 @@ Edit SurfaceEditor::Remove(int v)
   const Ring ring = s.Mesh.Rings[v];
   this->Faces.assign({ TriangleOf(s.Mesh, ring.Item[0], ring.Item[1], ring.Item[2]) });
   if (!IsWellShaped(this->Faces[0]) ||
-    (this->IsNearOthers(v) && NewFacesIntersect(s, this->Faces, { { v }, 1, false })))
+    NewFacesIntersect(s, this->Faces, { { v }, 1, false }))
   {
     return {};
   }
@@ -323,8 +306,7 @@ Edit SurfaceEditor::Move(int v, const Vector& position, EditTolerance tolerance)
     }
     this->Faces.push_back(face);
   }
-  if ((tolerance == EditTolerance::Loose || this->IsNearOthers(v)) &&
-    NewFacesIntersect(s, this->Faces, { { v }, 1, false }))
+  if (NewFacesIntersect(s, this->Faces, { { v }, 1, false }))
   {
     return {};
   }

@@ -49,8 +49,9 @@ struct EditShare
 
 /**
  * Verified edits of the live surface: each checks the mesh (manifold), the constraints (lengths,
- * normals that turn little) and, near anything that is not smooth surface, that no faces will
- * intersect; only then it edits and keeps grid, properties, chi and counts in step.
+ * normals that turn little) and, by exact tests of the faces that it would make, that none will
+ * intersect another; only then it edits and keeps grid, properties, chi and counts in step. A split
+ * changes no geometry and needs no test.
  * Sequential, in the order called; others may edit elsewhere at the same time, see EditShare.
  */
 class SurfaceEditor
@@ -92,7 +93,6 @@ private:
   bool AddFacesAfterCollapse(
     int end, int kept, int removed, const Vector& position, EditTolerance tolerance);
   bool StaysSmooth(int u, int v, const MeshTriangle& first, const MeshTriangle& second) const;
-  bool IsNearOthers(int u) const;
   /** Notes that v has changed; forces act on it again. */
   void Touch(int v);
   void TouchStar(int v);
