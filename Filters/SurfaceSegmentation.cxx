@@ -431,6 +431,11 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult 
   description.Unit = this->Levels.UnitInWorld(level);
   description.Iterations = this->Evolution->Iterations();
   description.StopReason = result.IsAtRest ? Describe(reason) : this->DescribeStop();
+  const SurfaceEvolution::Verdict verdict = this->Evolution->Verified();
+  if (verdict.Found > 0)
+  {
+    this->Request.Warn(verdict.Describe(level));
+  }
   if (level < this->Choice.Coarsest)
   {
     const SurfaceEvolution::LostParts lost = this->Evolution->Lost();

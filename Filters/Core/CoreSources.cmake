@@ -81,6 +81,7 @@ set(volumic_core_sources
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
   Evolution/EvolutionSweeps.cxx
+  Evolution/EvolutionVerification.cxx
   Evolution/GivenSurface.cxx
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx

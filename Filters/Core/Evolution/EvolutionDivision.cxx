@@ -47,23 +47,6 @@ void VisitEdges(const SurfaceMesh& mesh, std::size_t begin, std::size_t end, con
   }
 }
 
-float LongestEdge(const SurfaceMesh& mesh, Executor& executor)
-{
-  std::vector<float> longest((mesh.Rings.size() + VertexBlock - 1) / VertexBlock, 0.f);
-  ForBlocks(executor, mesh.Rings.size(), VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
-    {
-      VisitEdges(mesh, begin, end, [&](int, int, float squared)
-        { longest[block] = std::max(longest[block], squared); });
-    });
-  float most = 0.f;
-  for (const float ofBlock : longest)
-  {
-    most = std::max(most, ofBlock);
-  }
-  return std::sqrt(most);
-}
-
 /** Whether an edge is longer than this share of the longest that eq. (1) allows. */
 bool HasEdgeOver(const SurfaceState& state, float share, Executor& executor)
 {
@@ -123,12 +106,37 @@ void KeepAbout(const std::array<int, 3>& face, const LargeVector<Triangle>& face
 }
 }
 
+float SurfaceEvolution::Implementation::LongestEdge()
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  std::vector<float> longest((mesh.Rings.size() + VertexBlock - 1) / VertexBlock, 0.f);
+  ForBlocks(this->Threads, mesh.Rings.size(), VertexBlock,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      VisitEdges(mesh, begin, end, [&](int, int, float squared)
+        { longest[block] = std::max(longest[block], squared); });
+    });
+  float most = 0.f;
+  for (const float ofBlock : longest)
+  {
+    most = std::max(most, ofBlock);
+  }
+  if (this->OnRanks)
+  {
+    for (const float ofRank : GatherValues(*this->Ranks, most))
+    {
+      most = std::max(most, ofRank);
+    }
+  }
+  return std::sqrt(most);
+}
+
 std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersections()
 {
   // A division leaves some edges longer than verification may rely on; it looks further for them.
   SurfaceState& s = this->State;
   const SizingField sizing = s.Sizing;
-  s.Sizing = sizing.ForEdgesOf(LongestEdge(s.Mesh, this->Threads));
+  s.Sizing = sizing.ForEdgesOf(this->LongestEdge());
   this->LayGrid();
   this->Iteration.UpdateActive();
   const std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections();
@@ -230,15 +238,7 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
 {
   SurfaceState& s = this->State;
   const SizingField sizing = s.Sizing;
-  float longest = LongestEdge(s.Mesh, this->Threads);
-  if (this->OnRanks)
-  {
-    for (const float ofRank : GatherValues(*this->Ranks, longest))
-    {
-      longest = std::max(longest, ofRank);
-    }
-  }
-  s.Sizing = sizing.ForEdgesOf(longest);
+  s.Sizing = sizing.ForEdgesOf(this->LongestEdge());
   this->LayGridInBlocks();
   const std::vector<int> own = this->OwnVertices();
   std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections(own);

@@ -29,7 +29,7 @@ namespace volumic
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
  * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionSweeps.cxx does so block by
  * block, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
- * EvolutionHistory.cxx tells of it.
+ * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -54,6 +54,8 @@ struct SurfaceEvolution::Implementation
   std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< Of all laps since the last level.
   bool Stopped = false;     ///< By the monitor.
+  Verdict LastVerdict;
+  bool IsMending = false;   ///< Which is not stopped.
   bool InSweeps = false;    ///< The level evolves block by block: EvolutionSweeps.cxx.
   std::unique_ptr<SurfaceBlocks> Blocks; ///< While it does.
   Communicator* Ranks = nullptr;         ///< Null: alone.
@@ -113,7 +115,10 @@ struct SurfaceEvolution::Implementation
   void LayGrid();
   void Append(const IndexedSurface& surface);
   bool HasEdgeTooLong() const;
+  int CountIntersecting();
+  void Verify();
   void SplitLongEdges();
+  float LongestEdge(); ///< On all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
   void KeepEdgesAbout(const std::vector<Proximity::FacePair>& pairs,
@@ -126,7 +131,7 @@ struct SurfaceEvolution::Implementation
   std::vector<int> OwnVertices() const;
   std::vector<Proximity::FacePair> FindIntersectionsInBlocks();
   void SplitLongEdgesInBlocks();
-  /** @param isSound it is known not to intersect itself */
+  /** @param isSound it has been made well: its edges need not be legal already */
   void Take(const IndexedSurface& surface, bool isSound);
   void TakeRemeshed(const IndexedSurface& surface);
   IndexedSurface Remesh(const IndexedSurface& surface);

@@ -56,6 +56,10 @@ bool SurfaceEvolution::Implementation::GoOn(Monitor::Activity doing, double shar
 bool SurfaceEvolution::Implementation::Ask(
   bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share)
 {
+  if (this->IsMending)
+  {
+    return true;
+  }
   if (this->Stopped)
   {
     return false;
@@ -405,6 +409,7 @@ void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
   this->RunPasses(dynamics, remesher);
   this->Polish(this->CheckpointOf(Monitor::Activity::Regularising, PassesShare), &active);
   this->DeleteInsideOut();
+  this->Verify();
 }
 
 StopReason SurfaceEvolution::Implementation::Run()
@@ -418,6 +423,7 @@ StopReason SurfaceEvolution::Implementation::Run()
   if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
     this->AddUpSinceEvolved();
+    this->Verify();
     this->FinishRow();
     this->FindMissing();
     this->EndSweeps();
@@ -439,6 +445,7 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
   this->AddUpSinceEvolved();
+  this->Verify();
   this->FinishRow();
   watch.Lap(Phase::Regularisation);
   this->FindMissing();

@@ -201,7 +201,8 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool is
         this->Adapt();
       }
       // Edits of what does not intersect itself are verified.
-      if (this->Stopped || isSound || IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
+      if (this->Stopped || (isSound ? this->CountIntersecting() == 0
+                                   : IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel())))
       {
         return;
       }

@@ -324,6 +324,11 @@ double SurfaceEvolution::EndLevel()
   return std::exchange(self.LevelSeconds, 0.);
 }
 
+SurfaceEvolution::Verdict SurfaceEvolution::Verified() const
+{
+  return this->Self->LastVerdict;
+}
+
 SurfaceEvolution::LostParts SurfaceEvolution::Lost() const
 {
   return this->Self->LastLost;

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace volumic
@@ -125,7 +126,7 @@ struct SurfaceResult : IndexedSurface
  *   evolution.Divide(finer, h - 1);             // sqrt 3 division, then Run() again
  *
  * Between the calls the surface is always closed, oriented, manifold and free of
- * self-intersections. Results are bit-identical for any executor.
+ * self-intersections, see Verified(). Results are bit-identical for any executor.
  * Executor, monitor and the values of the current level must outlive the object.
  */
 class SurfaceEvolution
@@ -137,7 +138,7 @@ public:
   SurfaceEvolution(const SurfaceEvolution&) = delete;
   SurfaceEvolution& operator=(const SurfaceEvolution&) = delete;
 
-  /** Start from an icosahedron mapped to a rounded box about the image, divided to delta. */
+  /** Start from a rounded box about the image, see EnclosingSurface. */
   void StartEnclosing(const LevelImage& image, int level);
 
   /**
@@ -158,10 +159,7 @@ public:
    */
   void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface);
 
-  /**
-   * The same from the iso-surface of the image, closed, as VTK's algorithms make it: it is known to
-   * be sound, and is not tested as far.
-   */
+  /** The same from the iso-surface of the image, closed, as VTK's algorithms make it. */
   void StartIsoSurface(const LevelImage& image, int level, const IndexedSurface& surface);
 
   /**
@@ -251,6 +249,20 @@ public:
     double MissingBoundary = 0.; ///< And the share of the whole boundary; see LostBoundary.
   };
   LostParts Lost() const;
+
+  /**
+   * What the exact tests of all faces have found at the end of the last Run() or Revise(): vertices
+   * whose faces intersected others, 0 but for an error of Volumic, and how many of them are left
+   * after the surface has got another mesh.
+   */
+  struct Verdict
+  {
+    int Found = 0;
+    int Left = 0;
+    /** What is told where something was found. */
+    std::string Describe(int level) const;
+  };
+  Verdict Verified() const;
 
 private:
   struct Implementation;

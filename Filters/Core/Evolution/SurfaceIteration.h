@@ -24,6 +24,25 @@ namespace volumic
  * other edits, components that must go. It keeps what one iteration tells the next: which pairs of
  * vertices are close, which components are small. Before and after each call the surface is closed,
  * oriented, manifold and free of intersections.
+ *
+ * Why it stays free of them, by what changes the mesh:
+ * - Splits change no place of the surface, but for rounding, less than SizingField::Contact. They
+ *   come first and last, so that no edge is longer than eq. (1) allows when anything is looked for.
+ * - Collapses, flips, removals, moves, merges and cuts: SurfaceEditor tests each new face exactly
+ *   against all that it can reach (NewFacesIntersect), before it edits; none is left out.
+ * - Displacements: Proximity tests exactly what is within reach and faces the other way, or is a
+ *   star that may be folded. Where two parts of a surface first meet in the course of it, each lies
+ *   on its own side of the surface, so a plane touches both and parts them: a normal of one is the
+ *   opposite of one of the other, if those of an edge or a corner are all between those of its
+ *   faces, which are in its cone. The cones are compared with 30 degrees to spare
+ *   (SurfaceState::AreOpposed), for what normals turn from there to the end of the displacement,
+ *   half a delta at most. What intersects is rolled back, and more about it, in the last round all:
+ *   that is the mesh of before, which needs no test.
+ * - Deletions take whole components away.
+ * Divisions are tested like displacements. That normals do not turn by more is what was found, not
+ * what is enforced: SurfaceEvolution therefore tests all faces against all others, whatever their
+ * normals are, at the end of a level, or of a run that was stopped, and in a given start
+ * (CountIntersecting).
  */
 class SurfaceIteration
 {

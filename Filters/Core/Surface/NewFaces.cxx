@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/NewFaces.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 namespace volumic
 {
@@ -19,6 +21,9 @@ constexpr float Unfolded = -0.99f;
 constexpr float LeastArea = 1e-2f;
 /** Of the clearance: edges may be a little too long until the end of an iteration. */
 constexpr float ReachShare = 1.1f;
+
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t TestedBlock = 4096;
 
 /** A new face, as floats tell most others apart from it: by a box and a plane. */
 struct NewFace
@@ -167,5 +172,126 @@ bool NewFacesIntersect(
       }
     });
   return intersects;
+}
+namespace
+{
+/** Tests the faces whose first corner, by index, is a vertex. */
+class FacesOfMesh
+{
+public:
+  FacesOfMesh(const SurfaceState& state, const std::function<bool(int v)>& isOwn, float longestEdge)
+    : State(state)
+    , IsOwn(isOwn)
+    , LongestEdge(longestEdge)
+  {
+  }
+
+  /** Whether they intersect each other, or those of a vertex before it, or of one not our own. */
+  bool Intersect(int v)
+  {
+    this->Faces.clear();
+    this->News.clear();
+    this->VisitFaces(v,
+      [&](int a, int b) { this->Faces.push_back(TriangleOf(this->State.Mesh, v, a, b)); });
+    if (this->Faces.empty())
+    {
+      return false;
+    }
+    const Vector place = this->State.Mesh.Position[v];
+    Box all = { place, place };
+    for (const MeshTriangle& face : this->Faces)
+    {
+      this->News.emplace_back(face, this->State.Sizing.At(v));
+      all = all.With(this->News.back().Bounds);
+    }
+    if (IntersectEachOther(this->State, this->News))
+    {
+      return true;
+    }
+    const Box visited = all.Grown(this->LongestEdge);
+    bool intersect = false;
+    this->State.Grid.VisitBox(visited.Low, visited.High,
+      [&](int w)
+      {
+        if (!intersect && w != v && visited.Contains(this->State.Mesh.Position[w]) &&
+          (w < v || !this->IsOwn(w)))
+        {
+          this->VisitFaces(w,
+            [&](int a, int b) { intersect = intersect || this->IntersectFaceOf(w, a, b, all); });
+        }
+      });
+    return intersect;
+  }
+
+private:
+  template <typename Visit>
+  void VisitFaces(int v, const Visit& visit) const
+  {
+    const Ring& ring = this->State.Mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      const int a = ring.Item[i];
+      const int b = ring.Next(i);
+      if (a > v && b > v)
+      {
+        visit(a, b);
+      }
+    }
+  }
+
+  bool IntersectFaceOf(int w, int a, int b, const Box& all) const
+  {
+    const LargeVector<Vector>& place = this->State.Mesh.Position;
+    const Box bounds = Box::Of(place[w], place[a], place[b]);
+    if (bounds.IsApartFrom(all))
+    {
+      return false;
+    }
+    std::optional<MeshTriangle> triangle; // Few need it.
+    std::optional<NewFace> other;
+    for (const NewFace& face : this->News)
+    {
+      if (bounds.IsApartFrom(face.Bounds))
+      {
+        continue;
+      }
+      const float delta = this->State.Sizing.At(w);
+      if (!other)
+      {
+        triangle = TriangleOf(this->State.Mesh, w, a, b);
+        other.emplace(*triangle, delta);
+      }
+      const float room = RoomBesidePlane * delta;
+      if (!face.IsClearOf(*other, room) && !other->IsClearOf(face, room) &&
+        volumic::Intersect(this->State, face.Exact, *triangle))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const SurfaceState& State;
+  const std::function<bool(int v)>& IsOwn;
+  float LongestEdge;
+  std::vector<MeshTriangle> Faces;
+  std::vector<NewFace> News;
+};
+}
+
+std::size_t CountIntersecting(const SurfaceState& state, const std::function<bool(int v)>& isOwn,
+  float longestEdge, Executor& executor)
+{
+  return CountInBlocks(executor, state.Mesh.Rings.size(), TestedBlock,
+    [&](std::size_t begin, std::size_t end)
+    {
+      FacesOfMesh faces(state, isOwn, longestEdge);
+      std::size_t count = 0;
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        count += state.Mesh.IsAlive(v) && isOwn(v) && faces.Intersect(v);
+      }
+      return count;
+    });
 }
 }

@@ -3,10 +3,13 @@
 #ifndef volumicNewFaces_h
 #define volumicNewFaces_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/TriangleTests.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace volumic
@@ -36,6 +39,16 @@ struct RemovedFaces
  */
 bool NewFacesIntersect(
   const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed);
+
+/**
+ * The same for the faces of the mesh as it is, whatever their normals are. @return the number of
+ * vertices that are the first, by index, of a face that intersects another one: 0 if and only if
+ * nothing intersects.
+ * @param isOwn of the vertices those are looked at of which it says so
+ * @param longestEdge of the mesh, at least
+ */
+std::size_t CountIntersecting(const SurfaceState& state, const std::function<bool(int v)>& isOwn,
+  float longestEdge, Executor& executor);
 }
 
 #endif

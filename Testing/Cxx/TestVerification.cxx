@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The last look at a surface: it finds whatever intersects, and the surface gets another mesh.
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/NewFaces.h"
+#include "EvolutionTestTools.h"
+#include "RemeshTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <random>
+#include <string>
+
+using namespace volumic;
+
+namespace
+{
+// What only an error of Volumic could change: instantiations may name what is private.
+SurfaceState& StateOf(SurfaceEvolution& evolution);
+template <auto Member>
+struct Opened
+{
+  friend SurfaceState& StateOf(SurfaceEvolution& evolution) { return (evolution.*Member)->State; }
+};
+template struct Opened<&SurfaceEvolution::Self>;
+
+SequentialExecutor Threads;
+
+bool All(int)
+{
+  return true;
+}
+
+std::size_t CountIn(const Bench& bench)
+{
+  float longest = 0.f;
+  for (const float edge : bench.Edges())
+  {
+    longest = std::max(longest, edge);
+  }
+  SequentialExecutor threads;
+  return CountIntersecting(bench.State, All, longest, threads);
+}
+
+/** Pulls a vertex through the other side. */
+void Pierce(SurfaceState& state)
+{
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    if (state.Mesh.IsAlive(v))
+    {
+      const Vector p = state.Mesh.Position[v];
+      const Vector centre(16, 16, 16);
+      state.MoveTo(v, centre + (centre - p) * 1.3f);
+      return;
+    }
+  }
+}
+
+/** Does something to the surface after so many iterations, and then goes on or not. */
+class Intruder final : public Monitor
+{
+public:
+  SurfaceEvolution* Evolution = nullptr;
+  int At = 20;
+  bool GoesOn = true;
+
+  bool Continue(const Status& status) override
+  {
+    if (status.Iteration < this->At)
+    {
+      return true;
+    }
+    Pierce(StateOf(*this->Evolution));
+    return this->GoesOn;
+  }
+};
+
+SurfaceOptions TwentyIterations()
+{
+  SurfaceOptions options = IsoHalf();
+  options.MaximumNumberOfIterations = 20;
+  return options;
+}
+}
+
+TEST(Verification, FindsNothingWhereNothingIntersects)
+{
+  EXPECT_EQ(CountIn(Bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6))), 0u);
+}
+
+TEST(Verification, FindsSheetsThatFaceTheSameWay)
+{
+  // The second ball is moved by less than an edge: nowhere are normals opposed that are near.
+  Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
+  Bench other(DividedIcosahedron({ 0.3, 0, 0 }, 10, 1.6));
+  Proximity proximity;
+  const int first = bench.State.Mesh.Append(other.State.Mesh.ToIndexed());
+  for (int v = first; v < bench.State.Mesh.Size(); ++v)
+  {
+    bench.State.AddVertex(v, 0);
+  }
+  bench.UpdateShape();
+  proximity.Examine(bench.State, bench.All(), bench.Threads);
+  EXPECT_TRUE(proximity.Intersections().empty()) << "which is why there is a last look";
+  EXPECT_GT(CountIn(bench), 0u);
+}
+
+TEST(Verification, FindsIntersectionsFarFromAllCorners)
+{
+  Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
+  const Vector p = bench.State.Mesh.Position[0];
+  bench.MoveTo(0, p * -1.5f);
+  EXPECT_GT(CountIn(bench), 0u);
+}
+
+TEST(Verification, AgreesWithTheTreeOfTriangles)
+{
+  // From places where nothing intersects to such where much does.
+  std::mt19937 engine(27);
+  std::uniform_real_distribution<float> way(-1.f, 1.f);
+  int intersecting = 0;
+  for (int scene = 0; scene < 60; ++scene)
+  {
+    Bench bench(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
+    const float most = 0.02f * static_cast<float>(scene);
+    for (const int v : bench.All())
+    {
+      bench.State.MoveTo(v,
+        bench.State.Mesh.Position[v] + Vector(way(engine), way(engine), way(engine)) * most);
+    }
+    bench.UpdateShape();
+    const bool found = CountSelfIntersections(bench.State.Mesh.ToIndexed(), 1) > 0;
+    EXPECT_EQ(CountIn(bench) > 0, found) << "scene " << scene;
+    intersecting += found;
+  }
+  EXPECT_GT(intersecting, 10);
+  EXPECT_LT(intersecting, 50);
+}
+
+TEST(Verification, EachPairIsFoundByWhoeverOwnsACorner)
+{
+  // On ranks: what two of them share is found by at least one.
+  Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
+  bench.MoveTo(7, bench.State.Mesh.Position[7] * -1.5f);
+  SequentialExecutor threads;
+  for (int modulus = 2; modulus < 5; ++modulus)
+  {
+    std::size_t found = 0;
+    for (int rank = 0; rank < modulus; ++rank)
+    {
+      found += CountIntersecting(
+        bench.State, [=](int v) { return v % modulus == rank; }, 30.f, threads);
+    }
+    EXPECT_GT(found, 0u);
+  }
+}
+
+TEST(Verification, TheEndOfALevelIsMended)
+{
+  const TestVolume volume = BallVolume(32, 10);
+  Monitor silent;
+  SurfaceEvolution undisturbed(TwentyIterations(), Threads, silent);
+  undisturbed.StartEnclosing(volume.Image, 0);
+  undisturbed.Run();
+  EXPECT_EQ(undisturbed.Verified().Found, 0);
+  const double wanted = ComputeFeatures(undisturbed.Result()).Volume;
+  for (const bool goesOn : { true, false })
+  {
+    Intruder intruder;
+    intruder.GoesOn = goesOn;
+    SurfaceEvolution evolution(TwentyIterations(), Threads, intruder);
+    intruder.Evolution = &evolution;
+    evolution.StartEnclosing(volume.Image, 0);
+    EXPECT_EQ(evolution.Run(), goesOn ? StopReason::IterationLimit : StopReason::Cancelled);
+    EXPECT_GT(evolution.Verified().Found, 0);
+    EXPECT_EQ(evolution.Verified().Left, 0);
+    EXPECT_NE(evolution.Verified().Describe(3).find("level 3 intersected itself at "),
+      std::string::npos);
+    EXPECT_NE(evolution.Verified().Describe(3).find("another mesh"), std::string::npos);
+    EXPECT_EQ(evolution.IsStopped(), !goesOn) << "mending does not ask";
+    const SurfaceResult surface = evolution.Result();
+    EXPECT_EQ(CountSelfIntersections(surface), 0);
+    const SurfaceFeatures features = ComputeFeatures(surface);
+    EXPECT_EQ(features.EulerCharacteristic, 2);
+    EXPECT_NEAR(features.Volume, wanted, 0.1 * wanted) << "one that is stopped does not snap";
+  }
+}
+
+TEST(Verification, WhatCannotBeMendedIsTold)
+{
+  const TestVolume volume = BallVolume(32, 10);
+  Monitor silent;
+  SurfaceEvolution evolution(IsoHalf(), Threads, silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  evolution.Run();
+  EXPECT_EQ(evolution.Verified().Found, 0);
+  SurfaceState& state = StateOf(evolution);
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    if (state.Mesh.IsAlive(v))
+    {
+      Vector p = state.Mesh.Position[v];
+      p.Z = 16;
+      state.MoveTo(v, p);
+    }
+  }
+  evolution.Revise(volume.Image);
+  EXPECT_GT(evolution.Verified().Found, 0);
+  EXPECT_EQ(evolution.Verified().Left, evolution.Verified().Found);
+  EXPECT_NE(evolution.Verified().Describe(0).find("could not be mended"), std::string::npos);
+  EXPECT_FALSE(evolution.Result().Points.empty()) << "it is handed over as it is";
+}
