@@ -179,11 +179,11 @@ TEST(DeformableSurfaceProperties, WeightsChangeTheSurface)
 
 TEST(DeformableSurfaceProperties, FrictionSetsTheTimeStep)
 {
-  // A vertex at its final speed goes the largest step.
+  // A vertex at its final speed goes the largest step; on the edges of the box it is faster.
   for (const double friction : { 3., 6. })
   {
     const auto filter = SurfaceWith([=](vtkDeformableSurface& f) { f.SetFriction(friction); });
-    EXPECT_NEAR(History(filter, 5, "TimeStep"), 0.5 * friction, 0.05 * friction);
+    EXPECT_NEAR(History(filter, 5, "TimeStep"), 0.45 * friction, 0.05 * friction);
   }
 }
 

@@ -284,7 +284,7 @@ TEST(DeformableSurfaceStart, WithoutRecoveryEndsAtTheFinestLevelAtLeast)
 {
   // Too thin for a surface on any level: begun where it is to end, not refused.
   vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallOfRadius(1.2, 40));
+  filter->SetInputData(BallOfRadius(0.8, 40));
   filter->SetIsoValue(50.0);
   filter->SetRecovery(vtkDeformableSurface::NoRecovery);
   const MessagesOf errors(filter);

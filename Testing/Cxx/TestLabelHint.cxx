@@ -44,7 +44,9 @@ TEST(LabelHint, ScansAreNoLabelMaps)
   vtkNew<vtkVolumeToSurface> filter;
   filter->SetIsoValue(50.);
   EXPECT_EQ(WarningsOf(filter, BallImage(30, 30, 30)), "");
-  EXPECT_EQ(WarningsOf(filter, RandomImage(20, 20, 20, VTK_UNSIGNED_CHAR)), "");
+  // Of noise something may be lost, which is told.
+  EXPECT_EQ(WarningsOf(filter, RandomImage(20, 20, 20, VTK_UNSIGNED_CHAR)).find("label map"),
+    std::string::npos);
   // Integers of 8 bits that change from voxel to voxel.
   const auto soft = [](int i, int j, int k)
   { return std::floor(100. - 5. * std::hypot(i - 14., j - 14., k - 14.)); };
