@@ -240,7 +240,7 @@ void LabelImage::FindNearest(
   vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const
 {
   const Workspace space(this->Geometry, Metric::Voxels);
-  const Point& step = Workspace(this->Geometry, Metric::World).Step();
+  const Point step = Workspace(this->Geometry, Metric::World).Step();
   const std::array<int, 3> size = { this->Geometry->GetDimensions()[0],
     this->Geometry->GetDimensions()[1], this->Geometry->GetDimensions()[2] };
   const VoxelBox all = VoxelBox::Of(size);
