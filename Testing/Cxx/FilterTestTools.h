@@ -94,6 +94,42 @@ inline vtkSmartPointer<vtkImagePyramid> PyramidOf(vtkImageData* image, int level
   return pyramid;
 }
 
+/** Calls back at each progress of an algorithm, as long as it is in scope. */
+class ProgressHook
+{
+public:
+  using Callback = std::function<void(vtkAlgorithm* filter, const std::string& text, double share)>;
+
+  ProgressHook(vtkAlgorithm* algorithm, Callback callback)
+    : Algorithm(algorithm), Call(std::move(callback))
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject* caller, unsigned long, void* client, void* share)
+      {
+        auto* filter = vtkAlgorithm::SafeDownCast(caller);
+        const char* text = filter->GetProgressText();
+        static_cast<ProgressHook*>(client)->Call(
+          filter, text ? text : "", *static_cast<double*>(share));
+      });
+    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
+  }
+  ~ProgressHook()
+  {
+    if (this->Algorithm)
+    {
+      this->Algorithm->RemoveObserver(this->Command);
+    }
+  }
+  ProgressHook(const ProgressHook&) = delete;
+  ProgressHook& operator=(const ProgressHook&) = delete;
+
+private:
+  vtkWeakPointer<vtkAlgorithm> Algorithm;
+  Callback Call;
+  vtkNew<vtkCallbackCommand> Command;
+};
+
 /** Listens to the progress and asks to stop once it has heard a share. */
 struct ProgressListener
 {
@@ -102,27 +138,23 @@ struct ProgressListener
   double StopAt = 2.0;
 
   explicit ProgressListener(vtkAlgorithm* algorithm)
+    : Hook(algorithm,
+        [this](vtkAlgorithm* filter, const std::string& text, double share)
+        {
+          this->Shares.push_back(share);
+          if (!text.empty())
+          {
+            this->Texts.insert(text);
+          }
+          if (share >= this->StopAt)
+          {
+            filter->SetAbortExecute(1);
+          }
+        })
   {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject* caller, unsigned long, void* client, void* data)
-      {
-        auto* self = static_cast<ProgressListener*>(client);
-        auto* filter = vtkAlgorithm::SafeDownCast(caller);
-        self->Shares.push_back(*static_cast<double*>(data));
-        if (filter->GetProgressText())
-        {
-          self->Texts.insert(filter->GetProgressText());
-        }
-        if (self->Shares.back() >= self->StopAt)
-        {
-          filter->SetAbortExecute(1);
-        }
-      });
-    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
   }
 
-  vtkNew<vtkCallbackCommand> Command;
+  ProgressHook Hook;
 };
 
 /** An image with random voxels in [0, 100], named `Voxels`, first voxel at extent 0. */

@@ -45,29 +45,23 @@ vtkSmartPointer<vtkImageData> Scene(int size = 44)
 class StopWhere
 {
 public:
-  StopWhere(vtkAlgorithm* filter, const std::string& text) : Text(text)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject* caller, unsigned long, void* client, void*)
-      {
-        auto* filter = vtkAlgorithm::SafeDownCast(caller);
-        auto* self = static_cast<StopWhere*>(client);
-        const std::string text = filter->GetProgressText() ? filter->GetProgressText() : "";
-        if (text.find(self->Text) != std::string::npos)
+  StopWhere(vtkAlgorithm* algorithm, const std::string& where)
+    : Hook(algorithm,
+        [this, where](vtkAlgorithm* filter, const std::string& text, double)
         {
-          filter->SetAbortExecute(1);
-          self->HasStopped = true;
-        }
-      });
-    filter->AddObserver(vtkCommand::ProgressEvent, this->Command);
+          if (text.find(where) != std::string::npos)
+          {
+            filter->SetAbortExecute(1);
+            this->HasStopped = true;
+          }
+        })
+  {
   }
 
   bool HasStopped = false;
 
 private:
-  std::string Text;
-  vtkNew<vtkCallbackCommand> Command;
+  ProgressHook Hook;
 };
 
 using Choice = std::function<void(vtkDeformableSurface*)>;

@@ -67,30 +67,25 @@ namespace
 /** Asks to stop at the n-th progress whose text has a part. */
 struct StopAtText
 {
-  std::string Part;
   int Left;
   int After = 0; ///< Progress events after the request.
 
-  StopAtText(vtkAlgorithm* algorithm, const std::string& part, int left) : Part(part), Left(left)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject* caller, unsigned long, void* client, void*)
-      {
-        auto* self = static_cast<StopAtText*>(client);
-        auto* filter = vtkAlgorithm::SafeDownCast(caller);
-        const std::string text = filter->GetProgressText() ? filter->GetProgressText() : "";
-        // VTK 9.2 tells of the end, 1, where a filter was stopped, too.
-        self->After += self->Left <= 0 && filter->GetProgress() < 1.0;
-        if (text.find(self->Part) != std::string::npos && --self->Left == 0)
+  StopAtText(vtkAlgorithm* algorithm, const std::string& part, int left)
+    : Left(left)
+    , Hook(algorithm,
+        [this, part](vtkAlgorithm* filter, const std::string& text, double share)
         {
-          filter->SetAbortExecute(1);
-        }
-      });
-    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
+          // VTK 9.2 tells of the end, 1, where a filter was stopped, too.
+          this->After += this->Left <= 0 && share < 1.0;
+          if (text.find(part) != std::string::npos && --this->Left == 0)
+          {
+            filter->SetAbortExecute(1);
+          }
+        })
+  {
   }
 
-  vtkNew<vtkCallbackCommand> Command;
+  ProgressHook Hook;
 };
 
 vtkSmartPointer<vtkDeformableSurface> Cancelled(const std::string& part, int n)
@@ -105,7 +100,6 @@ vtkSmartPointer<vtkDeformableSurface> Cancelled(const std::string& part, int n)
   EXPECT_LE(stop.After, 1) << "it stops at once, or as soon as the pyramid asks";
   EXPECT_EQ(errors.Get(), "");
   EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
-  filter->RemoveAllObservers();
   return filter;
 }
 }

@@ -140,7 +140,10 @@ std::vector<T> VoxelsIn(const VoxelBox& box, const std::vector<T>& voxels, const
 std::vector<std::uint32_t> BitsOf(const std::vector<float>& values)
 {
   std::vector<std::uint32_t> bits(values.size());
-  std::memcpy(bits.data(), values.data(), values.size() * sizeof(float));
+  if (!values.empty()) // The data of none may be null, which memcpy does not take.
+  {
+    std::memcpy(bits.data(), values.data(), values.size() * sizeof(float));
+  }
   return bits;
 }
 

@@ -21,28 +21,22 @@ constexpr double Limit = 60.0; ///< More than a run takes.
 /** Lets the time pass, all of it, when the n-th progress text with a part is heard. */
 struct Sleeper
 {
-  std::string Part;
   int Left;
-  double Seconds;
 
   Sleeper(vtkAlgorithm* algorithm, const std::string& part, int left, double seconds)
-    : Part(part), Left(left), Seconds(seconds)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject* caller, unsigned long, void* client, void*)
-      {
-        auto* self = static_cast<Sleeper*>(client);
-        const char* text = vtkAlgorithm::SafeDownCast(caller)->GetProgressText();
-        if (text && std::string(text).find(self->Part) != std::string::npos && --self->Left == 0)
+    : Left(left)
+    , Hook(algorithm,
+        [this, part, seconds](vtkAlgorithm*, const std::string& text, double)
         {
-          std::this_thread::sleep_for(std::chrono::duration<double>(self->Seconds));
-        }
-      });
-    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
+          if (text.find(part) != std::string::npos && --this->Left == 0)
+          {
+            std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+          }
+        })
+  {
   }
 
-  vtkNew<vtkCallbackCommand> Command;
+  ProgressHook Hook;
 };
 
 class TimeLimit : public ::testing::Test
