@@ -22,7 +22,9 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import plugin_testing as testing
+# Not as `testing`: a programmable filter's script runs among the names of this module, and
+# ParaView 5.13 brings those of numpy there before it, `testing` among them.
+import plugin_testing
 from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkPolyDataNormals
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
@@ -77,9 +79,9 @@ def connect_to_server():
                    if not name.startswith(("OMPI_", "OPAL_", "ORTE_", "PMIX_"))}
     server = subprocess.Popen(
         [os.environ["VOLUMIC_MPIRUN"], "--allow-run-as-root", "--oversubscribe", "-n", str(SERVER),
-         testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
+         plugin_testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
-        env=environment, preexec_fn=testing.end_with_parent)
+        env=environment, preexec_fn=plugin_testing.end_with_parent)
     said = []
     for line in server.stdout:
         said.append(line)
@@ -117,14 +119,14 @@ def make_surface(**properties):
 class ParallelSurfaceTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        testing.load_plugin()
+        plugin_testing.load_plugin()
         if SERVER:
             cls.server = connect_to_server()
-            testing.load_plugin(remote=True)
+            plugin_testing.load_plugin(remote=True)
         cls.count = number_of_processes()
         image = vtkRTAnalyticSource()
         image.SetWholeExtent(*EXTENT)
-        alone = testing.load_package().vtkDeformableSurface()
+        alone = plugin_testing.load_package().vtkDeformableSurface()
         alone.SetController(None)
         alone.SetInputConnection(image.GetOutputPort())
         alone.SetIsoValue(ISO_VALUE)
@@ -141,14 +143,14 @@ class ParallelSurfaceTest(unittest.TestCase):
             cls.server.wait(30)
 
     def tearDown(self):
-        testing.delete_sources()
+        plugin_testing.delete_sources()
 
     def fetch(self, proxy, port=0):
-        return testing.fetch(proxy, port)
+        return plugin_testing.fetch(proxy, port)
 
     def told(self, proxy, port=0):
         """What each process has of an output."""
-        folder = testing.output_path(f"processes-{self.count}-{SERVER}")
+        folder = plugin_testing.output_path(f"processes-{self.count}-{SERVER}")
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
         programmable = simple.ProgrammableFilter(
@@ -214,7 +216,7 @@ class ParallelSurfaceTest(unittest.TestCase):
         for port, alone in ((1, self.alone.GetLevels()), (3, self.alone.GetSnapshots())):
             told = self.told(filter_, port)
             for one in told:
-                self.assertEqual([name for name, _ in one], testing.names(alone))
+                self.assertEqual([name for name, _ in one], plugin_testing.names(alone))
             for block in range(alone.GetNumberOfBlocks()):
                 whole = alone.GetBlock(block)
                 here = [one[block][1] for one in told if one[block][1]]
@@ -232,11 +234,11 @@ class ParallelSurfaceTest(unittest.TestCase):
 
     def test_connectivity_finds_the_components(self):
         # Four separate balls, cut by planes between the processes.
-        balls = testing.write_volume(f"balls-{self.count}-{SERVER}.vti", self.balls())
+        balls = plugin_testing.write_volume(f"balls-{self.count}-{SERVER}.vti", self.balls())
         volume = simple.XMLImageDataReader(FileName=[balls])
         surface = simple.DeformableSurface(volume, IsoValue=0.5)
         regions = self.fetch(simple.Connectivity(surface))
-        self.assertEqual(testing.field(self.fetch(surface), "NumberOfComponents"), 4)
+        self.assertEqual(plugin_testing.field(self.fetch(surface), "NumberOfComponents"), 4)
         found = numbers(regions.GetCellData().GetArray("RegionId"))
         component = numbers(regions.GetCellData().GetArray("Component"))
         self.assertEqual(len(set(zip(found, component))), 4)
@@ -250,12 +252,12 @@ class ParallelSurfaceTest(unittest.TestCase):
         for cx, cy, cz, radius in balls:
             far = numpy.sqrt((x - cx)**2 + (y - cy)**2 + (z - cz)**2)
             inside = numpy.maximum(inside, numpy.clip(0.5 + 0.4 * (radius - far), 0, 1))
-        return testing.make_image(inside)
+        return plugin_testing.make_image(inside)
 
     def test_connectivity_of_nothing(self):
         # The field is above it nowhere: no process has a triangle.
         surface = simple.DeformableSurface(simple.Wavelet(WholeExtent=EXTENT), IsoValue=1e4)
-        with testing.CapturedMessages():
+        with plugin_testing.CapturedMessages():
             surface.UpdatePipeline()
             self.assertEqual(surface.GetDataInformation().GetNumberOfCells(), 0)
             regions = simple.Connectivity(surface)
@@ -291,16 +293,16 @@ class ParallelSurfaceTest(unittest.TestCase):
         for _ in range(2):
             sums = self.fetch(simple.IntegrateVariables(surface))
             self.assertAlmostEqual(sums.GetCellData().GetArray("Area").GetTuple1(0),
-                                   testing.field(self.whole, "Area"), delta=1e-6)
+                                   plugin_testing.field(self.whole, "Area"), delta=1e-6)
             # With ghosts there it is the same.
             simple.GenerateSurfaceNormals(surface).UpdatePipeline()
 
     def test_saved_files(self):
-        pieces = testing.output_path(f"surface-{self.count}-{SERVER}.pvtp")
+        pieces = plugin_testing.output_path(f"surface-{self.count}-{SERVER}.pvtp")
         simple.SaveData(pieces, proxy=make_surface())
         self.check_pieces(self.fetch(simple.XMLPartitionedPolydataReader(FileName=[pieces])),
                           self.whole)
-        triangles_only = testing.output_path(f"surface-{self.count}-{SERVER}.stl")
+        triangles_only = plugin_testing.output_path(f"surface-{self.count}-{SERVER}.stl")
         simple.SaveData(triangles_only, proxy=make_surface())
         reader = vtkSTLReader()
         reader.SetFileName(triangles_only)
@@ -311,7 +313,7 @@ class ParallelSurfaceTest(unittest.TestCase):
         self.assertAlmostEqual(volume_of(read), volume_of(self.whole), delta=0.1)
 
     def test_threshold_by_component(self):
-        balls = testing.write_volume(f"balls-{self.count}-{SERVER}.vti", self.balls())
+        balls = plugin_testing.write_volume(f"balls-{self.count}-{SERVER}.vti", self.balls())
         volume = simple.XMLImageDataReader(FileName=[balls])
         surface = simple.DeformableSurface(volume, IsoValue=0.5)
         components = numbers(self.fetch(surface).GetCellData().GetArray("Component"))
@@ -325,7 +327,7 @@ class ParallelSurfaceTest(unittest.TestCase):
     def test_an_error_and_then_a_good_run(self):
         surface = make_surface()
         surface.SeedRadius = -1.0
-        with testing.CapturedMessages() as messages:
+        with plugin_testing.CapturedMessages() as messages:
             surface.UpdatePipeline()
         if not SERVER:
             self.assertIn("Seed Radius is -1", messages.text)
@@ -340,4 +342,4 @@ class ParallelSurfaceTest(unittest.TestCase):
         self.check_pieces(self.fetch(surface), self.whole)
 
 
-testing.main()
+plugin_testing.main()
