@@ -16,6 +16,7 @@
 #include <exception>
 #include <initializer_list>
 #include <new>
+#include <sstream>
 #include <utility>
 
 namespace tool
@@ -58,31 +59,23 @@ const char* FirstOf(std::initializer_list<const char*> names)
       throw Failure(words);
   }
 }
-}
 
-bool Ranks::AreMany()
-{
 #ifdef VOLUMIC_HAS_MPI
+/** Whether mpirun, or what a cluster has in its place, has started this process and others. */
+bool AreMany()
+{
   // Open MPI, MPICH and its kin, and what starts either by PMIx (srun --mpi=pmix). One process that
   // was started so has no others to join.
   const char* count = FirstOf({ "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE" });
   return count ? std::atoi(count) > 1 : FirstOf({ "PMIX_RANK", "PMI_RANK" }) != nullptr;
-#else
-  return false;
+}
 #endif
 }
 
-bool Ranks::IsFirstByEnvironment()
-{
-  const char* rank =
-    FirstOf({ "OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "PMIX_RANK" });
-  return !AreMany() || !rank || std::atoi(rank) == 0;
-}
-
-Ranks::Ranks(int& argc, char**& argv, bool joins)
+Ranks::Ranks(int& argc, char**& argv)
 {
 #ifdef VOLUMIC_HAS_MPI
-  if (joins && AreMany())
+  if (AreMany())
   {
     auto controller = vtkSmartPointer<vtkMPIController>::New();
     controller->Initialize(&argc, &argv);
@@ -92,7 +85,6 @@ Ranks::Ranks(int& argc, char**& argv, bool joins)
 #else
   (void)argc;
   (void)argv;
-  (void)joins;
 #endif
 }
 
@@ -239,6 +231,30 @@ double Ranks::Broadcast(double value) const
     this->Controller->Broadcast(&value, 1, 0);
   }
   return value;
+}
+
+std::optional<Ranks::Difference> Ranks::FindDifference(const std::vector<std::string>& here) const
+{
+  std::string joined;
+  for (const std::string& item : here)
+  {
+    joined += item + '\0';
+  }
+  std::istringstream first(this->Broadcast(joined));
+  std::string ofFirst;
+  for (const std::string& item : here)
+  {
+    if (!std::getline(first, ofFirst, '\0'))
+    {
+      return Difference{ item, "" };
+    }
+    if (item != ofFirst)
+    {
+      return Difference{ item, ofFirst };
+    }
+  }
+  return std::getline(first, ofFirst, '\0') ? std::make_optional(Difference{ "", ofFirst })
+                                            : std::nullopt;
 }
 
 std::vector<std::string> Ranks::GatherOnAll(const std::string& bytes) const

@@ -6,6 +6,7 @@
 #include <vtkSmartPointer.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,14 +26,8 @@ namespace tool
 class Ranks
 {
 public:
-  /** Whether mpirun, or what a cluster has in its place, has started this process and others. */
-  static bool AreMany();
-
-  /** The rank that the environment tells, for words before there is an object of this class. */
-  static bool IsFirstByEnvironment();
-
-  /** @param joins Whether to work with the other ranks, if there are any. */
-  Ranks(int& argc, char**& argv, bool joins);
+  /** Joins the other ranks, if there are any. */
+  Ranks(int& argc, char**& argv);
 
   /** Waits for the other ranks. */
   ~Ranks();
@@ -72,6 +67,15 @@ public:
   /** What the first rank has. */
   std::string Broadcast(std::string bytes) const;
   double Broadcast(double value) const;
+
+  /** What differs from what the first rank has. */
+  struct Difference
+  {
+    std::string Here;  ///< Empty: the first rank has more.
+    std::string First; ///< Empty: this rank has more.
+  };
+  /** The first difference between lists that all ranks should have alike. */
+  std::optional<Difference> FindDifference(const std::vector<std::string>& here) const;
 
   /** What each rank has, on all ranks. */
   std::vector<std::string> GatherOnAll(const std::string& bytes) const;

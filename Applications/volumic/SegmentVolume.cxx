@@ -257,6 +257,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ra
 {
   vtkDeformableSurface* filter = filters.Surface;
   Job job = { options, filters.Pyramid, filter, ranks, Announcer(options), LoadedVolume() };
+  CheckInputsOnAll(options, ranks);
   ranks.OnFirst([&] { CheckFiles(options); });
   const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
   job.Volume = LoadVolume(options, filter, holder, job.Says, ranks);

@@ -3,6 +3,7 @@
 #include "SurfaceInputs.h"
 
 #include "Announcer.h"
+#include "InputFiles.h"
 #include "LoadVolume.h"
 #include "Ranks.h"
 #include "ReadStart.h"
@@ -18,7 +19,10 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <system_error>
 
 namespace tool
 {
@@ -57,6 +61,54 @@ std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
   }
   return name;
 }
+}
+
+std::vector<std::string> InputsOf(const ToolOptions& options)
+{
+  std::vector<std::string> inputs = FilesOfVolume(options.Volume);
+  for (const std::string& file : FilesOfVolume(options.Edges))
+  {
+    inputs.push_back(file);
+  }
+  for (const std::string& file :
+    { options.Seeds, options.InitialSurface, options.AttractingPoints })
+  {
+    inputs.push_back(file);
+  }
+  return inputs;
+}
+
+void CheckInputsOnAll(const ToolOptions& options, Ranks& ranks)
+{
+  if (ranks.IsOne())
+  {
+    return;
+  }
+  std::vector<std::string> files = InputsOf(options);
+  if (files.empty() || files.front() != options.Volume)
+  {
+    files.insert(files.begin(), options.Volume);
+  }
+  for (std::string& file : files)
+  {
+    std::error_code failed;
+    const bool isThere = std::filesystem::exists(file, failed);
+    const auto size = std::filesystem::file_size(file, failed);
+    file += !isThere ? ": no such file or folder"
+                     : failed ? "" : ": a file of " + std::to_string(size) + " bytes";
+  }
+  const std::optional<Ranks::Difference> difference = ranks.FindDifference(files);
+  ranks.Together(
+    [&difference]
+    {
+      if (difference)
+      {
+        throw Failure((difference->Here.empty() ? "finds fewer files" : difference->Here) +
+          ", where the first rank finds " +
+          (difference->First.empty() ? "fewer files" : difference->First) +
+          "; all ranks need the same files, from a disk that they share");
+      }
+    });
 }
 
 void SetStart(const ToolOptions& options, vtkDeformableSurface* filter, Ranks& ranks)

@@ -3,6 +3,9 @@
 #ifndef volumicSurfaceInputs_h
 #define volumicSurfaceInputs_h
 
+#include <string>
+#include <vector>
+
 class vtkDeformableSurface;
 class vtkImageData;
 class vtkImagePyramid;
@@ -12,6 +15,15 @@ namespace tool
 class Announcer;
 class Ranks;
 struct ToolOptions;
+
+/** All files that a run reads. */
+std::vector<std::string> InputsOf(const ToolOptions& options);
+
+/**
+ * All ranks find the same files: by their names and sizes, also where the first alone reads them.
+ * @throws Failure on all ranks, which names the rank and the file.
+ */
+void CheckInputsOnAll(const ToolOptions& options, Ranks& ranks);
 
 /**
  * Give the filter the start and the attracting points of the command line: positions, which are

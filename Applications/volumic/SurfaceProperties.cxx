@@ -103,7 +103,7 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_SWITCH(Preview, true, "preview",
       "end at a coarse level of at most a million voxels, to try a value of --iso"),
     SURFACE_MENU(Initialization, "initialization",
-      "what to start from: an icosahedron about the image; seeds, at --seed-position and the "
+      "what to start from: a rounded box about the image; seeds, at --seed-position and the "
       "points of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
       "icosahedron", "seeds", "iso-surface", "input-surface"),
     SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",

@@ -3,10 +3,10 @@
 #include "WriteOutputs.h"
 
 #include "GatherSurface.h"
-#include "InputFiles.h"
 #include "OutputChecks.h"
 #include "Ranks.h"
 #include "Report.h"
+#include "SurfaceInputs.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "WriteResults.h"
@@ -198,17 +198,7 @@ void CheckFiles(const ToolOptions& options)
                   [](const OutputName& output) { return output.Name.empty(); }),
     outputs.end());
 
-  std::vector<std::string> inputs = FilesOfVolume(options.Volume);
-  for (const std::string& file : FilesOfVolume(options.Edges))
-  {
-    inputs.push_back(file);
-  }
-  for (const std::string& file :
-    { options.Seeds, options.InitialSurface, options.AttractingPoints })
-  {
-    inputs.push_back(file);
-  }
-  CheckOutputs(outputs, inputs);
+  CheckOutputs(outputs, InputsOf(options));
 }
 
 void WriteOutputs(

@@ -19,18 +19,43 @@
 #include <vtkVersion.h>
 #include <vtkVolumeToSurface.h>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
-#include <utility>
+#include <vector>
 
 namespace
 {
 using namespace tool;
 
+/** All ranks have the same words to go by. */
+void CheckThatWordsAgree(int argc, char* argv[], Ranks& ranks)
+{
+  std::vector<std::string> words = { "volumic " VOLUMIC_VERSION };
+  words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
+  const std::optional<Ranks::Difference> difference = ranks.FindDifference(words);
+  ranks.Together(
+    [&difference]
+    {
+      const auto named = [](const std::string& word)
+      { return word.empty() ? "nothing more" : "'" + word + "'"; };
+      if (difference)
+      {
+        throw UsageError("has " + named(difference->Here) + " where the first rank has " +
+          named(difference->First) + "; start all with the same command line");
+      }
+    });
+}
+
 ExitCode Run(const ToolOptions& options, Ranks& ranks)
 {
+  if (options.Task != ToolOptions::Task::Segment && !ranks.IsFirst())
+  {
+    return Success;
+  }
   vtkNew<vtkImagePyramid> pyramid;
   vtkSmartPointer<vtkDeformableSurface> filter = vtkSmartPointer<vtkDeformableSurface>::New();
   if (options.HasProperty("EdgeLength"))
@@ -82,14 +107,17 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
   }
 }
 
-/** What the options ask for, by all ranks; only the first one says something. */
-int RunAndTell(ToolOptions options, Ranks& ranks)
+/** What the command line asks for, by all ranks; only the first one says something. */
+int RunAndTell(int argc, char* argv[], Ranks& ranks)
 {
-  options.Quiet = options.Quiet || !ranks.IsFirst();
   ExitCode code = RuntimeFailure;
   std::string words;
   try
   {
+    ToolOptions options;
+    ranks.Together([&] { options = ParseOptions(argc, argv); });
+    CheckThatWordsAgree(argc, argv, ranks);
+    options.Quiet = options.Quiet || !ranks.IsFirst();
     const ExitCode ended = Run(options, ranks);
     ranks.OnFirst(
       []
@@ -135,24 +163,6 @@ int main(int argc, char* argv[])
   {
     vtkSMPTools::SetBackend("Sequential");
   }
-  ToolOptions options;
-  try
-  {
-    options = ParseOptions(argc, argv);
-  }
-  catch (const UsageError& error)
-  {
-    if (Ranks::IsFirstByEnvironment())
-    {
-      std::cerr << "volumic: " << error.what() << "\nTry 'volumic --help'.\n";
-    }
-    return UsageFailure;
-  }
-  const bool worksTogether = options.Task == ToolOptions::Task::Segment;
-  if (!worksTogether && !Ranks::IsFirstByEnvironment())
-  {
-    return Success;
-  }
-  Ranks ranks(argc, argv, worksTogether);
-  return RunAndTell(std::move(options), ranks);
+  Ranks ranks(argc, argv);
+  return RunAndTell(argc, argv, ranks);
 }

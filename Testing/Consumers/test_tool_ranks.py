@@ -188,6 +188,61 @@ class FaultsTest(RanksTestCase):
                 self.refused_by_ranks(3, reason, *arguments, status=status)
                 self.assertFalse(os.path.exists(output))
 
+    def refused_of_two(self, reason, first, second, status):
+        """Two ranks with words of their own, each in a folder of its own."""
+        words = [MPIRUN]
+        for rank, arguments in enumerate((first, second)):
+            folder = self.path(f"rank-{rank}")
+            os.makedirs(folder, exist_ok=True)
+            words += [":"] * rank + ["-n", "1", "-wdir", folder, PROGRAM, *map(str, arguments)]
+        process = subprocess.run(words, capture_output=True, text=True, timeout=100, check=False)
+        self.assertEqual(process.returncode, status, process.stdout + process.stderr)
+        said = [line for line in process.stderr.splitlines() if line.startswith("volumic: ")]
+        self.assertEqual(len(said), 1, process.stderr)
+        self.assertRegex(said[0], reason)
+
+    def test_ranks_with_other_options(self):
+        volume, output = self.ball_file(), self.path("a.stl")
+        usual = [volume, output, "--iso", ISO]
+        for reason, second in (
+                (f"rank 1: has '700' where the first rank has '{ISO}'", [*usual[:3], 700]),
+                ("rank 1: has '--quiet' where the first rank has nothing more",
+                 [*usual, "--quiet"]),
+                ("rank 1: has nothing more where the first rank has '--iso'", usual[:2]),
+                ("rank 1: unknown option --nonsense", [*usual, "--nonsense"]),
+                ("rank 1: has '--version' where", ["--version"])):
+            with self.subTest(reason):
+                self.refused_of_two(reason, usual, second, 2)
+                self.assertFalse(os.path.exists(output))
+
+    def test_files_that_not_all_ranks_find(self):
+        """Also those that the first alone reads, as without it nobody could tell."""
+        for name in ("ball.vti", "ball.nrrd"):
+            good = self.content(self.ball_file())
+            os.makedirs(self.path("rank-0"), exist_ok=True)
+            self.write_bytes(f"rank-0/{name}", good)
+            words = [name, self.path("a.stl"), "--iso", ISO]
+            with self.subTest(name):
+                self.refused_of_two(f"rank 1: {name}: no such file", words, words, 1)
+            os.makedirs(self.path("rank-1"), exist_ok=True)
+            self.write_bytes(f"rank-1/{name}", good + b" ")
+            with self.subTest(name + " of another size"):
+                self.refused_of_two(f"rank 1: {name}: a file of {len(good) + 1} bytes", words,
+                                    words, 1)
+
+    def test_refusals_are_said_on_a_busy_machine(self):
+        """The other ranks do not leave before the first has spoken."""
+        busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"])
+                for _ in range(2 * os.cpu_count())]
+        try:
+            for _ in range(4):
+                self.refused_by_ranks(3, "unknown option", self.ball_file(), self.path("a.stl"),
+                                      "--nonsense", status=2)
+        finally:
+            for process in busy:
+                process.kill()
+                process.wait()
+
     def test_a_part_that_cannot_be_read(self):
         """The last of the slices: the first rank reads others."""
         os.mkdir(self.path("slices"))
