@@ -121,7 +121,7 @@ class SameFilesTest(RanksTestCase):
 
     def test_report_levels_and_history(self):
         volume = self.balls_file()
-        options = ["--iso", 750.5, "--levels", 2]
+        options = ["--iso", 700.5, "--levels", 2]
         reports, histories = [], []
         for name, run in (("one", self.run_tool),
                           ("two", lambda *arguments: self.run_ranks(2, *arguments))):
