@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScratchTestTools.h"
 
+#include "Core/Common/ScratchStore.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
 #include <gtest/gtest.h>
@@ -357,4 +358,26 @@ TEST_F(ScratchMemoryTest, ManyThreadsTakeAndGiveWhileItDrops)
   }
   EXPECT_EQ(wrong, std::vector<std::size_t>(8, 0));
   EXPECT_EQ(scratch.Statistics().Mapped, 0u);
+}
+
+TEST(MemoryHeadroom, GrowsWithWhatIsFilledBetweenTwoLooks)
+{
+  // As on a busy machine, where nobody had a turn to look for a while.
+  MemoryHeadroom headroom;
+  headroom.Leave(300 * MiB);
+  headroom.See(310 * MiB);
+  EXPECT_EQ(headroom.Below(1000 * MiB, 100 * MiB), 400 * MiB) << "two fifths, as usual";
+  headroom.Leave(250 * MiB);
+  headroom.See(500 * MiB);
+  EXPECT_EQ(headroom.Below(1000 * MiB, 100 * MiB), 500 * MiB) << "twice as much";
+  headroom.Leave(500 * MiB);
+  headroom.See(400 * MiB);
+  EXPECT_GT(headroom.Below(1000 * MiB, 100 * MiB), 499 * MiB) << "it is not forgotten at once";
+  EXPECT_EQ(headroom.Below(1000 * MiB, 500 * MiB), 400 * MiB) << "no more than can be dropped";
+  for (int look = 0; look < 20000; ++look)
+  {
+    headroom.See(400 * MiB);
+    headroom.Leave(400 * MiB);
+  }
+  EXPECT_EQ(headroom.Below(1000 * MiB, 100 * MiB), 400 * MiB);
 }

@@ -13,17 +13,18 @@
 
 namespace volumic
 {
-namespace
+void MemoryHeadroom::See(std::size_t resident)
 {
-/**
- * How far below the limit dropping begins, and, by half, how far it goes: what threads may fill
- * until the governor gets its turn. On a machine with seven times more to do than processors that
- * were 170 MiB, with a limit of 400.
- */
-std::size_t HeadroomOf(std::size_t limit)
-{
-  return std::min(std::max(limit / 5 * 2, 32 * Mebibyte), 1024 * Mebibyte);
+  constexpr std::size_t memory = 4096; // Looks: some seconds.
+  this->Burst -= this->Burst / memory;
+  this->Burst = std::max(this->Burst, resident - std::min(resident, this->Left));
 }
+
+std::size_t MemoryHeadroom::Below(std::size_t limit, std::size_t anonymous) const
+{
+  // On a machine with seven times more to do than processors 170 MiB were filled, of 400.
+  const std::size_t usual = std::min(std::max(limit / 5 * 2, 32 * Mebibyte), 1024 * Mebibyte);
+  return std::max(usual, std::min(2 * this->Burst, (limit - std::min(limit, anonymous)) / 4 * 3));
 }
 
 struct ScratchStore::Governor
@@ -77,6 +78,7 @@ void ScratchStore::Add(ScratchLimit& limit)
       Mebibytes(held), " MiB already, for programs, libraries and data. It must be ",
       Mebibytes(least), " MiB at least; 0 is no limit.");
   }
+  this->Headroom.Leave(held);
   this->Limits.push_back(&limit);
   limit.Statistics.Mapped = limit.Statistics.MostMapped = this->Mapped;
   this->NumberOfLimits = this->Limits.size();
@@ -287,15 +289,17 @@ ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t 
 ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter, std::size_t toCome)
 {
   const std::size_t limit = this->SmallestLimit();
-  const std::size_t headroom = HeadroomOf(limit);
-  const std::size_t ahead = std::min(toCome, headroom);
   this->IsKeeping = true;
   ResidentMemory memory = meter.Read();
   this->Record(memory);
+  this->Headroom.See(memory.All);
+  const std::size_t headroom = this->Headroom.Below(limit, memory.Anonymous);
+  const std::size_t ahead = std::min(toCome, headroom);
   if (memory.All + ahead > limit - headroom)
   {
     memory = this->Drop(meter, limit - std::min(limit, headroom + headroom / 4 + ahead));
   }
+  this->Headroom.Leave(memory.All);
   this->LastKept = Microseconds();
   this->IsKeeping = false;
   return memory;
@@ -324,8 +328,8 @@ void ScratchStore::Govern(Governor& governor)
   while (!governor.Ends)
   {
     const std::size_t limit = this->SmallestLimit();
-    const std::size_t begin = limit - HeadroomOf(limit);
     const ResidentMemory memory = this->Keep(governor.Meter);
+    const std::size_t begin = limit - this->Headroom.Below(limit, memory.Anonymous);
     // Microseconds: as long as it takes to fill what is free until then, at 60 GB/s (two threads
     // that read what is cached: 36). Where nothing is left to be dropped, arrays may stay for a
     // while: else all would be waiting for pages.

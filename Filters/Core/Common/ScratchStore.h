@@ -25,6 +25,26 @@ struct ScratchLimit
 };
 
 /**
+ * How far below the limit dropping begins: what threads may fill until somebody looks again. On a
+ * machine with more to do than processors that is more: twice the most that has been filled between
+ * two looks of late, where it is more than usual.
+ */
+class MemoryHeadroom
+{
+public:
+  /** Before pages are dropped. */
+  void See(std::size_t resident);
+  /** And when they have been. */
+  void Leave(std::size_t resident) { this->Left = resident; }
+  /** @param anonymous what cannot be dropped */
+  std::size_t Below(std::size_t limit, std::size_t anonymous) const;
+
+private:
+  std::size_t Left = 0;  ///< At the end of the last look.
+  std::size_t Burst = 0; ///< Filled between two looks, at most; it is forgotten slowly.
+};
+
+/**
  * All arrays in files, and all limits of the process; what ScratchMemory and its functions do is
  * done here. Any thread may call anything.
  */
@@ -78,6 +98,7 @@ private:
   std::atomic<std::size_t> NumberOfArrays{ 0 };
   std::size_t Mapped = 0;  ///< Bytes, of arrays that are being made, too.
   std::uintptr_t Hand = 0; ///< Where dropping goes on.
+  MemoryHeadroom Headroom;
   std::unique_ptr<Governor> Governing;
 };
 }

@@ -257,15 +257,19 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
   const LargeVector<std::uint8_t> active =
     this->InSweeps ? LargeVector<std::uint8_t>() : s.Active.AsVector();
   Remesher remesher(s, this->TheField.get(), false, this->Threads);
-  const auto forAll = [&s](auto&& work)
+  const auto forAll = [this, &s](auto&& work)
   {
-    for (int v = 0; v < s.Mesh.Size(); ++v)
-    {
-      if (s.Mesh.IsAlive(v)) // Other places may take no memory.
+    this->Threads.For(static_cast<std::size_t>(s.Mesh.Size()), VertexGrain,
+      [&](std::size_t begin, std::size_t end)
       {
-        work(v);
-      }
-    }
+        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+        {
+          if (s.Mesh.IsAlive(v)) // Other places may take no memory.
+          {
+            work(v);
+          }
+        }
+      });
   };
   forAll(
     [&s](int v)
