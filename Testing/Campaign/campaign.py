@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random volumes through the command; every surface that it writes is judged. See campaign.sh.
+
+    campaign.py --program volumic --judge JudgeFiles --folder DIR --seeds N [--first SEED]
+
+Prints a line for each seed with an exception or of more than 20 s of processor time, then counts.
+Exit code: 0 without exceptions.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import glob
+import os
+import re
+import resource
+import shlex
+import shutil
+import subprocess
+import sys
+import threading
+
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+from random_settings import RandomRun
+
+SLOW_SECONDS, MOST_SECONDS = 20, 150  # of processor time
+FINISHED, STOPPED = ("converged", "limit cycle"), ("iteration limit", "time limit", "cancelled")
+
+
+class Outcome:
+    """What a seed has come to."""
+
+    def __init__(self, seed, run):
+        self.seed, self.run = seed, run
+        self.status = None
+        self.seconds = 0.
+        self.words = ""  # the standard error
+        self.surfaces = self.triangles = 0
+        self.exceptions = []
+
+    def refusal(self):
+        """Why there is no surface, without names and numbers."""
+        last = self.words.strip().splitlines()[-1:] or ["no word"]
+        return re.sub(r"-?\d[\d.e+-]*", "N", last[0])
+
+    def line(self):
+        told = self.exceptions + [f"{self.seconds:.1f} s"] * (self.seconds > SLOW_SECONDS)
+        size = " x ".join(map(str, self.run.size))
+        return f"seed {self.seed} ({self.run.kind}, {size}): {'; '.join(told)}"
+
+
+def run_command(program, run, outcome):
+    """With its processor time, which is limited, as the clock on the wall counts what others do."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 5))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+    error_file = os.path.join(run.folder, "stderr")
+    with open(error_file, "wb") as error:
+        process = subprocess.Popen([program, *run.words], cwd=run.folder, stderr=error,
+                                   stdout=subprocess.DEVNULL, preexec_fn=limit)
+    hung = threading.Timer(10 * MOST_SECONDS, process.kill)  # waits for something
+    hung.start()
+    _, status, usage = os.wait4(process.pid, 0)
+    hung.cancel()
+    process.returncode = outcome.status = os.waitstatus_to_exitcode(status)
+    outcome.seconds = usage.ru_utime + usage.ru_stime
+    with open(error_file, encoding="utf-8", errors="replace") as error:
+        outcome.words = error.read()
+    if outcome.status < 0:
+        outcome.exceptions.append(
+            f"did not end in {MOST_SECONDS} s" if outcome.seconds > MOST_SECONDS - 1
+            else f"ended by signal {-outcome.status}")
+    elif outcome.status not in (0, 1, 3):
+        outcome.exceptions.append(f"exit status {outcome.status}: {outcome.refusal()}")
+
+
+def field_data(path):
+    """{name: first value, a number or a text}"""
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    fields = reader.GetOutput().GetFieldData()
+    arrays = (fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays()))
+    return {array.GetName(): array.GetValue(0) for array in arrays if array.GetNumberOfValues()}
+
+
+def faults(verdict, told):
+    """What is wrong with a surface, by what the judge says and what the file tells of itself."""
+    found = [name for name in ("closed", "manifold", "oriented", "outward") if not verdict[name]]
+    found = [f"not {name}" for name in found]
+    found += [f"{verdict[name]} {name}" for name in ("intersections", "flat", "unused")
+              if verdict[name]]
+    for name, of_judge in (("NumberOfComponents", "components"), ("Genus", "genus"),
+                           ("EulerCharacteristic", "euler"), ("Area", "area"),
+                           ("Volume", "volume")):
+        value = told.get(name, float("nan"))
+        scale = verdict["area"] ** 1.5 if name == "Volume" else abs(verdict[of_judge])
+        if not abs(value - verdict[of_judge]) <= 1e-6 * scale:
+            found.append(f"{name} {value:g}, which is {verdict[of_judge]:g}")
+    return found
+
+
+def judge(program, names, files, outcome):
+    if not files:
+        return
+    judged = subprocess.run([program, *files], cwd=outcome.run.folder, capture_output=True,
+                            text=True, check=False)
+    if judged.returncode:
+        outcome.exceptions.append(f"judge: {judged.stderr.strip()}")
+    for path, line in zip(files, judged.stdout.splitlines()):
+        verdict = dict(zip(names, map(float, line.split())))
+        told = field_data(os.path.join(outcome.run.folder, path))
+        outcome.surfaces += 1
+        outcome.triangles += int(verdict["triangles"])
+        if not verdict["triangles"]:
+            if told.get("StopReason") not in ("vanished", *STOPPED):
+                outcome.exceptions.append(f"{path}: empty, {told.get('StopReason')}")
+            continue
+        outcome.exceptions += [f"{path} ({told.get('StopReason', 'on its way')}): {fault}"
+                               for fault in faults(verdict, told)]
+
+
+def check_status(outcome, folder):
+    """The exit status agrees with what is written, and with what is said."""
+    surface = os.path.join(folder, "surface.vtp")
+    if outcome.status not in (0, 3):
+        return
+    if re.search("^(?!volumic: )", outcome.words.strip(), re.M):
+        outcome.exceptions.append(f"words that are not its own: {outcome.words.strip()[:200]}")
+    if outcome.run.is_of_labels:
+        return
+    reason = field_data(surface).get("StopReason") if os.path.exists(surface) else "no file"
+    expected = FINISHED if outcome.status == 0 else STOPPED
+    if reason not in expected:
+        outcome.exceptions.append(f"exit status {outcome.status}, but {reason}")
+    if outcome.status == 3 and f"unfinished ({reason})" not in outcome.words:
+        outcome.exceptions.append(f"{reason} is not told")
+
+
+def try_seed(seed, arguments, names):
+    folder = os.path.join(arguments.folder, str(seed))
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    run = RandomRun(seed, folder)
+    outcome = Outcome(seed, run)
+    with open(os.path.join(folder, "command"), "w", encoding="utf-8") as file:
+        file.write(shlex.join([arguments.program, *run.words]) + "\n")
+    run_command(arguments.program, run, outcome)
+    check_status(outcome, folder)
+    files = sorted(glob.glob("**/*.vtp", root_dir=folder, recursive=True))
+    judge(arguments.judge, names, [f for f in files if f != "given.vtp"], outcome)
+    if not outcome.exceptions and outcome.seconds <= SLOW_SECONDS and not arguments.keep:
+        shutil.rmtree(folder)
+    return outcome
+
+
+def tell(outcomes):
+    count = collections.Counter(outcome.status for outcome in outcomes)
+    print(f"{len(outcomes)} seeds: {count[0]} finished, {count[3]} stopped, {count[1]} refused")
+    refusals = collections.Counter(o.refusal() for o in outcomes if o.status == 1)
+    for words, times in refusals.most_common():
+        print(f"    {times} x {words}")
+    slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
+    print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
+          f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "
+          f"{sum(o.seconds for o in outcomes):.0f} s, most {max(o.seconds for o in outcomes):.1f} s,"
+          f" {len(slow)} seeds over {SLOW_SECONDS} s")
+    print(f"{sum(bool(o.exceptions) for o in outcomes)} seeds with exceptions")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    for name in ("program", "judge", "folder"):
+        parser.add_argument(f"--{name}", required=True, type=os.path.abspath)
+    parser.add_argument("--seeds", type=int, required=True)
+    parser.add_argument("--first", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1)
+    arguments = parser.parse_args()
+    arguments.keep = arguments.seeds == 1
+    names = subprocess.run([arguments.judge, "--help"], capture_output=True, text=True,
+                           check=True).stdout.split()
+    seeds = range(arguments.first, arguments.first + arguments.seeds)
+    outcomes = []
+    with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
+        tasks = [pool.submit(try_seed, seed, arguments, names) for seed in seeds]
+        for task in concurrent.futures.as_completed(tasks):
+            outcomes.append(task.result())
+            if outcomes[-1].exceptions or outcomes[-1].seconds > SLOW_SECONDS or arguments.keep:
+                print(outcomes[-1].line(), flush=True)
+    tell(outcomes)
+    return 1 if any(outcome.exceptions for outcome in outcomes) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random runs of the command: a volume of random_volumes.py in a folder, and options for it."""
+
+import os
+
+import numpy as np
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkTriangleFilter
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
+
+import random_volumes
+
+
+def write(writer, data, folder, name):
+    writer.SetFileName(os.path.join(folder, name))
+    writer.SetInputData(data)
+    writer.Write()
+    return name
+
+
+class RandomRun:
+    """Words of the command line, for files in `folder`, where the run is to be started."""
+
+    def __init__(self, seed, folder):
+        self.rng = np.random.default_rng(seed)
+        self.folder = folder
+        most_voxels = 150000 if self.chance(.1) else 40000
+        self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
+        self.is_of_labels = self.chance(.15)
+        self.words = self.of_labels() if self.is_of_labels else self.of_surface()
+        self.words = [self.volume, *self.words, "--threads", str(self.rng.integers(1, 3))]
+        if self.chance(.1):
+            self.words += ["--memory", f"{self.rng.integers(250, 400)}M", "--scratch", "."]
+
+    def chance(self, share):
+        return self.rng.random() < share
+
+    def number(self, low, high):
+        return f"{self.rng.uniform(low, high):.6g}"
+
+    def now_and_then(self, share, option, *value):
+        return [option, *value] if self.chance(share) else []
+
+    # ---- Surfaces of labels ----
+
+    def of_labels(self):
+        labels, self.kind = random_volumes.random_labels(self.rng, self.size, self.spacing)
+        image = random_volumes.make_image(self.rng, labels.astype("u1"), self.spacing)
+        self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
+        smallest = self.spacing.min()
+        return [
+            "labels", "--labels", "all",
+            *self.now_and_then(.3, "--smoothing", self.number(0, 4)),
+            *self.now_and_then(.3, "--gap", f"{smallest * self.rng.uniform(0, 2):.6g}"),
+            *self.now_and_then(.3, "--metric", "voxels"),
+            *self.now_and_then(.3, "--finest", str(self.rng.choice((-1, 1, 2)))),
+            *self.now_and_then(.1, "--edge-length", f"{smallest * self.rng.uniform(.7, 6):.6g}"),
+            *self.now_and_then(.2, "--keep", "largest")]
+
+    # ---- The surface of an object ----
+
+    def of_surface(self):
+        field, self.kind = random_volumes.random_field(self.rng, self.size, self.spacing)
+        voxels = random_volumes.to_type(self.rng, field, self.rng.choice(random_volumes.TYPES))
+        image = random_volumes.make_image(self.rng, voxels, self.spacing)
+        words = ["surface.vtp", "--levels-output", "levels", *self.iso(voxels),
+                 *self.start(image, field), *self.pyramid(), *self.stop(), *self.forces()]
+        if self.chance(.15):
+            random_volumes.add_array(image, "edges", self.rng.random(voxels.shape) ** 4)
+            words += ["--edges", "edges", "--edge-attraction", self.number(.1, 3)]
+        self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
+        return words
+
+    def iso(self, voxels):
+        """Anywhere in the range of the voxels, or Otsu's."""
+        low, high = float(voxels.min()), float(voxels.max())
+        value = low + (high - low) * self.rng.uniform(.02, .98)
+        return [*self.now_and_then(.9, "--iso", f"{value:.9g}"), *self.now_and_then(.2, "--dark")]
+
+    @staticmethod
+    def to_world(image, place):
+        world = [0., 0., 0.]
+        image.TransformContinuousIndexToPhysicalPoint(place, world)
+        return world
+
+    def start(self, image, field):
+        kind = self.rng.choice(("icosahedron", "seeds", "iso-surface", "input-surface"),
+                               p=(.55, .15, .15, .15))
+        words = ["--initialization", str(kind)]
+        if kind == "seeds":
+            places = np.argwhere(field >= np.quantile(field, .9))  # where the object may be
+            for place in self.rng.permutation(places)[:self.rng.integers(0, 5)]:
+                point = self.to_world(image, place[::-1].astype(float))
+                words += ["--seed-position", ",".join(f"{x:.15g}" for x in point)]
+            words += self.now_and_then(
+                .3, "--seed-radius", f"{self.spacing.max() * self.rng.uniform(1, 5):.6g}")
+        elif kind == "input-surface":
+            words += ["--initial-surface", self.given_surface(image)]
+        return words
+
+    def given_surface(self, image):
+        """Closed: a ball or a box of triangles of any shape, turned and stretched, in the image."""
+        if self.chance(.5):
+            source = vtkSphereSource()
+            source.SetThetaResolution(int(self.rng.integers(4, 40)))
+            source.SetPhiResolution(int(self.rng.integers(4, 40)))
+        else:
+            source = vtkCubeSource()
+        clean, triangles = vtkCleanPolyData(), vtkTriangleFilter()
+        clean.SetInputConnection(source.GetOutputPort())
+        triangles.SetInputConnection(clean.GetOutputPort())
+        low, high = np.reshape(image.GetBounds(), (3, 2)).T
+        transform = vtkTransform()
+        transform.Translate((low + high) / 2)
+        transform.Scale((high - low) * self.rng.uniform(.3, .9))
+        transform.RotateWXYZ(self.rng.uniform(0, 360), *self.rng.normal(size=3))
+        transform.Scale(self.rng.uniform(.2, 1, 3))
+        to_image = vtkTransformPolyDataFilter()
+        to_image.SetTransform(transform)
+        to_image.SetInputConnection(triangles.GetOutputPort())
+        to_image.SetOutputPointsPrecision(1)
+        to_image.Update()
+        return write(vtkXMLPolyDataWriter(), to_image.GetOutput(), self.folder, "given.vtp")
+
+    def pyramid(self):
+        words = []
+        last = int(np.log(self.size.min() / 8) / np.log(3 ** .5))  # the last that has eight voxels
+        if self.chance(.25):
+            words += ["--finest", str(self.rng.integers(-1, min(last, 2) + 1)), "--levels",
+                      str(last + 1)]
+        elif self.chance(.2):
+            words += ["--coarsest", str(self.rng.integers(0, last + 1)), "--levels", str(last + 1)]
+        return [
+            *words,
+            *self.now_and_then(.25, "--metric", "voxels"),
+            *self.now_and_then(.15, "--minimum-level-size", str(self.rng.integers(4, 16))),
+            *self.now_and_then(.1, "--reduction-factor", self.number(1.2, 1.73)),
+            *self.now_and_then(.15, "--sampling-ratio", self.number(.693, 1)),
+            *self.now_and_then(.15, "--border", "replicate"),
+            *self.now_and_then(.3, "--recovery",
+                               str(self.rng.choice(("none", "objects-and-cavities")))),
+            *self.now_and_then(.1, "--minimum-part-size", str(self.rng.integers(1, 100))),
+            *self.now_and_then(.1, "--keep", "largest")]
+
+    def stop(self):
+        kind = self.rng.random()
+        words = []
+        if kind < .35:
+            words = ["--iterations", str(self.rng.integers(1, 11))]
+        elif kind < .55:
+            words = ["--iterations", str(int(10 ** self.rng.uniform(1, 2.5)))]
+        elif kind < .65:
+            words = ["--time-limit", f"{10 ** self.rng.uniform(-2, .5):.3g}"]
+        # Fewer where there will be many.
+        interval = int(self.rng.choice((1, 3, 7))) if kind < .35 else int(self.rng.integers(20, 90))
+        return words + self.now_and_then(.5, "--snapshots", "snapshots", "--snapshot-interval",
+                                         str(interval))
+
+    def forces(self):
+        return [
+            *self.now_and_then(.1, "--tension", self.number(0, 1)),
+            *self.now_and_then(.1, "--elasticity", self.number(0, 1)),
+            *self.now_and_then(.1, "--isopotential", self.number(.1, 3)),
+            *self.now_and_then(.1, "--gradient", self.number(0, 2)),
+            *self.now_and_then(.1, "--friction", self.number(.2, 6)),
+            *self.now_and_then(.1, "--tolerance", f"{10 ** self.rng.uniform(-5, -1):.3g}"),
+            *self.now_and_then(.1, "--no-topology-changes"),
+            *self.now_and_then(.1, "--no-freeze"),
+            *self.now_and_then(.1, "--no-snap")]

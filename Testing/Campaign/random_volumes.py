@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random volumes for the campaign: what is seen, on which voxels, in which type, where in the world.
+
+Shapes are fields [z, y, x] that are about 1 in objects and 0 elsewhere.
+"""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+
+TYPES = ("u1", "i1", "u2", "i2", "u4", "i4", "i8", "f4", "f8")
+
+
+def size_and_spacing(rng, most_voxels):
+    """Voxels and their distances along x, y, z: up to 1 : 20, boxes of any proportion."""
+    while True:
+        size = np.exp(rng.uniform(np.log(8), np.log(80), 3)).astype(int)
+        if size.prod() <= most_voxels:
+            break
+    spacing = np.exp(rng.uniform(0, np.log(20), 3)) if rng.random() < .7 else np.ones(3)
+    if rng.random() < .3:  # slices of a scanner: two are the same
+        spacing[1] = spacing[0]
+    return size, spacing * 10 ** rng.uniform(-2, 1)
+
+
+def direction(rng):
+    """Of the axes: none, turned by quarters, mirrored, or any."""
+    kind = rng.random()
+    if kind < .4:
+        return np.eye(3)
+    if kind < .6:
+        return np.eye(3)[rng.permutation(3)] * rng.choice((-1, 1), 3)
+    turned, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    return turned
+
+
+def smoothed(field, sigma):
+    """Gaussian, in voxels along z, y, x; what leaves one side comes in at the other."""
+    spectrum = np.fft.rfftn(field)
+    frequencies = np.meshgrid(*map(np.fft.fftfreq, field.shape[:2]),
+                              np.fft.rfftfreq(field.shape[2]), indexing="ij")
+    exponent = sum((2 * np.pi * f * s) ** 2 for f, s in zip(frequencies, sigma))
+    return np.fft.irfftn(spectrum * np.exp(-exponent / 2), field.shape)
+
+
+def scaled(field):
+    low, high = field.min(), field.max()
+    return (field - low) / (high - low) if high > low else np.full(field.shape, .5)
+
+
+class Shapes:
+    """Fields on one grid; lengths are voxels, or, with `in_world`, those of the world."""
+
+    def __init__(self, rng, size, spacing, in_world):
+        self.rng = rng
+        self.shape = tuple(size[::-1])
+        steps = spacing[::-1] / spacing.min() if in_world else np.ones(3)
+        self.steps = steps
+        self.extent = np.array(self.shape) * steps
+        self.places = np.stack([n * s for n, s in zip(np.indices(self.shape), steps)], -1)
+
+    def noise(self):
+        return self.rng.random(self.shape)
+
+    def smooth_noise(self):
+        return scaled(smoothed(self.noise(), self.rng.uniform(.5, 5) / self.steps))
+
+    def blobs(self):
+        field = np.zeros(self.shape)
+        for _ in range(self.rng.integers(1, 9)):
+            centre = self.rng.random(3) * self.extent
+            axes = self.extent.min() * self.rng.uniform(.1, .7, 3)
+            distance = np.sqrt((((self.places - centre) / axes) ** 2).sum(-1))
+            field = np.maximum(field, np.clip(.5 + axes.min() * (1 - distance), 0, 1))
+        return field
+
+    def tubes(self):
+        """Crooked ones that may cross each other."""
+        field = np.zeros(self.shape)
+        for _ in range(self.rng.integers(1, 5)):
+            radius = self.rng.uniform(.5, 4)
+            points = self.rng.random((self.rng.integers(2, 5), 3)) * self.extent
+            for a, b in zip(points[:-1], points[1:]):
+                along = (self.places - a) @ (b - a) / max(1e-9, (b - a) @ (b - a))
+                nearest = a + np.clip(along, 0, 1)[..., None] * (b - a)
+                distance = np.linalg.norm(self.places - nearest, axis=-1)
+                field = np.maximum(field, np.clip(.5 + radius - distance, 0, 1))
+        return field
+
+    def sheets(self):
+        """Plates as thin as half a voxel, at any angle."""
+        field = np.zeros(self.shape)
+        for _ in range(self.rng.integers(1, 5)):
+            normal = self.rng.normal(size=3)
+            normal /= np.linalg.norm(normal)
+            height = np.abs((self.places - self.rng.random(3) * self.extent) @ normal)
+            field = np.maximum(field, np.clip(.5 + self.rng.uniform(.25, 3) - height, 0, 1))
+        return field
+
+    def gyroid(self):
+        x, y, z = np.moveaxis(self.places * 2 * np.pi / self.rng.uniform(6, 40), -1, 0)
+        field = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
+        return scaled(np.abs(field) if self.rng.random() < .3 else field)
+
+    def shell(self):
+        """A hollow ball, or several in each other, with holes."""
+        radius = np.linalg.norm((self.places / self.extent - .5) * 2, axis=-1)
+        wall = np.sin(radius * np.pi * self.rng.uniform(1, 6))
+        holes = self.tubes() if self.rng.random() < .5 else 0
+        return np.clip(scaled(wall * (radius < 1)) - holes, 0, 1)
+
+    def checkers(self):
+        side = self.rng.integers(1, 12, 3)
+        odd = sum(n // s for n, s in zip(np.indices(self.shape), side)) % 2
+        return odd.astype(float)
+
+    def thin(self):
+        """Single voxels, rows and planes of them."""
+        field = np.zeros(self.shape)
+        for _ in range(self.rng.integers(1, 20)):
+            where = [int(self.rng.integers(n)) for n in self.shape]
+            for axis in self.rng.permutation(3)[:self.rng.integers(0, 3)]:
+                where[axis] = slice(None)
+            field[tuple(where)] = 1
+        return field
+
+    def box(self):
+        """With edges and corners, up to the border or not."""
+        ends = [sorted(self.rng.integers(-2, n + 3, 2)) for n in self.shape]
+        inside = [(n >= low) & (n < high) for n, (low, high) in zip(np.indices(self.shape), ends)]
+        return np.logical_and.reduce(inside).astype(float)
+
+    def ramp(self):
+        return scaled(self.places @ self.rng.normal(size=3))
+
+    def constant(self):
+        return np.full(self.shape, float(self.rng.integers(2)))
+
+    def any(self):
+        kinds = {"noise": 1, "smooth_noise": 6, "blobs": 6, "tubes": 6, "sheets": 5, "gyroid": 4,
+                 "shell": 5, "checkers": 2, "thin": 3, "box": 2, "ramp": 1, "constant": 1}
+        weights = np.array(list(kinds.values()), float)
+        return str(self.rng.choice(list(kinds), p=weights / weights.sum()))
+
+
+def random_field(rng, size, spacing):
+    """The field, about 0 to 1, and its name."""
+    shapes = Shapes(rng, size, spacing, rng.random() < .5)
+    names = [shapes.any()]
+    field = getattr(shapes, names[0])()
+    if rng.random() < .3:
+        names.append(shapes.any())
+        combine = rng.choice((np.maximum, np.minimum, np.subtract))
+        field = combine(field, getattr(shapes, names[1])())
+    if rng.random() < .2:
+        names.append("smoothed")
+        field = smoothed(field, rng.uniform(.3, 2) / shapes.steps)
+    if rng.random() < .4:
+        names.append("noisy")
+        field = field + rng.normal(0, 10 ** rng.uniform(-3, -.5), field.shape)
+    return field, "+".join(names)
+
+
+def random_labels(rng, size, spacing):
+    """A map of 1 to 5 labels, some of which may have no voxel, and its name."""
+    shapes = Shapes(rng, size, spacing, rng.random() < .5)
+    labels, names = np.zeros(shapes.shape, int), []
+    for label in range(1, rng.integers(2, 7)):
+        names.append(shapes.any())
+        field = scaled(getattr(shapes, names[-1])())
+        labels[field > rng.uniform(.3, .9)] = label
+    return labels, "+".join(names)
+
+
+def to_type(rng, field, name):
+    """Voxels of a type, on all or a part of what it can hold."""
+    kind = np.dtype(name)
+    if kind.kind == "f":
+        return (field * 10 ** rng.uniform(-3, 6) + rng.normal() * 100).astype(kind)
+    information = np.iinfo(kind)
+    top = min(information.max, int(10 ** rng.uniform(.5, 6)))
+    low = max(information.min, int(rng.choice((0, -top))))
+    return np.round(np.clip(low + field * (top - low), information.min,
+                            information.max)).astype(kind)
+
+
+def make_image(rng, voxels, spacing):
+    image = vtkImageData()
+    image.SetDimensions(voxels.shape[::-1])
+    image.SetSpacing(spacing)
+    far = rng.choice((0, 1, 1000, 30000))  # times the voxels' distances
+    image.SetOrigin(rng.normal(size=3) * far * spacing)
+    image.SetDirectionMatrix(direction(rng).ravel())
+    add_array(image, "density", voxels)
+    image.GetPointData().SetActiveScalars("density")
+    return image
+
+
+def add_array(image, name, voxels):
+    array = numpy_to_vtk(np.ascontiguousarray(voxels).ravel(), deep=True)
+    array.SetName(name)
+    image.GetPointData().AddArray(array)
