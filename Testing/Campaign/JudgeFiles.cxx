@@ -58,8 +58,8 @@ TriangleSurface ReadSurface(const std::string& file)
     {
       throw std::invalid_argument("has polygons that are no triangles");
     }
-    surface.Triangles.push_back({ static_cast<int>(corners[0]), static_cast<int>(corners[1]),
-      static_cast<int>(corners[2]) });
+    surface.Triangles.push_back(
+      { static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2]) });
   }
   return surface;
 }
@@ -70,8 +70,8 @@ void Judge(const std::string& file)
   const TopologyVerdict topology = JudgeTopology(surface);
   const IntersectionVerdict intersections = JudgeIntersections(surface);
   std::cout << surface.Points.size() << ' ' << surface.Triangles.size() << ' ' << topology.Closed
-            << ' ' << topology.Manifold << ' ' << topology.Oriented << ' ' << topology.Outward << ' '
-            << intersections.Pairs << ' ' << intersections.FlatTriangles << ' '
+            << ' ' << topology.Manifold << ' ' << topology.Oriented << ' ' << topology.Outward
+            << ' ' << intersections.Pairs << ' ' << intersections.FlatTriangles << ' '
             << topology.UnusedPoints << ' ' << topology.Components.size() << ' '
             << topology.EulerCharacteristic << ' ' << topology.Genus << ' ' << topology.Area << ' '
             << topology.Volume << std::endl;

@@ -27,7 +27,7 @@ class RandomRun:
     def __init__(self, seed, folder):
         self.rng = np.random.default_rng(seed)
         self.folder = folder
-        most_voxels = 150000 if self.chance(.1) else 40000
+        most_voxels = 150000 if self.chance(.05) else 25000
         self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
         self.is_of_labels = self.chance(.15)
         self.words = self.of_labels() if self.is_of_labels else self.of_surface()
