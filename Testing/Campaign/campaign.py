@@ -129,6 +129,8 @@ def check_status(outcome, folder):
     surface = os.path.join(folder, "surface.vtp")
     if outcome.status not in (0, 3):
         return
+    if "error of Volumic" in outcome.words:
+        outcome.exceptions.append(outcome.words.strip())
     if re.search("^(?!volumic: )", outcome.words.strip(), re.M):
         outcome.exceptions.append(f"words that are not its own: {outcome.words.strip()[:200]}")
     if outcome.run.is_of_labels:
@@ -167,8 +169,8 @@ def tell(outcomes):
     slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
     print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
           f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "
-          f"{sum(o.seconds for o in outcomes):.0f} s, most {max(o.seconds for o in outcomes):.1f} s,"
-          f" {len(slow)} seeds over {SLOW_SECONDS} s")
+          f"{sum(o.seconds for o in outcomes):.0f} s, most "
+          f"{max(o.seconds for o in outcomes):.1f} s, {len(slow)} seeds over {SLOW_SECONDS} s")
     print(f"{sum(bool(o.exceptions) for o in outcomes)} seeds with exceptions")
 
 
