@@ -41,6 +41,7 @@ set(volumic_core_sources
   Mesh/EdgeSplit.cxx
   Mesh/LatticeInside.cxx
   Mesh/LatticeSurface.cxx
+  Mesh/LongEdges.cxx
   Mesh/RingRelief.cxx
   Mesh/SelfIntersections.cxx
   Mesh/StarMerge.cxx
@@ -154,6 +155,7 @@ set(volumic_core_headers
   Mesh/EdgeSplit.h
   Mesh/LatticeInside.h
   Mesh/LatticeSurface.h
+  Mesh/LongEdges.h
   Mesh/ObliqueRotation.h
   Mesh/RingRelief.h
   Mesh/RowCrossing.h

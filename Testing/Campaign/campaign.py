@@ -90,8 +90,9 @@ def field_data(path):
 
 def faults(verdict, told):
     """What is wrong with a surface, by what the judge says and what the file tells of itself."""
-    found = [name for name in ("closed", "manifold", "oriented", "outward") if not verdict[name]]
-    found = [f"not {name}" for name in found]
+    # On its way a component may be inside out for some iterations: until it is looked for.
+    promises = ("closed", "manifold", "oriented") + ("outward",) * ("StopReason" in told)
+    found = [f"not {name}" for name in promises if not verdict[name]]
     found += [f"{verdict[name]} {name}" for name in ("intersections", "flat", "unused")
               if verdict[name]]
     for name, of_judge in (("NumberOfComponents", "components"), ("Genus", "genus"),

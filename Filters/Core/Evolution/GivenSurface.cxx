@@ -4,6 +4,7 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/LatticeSurface.h"
+#include "Core/Mesh/LongEdges.h"
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/RingRelief.h"
 #include "Core/Mesh/SelfIntersections.h"
@@ -186,10 +187,16 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool is
   IndexedSurface surface = WithoutUnusedPoints(given);
   // A mesh that is near to the constraints is brought within them as it is, by the edits of an
   // iteration. They rely on edges that are not too long and rings that have room; where long edges,
-  // slivers or fans deny them that, the same surface gets another mesh first.
+  // slivers or fans deny them that, the same surface gets another mesh first. An iso-surface, whose
+  // edges are as long as voxels, needs no other than its own, divided.
   const SurfaceState& s = this->State;
+  const double longest = SizingField::LongestEdgeInDelta * s.Sizing.OfLevel();
+  if (isSound)
+  {
+    HalveLongEdges(surface, longest);
+  }
   const EdgeLengths lengths = LengthsOf(surface);
-  if (lengths.Longest <= SizingField::LongestEdgeInDelta * s.Sizing.OfLevel() &&
+  if (lengths.Longest <= longest &&
     (isSound ? RelieveRings(surface)
              : FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel())))
   {
