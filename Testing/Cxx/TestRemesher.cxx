@@ -75,6 +75,22 @@ TEST(Remesher, DoesNotSplitLegalEdges)
   EXPECT_EQ(bench.State.Counts.Splits, 0);
 }
 
+TEST(Remesher, DoesNotSplitIntoNeedles)
+{
+  // A tetrahedron with one edge that is too long; a corner opposite to it is near to its middle.
+  for (const double height : { 0.01, 0.05 })
+  {
+    IndexedSurface cap;
+    cap.Points = { { -1.3, 0, 0 }, { 1.3, 0, 0 }, { 0, 0, height }, { 0, -1, -1 } };
+    cap.Triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 0, 2, 3 }, { 2, 1, 3 } };
+    Bench bench(cap);
+    std::vector<int> all = bench.All();
+    Remesher(bench.State, nullptr, true, Threads).Split(all);
+    EXPECT_EQ(bench.State.Counts.Splits, height > 0.02 ? 1 : 0);
+    EXPECT_EQ((bench.State.RemeshFlags[0] & HasLongEdge) != 0, height < 0.02) << "tried again";
+  }
+}
+
 TEST(Remesher, CollapsesEdgesShorterThanDelta)
 {
   Bench bench(FineSphere());

@@ -4,7 +4,6 @@
 
 #include "Core/Common/Select.h"
 #include "Core/Mesh/EdgeCollapse.h"
-#include "Core/Mesh/EdgeFlip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,8 @@ namespace
 {
 /** Splits that may have to come before one, see SplitEdge. */
 constexpr int DeepestSplit = 4;
+/** How near an edge's middle may be to what lies opposite, in delta; see MakesNeedles. */
+constexpr float LeastHeight = 0.02f;
 /** Roll backs after which a vertex counts as stuck. */
 constexpr int StuckRollbacks = 6;
 /** Longest edge of a stuck vertex that is collapsed, of the shortest legal edge. */
@@ -35,6 +36,18 @@ std::vector<int> Remesher::Flagged(const std::vector<int>& vertices, RemeshFlag 
     [&s, flag](int v) { return s.Mesh.IsAlive(v) && (s.RemeshFlags[v] & flag) != 0; });
 }
 
+bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
+{
+  // Where the longest edge of a triangle cannot be split, its two others would be in turn, each
+  // middle a quarter as far from the last one, until all lie on a line: triangles without height,
+  // whose sides no test can tell. An edge that is too long for a while does no harm.
+  const SurfaceState& s = this->State;
+  const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
+  const float least = LeastHeight * s.Sizing.ShortestEdge(u, v);
+  return SquaredDistance(middle, s.Mesh.Position[across.A]) < least * least ||
+    SquaredDistance(middle, s.Mesh.Position[across.B]) < least * least;
+}
+
 bool Remesher::SplitEdge(
   SurfaceEditor& editor, int u, int v, std::vector<int>& added, int depth) const
 {
@@ -43,12 +56,16 @@ bool Remesher::SplitEdge(
   {
     return true; // Split on the way to another one.
   }
+  const EdgeFlip across = EdgeFlip::Of(s.Mesh, u, v);
+  if (this->MakesNeedles(u, v, across))
+  {
+    return false;
+  }
   Edit split = editor.Split(u, v);
   if (!split && depth > 0)
   {
     // A vertex opposite to the edge has no room for another neighbour. Once an edge from it to one
     // of the ends is split, that one's middle is what lies opposite.
-    const EdgeFlip across = EdgeFlip::Of(s.Mesh, u, v);
     for (int full : { across.A, across.B })
     {
       if (s.Mesh.Rings[full].Count == Ring::Capacity &&

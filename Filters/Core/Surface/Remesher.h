@@ -4,6 +4,7 @@
 #define volumicRemesher_h
 
 #include "Core/Image/Field.h"
+#include "Core/Mesh/EdgeFlip.h"
 #include "Core/Surface/EditCells.h"
 #include "Core/Surface/Proximity.h"
 
@@ -56,6 +57,8 @@ public:
 private:
   // Called side by side: they must change nothing but the surface, by the editor.
   bool SplitEdge(SurfaceEditor& editor, int u, int v, std::vector<int>& added, int depth) const;
+  /** Whether what lies opposite to an edge is so near to its middle that a split would. */
+  bool MakesNeedles(int u, int v, const EdgeFlip& across) const;
   void SplitAt(SurfaceEditor& editor, int v, std::vector<int>& added) const;
   bool IsMergeWanted(int u, int v) const;
   bool FlipBetween(SurfaceEditor& editor, int u, int v) const;
