@@ -9,8 +9,20 @@
 
 namespace tool
 {
-BinaryFile::BinaryFile(const std::string& name) : File(name, std::ios::binary)
+void NeedFile(const std::string& name)
 {
+  std::error_code failed;
+  const std::filesystem::file_status status = std::filesystem::status(name, failed);
+  if (std::filesystem::is_other(status))
+  {
+    throw Failure(name + ": a pipe or a device; files are read");
+  }
+}
+
+BinaryFile::BinaryFile(const std::string& name)
+{
+  NeedFile(name);
+  this->File.open(name, std::ios::binary);
   std::error_code failed;
   this->Bytes = std::filesystem::file_size(name, failed);
   if (failed || !this->File)
@@ -19,13 +31,18 @@ BinaryFile::BinaryFile(const std::string& name) : File(name, std::ios::binary)
   }
 }
 
-std::string BinaryFile::Text(std::uint64_t at, std::uint64_t count)
+void BinaryFile::Need(std::uint64_t at, std::uint64_t count) const
 {
   if (at > this->Bytes || count > this->Bytes - at)
   {
     throw Failure("the file is cut off: it ends at byte " + std::to_string(this->Bytes) +
       ", which is before what its header tells of; copy it again");
   }
+}
+
+std::string BinaryFile::Text(std::uint64_t at, std::uint64_t count)
+{
+  this->Need(at, count);
   std::string text(count, '\0');
   this->File.seekg(static_cast<std::streamoff>(at));
   this->File.read(text.data(), static_cast<std::streamsize>(count));
@@ -65,6 +82,18 @@ void NeedBytes(std::uint64_t there, std::uint64_t needed)
   {
     throw Failure("the file is cut off: it has " + std::to_string(there) +
       " bytes of voxels, its header asks for " + std::to_string(needed) + "; copy it again");
+  }
+}
+
+void NeedJustBytes(std::uint64_t there, std::uint64_t needed)
+{
+  NeedBytes(there, needed);
+  if (there > needed)
+  {
+    throw Failure("the file is too long: it has " + std::to_string(there) +
+      " bytes of voxels, its header asks for " + std::to_string(needed) +
+      "; copy it again, or, if what is too much is its end, cut that off (truncate -s -" +
+      std::to_string(there - needed) + ")");
   }
 }
 }

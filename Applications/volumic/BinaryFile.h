@@ -9,18 +9,24 @@
 
 namespace tool
 {
+/** @throws Failure that names it, for a pipe or a device, which may have no end. */
+void NeedFile(const std::string& name);
+
 /** A file of binary numbers, read at any place. */
 class BinaryFile
 {
 public:
-  /** @throws Failure if it cannot be opened. */
+  /** @throws Failure if it cannot be opened, or as NeedFile. */
   explicit BinaryFile(const std::string& name);
 
   bool IsBig = false; ///< whether numbers have their most significant byte first
 
   std::uint64_t Size() const { return this->Bytes; }
 
-  /** The text of so many bytes at a place. @throws Failure if the file ends before. */
+  /** @throws Failure unless so many bytes are at a place. */
+  void Need(std::uint64_t at, std::uint64_t count) const;
+
+  /** The text of so many bytes at a place. @throws as Need. */
   std::string Text(std::uint64_t at, std::uint64_t count);
 
   /** The unsigned number of 1 to 8 bytes at a place. @throws as Text. */
@@ -42,6 +48,12 @@ std::uint64_t Times(std::uint64_t a, std::uint64_t b);
 
 /** @throws Failure if there are fewer bytes than needed. */
 void NeedBytes(std::uint64_t there, std::uint64_t needed);
+
+/**
+ * The same, and if there are more: bytes that are one too many among or before the voxels move all
+ * that follow.
+ */
+void NeedJustBytes(std::uint64_t there, std::uint64_t needed);
 }
 
 #endif

@@ -5,12 +5,15 @@
 #include "BinaryFile.h"
 #include "Inflate.h"
 #include "InputFiles.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <regex>
 #include <set>
@@ -65,20 +68,39 @@ std::streamoff BehindMetaHeader(std::ifstream& file)
 void CheckMetaText(std::ifstream& file, std::uint64_t values)
 {
   std::uint64_t there = 0;
-  for (std::string word; there < values && file >> word;)
+  for (std::string word; there <= values && file >> word;)
   {
+    char* end = nullptr;
+    std::strtod(word.c_str(), &end);
+    if (*end != '\0')
+    {
+      throw Failure(
+        "the file is damaged: its value " + std::to_string(there + 1) + " is no number");
+    }
     ++there;
   }
-  if (there < values)
+  if (there != values)
   {
-    throw Failure("the file is cut off: it has " + std::to_string(there) +
+    throw Failure((there < values ? "the file is cut off" : "the file is too long") +
+      std::string(": it has ") + std::to_string(there) + (there > values ? " or more" : "") +
       " values, its header asks for " + std::to_string(values));
   }
 }
 
-/** Files that hold the data together, as much each. */
-void CheckMetaFiles(const std::vector<std::string>& files, std::uint64_t needed)
+/** How many bytes of a file are before its voxels; less than 0: all but these. */
+long long SkippedBytes(const std::string& name)
 {
+  return std::atoll(HeaderValue(name, "HeaderSize").c_str());
+}
+
+/**
+ * Files that hold the data together, as much each.
+ * @param needed 0: any number of bytes
+ */
+void CheckMetaFiles(
+  const std::vector<std::string>& files, std::uint64_t needed, long long skipped)
+{
+  const std::uint64_t before = static_cast<std::uint64_t>(std::max(skipped, 0LL));
   for (const std::string& file : files)
   {
     std::error_code failed;
@@ -87,10 +109,11 @@ void CheckMetaFiles(const std::vector<std::string>& files, std::uint64_t needed)
     {
       throw Failure("its data file " + file + " cannot be opened");
     }
-    if (size < needed / files.size())
+    const std::uint64_t all = before + needed / files.size();
+    if (size < all || (needed > 0 && skipped >= 0 && size > all))
     {
-      throw Failure("its data file " + file + " is cut off: it has " + std::to_string(size) +
-        " bytes, " + std::to_string(needed / files.size()) + " are needed");
+      throw Failure("its data file " + file + " is " + (size < all ? "cut off" : "too long") +
+        ": it has " + std::to_string(size) + " bytes, " + std::to_string(all) + " are needed");
     }
   }
 }
@@ -141,55 +164,53 @@ void CheckMetaList(const std::string& name, std::uint64_t needed)
       std::to_string(slices) + " slices");
   }
   const auto first = files.begin() + 1;
-  CheckMetaFiles({ first, first + static_cast<std::ptrdiff_t>(slices) }, needed);
+  CheckMetaFiles(
+    { first, first + static_cast<std::ptrdiff_t>(slices) }, needed, SkippedBytes(name));
+}
 }
 
-// ---- NIfTI --------------------------------------------------------------------------------------
-
-/** NIfTI in two files: the one of these that is there, for the name of either. */
-std::string NiftiPart(const std::string& name, const std::string& suffix)
+void CheckMetaHeader(const std::string& name)
 {
-  for (const char* end : { ".img.gz", ".hdr.gz", ".img", ".hdr" })
+  std::istringstream sizes(HeaderValue(name, "DimSize"));
+  const std::vector<std::string> words{ std::istream_iterator<std::string>(sizes), {} };
+  if (HeaderValue(name, "NDims") != std::to_string(words.size()))
   {
-    const std::size_t length = std::string(end).size();
-    if (name.size() > length && name.compare(name.size() - length, length, end) == 0)
+    throw Failure("its header is damaged: it has no NDims, or not as many sizes");
+  }
+  const std::string type = HeaderValue(name, "ElementType");
+  if (MetaTypeBytes(type) == 0)
+  {
+    throw Failure("its header is damaged: the ElementType '" + type + "' is no number's");
+  }
+  for (const char* key :
+    { "BinaryData", "BinaryDataByteOrderMSB", "ElementByteOrderMSB", "CompressedData" })
+  {
+    const std::string value = Lower(HeaderValue(name, key));
+    static const std::set<std::string> known = { "", "true", "false", "t", "f", "1", "0" };
+    if (known.count(value) == 0)
     {
-      const std::string part = name.substr(0, name.size() - length) + suffix;
-      return std::filesystem::exists(part) ? part : part + ".gz";
+      throw Failure(std::string("its header is damaged: ") + key + " is '" + value + "'");
     }
   }
-  return name;
-}
-
-/** Types of VTK's reader: numbers of 8 to 64 bits, and colours. */
-void CheckNiftiType(std::uint64_t type)
-{
-  static const std::set<std::uint64_t> known = { 2, 4, 8, 16, 32, 64, 128, 256, 512, 768, 1024,
-    1280, 1792, 2304 };
-  if (known.count(type) == 0)
-  {
-    throw Failure("its header is damaged: the data type " + std::to_string(type) +
-      " is none of NIfTI's types of numbers");
-  }
-}
 }
 
 bool CheckMeta(const std::string& name)
 {
+  CheckMetaHeader(name);
   const std::string dataFile = HeaderValue(name, "ElementDataFile");
   const bool isLocal = dataFile == "LOCAL" || dataFile == "Local" || dataFile == "local";
   const std::uint64_t bytes = MetaTypeBytes(HeaderValue(name, "ElementType"));
   const std::uint64_t values = MetaValues(name);
   const std::uint64_t needed = Times(values, bytes);
   const bool isPacked = IsTrue(HeaderValue(name, "CompressedData"));
-  if (dataFile.empty() || bytes == 0)
+  if (dataFile.empty())
   {
     return false;
   }
   if (dataFile.find('%') != std::string::npos)
   {
     const std::vector<std::string> files = FilesOfMetaPattern(name, dataFile);
-    CheckMetaFiles(files, isPacked ? 0 : needed);
+    CheckMetaFiles(files, isPacked ? 0 : needed, SkippedBytes(name));
     return !isPacked && !files.empty();
   }
   if (dataFile.compare(0, 4, "LIST") == 0)
@@ -220,57 +241,41 @@ bool CheckMeta(const std::string& name)
   else
   {
     // -1: the voxels are the last bytes of the file, whatever is before.
-    const long long skipped = std::atoll(HeaderValue(name, "HeaderSize").c_str());
+    const long long skipped = SkippedBytes(name);
     const std::uint64_t size = std::filesystem::file_size(path);
-    NeedBytes(
-      size - std::min(size, start + static_cast<std::uint64_t>(std::max(skipped, 0LL))), needed);
+    const std::uint64_t begin = skipped < 0
+      ? size - std::min(size, needed)
+      : start + static_cast<std::uint64_t>(skipped);
+    NeedJustBytes(size - std::min(size, begin), needed);
   }
   return true;
 }
 
-void CheckNifti(const std::string& name)
+void CheckNesting(std::istream& text)
 {
-  const std::string headerFile = NiftiPart(name, ".hdr");
-  const std::string header = GzipHead(headerFile, 540);
-  if (header.size() >= 76)
+  constexpr int deepest = 100;
+  constexpr auto end = std::numeric_limits<std::streamsize>::max();
+  int depth = 0;
+  std::string element;
+  while (text.ignore(end, '<') && std::getline(text, element, '>'))
   {
-    const auto at = [&](std::size_t place, std::size_t bytes, bool isBig)
-    { return NumberOf(header.substr(place, bytes), isBig); };
-    for (const bool isBig : { false, true })
+    if (element.compare(0, 12, "AppendedData") == 0)
     {
-      const std::uint64_t size = at(0, 4, isBig);
-      if (size == 348 || size == 540)
-      {
-        CheckNiftiType(at(size == 348 ? 70 : 12, 2, isBig));
-      }
+      return;
     }
-  }
-  const std::string dataFile = NiftiPart(name, ".img");
-  if (dataFile != headerFile)
-  {
-    GzipHead(dataFile, 0);
+    const char first = element.empty() ? '!' : element.front();
+    const bool isAlone = first == '?' || first == '!' || element.back() == '/';
+    depth += first == '/' ? -1 : isAlone ? 0 : 1;
+    if (depth > deepest)
+    {
+      throw Failure("it is damaged: elements within elements without end");
+    }
   }
 }
 
-void CheckMrc(const std::string& name)
+void CheckNesting(const std::string& name)
 {
-  BinaryFile file(name);
-  // The machine stamp: 0x11 is big-endian.
-  file.IsBig = file.Number(212, 1) == 0x11;
-  static const std::map<std::uint64_t, std::uint64_t> modeBytes = { { 0, 1 }, { 1, 2 }, { 2, 4 },
-    { 3, 4 }, { 4, 8 }, { 6, 2 }, { 16, 3 } };
-  const auto mode = modeBytes.find(file.Number(12, 4));
-  if (mode == modeBytes.end())
-  {
-    throw Failure("its header is damaged: the mode " + std::to_string(file.Number(12, 4)) +
-      " is no type of voxels");
-  }
-  std::uint64_t needed = mode->second;
-  for (const std::uint64_t place : { 0, 4, 8 })
-  {
-    needed = Times(needed, file.Number(place, 4));
-  }
-  const std::uint64_t start = 1024 + file.Number(92, 4);
-  NeedBytes(file.Size() - std::min(file.Size(), start), needed);
+  std::ifstream file(name, std::ios::binary);
+  CheckNesting(file);
 }
 }

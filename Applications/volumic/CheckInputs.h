@@ -3,6 +3,7 @@
 #ifndef volumicCheckInputs_h
 #define volumicCheckInputs_h
 
+#include <iosfwd>
 #include <string>
 
 namespace tool
@@ -17,22 +18,33 @@ namespace tool
  */
 bool CheckMeta(const std::string& name);
 
-/** NIfTI and Analyze: the type of the voxels, and the checksum of a packed file. */
-void CheckNifti(const std::string& name);
+/** The part of it that looks at the header alone. */
+void CheckMetaHeader(const std::string& name);
 
-/** MRC (.mrc, .ccp4): the size of the data. */
-void CheckMrc(const std::string& name);
+/**
+ * NIfTI and Analyze: the type and the sizes of the voxels, the size of the data, and the checksum of
+ * a packed file.
+ */
+void CheckNifti(const std::string& name);
 
 /** netCDF of the classic form, which MINC 1 is: the size of the data. Others are passed over. */
 void CheckNetcdf(const std::string& name);
+
+/** XML, up to appended data: elements within elements, which VTK's reader takes by recursion. */
+void CheckNesting(std::istream& text);
+void CheckNesting(const std::string& name);
 
 /** A polygon file (.ply): all elements that its head tells of are there. */
 void CheckPly(const std::string& name);
 
 /**
- * TIFF: all pages and their data lie within the file; PNG: the checksums. Others are passed over.
+ * TIFF: all pages are of one kind that VTK reads, their data lie within the file without overlap,
+ * and no page is left out. @return how many there are; 0 for other formats.
  */
-void CheckPicture(const std::string& name);
+int CheckTiff(const std::string& name);
+
+/** TIFF as above; PNG: the checksums. Others are passed over. @return pages of a TIFF, else 1. */
+int CheckPicture(const std::string& name);
 }
 
 #endif

@@ -227,6 +227,33 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
 }
 }
 
+namespace
+{
+/** @throws Failure unless there are elements up to the end of the file. */
+void CheckBehindPixels(Element element, ElementStream& stream)
+{
+  try
+  {
+    stream.Skip(element);
+    while (stream.Left() > 0)
+    {
+      const std::uint32_t former = element.Tag;
+      element = stream.Next();
+      if (element.Tag <= former)
+      {
+        throw Failure("");
+      }
+      stream.Skip(element);
+    }
+  }
+  catch (const Failure&)
+  {
+    throw Failure("is damaged: it does not end behind its pixels, bytes may be too many; copy it "
+                  "again");
+  }
+}
+}
+
 std::uint64_t DicomHeader::NeededBytes() const
 {
   return static_cast<std::uint64_t>(this->Rows) * static_cast<std::uint64_t>(this->Columns) *
@@ -273,6 +300,10 @@ DicomHeader ReadDicomHeader(const std::string& file)
       }
       header.HasPixels = true;
       header.PixelBytes = std::min<std::uint64_t>(element.Length, stream.Left());
+      if (header.PixelBytes == element.Length)
+      {
+        CheckBehindPixels(element, stream);
+      }
       return header;
     }
     Take(element, stream, header);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Inflate.h"
 
+#include "BinaryFile.h"
 #include "ToolErrors.h"
 
 #include <vtk_zlib.h>
@@ -115,7 +116,7 @@ void Inflate(std::istream& packed, std::uint64_t count, char* bytes)
 }
 
 // Not by gzread, which takes a file that was cut off for a whole one in zlib 1.3.2.
-std::string GzipHead(const std::string& name, std::size_t count)
+std::string GzipHead(const std::string& name, std::size_t count, std::uint64_t& total)
 {
   std::ifstream packed(name, std::ios::binary);
   if (!packed)
@@ -129,9 +130,11 @@ std::string GzipHead(const std::string& name, std::size_t count)
   Refill(packed, input, stream);
   if (!IsGzip(stream))
   {
+    total = BinaryFile(name).Size();
     return std::string(input.data(), std::min<std::size_t>(stream.avail_in, count));
   }
   std::string head;
+  total = 0;
   int status = Z_OK;
   while (status != Z_STREAM_END)
   {
@@ -145,6 +148,7 @@ std::string GzipHead(const std::string& name, std::size_t count)
     }
     const std::size_t got = output.size() - stream.avail_out;
     head.append(output.data(), std::min(got, count - head.size()));
+    total += got;
     if (status == Z_STREAM_END)
     {
       Refill(packed, input, stream);

@@ -29,8 +29,9 @@ std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink,
 /**
  * The first bytes that a gzip file unpacks to, or those of a file that is not packed; `count` at
  * most. The checksum of a packed file is looked at. @throws Failure if it is damaged or cut off.
+ * @param total given how many bytes there are
  */
-std::string GzipHead(const std::string& name, std::size_t count);
+std::string GzipHead(const std::string& name, std::size_t count, std::uint64_t& total);
 }
 
 #endif

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InputFiles.h"
 
+#include "BinaryFile.h"
 #include "ReadVolume.h"
 #include "Texts.h"
 
@@ -143,6 +144,10 @@ std::vector<std::string> FilesOfVolume(const std::string& name)
       return name.find_first_of("%*") == std::string::npos ? files : MatchFiles(name);
     }
     files.push_back(name);
+    if (!fs::is_regular_file(name))
+    {
+      return files;
+    }
     if (IsDicom(name))
     {
       const fs::path folder = fs::path(name).parent_path();
@@ -156,5 +161,11 @@ std::vector<std::string> FilesOfVolume(const std::string& name)
     // An unreadable folder, which ReadVolume tells of.
   }
   return files;
+}
+
+void NeedFilesOfVolume(const std::string& name)
+{
+  const std::vector<std::string> files = FilesOfVolume(name);
+  std::for_each(files.begin(), files.end(), NeedFile);
 }
 }

@@ -15,6 +15,9 @@ namespace tool
  */
 std::vector<std::string> FilesOfVolume(const std::string& name);
 
+/** @throws Failure that names the one of these files that is a pipe or a device. */
+void NeedFilesOfVolume(const std::string& name);
+
 /**
  * The value of `key` in the first lines of a text header ("ElementDataFile = a.raw", "data file:
  * a.raw"), without blanks at its ends; empty if there is none.

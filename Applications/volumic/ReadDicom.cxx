@@ -6,9 +6,11 @@
 // by its position and orientation (DICOM PS3.3, C.7.6.2).
 #include "ReadVolume.h"
 
+#include "BinaryFile.h"
 #include "DicomHeader.h"
 #include "ParseNumbers.h"
 #include "SlabReader.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
@@ -28,6 +30,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <regex>
 #include <utility>
 
 namespace tool
@@ -81,6 +84,11 @@ void CheckPixels(const DicomHeader& header)
   if (header.NeededBytes() == 0)
   {
     throw Failure("lacks its rows or columns: it is damaged, or no slice");
+  }
+  // Odd numbers of bytes are made even.
+  if (header.PixelBytes > header.NeededBytes() + header.NeededBytes() % 2)
+  {
+    NeedJustBytes(header.PixelBytes, header.NeededBytes());
   }
   if (header.PixelBytes < header.NeededBytes())
   {
@@ -365,6 +373,32 @@ bool IsDicom(const std::string& file)
   std::ifstream stream(file, std::ios::binary);
   char head[132];
   return stream.read(head, sizeof(head)) && std::memcmp(head + 128, "DICM", 4) == 0;
+}
+
+bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices)
+{
+  const auto isLike = [](const std::string& name)
+  {
+    const std::string path = std::filesystem::path(name).filename().string();
+    static const std::regex numbers("[0-9]+");
+    return std::regex_replace(path, numbers, "0");
+  };
+  const std::string suffix = SuffixOf(file);
+  if (slices.empty() || suffix == ".dcm" || suffix == ".dicom" || suffix == ".ima")
+  {
+    return !slices.empty();
+  }
+  // A preamble of zeros, most often, and a mark; the length of the first group.
+  BinaryFile bytes(file);
+  const std::string head = bytes.Text(0, std::min<std::uint64_t>(bytes.Size(), 136));
+  const bool isPreamble = head.find_first_not_of('\0') == std::string::npos;
+  const bool isMarked = head.size() == 136 && head.compare(132, 4, "\2\0\0\0", 4) == 0;
+  return isMarked ||
+    std::any_of(slices.begin(), slices.end(),
+      [&](const std::string& slice)
+      {
+        return isLike(slice) == isLike(file) || (isPreamble && SuffixOf(slice) == suffix);
+      });
 }
 
 vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)

@@ -3,6 +3,7 @@
 #include "ReadVolume.h"
 
 #include "BinaryFile.h"
+#include "CheckInputs.h"
 #include "ParseNumbers.h"
 #include "TarFile.h"
 #include "ToolErrors.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <sstream>
 
 namespace tool
 {
@@ -93,6 +95,8 @@ int TypeOf(const std::string& name)
 
 Description Describe(const std::string& plist)
 {
+  std::istringstream text(plist);
+  CheckNesting(text);
   Element root;
   VtkMessages ignored; // What is wrong is said in one line below.
   ignored.Catch([&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });

@@ -126,6 +126,7 @@ vtkSmartPointer<vtkImageData> ReadMeta(const std::string& name)
 
 std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const ScratchDirectory& scratch)
 {
+  CheckMetaHeader(name);
   const std::string dataFile = HeaderValue(name, "ElementDataFile");
   const std::string isBinary = HeaderValue(name, "BinaryData");
   // These have another size in VTK than in the file.
@@ -164,7 +165,7 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const ScratchDirec
                                : slabs->Start + static_cast<std::uint64_t>(skipped);
   }
   const std::uint64_t there = SizeOfData(slabs->File);
-  NeedBytes(there - std::min(there, slabs->Start), slabs->Bytes());
+  NeedJustBytes(there - std::min(there, slabs->Start), slabs->Bytes());
   return slabs;
 }
 }

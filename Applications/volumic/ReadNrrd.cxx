@@ -27,6 +27,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 
 namespace tool
@@ -42,6 +43,27 @@ std::string ReadBytes(const std::string& name, std::uint64_t start = 0,
   BinaryFile file(name);
   start = std::min(start, file.Size());
   return file.Text(start, std::min(most, file.Size() - start));
+}
+
+/** The field of this name, one of two of some. @throws Failure for what is no field of NRRD. */
+std::string FieldOf(const std::string& name)
+{
+  static const std::map<std::string, std::string> others = { { "datafile", "data file" },
+    { "lineskip", "line skip" }, { "byteskip", "byte skip" } };
+  static const std::set<std::string> known = { "dimension", "type", "block size", "blocksize",
+    "encoding", "endian", "content", "old min", "oldmin", "old max", "oldmax", "min", "max",
+    "data file", "line skip", "byte skip", "number", "sample units", "sampleunits", "sizes",
+    "spacings", "thicknesses", "axis mins", "axismins", "axis maxs", "axismaxs", "centers",
+    "centerings", "labels", "units", "kinds", "space", "space dimension", "space units",
+    "space origin", "space directions", "measurement frame" };
+  const std::string lower = Lower(name);
+  const auto other = others.find(lower);
+  const std::string field = other == others.end() ? lower : other->second;
+  if (known.count(field) == 0)
+  {
+    throw Failure("the header is damaged: '" + AsUtf8(name.substr(0, 80)) + "' is no field of NRRD");
+  }
+  return field;
 }
 
 /**
@@ -68,15 +90,18 @@ Fields ParseHeader(const std::string& content, std::size_t& dataStart, Fields& p
       break;
     }
     const std::size_t colon = line.find(':');
-    const bool isField = line[0] != '#' && colon != std::string::npos;
-    if (isField && line.compare(colon, 2, ":=") == 0)
+    if (line[0] == '#')
+    {
+      continue;
+    }
+    if (colon != std::string::npos && line.compare(colon, 2, ":=") == 0)
     {
       pairs[line.substr(0, colon)] = line.substr(colon + 2);
     }
-    else if (isField)
+    else
     {
-      const std::string key = Lower(Trimmed(line.substr(0, colon)));
-      fields[key == "datafile" ? "data file" : key] = Trimmed(line.substr(colon + 1));
+      const std::string field = FieldOf(Trimmed(line.substr(0, colon)));
+      fields[field] = colon == std::string::npos ? "" : Trimmed(line.substr(colon + 1));
     }
   }
   return fields;
@@ -152,6 +177,11 @@ void Decode(std::string data, const Fields& fields, vtkDataArray* values)
       }
       values->SetComponent(i / components, static_cast<int>(i % components), value);
     }
+    std::string more;
+    if (stream >> more)
+    {
+      throw Failure("more values than the sizes ask for");
+    }
     return;
   }
   if (encoding == "gzip" || encoding == "gz")
@@ -168,11 +198,7 @@ void Decode(std::string data, const Fields& fields, vtkDataArray* values)
   }
   const std::size_t start =
     skip >= 0 ? static_cast<std::size_t>(skip) : data.size() - std::min(size, data.size());
-  if (data.size() < start + size)
-  {
-    throw Failure(std::to_string(data.size()) + " bytes of voxels, " +
-      std::to_string(start + size) + " needed");
-  }
+  NeedJustBytes(data.size() - std::min(data.size(), start), size);
   std::memcpy(values->GetVoidPointer(0), data.data() + start, size);
   ToNativeOrder(values, Lower(Field(fields, "endian", "little")) == "big");
 }
@@ -261,6 +287,35 @@ struct Header
   std::uint64_t DataStart = 0; ///< bytes before the data in it
 };
 
+/** Bytes of all voxels. */
+std::uint64_t BytesOf(const Header& header)
+{
+  std::uint64_t bytes = static_cast<std::uint64_t>(vtkDataArray::GetDataTypeSize(header.Type));
+  for (const int count : { header.Components, header.Size[0], header.Size[1], header.Size[2] })
+  {
+    bytes = Times(bytes, static_cast<std::uint64_t>(count));
+  }
+  return bytes;
+}
+
+/**
+ * @throws Failure, before memory is taken, if the data file is too short: of packed data at least
+ * as many times as zlib may pack them, or text.
+ */
+void CheckLength(const Header& header)
+{
+  const std::string encoding = Lower(Field(header.All, "encoding", "raw"));
+  const std::uint64_t times = encoding == "raw" ? 1
+    : encoding == "gzip" || encoding == "gz"    ? 1100
+    : encoding == "bzip2" || encoding == "bz2"  ? 2000000
+                                                : 8;
+  const std::uint64_t there = SizeOfData(header.DataFile);
+  if (Times(there, times) < BytesOf(header))
+  {
+    NeedBytes(there - std::min(there, header.DataStart), BytesOf(header));
+  }
+}
+
 /** Whether each voxel has several numbers, one behind the other, as the layers of segmentations. */
 bool FirstAxisIsComponents(const Fields& fields)
 {
@@ -291,6 +346,16 @@ Header ReadHeader(const std::string& name)
         "'; a volume with one scalar component has three, one with several a list of them first");
     }
     header.Type = TypeOf(Lower(Field(header.All, "type", "")));
+    const std::string dimension = Field(header.All, "dimension", "");
+    if (dimension != (hasComponents ? "4" : "3"))
+    {
+      throw Failure("dimension '" + dimension + "', which has not as many sizes");
+    }
+    const std::string endian = Lower(Field(header.All, "endian", "little"));
+    if (endian != "little" && endian != "big")
+    {
+      throw Failure("endian '" + endian + "'; little and big are known");
+    }
     const std::string file = Field(header.All, "data file", "");
     if (file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos)
     {
@@ -315,6 +380,7 @@ vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
   const Header header = ReadHeader(name);
   try
   {
+    CheckLength(header);
     auto values =
       vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(header.Type));
     const std::array<int, 3>& size = header.Size;
@@ -370,7 +436,7 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirec
   // -1: the voxels are the last bytes.
   slabs->Start = skip >= 0 ? start + static_cast<std::uint64_t>(skip)
                            : there - std::min(there, slabs->Bytes());
-  NeedBytes(there - std::min(there, slabs->Start), slabs->Bytes());
+  NeedJustBytes(there - std::min(there, slabs->Start), slabs->Bytes());
   return slabs;
 }
 }

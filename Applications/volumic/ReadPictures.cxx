@@ -160,19 +160,22 @@ void CheckPictures(const std::vector<std::string>& files)
   int size[2] = { 0, 0 };
   for (const std::string& file : files)
   {
+    try
+    {
+      if (const int pages = CheckPicture(file); pages > 1)
+      {
+        throw Failure(std::to_string(pages) + " pages; give it by its name, it is a volume");
+      }
+    }
+    catch (const Failure& failure)
+    {
+      throw Failure(file + ": " + failure.what());
+    }
     auto reader = vtkSmartPointer<vtkImageReader2>::Take(
       vtkImageReader2Factory::CreateImageReader2(file.c_str()));
     if (!reader)
     {
       throw Failure(file + ": not a picture that VTK's readers know");
-    }
-    try
-    {
-      CheckPicture(file);
-    }
-    catch (const Failure& failure)
-    {
-      throw Failure(file + ": " + failure.what());
     }
     VtkMessages messages;
     messages.ListenTo(reader);

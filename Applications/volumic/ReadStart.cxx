@@ -43,6 +43,19 @@ vtkSmartPointer<vtkPolyData> ReadWith(const std::string& name)
   return reader->GetOutput();
 }
 
+template <class Check>
+void NameFailure(const std::string& name, const Check& check)
+{
+  try
+  {
+    check();
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(name + ": " + failure.what());
+  }
+}
+
 /** STL; one that has been cut off between two triangles looks whole to VTK's reader. */
 vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
 {
@@ -60,14 +73,7 @@ vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
 
 vtkSmartPointer<vtkPolyData> ReadPly(const std::string& name)
 {
-  try
-  {
-    CheckPly(name); // VTK's reader would go on with what memory holds
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(name + ": " + failure.what());
-  }
+  NameFailure(name, [&] { CheckPly(name); }); // VTK's reader would go on with what memory holds
   return ReadWith<vtkPLYReader>(name);
 }
 
@@ -77,6 +83,10 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   if (!std::filesystem::exists(name))
   {
     throw Failure(name + ": no such file");
+  }
+  if (suffix == ".vtp")
+  {
+    NameFailure(name, [&] { CheckNesting(name); });
   }
   if (suffix == ".vtp")
   {

@@ -3,6 +3,7 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
+#include "InputFiles.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -15,7 +16,6 @@
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkImageReader2Factory.h>
-#include <vtkMRCReader.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -44,10 +44,11 @@ namespace
 {
 using Image = vtkSmartPointer<vtkImageData>;
 
-Image ReadMrc(const std::string& name)
+template <class Reader>
+Image ReadXml(const std::string& name)
 {
-  CheckMrc(name);
-  return ReadWith<vtkMRCReader>(name);
+  CheckNesting(name);
+  return ReadIfItsFormat<Reader>(name);
 }
 
 #ifdef VOLUMIC_HAS_MINC
@@ -84,6 +85,14 @@ std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
   const std::vector<std::string> files = FilesOf(folder);
   std::vector<std::string> slices;
   std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
+  for (const std::string& file : files)
+  {
+    if (!IsDicom(file) && IsLikeSlice(file, slices))
+    {
+      throw Failure(file + ": no DICOM file, though like the slices beside it: it is cut off or "
+                           "damaged; copy it again, or take it out of the folder");
+    }
+  }
   return slices.empty() ? std::pair{ files, false } : std::pair{ slices, true };
 }
 
@@ -105,6 +114,7 @@ Image ReadByContent(const std::string& name)
   {
     return ReadDicomFile(name);
   }
+  CheckPicture(name); // before any reader of VTK looks at it
   vtkSmartPointer<vtkImageReader2> reader;
   VtkMessages ignored; // Some of those that are asked complain of what they don't know.
   ignored.Catch(
@@ -117,7 +127,6 @@ Image ReadByContent(const std::string& name)
   {
     return ReadNifti(name);
   }
-  CheckPicture(name);
   reader->SetFileName(name.c_str());
   return ImageOf(reader, name);
 }
@@ -127,8 +136,8 @@ using Reader = Image (*)(const std::string&);
 Reader ChooseReader(const std::string& name)
 {
   static const std::vector<std::pair<std::string, Reader>> readers = {
-    { ".vti", ReadIfItsFormat<vtkXMLImageDataReader> },
-    { ".pvti", ReadIfItsFormat<vtkXMLPImageDataReader> },
+    { ".vti", ReadXml<vtkXMLImageDataReader> },
+    { ".pvti", ReadXml<vtkXMLPImageDataReader> },
     { ".vtk", ReadWith<vtkGenericDataObjectReader> },
 #ifdef VOLUMIC_HAS_HDF
     { ".vtkhdf", ReadIfItsFormat<vtkHDFReader> },
@@ -173,6 +182,7 @@ std::unique_ptr<SlabReader> OpenSlices(const std::pair<std::vector<std::string>,
 template <class Reader>
 vtkSmartPointer<vtkAlgorithm> OpenXml(const std::string& name, const std::string& array)
 {
+  CheckNesting(name);
   const vtkSmartPointer<Reader> reader = NewReader<Reader>(name);
   VtkMessages messages;
   messages.ListenTo(reader);
@@ -218,12 +228,9 @@ vtkSmartPointer<vtkAlgorithm> OpenFile(
   }
   if (ends({ ".mrc", ".ccp4" }))
   {
-    CheckMrc(name);
-    auto reader = vtkSmartPointer<vtkMRCReader>::New();
-    reader->SetFileName(name.c_str());
-    return reader;
+    slabs = OpenMrc(name);
   }
-  if (ends({ ".mha", ".mhd" }))
+  else if (ends({ ".mha", ".mhd" }))
   {
     slabs = OpenMeta(name, scratch);
   }
@@ -280,6 +287,7 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
   return NameFailures(name,
     [&name]
     {
+      NeedFilesOfVolume(name);
       Image image;
       if (std::filesystem::is_directory(name))
       {
@@ -313,6 +321,7 @@ vtkSmartPointer<vtkAlgorithm> OpenParts(
   return NameFailures(name,
     [&]() -> vtkSmartPointer<vtkAlgorithm>
     {
+      NeedFilesOfVolume(name);
       if (std::filesystem::is_directory(name))
       {
         return NewSlabSource(OpenSlices(SlicesOf(name)));

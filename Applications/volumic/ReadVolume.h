@@ -59,6 +59,9 @@ vtkSmartPointer<vtkImageData> ReadNifti(const std::string& name);
 /** NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`. */
 vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name);
 
+/** MRC (.mrc, .ccp4); VTK's reader takes voxels of mode 6 for twice as many. */
+vtkSmartPointer<vtkImageData> ReadMrc(const std::string& name);
+
 /**
  * The volume of an InVesalius project (.inv3), unit mm, its axes as they are stored: the world axes
  * are L, A, S.
@@ -69,6 +72,12 @@ vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name);
 vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files);
 
 bool IsDicom(const std::string& file);
+
+/**
+ * Whether a file that is not DICOM may have been before it was cut off or damaged: it is named like
+ * one of the slices but for numbers, ends like all DICOM files do, or begins like one.
+ */
+bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices);
 
 /** Pictures of one size as the slices of a volume of spacing 1, in this order. */
 vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files);

@@ -46,6 +46,7 @@ using ScratchDirectory = std::string;
 // The formats. Null where a file is of a kind that can only be read as a whole.
 
 std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const ScratchDirectory& scratch);
+std::unique_ptr<SlabReader> OpenMrc(const std::string& name);
 std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirectory& scratch);
 std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDirectory& scratch);
 std::unique_ptr<SlabReader> OpenDicom(const std::vector<std::string>& files);

@@ -3,6 +3,7 @@
 #include "SurfaceInputs.h"
 
 #include "Announcer.h"
+#include "BinaryFile.h"
 #include "InputFiles.h"
 #include "LoadVolume.h"
 #include "Ranks.h"
@@ -33,7 +34,12 @@ template <class Read>
 vtkSmartPointer<vtkPolyData> ReadOnFirst(Ranks& ranks, const Read& read, const std::string& name)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
-  ranks.OnFirst([&] { data = read(name); });
+  ranks.OnFirst(
+    [&]
+    {
+      NeedFile(name);
+      data = read(name);
+    });
   return data;
 }
 

@@ -1,0 +1,405 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`volumic` looks at the structure of a file before VTK's readers, which may crash, do."""
+
+import io
+import os
+import struct
+import tarfile
+import unittest
+import zlib
+
+import numpy as np
+from vtkmodules.vtkIOImage import vtkTIFFWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+
+from tool_test_case import ISO, ORIGIN, SIZE, SPACING, ToolTestCase, ball, make_image
+
+import medical_files
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+REPRO = os.path.join(HERE, "..", "..", "..", "shared", "repro")
+ENTRY = struct.Struct("<HHII")
+
+
+class StructureTest(ToolTestCase):
+    def refused_volume(self, name, reason, *options):
+        """By name, for this reason, in one line, whether read as a whole or in parts."""
+        for memory in ((), ("--memory", "200M")):
+            process = self.run_tool(self.path(name), self.path("out.stl"), "--iso", ISO, *memory,
+                                    *options, status=1)
+            self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
+            self.assertFalse(os.path.exists(self.path("out.stl")))
+
+    def refused_bytes(self, name, content, reason):
+        self.write_bytes(name, bytes(content))
+        self.refused_volume(name, reason)
+
+    def accepted(self, name, *options):
+        self.run_tool(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
+
+
+def tiff(pages, changes):
+    """A TIFF file of grey pages of 16 bits, each one strip; tags that are None are left out."""
+    content, link = bytearray(b"II*\0\0\0\0\0"), 4
+    for page in pages:
+        tags = {256: SIZE[0], 257: SIZE[1], 258: 16, 259: 1, 262: 1, 273: len(content), 277: 1,
+                278: SIZE[1], 279: len(page), 339: 1, **changes}
+        content += page + bytes(len(page) % 2)
+        struct.pack_into("<I", content, link, len(content))
+        entries = [ENTRY.pack(tag, 4, 1, value) for tag, value in sorted(tags.items())
+                   if value is not None]
+        content += struct.pack("<H", len(entries)) + b"".join(entries)
+        link = len(content)
+        content += bytes(4)
+    return content
+
+
+class TiffTest(StructureTest):
+    def setUp(self):
+        super().setUp()
+        writer = vtkTIFFWriter()
+        writer.SetCompressionToNoCompression()
+        self.write(writer, "a.tif", make_image(ball("u2")))
+        self.content = bytearray(self.content("a.tif"))
+        self.accepted("a.tif")
+
+    def pages(self):
+        """The places of the pages, and of the number that leads to each."""
+        link, pages = 4, []
+        while True:
+            place, = struct.unpack_from("<I", self.content, link)
+            if place == 0:
+                return pages
+            pages.append((place, link))
+            count, = struct.unpack_from("<H", self.content, place)
+            link = place + 2 + 12 * count
+
+    def entry(self, page, tag):
+        """The place of the entry of a tag."""
+        place = self.pages()[page][0]
+        count, = struct.unpack_from("<H", self.content, place)
+        return next(at for at in range(place + 2, place + 2 + 12 * count, 12)
+                    if struct.unpack_from("<H", self.content, at)[0] == tag)
+
+    def refused_with(self, page, tag, reason, kind=None, count=None, value=None):
+        """The file, if the entry of the tag says something else."""
+        at = self.entry(page, tag)
+        there = ENTRY.unpack_from(self.content, at)
+        content = bytearray(self.content)
+        ENTRY.pack_into(content, at, tag, *(old if new is None else new for old, new in
+                                            zip(there[1:], (kind, count, value))))
+        with self.subTest(tag=tag, page=page):
+            self.refused_bytes("b.tif", content, f"page {page + 1}: .*{reason}")
+
+    def test_numbers_that_make_no_page(self):
+        self.refused_with(3, 256, "tag 256 is 27, the first page's 26", value=27)
+        self.refused_with(3, 257, "tag 257 is 40, the first page's 22", value=40)
+        self.refused_with(0, 256, "0 x 22 pixels", value=0)
+        self.refused_with(3, 278, "its rows ask for", value=0)
+        self.refused_with(3, 278, "tag 278 is no number", kind=5, count=1)
+        self.refused_with(3, 258, "12 bits", value=12)
+        self.refused_with(3, 277, "2 of 16 bits", value=2)
+        self.refused_with(0, 277, "3 of 16 bits", value=3)
+        self.refused_with(3, 262, "colours 9", value=9)
+        self.refused_with(3, 284, "not read", value=2 ** 15)
+        self.refused_with(3, 274, "tag 274 is 4, the first page's 1", value=4)
+        self.refused_with(3, 279, "a strip has 1 bytes", value=1)
+        self.refused_with(3, 273, "cut off", value=2 ** 31)
+
+    def test_chain_that_ends_early(self):
+        """Whichever page is the last, or left out: pixels are in none."""
+        for last in (0, 10, 16):
+            content = bytearray(self.content)
+            struct.pack_into("<I", content, self.pages()[last + 1][1], 0)
+            with self.subTest(last=last):
+                self.refused_bytes("b.tif", content, "are in none of its pages")
+        content = bytearray(self.content)
+        struct.pack_into("<I", content, self.pages()[5][1], self.pages()[6][0])
+        self.refused_bytes("b.tif", content, "are in none of its pages")
+
+    def test_small_page_that_is_lost(self):
+        """Of packed pages the last may be much smaller than any other one."""
+        voxels = np.random.default_rng(3).integers(0, 900, ball().shape).astype("u2")
+        voxels[-1] = 0
+        self.content = tiff([zlib.compress(page.tobytes()) for page in voxels], {259: 8})
+        self.write_bytes("c.tif", bytes(self.content))
+        self.accepted("c.tif")
+        struct.pack_into("<I", self.content, self.pages()[-1][1], 0)
+        self.refused_bytes("c.tif", self.content, "are in none of its pages")
+
+    def test_strips_that_overlap(self):
+        at = self.entry(4, 273)
+        kind, count, value = ENTRY.unpack_from(self.content, at)[1:]
+        place = at + 8 if count == 1 else value
+        start, = struct.unpack_from("<I", self.content, place)
+        self.assertEqual(kind, 4)
+        struct.pack_into("<I", self.content, place, start - 64)
+        self.refused_bytes("b.tif", self.content, "two parts of it overlap")
+
+    def test_directory_that_was_written_anew(self):
+        """The old one is left in the file, but its strips are those of the new one."""
+        content = bytearray(self.content) + bytes(len(self.content) % 2)
+        place, link = self.pages()[7]
+        count, = struct.unpack_from("<H", content, place)
+        struct.pack_into("<I", content, link, len(content))
+        content += content[place:place + 6 + 12 * count]
+        self.write_bytes("b.tif", bytes(content))
+        self.accepted("b.tif")
+
+    def test_deflate(self):
+        pages = [zlib.compress(page.tobytes()) for page in ball("u2")]
+        self.write_bytes("c.tif", tiff(pages, {259: 8}))
+        self.accepted("c.tif")
+        pages[8] = pages[8][:20] + bytes([pages[8][20] ^ 1]) + pages[8][21:]
+        self.refused_bytes("c.tif", tiff(pages, {259: 8}), "page 9: the packed data")
+        pages[8] = zlib.compress(ball("u2")[8].tobytes()[:-1])
+        self.refused_bytes("c.tif", tiff(pages, {259: 8}), "page 9: a strip is packed from fewer")
+
+    def test_kinds_that_vtk_reads_wrongly(self):
+        pages = [page.tobytes() * 3 for page in ball("u2")]
+        for tags in ({262: 2, 277: 3}, {262: 0}, {277: 2}, {259: 32946}, {258: 12}, {339: 3}):
+            with self.subTest(tags):
+                self.refused_bytes("c.tif", tiff(pages, tags), "page 1: pixels of this kind")
+
+    def test_tiles(self):
+        self.refused_bytes("c.tif", tiff([page.tobytes() for page in ball("u2")],
+                                         {273: None, 322: 16, 323: 16}), "in tiles")
+
+    def test_pages_in_a_folder(self):
+        os.makedirs(self.path("folder"))
+        self.write_bytes("folder/a.tif", bytes(self.content))
+        process = self.run_tool(self.path("folder"), self.path("out.stl"), status=1)
+        self.assertRegex(process.stderr, r"a\.tif: 18 pages; give it by its name")
+
+
+class LengthTest(StructureTest):
+    """Bytes that are too many move the voxels behind them."""
+
+    def longer(self, name, start, content, companion=None):
+        self.write_bytes(companion or name, content)
+        self.accepted(name)
+        for place, count in ((start, 1), (start + 1000, 16), (len(content), 3)):
+            with self.subTest(name, place=place):
+                self.write_bytes(companion or name,
+                                 content[:place] + b"\x07" * count + content[place:])
+                self.refused_volume(name, "too long|more than|more values")
+
+    def test_meta_image(self):
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        self.longer("a.mha", len(header), header + ball().tobytes())
+        self.write_bytes("b.mhd", header.replace(b"LOCAL", b"b.raw"))
+        self.longer("b.mhd", 0, ball().tobytes(), "b.raw")
+        for k, plane in enumerate(ball()):
+            self.write_bytes(f"{k}.raw", plane.tobytes())
+        self.write_bytes("c.mhd", header.replace(b"LOCAL", b"%d.raw 0 17 1"))
+        self.longer("c.mhd", 0, ball()[3].tobytes(), "3.raw")
+
+    def test_meta_image_with_bytes_before(self):
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        for size in (b"100", b"-1"):
+            self.write_bytes("b.mhd", header.replace(
+                b"ElementDataFile = LOCAL", b"HeaderSize = " + size + b"\nElementDataFile = b.raw"))
+            self.write_bytes("b.raw", bytes(100) + ball().tobytes())
+            self.accepted("b.mhd")
+
+    def test_nrrd(self):
+        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "raw", "little")
+        self.longer("a.nrrd", len(header) + 1, header + b"\n" + ball().tobytes())
+        text = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "text", "little")
+        self.write_bytes("b.nrrd", text + b"\n" + " ".join(map(str, ball().ravel())).encode())
+        self.accepted("b.nrrd")
+        self.write_bytes("b.nrrd", text + b"\n5 " + " ".join(map(str, ball().ravel())).encode())
+        self.refused_volume("b.nrrd", "more values")
+
+    def test_nifti(self):
+        self.longer("a.nii", 352, medical_files.nifti(ball(), SPACING))
+
+    def test_mrc(self):
+        self.longer("a.mrc", 1024, mrc_file(ball()))
+
+    def test_dicom(self):
+        os.makedirs(self.path("a"))
+        for k, plane in enumerate(ball()):
+            content = medical_files.dicom_slice(plane, k, SPACING, ORIGIN, np.eye(3))
+            self.write_bytes(f"a/IM{k:02}", content)
+        pixels = content.index(struct.pack("<HH", 0x7FE0, 0x10)) + 12
+        self.accepted("a")
+        more = struct.pack("<HH2sHI", 0xFFFC, 0xFFFC, b"OB", 0, 4) + bytes(4)
+        self.write_bytes("a/IM17", content + more)
+        self.accepted("a")
+        for place, count in ((pixels, 2), (pixels + 500, 8), (len(content), 3)):
+            self.write_bytes("a/IM17", content[:place] + b"\x07" * count + content[place:])
+            self.refused_volume("a", "IM17.* (too long|bytes may be too many)")
+
+
+def mrc_file(voxels, mode=1, order=(1, 2, 3)):
+    header = bytearray(1024)
+    struct.pack_into("<10i", header, 0, *SIZE, mode, 0, 0, 0, *SIZE)
+    struct.pack_into("<6f", header, 40, *(SIZE * SPACING), 90, 90, 90)
+    struct.pack_into("<3i", header, 64, *order)
+    header[208:214] = b"MAP \x44\x44"
+    return bytes(header) + voxels.tobytes()
+
+
+class HeaderTest(StructureTest):
+    def test_nifti(self):
+        content = medical_files.nifti(ball(), SPACING)
+        for place, form, value, reason in (
+                (40, "<h", 2, "too long"), (40, "<h", 0, "0 dimensions"),
+                (40, "<h", 9, "9 dimensions"), (46, "<h", 0, "size of dimension 3 is 0"),
+                (44, "<h", -1, "cut off|dimension 2"), (72, "<h", 8, "have 16 bits, not 8"),
+                (108, "<f", 0, "within the header"), (108, "<f", -352, "begin at byte -352"),
+                (108, "<f", float("nan"), "begin at byte"), (344, "<B", 0x6f, "its mark is not n.1"),
+                (0, "<i", 349, "not a NIfTI or Analyze file")):
+            header = bytearray(content)
+            struct.pack_into(form, header, place, value)
+            with self.subTest(place=place, value=value):
+                self.refused_bytes("a.nii", header, reason)
+
+    def test_nrrd(self):
+        content = medical_files.nrrd_header(
+            ball(), SPACING, ORIGIN, np.eye(3), "raw", "little") + b"\n" + ball().tobytes()
+        for old, new, reason in (
+                (b"26 22 18", b"174974 134839 781863032", "cut off"),
+                (b"endian: little", b"endian: lattle", "endian 'lattle'"),
+                (b"endian:", b"endiao:", "'endiao' is no field of NRRD"),
+                (b"kinds:", b"kinds ", "is no field of NRRD"),
+                (b"dimension: 3", b"dimension: 4", "dimension '4'")):
+            with self.subTest(new):
+                self.assertIn(old, content)
+                self.refused_bytes("a.nrrd", content.replace(old, new), reason)
+
+    def test_nrrd_with_fields_of_one_word(self):
+        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "raw", "little")
+        self.write_bytes("a.raw", b"one\ntwo\n" + bytes(5) + ball().tobytes())
+        self.write_bytes("a.nhdr", header + b"datafile: a.raw\nlineskip: 2\nbyteskip: 5\n")
+        self.accepted("a.nhdr")
+
+    def test_meta_image(self):
+        content = medical_files.meta_header(
+            ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1") + ball().tobytes()
+        for old, new, reason in (
+                (b"NDims = 3", b"NDims = 2", "not as many sizes"),
+                (b"MET_SHORT", b"MET_SHOST", "ElementType 'MET_SHOST'"),
+                (b"MSB = False", b"MSB = Galse", "BinaryDataByteOrderMSB is 'galse'")):
+            with self.subTest(new):
+                self.assertIn(old, content)
+                self.refused_bytes("a.mha", content.replace(old, new), reason)
+
+    def test_mrc(self):
+        for place, value in ((64, 7), (68, 1), (0, 0), (28, 0), (8, -18)):
+            content = bytearray(mrc_file(ball()))
+            struct.pack_into("<i", content, place, value)
+            with self.subTest(place=place):
+                self.refused_bytes("a.mrc", content, "its header is damaged|cut off")
+
+    def test_mrc_of_unsigned_numbers(self):
+        """VTK's reader takes each for two."""
+        self.write_bytes("a.mrc", mrc_file(ball("u2") + 40000, 6))
+        process = self.run_tool(self.path("a.mrc"), self.path("ok.stl"), "--iso", 40000 + ISO)
+        self.assertIn("unsigned short, 40000 to 40861", process.stderr)
+
+    def test_mrc_whose_rows_are_along_another_axis(self):
+        self.write_bytes("a.mrc", mrc_file(ball(), order=(3, 2, 1)))
+        self.run_tool(self.path("a.mrc"), "--write-volume", self.path("b.vti"))
+        self.assertIn(b'Direction="0 0 1 0 1 0 1 0 0"', self.content("b.vti"))
+
+    def test_deep_xml(self):
+        deep = b"<a>" * 300000
+        plist = b'<plist version="1.0"><dict>' + deep + b"</dict></plist>"
+        with tarfile.open(self.path("a.inv3"), "w:gz") as archive:
+            for name, data in (("matrix.dat", ball().tobytes()), ("main.plist", plist)):
+                member = tarfile.TarInfo("x/" + name)
+                member.size = len(data)
+                archive.addfile(member, io.BytesIO(data))
+        self.refused_volume("a.inv3", "elements within elements without end")
+        image = self.bytes_of(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
+        self.refused_bytes("b.vti", image.replace(b"<ImageData", deep + b"<ImageData"),
+                           "elements within elements without end")
+        sphere = vtkSphereSource()
+        sphere.Update()
+        mesh = self.bytes_of(vtkXMLPolyDataWriter(), "a.vtp", sphere.GetOutput())
+        self.write_bytes("b.vtp", mesh.replace(b"<PolyData", deep + b"<PolyData"))
+        self.refused("b.vtp: .*elements within elements", self.ball_file(), self.path("x.stl"),
+                     "--initial-surface", self.path("b.vtp"))
+
+    def bytes_of(self, writer, name, data):
+        self.write(writer, name, data)
+        return self.content(name)
+
+
+class DicomFolderTest(StructureTest):
+    def series(self, name):
+        os.makedirs(self.path("a"), exist_ok=True)
+        for k, plane in enumerate(ball()):
+            self.write_bytes("a/" + name(k), medical_files.dicom_slice(
+                plane, k, SPACING, ORIGIN, np.eye(3)))
+
+    def test_slices_that_were_cut_to_nothing(self):
+        """At an end of the series none is missing between others."""
+        for name in ("IM{:02}".format, "s{:02}.dcm".format, "{:08X}".format):
+            self.series(name)
+            self.accepted("a")
+            for k in (0, 17):
+                content = self.content("a/" + name(k))
+                for count in (0, 1, 100, 131):
+                    with self.subTest(name(k), count=count):
+                        self.write_bytes("a/" + name(k), content[:count])
+                        self.refused_volume("a", f"{name(k)}: no DICOM file")
+                damaged = content[:130] + b"?" + content[131:]
+                self.write_bytes("a/" + name(k), damaged)
+                self.refused_volume("a", f"{name(k)}: no DICOM file")
+                self.write_bytes("a/" + name(k), content)
+            for file in os.listdir(self.path("a")):
+                os.remove(self.path("a/" + file))
+
+    def test_other_files_are_none_of_the_slices(self):
+        self.series("IM{:02}".format)
+        for name, content in (("README", b"read me"), ("notes.txt", b""), ("a.json", b"{}")):
+            self.write_bytes("a/" + name, content)
+        self.accepted("a")
+
+
+class NoFileTest(StructureTest):
+    def test_pipes(self):
+        """They would be waited for, without end."""
+        self.ball_file()
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        for name in ("a.mha", "a.vti", "a.nii.gz", "a.nrrd", "a.tif", "a.inv3", "a", "p.raw",
+                     "list.txt", "list.stl"):
+            os.mkfifo(self.path(name))
+        for name in ("a.mha", "a.vti", "a.nii.gz", "a.nrrd", "a.tif", "a.inv3", "a"):
+            with self.subTest(name):
+                self.refused_volume(name, "a pipe or a device")
+        self.write_bytes("b.mhd", header.replace(b"LOCAL", b"p.raw"))
+        nrrd = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
+        self.write_bytes("b.nhdr", nrrd + b"data file: p.raw\n")
+        for name in ("b.mhd", "b.nhdr"):
+            with self.subTest(name):
+                process = self.run_tool(self.path(name), self.path("x.stl"), status=1)
+                self.assertIn("p.raw: a pipe or a device", process.stderr)
+        for option, name in (("--seeds", "list.txt"), ("--attracting-points", "list.txt"),
+                             ("--initial-surface", "list.stl"), ("--seeds", "list.stl"),
+                             ("--edges", "a.mha")):
+            with self.subTest(option, name=name):
+                self.refused(f"{name}: a pipe or a device", self.path("ball.vti"),
+                             self.path("x.stl"), option, self.path(name))
+        self.refused("list.txt.*: a pipe or a device", self.path("ball.vti"), self.path("x.stl"),
+                     "--labels", "all", "--label-names", self.path("list.txt"))
+        self.refused("a pipe or a device", "/dev/null", self.path("x.stl"))
+
+
+@unittest.skipUnless(os.path.isdir(REPRO), "the folder shared/repro is not there")
+class ReproTest(StructureTest):
+    def test_files_that_crashed_a_reader(self):
+        for name in sorted(os.listdir(REPRO)):
+            if name.startswith("dicom_") or name.endswith((".tif", ".nii", ".nrrd", ".inv3")):
+                with self.subTest(name):
+                    process = self.run_tool(os.path.join(REPRO, name), self.path("x.stl"), status=1)
+                    self.assertRegex(process.stderr, f"^volumic: .*{name}.*: [^\n]*\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()
