@@ -22,8 +22,8 @@ bool CheckMeta(const std::string& name);
 void CheckMetaHeader(const std::string& name);
 
 /**
- * NIfTI and Analyze: the type and the sizes of the voxels, the size of the data, and the checksum of
- * a packed file.
+ * NIfTI and Analyze: the type and the sizes of the voxels, the size of the data, and the checksum
+ * of a packed file.
  */
 void CheckNifti(const std::string& name);
 
@@ -43,7 +43,10 @@ void CheckPly(const std::string& name);
  */
 int CheckTiff(const std::string& name);
 
-/** TIFF as above; PNG: the checksums. Others are passed over. @return pages of a TIFF, else 1. */
+/**
+ * TIFF as above; PNG: the checksums; BMP, PGM, PPM: the size of the data. Others are passed over.
+ * @return pages of a TIFF, else 1
+ */
 int CheckPicture(const std::string& name);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// PNG (W3C recommendation).
+// PNG (W3C recommendation), BMP, PGM and PPM (Netpbm).
 #include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
@@ -9,6 +9,8 @@
 #include <vtk_zlib.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <string>
 
 namespace tool
@@ -41,11 +43,76 @@ void CheckPng(const std::string& name)
     at += 12 + length;
   }
 }
+
+/** The rows, each of a multiple of four bytes, behind two headers. */
+void CheckBmp(const std::string& name)
+{
+  BinaryFile file(name);
+  if (file.Size() < 34 || file.Text(0, 2) != "BM")
+  {
+    return;
+  }
+  const std::uint64_t bits = file.Number(28, 2);
+  if ((bits != 8 && bits != 24) || file.Number(30, 4) != 0)
+  {
+    throw Failure(std::to_string(bits) + " bits for a pixel, packed by " +
+      std::to_string(file.Number(30, 4)) + "; 8 and 24 that are not packed are read");
+  }
+  const auto width = static_cast<std::uint64_t>(std::max<std::int64_t>(file.Signed(18, 4), 0));
+  const auto rows = static_cast<std::uint64_t>(std::abs(file.Signed(22, 4)));
+  const std::uint64_t start = file.Number(10, 4);
+  NeedJustBytes(file.Size(), file.Number(2, 4));
+  // Some programs fill the file up.
+  const std::uint64_t needed = Times((width * bits + 31) / 32 * 4, rows);
+  file.Need(start, needed);
+  if (needed == 0 || start < 14 + file.Number(14, 4) || file.Size() - start - needed > 3)
+  {
+    throw Failure("its header is damaged: " + std::to_string(width) + " x " + std::to_string(rows) +
+      " pixels from byte " + std::to_string(start));
+  }
+}
+
+/** PGM and PPM: a head of words, one blank and the pixels; VTK's reader takes the last bytes. */
+void CheckPnm(const std::string& name)
+{
+  BinaryFile file(name);
+  const std::string head = file.Text(0, std::min<std::uint64_t>(file.Size(), 1 << 16));
+  if (head.compare(0, 2, "P5") != 0 && head.compare(0, 2, "P6") != 0)
+  {
+    return;
+  }
+  std::uint64_t numbers[3] = { 0, 0, 0 };
+  std::size_t at = 2;
+  for (std::uint64_t& number : numbers)
+  {
+    at = head.find_first_not_of(" \t\r\n", at);
+    while (at != std::string::npos && head[at] == '#')
+    {
+      at = head.find_first_not_of(" \t\r\n", head.find('\n', at));
+    }
+    const std::size_t end = head.find_first_not_of("0123456789", std::min(at, head.size()));
+    if (at == std::string::npos || end == at || end == std::string::npos || end - at > 9)
+    {
+      throw Failure("its header is damaged, or it is no picture");
+    }
+    number = std::stoull(head.substr(at, end - at));
+    at = end;
+  }
+  const std::uint64_t bytes = (head[1] == '5' ? 1 : 3) * (numbers[2] > 255 ? 2 : 1);
+  if (numbers[2] < 1 || numbers[2] > 65535 ||
+    std::string(" \t\r\n").find(head[at]) == std::string::npos)
+  {
+    throw Failure("its header is damaged, or it is no picture");
+  }
+  NeedJustBytes(file.Size() - at - 1, Times(Times(numbers[0], numbers[1]), bytes));
+}
 }
 
 int CheckPicture(const std::string& name)
 {
   CheckPng(name);
+  CheckBmp(name);
+  CheckPnm(name);
   return std::max(CheckTiff(name), 1);
 }
 }

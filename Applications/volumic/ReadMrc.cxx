@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// MRC2014 (https://www.ccpem.ac.uk/mrc_format/mrc2014.php): 1024 bytes of a header, then the voxels.
+// MRC2014 (https://www.ccpem.ac.uk/mrc_format/mrc2014.php), 1024 bytes of a header, then voxels.
 #include "ReadVolume.h"
 
 #include "BinaryFile.h"
@@ -45,7 +45,8 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name)
   file.IsBig = stamp == 0x11;
   // Types and numbers of components of the modes.
   static const std::map<std::uint64_t, std::pair<int, int>> modes = {
-    { 0, { VTK_UNSIGNED_CHAR, 1 } }, { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } }, { 3, { VTK_SHORT, 2 } },
+    { 0, { VTK_UNSIGNED_CHAR, 1 } }, { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } },
+    { 3, { VTK_SHORT, 2 } },
     { 4, { VTK_FLOAT, 2 } }, { 6, { VTK_UNSIGNED_SHORT, 1 } }, { 16, { VTK_UNSIGNED_CHAR, 3 } } };
   const auto mode = modes.find(file.Number(12, 4));
   if (mode == modes.end())

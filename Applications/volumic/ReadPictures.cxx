@@ -18,6 +18,7 @@
 #include <vtkTIFFReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <memory>
@@ -117,7 +118,10 @@ vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
   return reader->GetOutput();
 }
 
-/** For .bmp, of whose files the reader of VTK 9.6 and 9.7 gives the first one again and again. */
+/**
+ * For .bmp, of whose files the reader of VTK 9.6 and 9.7 gives the first one again and again, and
+ * .pgm, whose reader takes the first file's header for as long as those of the others.
+ */
 vtkSmartPointer<vtkImageData> ReadOneByOne(const std::vector<std::string>& files)
 {
   vtkNew<vtkImageAppend> stack;
@@ -157,7 +161,7 @@ void CheckPictures(const std::vector<std::string>& files)
     throw Failure("files of several kinds (" + *suffixes.begin() + ", " + *suffixes.rbegin() +
       "); choose with a pattern, such as '*" + *suffixes.rbegin() + "'");
   }
-  int size[2] = { 0, 0 };
+  std::array<int, 4> size = { 0, 0, 0, 0 };
   for (const std::string& file : files)
   {
     try
@@ -171,8 +175,10 @@ void CheckPictures(const std::vector<std::string>& files)
     {
       throw Failure(file + ": " + failure.what());
     }
-    auto reader = vtkSmartPointer<vtkImageReader2>::Take(
-      vtkImageReader2Factory::CreateImageReader2(file.c_str()));
+    vtkSmartPointer<vtkImageReader2> reader;
+    VtkMessages ignored; // Some of those that are asked complain of what they don't know.
+    ignored.Catch(
+      [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(file.c_str())); });
     if (!reader)
     {
       throw Failure(file + ": not a picture that VTK's readers know");
@@ -182,18 +188,18 @@ void CheckPictures(const std::vector<std::string>& files)
     reader->SetFileName(file.c_str());
     reader->UpdateInformation();
     const int* extent = reader->GetDataExtent();
-    const int own[2] = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1 };
+    const std::array<int, 4> own = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1,
+      reader->GetNumberOfScalarComponents(), reader->GetDataScalarType() };
     if (!messages.Errors.empty())
     {
       throw Failure(file + ": cannot be read (" + messages.JoinedErrors() + ")");
     }
-    if (file == files.front())
+    size = file == files.front() ? own : size;
+    if (own != size)
     {
-      std::copy(own, own + 2, size);
-    }
-    else if (!std::equal(own, own + 2, size))
-    {
-      throw Failure(file + ": its size differs from the first picture's");
+      throw Failure(file + ": its " +
+        (std::equal(own.begin(), own.begin() + 2, size.begin()) ? "kind of values" : "size") +
+        " differs from the first picture's");
     }
   }
 }
@@ -289,7 +295,7 @@ vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files
   }
   auto reader = vtkSmartPointer<vtkImageReader2>::Take(
     vtkImageReader2Factory::CreateImageReader2(files.front().c_str()));
-  if (reader->IsA("vtkBMPReader"))
+  if (reader->IsA("vtkBMPReader") || reader->IsA("vtkPNMReader"))
   {
     return ReadOneByOne(files);
   }

@@ -4,6 +4,7 @@
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
 #include "InputFiles.h"
+#include "LabelNames.h"
 #include "Ranks.h"
 #include "SegmentLabels.h"
 #include "SegmentVolume.h"
@@ -140,7 +141,7 @@ int RunAndTell(int argc, char* argv[], Ranks& ranks)
   }
   catch (const std::exception& error)
   {
-    words = error.what();
+    words = PlainName(error.what()); // it may tell of what a damaged file holds
   }
   const bool isOfAll = ranks.HaveAgreed();
   if (ranks.IsFirst() || !isOfAll)

@@ -10,7 +10,7 @@ import unittest
 import zlib
 
 import numpy as np
-from vtkmodules.vtkIOImage import vtkTIFFWriter
+from vtkmodules.vtkIOImage import vtkBMPWriter, vtkTIFFWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
@@ -174,6 +174,44 @@ class TiffTest(StructureTest):
         self.assertRegex(process.stderr, r"a\.tif: 18 pages; give it by its name")
 
 
+class PicturesTest(StructureTest):
+    def pictures(self, suffix, contents):
+        os.makedirs(self.path(suffix), exist_ok=True)
+        for k, content in enumerate(contents):
+            self.write_bytes(f"{suffix}/{k:02}.{suffix}", content)
+
+    def test_pgm(self):
+        planes = (ball() // 5).astype("u1")
+        head = b"P5\n# comment\n26 22\n255\n"
+        self.pictures("pgm", [head + plane.tobytes() for plane in planes])
+        iso = ("--iso", ISO / 5)
+        self.run_tool(self.path("pgm"), self.path("a.stl"), *iso)
+        self.write_bytes("pgm/08.pgm", b"P5\n# a comment of another length\n26 22\n255\n"
+                         + planes[8].tobytes())
+        self.run_tool(self.path("pgm"), self.path("b.stl"), *iso)
+        self.assertEqual(self.content("a.stl"), self.content("b.stl"))
+        for content, reason in ((head + b"\7" + planes[8].tobytes(), "too long"),
+                                (head.replace(b"26", b"2x") + planes[8].tobytes(), "damaged")):
+            self.write_bytes("pgm/08.pgm", content)
+            self.refused_volume("pgm", "08.pgm: .*" + reason)
+
+    def test_bmp(self):
+        planes = (ball() // 5).astype("u1")
+        for k, plane in enumerate(planes):
+            os.makedirs(self.path("bmp"), exist_ok=True)
+            self.write(vtkBMPWriter(), f"bmp/{k:02}.bmp", make_image(plane[np.newaxis]))
+        self.run_tool(self.path("bmp"), self.path("a.stl"), "--iso", ISO / 5, "--component", 0)
+        content = self.content("bmp/08.bmp")
+        for place, form, value in ((28, "<H", 8), (10, "<I", 53), (22, "<i", 21), (2, "<I", 9)):
+            damaged = bytearray(content)
+            struct.pack_into(form, damaged, place, value)
+            self.write_bytes("bmp/08.bmp", bytes(damaged))
+            with self.subTest(place=place):
+                self.refused_volume("bmp", "08.bmp: ")
+        self.write_bytes("bmp/08.bmp", content[:60] + b"\7" + content[60:])
+        self.refused_volume("bmp", "08.bmp: the file is too long")
+
+
 class LengthTest(StructureTest):
     """Bytes that are too many move the voxels behind them."""
 
@@ -251,7 +289,8 @@ class HeaderTest(StructureTest):
                 (40, "<h", 9, "9 dimensions"), (46, "<h", 0, "size of dimension 3 is 0"),
                 (44, "<h", -1, "cut off|dimension 2"), (72, "<h", 8, "have 16 bits, not 8"),
                 (108, "<f", 0, "within the header"), (108, "<f", -352, "begin at byte -352"),
-                (108, "<f", float("nan"), "begin at byte"), (344, "<B", 0x6f, "its mark is not n.1"),
+                (108, "<f", float("nan"), "begin at byte"),
+                (344, "<B", 0x6f, "its mark is not n.1"),
                 (0, "<i", 349, "not a NIfTI or Analyze file")):
             header = bytearray(content)
             struct.pack_into(form, header, place, value)
