@@ -49,7 +49,7 @@ class Outcome:
     def line(self):
         told = self.exceptions + [f"{self.seconds:.1f} s"] * (self.seconds > SLOW_SECONDS)
         size = " x ".join(map(str, self.run.size))
-        return f"seed {self.seed} ({self.run.kind}, {size}): {'; '.join(told)}"
+        return f"seed {self.seed} ({self.run.kind}, {size}): {'; '.join(told) or 'nothing wrong'}"
 
 
 def run_command(program, run, outcome):
