@@ -17,8 +17,8 @@ SEEDS runs from seed FIRST on (1). A line is printed for each with an exception,
 20 s of processor time, whose files stay in build/campaign/SEED; its file `command` is the command
 line, to be run there. `campaign.sh 1 SEED` keeps the files whatever comes out.
   --jobs N   runs at a time (default: one for each processor)
-  --sweeps   all but the smallest levels evolve block by block, as only those of many voxels do: by a
-             copy of the sources with other bounds, which is built first
+  --sweeps   all but the smallest levels evolve block by block, as only those of many voxels do: a
+             copy of the sources with other bounds is built for it
   --help     this text
 Exit status: 0 when all surfaces are closed, manifold, oriented outward and free of intersections,
 and files, words and exit statuses agree.

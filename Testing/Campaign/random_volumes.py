@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random volumes for the campaign: what is seen, on which voxels, in which type, where in the world.
+"""Random volumes for the campaign: what is seen, on which voxels and of which type, and where.
 
 Shapes are fields [z, y, x] that are about 1 in objects and 0 elsewhere.
 """
