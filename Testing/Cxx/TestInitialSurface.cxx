@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 using namespace volumic;
@@ -83,6 +84,24 @@ TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
         EXPECT_GE(ring.Count, 4) << "else an edit would have to remove it";
         EXPECT_LE(ring.Count, 8);
       }
+    }
+  }
+}
+
+TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
+{
+  EXPECT_NO_THROW(EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, 1000 }), 1.));
+  for (const double step : { 1e6, 1e20, 1e300 })
+  {
+    try
+    {
+      EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, step }), 1.);
+      ADD_FAILURE() << step;
+    }
+    catch (const std::invalid_argument& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("times as long as wide. Check the Spacing"),
+        std::string::npos) << error.what();
     }
   }
 }
