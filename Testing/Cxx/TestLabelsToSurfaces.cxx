@@ -6,14 +6,17 @@
 #include "vtkLabelTable.h"
 #include "vtkLabelsToSurfaces.h"
 
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
+#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -214,6 +217,48 @@ TEST(LabelsToSurfaces, MergesLabelsToOneSurface)
     rightOnes += bounds[1] < 18. ? label == 3. : bounds[0] > 20. ? label == 7. : 1;
   }
   EXPECT_EQ(rightOnes, surface->GetNumberOfCells());
+}
+
+TEST(LabelsToSurfaces, LabelsOfMergedCellsAreOfTheNearestVoxels)
+{
+  const auto image = LabelImageOf(21, 13, 13, [](int i, int j, int k)
+    { return std::hypot(i - 10., j - 6., k - 6.) > 5. ? 0 : i + j > 16 ? 7 : 3; });
+  image->SetSpacing(3., 0.5, 1.);
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(image);
+  filter->MergeOn();
+  filter->Update();
+  vtkPolyData* surface = BlockOf(filter, 0);
+  vtkDataArray* labels = surface->GetCellData()->GetArray("Label");
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  vtkIdType counts[2] = { 0, 0 };
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    double centroid[3] = { 0., 0., 0. };
+    for (vtkIdType n = 0; n < 3; ++n)
+    {
+      double corner[3];
+      surface->GetCell(c)->GetPoints()->GetPoint(n, corner);
+      vtkMath::MultiplyScalar(corner, 1. / 3.);
+      vtkMath::Add(centroid, corner, centroid);
+    }
+    double least[2] = { 1e9, 1e9 }; // squares of the distances to labels 3 and 7
+    for (vtkIdType v = 0; v < image->GetNumberOfPoints(); ++v)
+    {
+      if (const double label = voxels->GetComponent(v, 0))
+      {
+        double& square = least[label == 3. ? 0 : 1];
+        square = std::min(square, vtkMath::Distance2BetweenPoints(image->GetPoint(v), centroid));
+      }
+    }
+    if (std::abs(least[0] - least[1]) > 1e-3) // Who is nearer is no matter of rounding.
+    {
+      const int nearer = least[0] < least[1] ? 0 : 1;
+      ++counts[nearer];
+      EXPECT_EQ(labels->GetComponent(c, 0), nearer == 0 ? 3. : 7.) << "cell " << c;
+    }
+  }
+  EXPECT_GT(std::min(counts[0], counts[1]), 100);
 }
 
 TEST(LabelsToSurfaces, DrawsNeighboursBackByAGap)
