@@ -191,11 +191,12 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool is
   // edges are as long as voxels, needs no other than its own, divided.
   const SurfaceState& s = this->State;
   const double longest = SizingField::LongestEdgeInDelta * s.Sizing.OfLevel();
-  if (isSound)
+  EdgeLengths lengths = LengthsOf(surface);
+  if (isSound && lengths.Longest > longest)
   {
     HalveLongEdges(surface, longest);
+    lengths = LengthsOf(surface);
   }
-  const EdgeLengths lengths = LengthsOf(surface);
   if (lengths.Longest <= longest &&
     (isSound ? RelieveRings(surface)
              : FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel())))
