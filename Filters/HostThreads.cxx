@@ -167,8 +167,9 @@ void HostThreads::For(
     this->Share(n, grain, body);
     return;
   }
-  // In pieces of a few MB, where a piece of the work is all of a level.
-  const std::size_t piece = std::max({ n / 512, grain, std::size_t(1) });
+  // Room is waited for piece by piece, however large the level is: an item that looks at a voxel or
+  // two may bring in 16 pages with each, so that 12,000 of them are more than all that is free.
+  const std::size_t piece = std::max(grain / 8, std::size_t(1));
   this->Share(n, grain,
     [&](std::size_t begin, std::size_t end)
     {

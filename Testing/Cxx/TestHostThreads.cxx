@@ -4,6 +4,7 @@
 // How many threads there are, and another executor in their place, for measurements.
 #include "FilterTestTools.h"
 #include "HostThreads.h"
+#include "ScratchTestTools.h"
 #include "vtkDeformableSurface.h"
 #include "vtkImagePyramid.h"
 
@@ -118,6 +119,45 @@ TEST(HostThreads, AreFewerIfAsked)
   {
     const Variable backend("VTK_SMP_BACKEND_IN_USE", "Sequential");
     EXPECT_EQ(ThreadsAtWork(0), 1u) << "the choice of the user";
+  }
+}
+
+TEST(HostThreads, WaitForRoomEveryFewItemsHoweverManyThereAre)
+{
+  if (!ScratchIsPossible)
+  {
+    GTEST_SKIP() << "no scratch memory on this system";
+  }
+  constexpr std::size_t grain = 2048; // As of vertices.
+  constexpr std::size_t most = std::size_t(1) << 20;
+  for (const int number : { 1, 2 })
+  {
+    HostThreads threads(number);
+    const auto largestPiece = [&threads](std::size_t n)
+    {
+      std::mutex mutex;
+      std::size_t largest = 0;
+      std::size_t items = 0;
+      threads.Run(
+        [&]
+        {
+          threads.For(n, grain,
+            [&](std::size_t begin, std::size_t end)
+            {
+              const std::lock_guard<std::mutex> lock(mutex);
+              largest = std::max(largest, end - begin);
+              items += end - begin;
+            });
+        });
+      EXPECT_EQ(items, n);
+      return largest;
+    };
+    EXPECT_GE(largestPiece(most), grain) << "there is nothing to wait for";
+    const test::OwnDirectory directory;
+    const ScratchMemory scratch(test::Allowing(256 * test::MiB, directory.Path));
+    // Each may look at voxels of its own, which bring in 16 pages: 64 KiB.
+    EXPECT_LE(largestPiece(most) * (std::size_t(64) << 10), 16 * test::MiB);
+    EXPECT_LE(largestPiece(grain) * (std::size_t(64) << 10), 16 * test::MiB);
   }
 }
 

@@ -22,7 +22,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread hands out at a time. */
-constexpr std::size_t ResultBlock = 4096;
+constexpr std::size_t ResultBlock = 256; // They look at voxels: HostThreads::For.
 
 void CheckRange(const char* name, double value, double low, double high)
 {

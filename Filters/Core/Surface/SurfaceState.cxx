@@ -13,6 +13,7 @@ namespace
 {
 /** Vertices that one thread looks at at a time: 20 microseconds. */
 constexpr std::size_t ShapeGrain = 128;
+constexpr std::size_t AliveGrain = 1 << 14;
 }
 
 void SurfaceState::Reset(const Vector& low, const Vector& high)
@@ -30,10 +31,14 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->Grid.Reset(low, high, this->Sizing.LargestReach());
   this->Grid.InsertAll(
     this->Mesh.Position, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
-  for (int v = 0; v < this->Mesh.Size(); ++v)
-  {
-    this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
-  }
+  executor.For(static_cast<std::size_t>(this->Mesh.Size()), AliveGrain,
+    [this](std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        this->Active[v] = this->Mesh.IsAlive(v) ? 1 : 0;
+      }
+    });
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
 }
 
