@@ -106,6 +106,13 @@ TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
   }
 }
 
+TEST(InitialSurface, RefusesAnAreaOfTooManyVertices)
+{
+  const LevelImage image = ImageOf({ 20, 20, 20 }, { 1, 1, 1e6 });
+  EXPECT_NO_THROW(CheckNumberOfVertices(1e7, image, 1.));
+  EXPECT_THROW(CheckNumberOfVertices(1e8, image, 1.), std::invalid_argument);
+}
+
 TEST(InitialSurface, EnclosingSurfaceIsJustOutsideTheImage)
 {
   const double delta = 0.85;

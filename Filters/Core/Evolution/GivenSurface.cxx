@@ -3,6 +3,7 @@
 #include "Core/Common/LatticeKey.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/InitialSurface.h"
 #include "Core/Mesh/LatticeSurface.h"
 #include "Core/Mesh/LongEdges.h"
 #include "Core/Mesh/ObliqueRotation.h"
@@ -194,6 +195,8 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool is
   EdgeLengths lengths = LengthsOf(surface);
   if (isSound && lengths.Longest > longest)
   {
+    CheckNumberOfVertices(
+      ComputeFeatures(surface).Area, this->TheField->Image(), s.Sizing.OfLevel());
     HalveLongEdges(surface, longest);
     lengths = LengthsOf(surface);
   }

@@ -87,7 +87,7 @@ constexpr double EnclosingEdge = 1.4;
 /** Radius of its rounding for such an edge: the chord of 45 degrees, 1 / (2 sin(pi / 8)). */
 constexpr double RoundingOfEdge = 1.3065629648763766;
 /** So many vertices take more memory than there is; images of 2000^3 voxels need 12 million. */
-constexpr double MostEnclosingVertices = 3e7;
+constexpr double MostVertices = 3e7;
 
 /** A box with edges and corners cut off, as a lattice of quadrangles on its surface. */
 class RoundedBox
@@ -202,17 +202,22 @@ IndexedSurface EnclosingSurface(const LevelImage& image, double delta)
     centre[k] = 0.5 * (image.Size[k] - 1) * image.Step[k];
     half[k] = centre[k] + image.Step[k];
   }
-  const double edge = EnclosingEdge * delta;
-  const double vertices =
-    8. * (half[0] * half[1] + half[1] * half[2] + half[2] * half[0]) / (edge * edge);
-  if (!(vertices <= MostEnclosingVertices))
+  CheckNumberOfVertices(
+    8. * (half[0] * half[1] + half[1] * half[2] + half[2] * half[0]), image, delta);
+  return RoundedBox(centre, half, EnclosingEdge * delta).Surface();
+}
+
+void CheckNumberOfVertices(double area, const LevelImage& image, double delta)
+{
+  const double vertices = area / (EnclosingEdge * delta * EnclosingEdge * delta);
+  if (!(vertices <= MostVertices))
   {
     const auto [least, most] = std::minmax_element(image.Step.begin(), image.Step.end());
-    Refuse("The surface about the image would have ", vertices, " vertices, as its voxels are ",
+    Refuse("The surface to start from would have ", std::round(vertices / 1e6),
+      " million vertices, as the image's voxels are ",
       *most / *least, " times as long as wide. Check the Spacing, resample the image, or set "
       "Metric to Voxels (0).");
   }
-  return RoundedBox(centre, half, edge).Surface();
 }
 
 void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)

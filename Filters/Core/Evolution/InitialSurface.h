@@ -22,9 +22,12 @@ IndexedSurface DividedIcosahedron(const Point& centre, double radius, double mea
  * A box with edges and corners cut off that encloses the image and a voxel about it. Whatever the
  * image's proportions, its edges are 1.1 to 2 delta long, legal by eq. (1): collapses and splits
  * have nothing to do before the forces have. It is near the image, and has a short way to go.
- * @throws std::invalid_argument where it would have too many vertices for any memory.
+ * @throws std::invalid_argument as CheckNumberOfVertices.
  */
 IndexedSurface EnclosingSurface(const LevelImage& image, double delta);
+
+/** Refuses a surface of an area (workspace) that would have too many vertices for any memory. */
+void CheckNumberOfVertices(double area, const LevelImage& image, double delta);
 
 /**
  * Refuses a surface (workspace) that lies wholly outside the image, or is so much larger that its
