@@ -73,6 +73,34 @@ void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelN
   AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
 }
 
+/** Why what is there may not be in a surface, and what helps, if anything does. */
+std::string ReasonsOfLoss(const LabelSettings& settings)
+{
+  std::string reasons = ": too small, scattered, or too thin for the triangles";
+  reasons += settings.KeepComponents != 0 ? ", or left out by Keep Components" : "";
+  reasons += settings.Gap > 0.0 ? ", or taken away by Gap" : "";
+  reasons += ".";
+  if (settings.EdgeLength > 0.0)
+  {
+    reasons += " A shorter Edge Length makes these smaller.";
+  }
+  else if (settings.FinestLevel > 0)
+  {
+    reasons += " A lower Finest Level makes these smaller.";
+  }
+  return reasons;
+}
+
+std::string JoinedBy(const char* separator, const std::vector<std::string>& texts)
+{
+  std::string all;
+  for (const std::string& text : texts)
+  {
+    all += (all.empty() ? "" : separator) + text;
+  }
+  return all;
+}
+
 /** Text after text, as many as a warning names. */
 std::string Listed(const std::vector<std::string>& texts)
 {
@@ -90,10 +118,12 @@ std::string Listed(const std::vector<std::string>& texts)
 }
 
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
-  const std::vector<LabelSurface>& surfaces, vtkMultiBlockDataSet* output)
+  const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
+  vtkMultiBlockDataSet* output)
 {
   std::vector<std::string> empty;
   std::vector<std::string> lost;
+  std::vector<std::string> touching;
   output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
@@ -122,24 +152,31 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     {
       empty.push_back(name);
     }
-    else if (isThere && choice.AllIsKept && 2 * surfaces[i].WrongVoxels > voxels)
+    else if (isThere && 2 * surfaces[i].WrongVoxels > voxels)
     {
       lost.push_back(name);
     }
+    if (surfaces[i].TouchingFaces > 0)
+    {
+      touching.push_back(name + " (" + std::to_string(surfaces[i].TouchingFaces) + ")");
+    }
   }
-  std::string warning;
+  std::vector<std::string> warnings;
   if (!empty.empty())
   {
-    warning = "No surface is left of " + Listed(empty) +
-      ": too small or too thin for the triangles. With Finest Level -1 these are smaller.";
+    warnings.push_back("No surface is left of " + Listed(empty) + ReasonsOfLoss(settings));
   }
   if (!lost.empty())
   {
-    warning += (warning.empty() ? "" : " ") +
-      std::string("More voxels than half are on the wrong side of the surface of ") +
-      Listed(lost) + ": they are scattered, or in parts too thin for the triangles.";
+    warnings.push_back("More voxels than half are on the wrong side of the surface of " +
+      Listed(lost) + ReasonsOfLoss(settings));
   }
-  return warning;
+  if (!touching.empty())
+  {
+    warnings.push_back("Triangles still touch the surfaces of neighbours, in spite of the Gap: " +
+      Listed(touching) + ". Try a larger Gap.");
+  }
+  return JoinedBy(" ", warnings);
 }
 
 void ShareBlocks(Communicator& ranks, vtkMultiBlockDataSet* output)

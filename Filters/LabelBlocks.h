@@ -21,16 +21,17 @@ struct LabelChoice
 {
   std::vector<int> Labels; ///< sorted
   bool IsMerged = false;   ///< one surface about all
-  bool AllIsKept = true;   ///< neither components nor a gap are taken away on purpose
   LabelNames Names;
 };
 
 /**
  * Makes a block of each surface, with the arrays of labels.
- * @return what the user should know: labels that have no surface; empty: nothing
+ * @return what the user should know: labels that have no surface, or lose most of their voxels, or
+ *         touch neighbours in spite of a gap, and what may help; empty: nothing
  */
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
-  const std::vector<LabelSurface>& surfaces, vtkMultiBlockDataSet* output);
+  const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
+  vtkMultiBlockDataSet* output);
 
 /**
  * The first rank has the surfaces. Gives the others its blocks, empty: writers and readers of

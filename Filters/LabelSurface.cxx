@@ -5,7 +5,9 @@
 #include "BuildPyramid.h"
 #include "Core/Common/Communicator.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Image/VoxelNumbers.h"
 #include "Core/Labels/DrawBack.h"
+#include "Core/Labels/TouchingSurfaces.h"
 #include "Core/Labels/WrongVoxels.h"
 #include "SegmentationRequest.h"
 #include "SegmentationSettings.h"
@@ -45,6 +47,9 @@ constexpr double FieldShare = 0.2;
  */
 constexpr std::array<float, 2> FurtherMargins = { 0.3f, 0.5f };
 
+/** With Gap only voxels are held that its isopotential has so far inside, in the same. */
+constexpr double LeastHeldInGap = 0.1;
+
 /**
  * Smoothing is in smallest distances of voxels, or in this share of the longest, if that is more:
  * stairs are as high as voxels are long; but with all of it bulges what is thin along other axes.
@@ -57,7 +62,28 @@ constexpr double ShareOfLongest = 0.625;
  */
 constexpr double BendPerLevel = 0.4;
 
-/** The same for a gap, times which triangles that leave their own field's inside are drawn back. */
+/** Twice what fields reach, in smallest distances of voxels. */
+constexpr double MostGap = 2.0 * LabelField::Far;
+
+/**
+ * By what fields are lowered, at least, where surfaces of neighbours touch, in smallest distances of
+ * voxels: half a small gap would not part triangles that are deep in each other.
+ */
+constexpr double LeastLowering = 0.2;
+
+/** A part of so many voxels that level 0 has lost is worth three times the triangles. */
+constexpr std::int64_t LostPartSize = 8;
+
+/** In smallest distances of voxels: boundaries are twice as far from centres. */
+constexpr double MostHarmlessHalfGap = 0.25;
+
+/** One of so many voxels on the wrong side is, too. */
+constexpr std::int64_t SeverelyLost = 4;
+
+/** Share of the work on a label whose surface is made at level 0, where it may be made again. */
+constexpr double ShareOfLevel0 = 0.7;
+
+/** For a gap, times which triangles that leave their own field's inside are drawn back. */
 constexpr int RoundsOfGap = 6;
 
 void CheckNumber(const char* name, double value)
@@ -131,7 +157,7 @@ void ScaleResidual(vtkPolyData* surface, double unit)
 }
 }
 
-void LabelSettings::Check() const
+void LabelSettings::Check(double unit) const
 {
   CheckNumber("Smoothing", this->Smoothing);
   if (this->Smoothing > 10.0)
@@ -139,6 +165,11 @@ void LabelSettings::Check() const
     Refuse("Smoothing is ", this->Smoothing, " voxels; it must be at most 10.");
   }
   CheckNumber("Gap", this->Gap);
+  if (this->Gap > MostGap * unit)
+  {
+    Refuse("Gap is ", this->Gap, "; it must be at most ", MostGap * unit,
+      ", eight times the smallest distance of voxels: fields of labels reach no further.");
+  }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckNumber("Minimum Component Volume", this->MinimumComponentVolume);
   if (this->FinestLevel < -1)
@@ -164,6 +195,7 @@ LabelSurfaceMaker::LabelSurfaceMaker(
   , Image(image)
   , Settings(settings)
   , Claims(bricks)
+  , Lowered(static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1)
 {
   const std::array<double, 3>& spacing = bricks.Map().Spacing;
   const double longest = *std::max_element(spacing.begin(), spacing.end());
@@ -188,14 +220,17 @@ void LabelSurfaceMaker::AddClaim(int object, HostThreads& threads)
     { this->Claims.Add(object, MakeLabelField(this->Bricks, object, this->Options, threads)); });
 }
 
+double LabelSurfaceMaker::HalfGap() const
+{
+  return 0.5 * this->Settings.Gap / Workspace(this->Image, Metric::World).WorldUnit();
+}
+
 LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
-  int object, HostThreads& threads) const
+  int level, int object, HostThreads& threads) const
 {
   FieldImage made;
   threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, this->Options, threads); });
   this->Claims.Settle(object, made.Field);
-  const int level = this->Settings.EdgeLength != 0.0 ? this->Plan.FinestLevel
-                                                     : this->Settings.FinestLevel;
   if (level > 0)
   {
     const double squaredFactor = std::pow(this->LevelFactor(), 2 * level);
@@ -205,6 +240,15 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
         CorrectBends(
           made.Field, this->Bricks, object, BendPerLevel * (squaredFactor - 1.0), threads);
       });
+  }
+  for (const std::array<int, 3>& voxel : this->Lowered[static_cast<std::size_t>(object)])
+  {
+    if (made.Field.Box.Contains(voxel))
+    {
+      made.Field.Values[static_cast<std::size_t>(made.Field.Box.NumberOf(
+        voxel[0], voxel[1], voxel[2]))] -=
+        static_cast<float>(std::max(this->HalfGap(), LeastLowering));
+    }
   }
   made.Image = vtkSmartPointer<vtkImageData>::New();
   const int* extent = this->Image->GetExtent();
@@ -228,13 +272,12 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
 }
 
 SegmentationVolume LabelSurfaceMaker::MakeVolume(
-  vtkImageData* field, const Progress& progress) const
+  int level, vtkImageData* field, const Progress& progress) const
 {
   SegmentationVolume volume;
   volume.Selection = SelectScalars();
   SegmentationSettings& settings = volume.Settings;
-  const double unit = Workspace(this->Image, Metric::World).WorldUnit();
-  settings.Options.IsoValue = 0.5 * this->Settings.Gap / unit;
+  settings.Options.IsoValue = this->HalfGap();
   settings.Options.RecoverLostParts = false;
   settings.Recovery = RecoveryType::NoRecovery;
   settings.Metric = static_cast<Metric>(this->Settings.Metric);
@@ -242,18 +285,18 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   settings.KeepComponents = static_cast<KeepComponentsType>(this->Settings.KeepComponents);
   settings.MinimumComponentVolume = this->Settings.MinimumComponentVolume;
   settings.Initialization = InitializationType::IsoSurface;
-  settings.End.FinestLevel = this->Settings.FinestLevel;
+  settings.End.FinestLevel = level;
   vtkNew<vtkImagePyramid> pyramid;
   if (settings.EdgeLength != 0.0)
   {
-    settings.End.FinestLevel = this->Plan.FinestLevel;
     settings.Options.SamplingRatio = this->Plan.SamplingRatio;
     pyramid->SetReductionFactor(this->Plan.ReductionFactor);
     volume.FactorBelowLevel0 = this->Plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
-  // No coarser ones: what is thin, or hollow, would be lost there.
-  settings.CoarsestLevel = std::max(settings.End.FinestLevel, 0);
+  // No coarser ones, not even above level -1: what is thin, or hollow, would be lost there.
+  settings.CoarsestLevel = std::max(level, 0);
+  settings.BeginsBelowImage = level < 0;
   pyramid->SetNumberOfLevels(settings.CoarsestLevel + 1);
   pyramid->SetNumberOfThreads(1);
   vtkSmartPointer<vtkImageData> image = field;
@@ -268,7 +311,7 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   return volume;
 }
 
-std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(int object, vtkPolyData* surface) const
+IndexedSurface LabelSurfaceMaker::InVoxels(vtkPolyData* surface) const
 {
   const Workspace voxels(this->Image, Metric::Voxels);
   IndexedSurface indexed;
@@ -290,40 +333,134 @@ std::vector<std::int64_t> LabelSurfaceMaker::FindWrong(int object, vtkPolyData* 
     indexed.Triangles.push_back({ static_cast<int>(corners[0]),
       static_cast<int>(corners[second]), static_cast<int>(corners[3 - second]) });
   }
-  return FindWrongVoxels(this->Bricks, object, indexed);
+  return indexed;
 }
 
 bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface& surface,
   const LabelField& original, LabelField& field) const
 {
-  if (this->Settings.Gap > 0.0)
+  const double halfGap = this->HalfGap();
+  const int holds = static_cast<int>(FurtherMargins.size());
+  // What is lowered for a neighbour is not raised again.
+  const bool mayHold = this->Settings.Smoothing > 0.0 &&
+    this->Lowered[static_cast<std::size_t>(object)].empty();
+  if (round < holds && mayHold)
   {
-    const double unit = Workspace(this->Image, Metric::World).WorldUnit();
-    return round < RoundsOfGap &&
-      DrawBackWithin(original, surface, static_cast<float>(0.5 * this->Settings.Gap / unit), field);
+    const float further = FurtherMargins[static_cast<std::size_t>(round)];
+    const VoxelNumbers numbers(this->Bricks.Map().Size);
+    std::vector<HeldVoxel> held;
+    for (const std::int64_t voxel : FindWrongVoxels(this->Bricks, object, surface))
+    {
+      const std::array<int, 3> p = numbers.PlaceOf(voxel);
+      if (halfGap == 0.0)
+      {
+        held.push_back({ voxel, further });
+      }
+      else if (this->Bricks.Map().At(p[0], p[1], p[2]) == object)
+      {
+        // Those near the gap it has taken away, others the triangles.
+        const float before =
+          original.Values[static_cast<std::size_t>(original.Box.NumberOf(p[0], p[1], p[2]))];
+        if (before > halfGap + LeastHeldInGap)
+        {
+          held.push_back({ voxel, before + further });
+        }
+      }
+    }
+    if (!held.empty())
+    {
+      HoldFurther(field, this->Bricks, object, this->Options, held, OnThisThread());
+      return true;
+    }
   }
-  if (round >= static_cast<int>(FurtherMargins.size()) || this->Settings.Smoothing == 0.0)
+  return halfGap > 0.0 && round < holds + RoundsOfGap &&
+    DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
+}
+
+std::vector<int> LabelSurfaceMaker::DrawApart(
+  std::vector<LabelSurface>& surfaces, HostThreads& threads)
+{
+  std::vector<IndexedSurface> inVoxels(surfaces.size());
+  std::vector<std::vector<int>> touching;
+  threads.Run(
+    [&]
+    {
+      threads.For(surfaces.size(), 1,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            inVoxels[i] =
+              surfaces[i].Surface ? this->InVoxels(surfaces[i].Surface) : IndexedSurface();
+          }
+        });
+      touching = FindTouching(inVoxels, threads);
+    });
+  std::vector<int> objects;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    surfaces[i].TouchingFaces = static_cast<vtkIdType>(touching[i].size());
+    if (!touching[i].empty())
+    {
+      const int object = static_cast<int>(i) + 1;
+      std::vector<std::array<int, 3>>& lowered = this->Lowered[static_cast<std::size_t>(object)];
+      const std::vector<std::array<int, 3>> more = VoxelsAbout(inVoxels[i], touching[i]);
+      lowered.insert(lowered.end(), more.begin(), more.end());
+      objects.push_back(object);
+    }
+  }
+  return objects;
+}
+
+bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
+{
+  if (made.Surface->GetNumberOfCells() == 0)
+  {
+    return this->Bricks.ExtentOf(object).Voxels > 0;
+  }
+  // What is taken away on purpose is not lost; no small gap takes centres away.
+  if (this->HalfGap() > MostHarmlessHalfGap ||
+    static_cast<KeepComponentsType>(this->Settings.KeepComponents) !=
+      KeepComponentsType::AllComponents)
   {
     return false;
   }
-  std::vector<HeldVoxel> held;
-  for (const std::int64_t voxel : FindWrongVoxels(this->Bricks, object, surface))
-  {
-    held.push_back({ voxel, FurtherMargins[static_cast<std::size_t>(round)] });
-  }
-  if (!held.empty())
-  {
-    HoldFurther(field, this->Bricks, object, this->Options, held, OnThisThread());
-  }
-  return !held.empty();
+  return SeverelyLost * made.WrongVoxels > this->Bricks.ExtentOf(object).Voxels ||
+    (this->Settings.Gap == 0.0 && made.WrongVoxels >= LostPartSize &&
+      SizeOfLargestLostPart(this->Bricks.Map(), object,
+        FindWrongVoxels(this->Bricks, object, this->InVoxels(made.Surface))) >= LostPartSize);
 }
 
 LabelSurface LabelSurfaceMaker::Make(
   int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const
 {
+  const int level = this->FinestLevel();
+  if (level != 0 || this->Settings.EdgeLength != 0.0)
+  {
+    return this->MakeAt(level, object, numberOfThreads, threads, progress);
+  }
+  LabelSurface made = this->MakeAt(0, object, numberOfThreads, threads,
+    [&](double share, const std::string& text) { return progress(ShareOfLevel0 * share, text); });
+  if (made.Surface && this->LosesParts(object, made))
+  {
+    const LabelSurface finer = this->MakeAt(-1, object, numberOfThreads, threads,
+      [&](double share, const std::string& text)
+      { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
+    // Null: it was stopped; what level 0 has is finished.
+    if (finer.Surface && finer.WrongVoxels < made.WrongVoxels)
+    {
+      made = finer;
+    }
+  }
+  return made;
+}
+
+LabelSurface LabelSurfaceMaker::MakeAt(int level, int object, int numberOfThreads,
+  HostThreads& threads, const Progress& progress) const
+{
   LabelSurface made;
-  made.Surface = MakeStopped(std::max(this->Settings.FinestLevel, 0), "vanished");
-  FieldImage field = this->MakeField(object, threads);
+  made.Surface = MakeStopped(level, "vanished");
+  FieldImage field = this->MakeField(level, object, threads);
   if (!progress(FieldShare, "Field of the label"))
   {
     made.Surface = nullptr;
@@ -338,7 +475,7 @@ LabelSurface LabelSurfaceMaker::Make(
   const LabelField original = this->Settings.Gap > 0.0 ? field.Field : LabelField();
   try
   {
-    const SegmentationVolume volume = this->MakeVolume(field.Image, progress);
+    const SegmentationVolume volume = this->MakeVolume(level, field.Image, progress);
     if (!volume.Levels)
     {
       made.Surface = nullptr;
@@ -372,7 +509,8 @@ LabelSurface LabelSurfaceMaker::Make(
     }
     ScaleResidual(surface, Workspace(this->Image, Metric::World).WorldUnit());
     made.Surface = surface;
-    made.WrongVoxels = static_cast<vtkIdType>(this->FindWrong(object, surface).size());
+    made.WrongVoxels = static_cast<vtkIdType>(
+      FindWrongVoxels(this->Bricks, object, this->InVoxels(surface)).size());
   }
   catch (const std::invalid_argument&)
   {

@@ -11,6 +11,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -32,8 +33,11 @@ struct LabelSettings
   int KeepComponents = 0;
   double MinimumComponentVolume = 0.0;
 
-  /** @throws std::invalid_argument naming the property that is out of range. */
-  void Check() const;
+  /**
+   * @param unit the smallest distance of voxels, world units
+   * @throws std::invalid_argument naming the property that is out of range.
+   */
+  void Check(double unit) const;
 };
 
 /** The surface of one object, as vtkDeformableSurface gives it. */
@@ -41,6 +45,7 @@ struct LabelSurface
 {
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
   vtkIdType WrongVoxels = 0;
+  vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
 };
 
 /** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */
@@ -62,9 +67,21 @@ public:
   bool HasClaims() const { return this->Bricks.HasContested(); }
   void AddClaim(int object, HostThreads& threads);
 
-  /** @param numberOfThreads those of `threads`; 0: all */
+  /**
+   * On any thread. What a level 0 does not hold is tried with the triangles of level -1.
+   * @param numberOfThreads those of `threads`; 0: all
+   */
   LabelSurface Make(
     int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const;
+
+  /** With Gap: whether surfaces of neighbours must stay apart. */
+  bool KeepsApart() const { return this->Settings.Gap > 0.0; }
+  /**
+   * Has the next surfaces stay further inside where these touch each other, whose TouchingFaces it
+   * sets.
+   * @return the objects, from 1 on, for which that is so
+   */
+  std::vector<int> DrawApart(std::vector<LabelSurface>& surfaces, HostThreads& threads);
 
 private:
   /** A field and the image that shows its values. */
@@ -78,9 +95,22 @@ private:
   {
     return this->Settings.EdgeLength != 0.0 ? this->Plan.ReductionFactor : std::sqrt(3.0);
   }
-  FieldImage MakeField(int object, HostThreads& threads) const;
-  SegmentationVolume MakeVolume(vtkImageData* field, const Progress& progress) const;
-  std::vector<std::int64_t> FindWrong(int object, vtkPolyData* surface) const;
+  /** The finest level, as planned with EdgeLength. */
+  int FinestLevel() const
+  {
+    return this->Settings.EdgeLength != 0.0 ? this->Plan.FinestLevel : this->Settings.FinestLevel;
+  }
+  /** Half of the gap, in smallest distances of voxels. */
+  double HalfGap() const;
+  LabelSurface MakeAt(int level, int object, int numberOfThreads, HostThreads& threads,
+    const Progress& progress) const;
+  /** Whether a level finer than the image may hold what this surface leaves out. */
+  bool LosesParts(int object, const LabelSurface& made) const;
+  FieldImage MakeField(int level, int object, HostThreads& threads) const;
+  SegmentationVolume MakeVolume(
+    int level, vtkImageData* field, const Progress& progress) const;
+  /** In coordinates in which voxel (i, j, k) of the map is at (i, j, k). */
+  IndexedSurface InVoxels(vtkPolyData* surface) const;
   /**
    * Changes the field where the surface that follows it should be elsewhere.
    * @param surface in coordinates of the voxels of the map
@@ -96,6 +126,8 @@ private:
   LabelFieldOptions Options;
   EdgeLengthPlan Plan; ///< with EdgeLength
   LabelClaims Claims;
+  /** Of each object the voxels at which its field is lowered, as often as they are named. */
+  std::vector<std::vector<std::array<int, 3>>> Lowered;
 };
 }
 

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <numeric>
@@ -21,6 +22,9 @@ namespace
 {
 /** How often the calling thread tells progress while others work. */
 constexpr std::chrono::milliseconds Pause(50);
+
+/** With Gap: how often surfaces that touch those of neighbours are made again, further inside. */
+constexpr int MostRoundsApart = 5;
 
 /** What is done of all objects. */
 class Course
@@ -172,6 +176,7 @@ std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const Labe
   }
 
   std::vector<LabelSurface> surfaces(sizes.size());
+  std::vector<std::uint8_t> isDue(sizes.size(), 1);
   Course course(sizes);
   constexpr double claimShare = 0.1;
   double before = 0.0;
@@ -230,21 +235,48 @@ std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const Labe
     }
   }
   const std::thread::id caller = std::this_thread::get_id();
-  doAll("Surfaces of the labels",
-    [&](std::size_t item, int number, HostThreads& own)
-    {
-      if (course.IsStopped)
+  const auto makeDue = [&](const std::string& text)
+  {
+    doAll(text,
+      [&](std::size_t item, int number, HostThreads& own)
       {
-        return;
-      }
-      surfaces[item] = maker.Make(static_cast<int>(item) + 1, number, own,
-        [&, item](double share, const std::string&)
+        if (course.IsStopped || isDue[item] == 0)
         {
-          const bool goesOn = course.Tell(item, share);
-          return std::this_thread::get_id() == caller ? tell("Surfaces of the labels") : goesOn;
-        });
-      course.Tell(item, 1.0);
-    });
+          return;
+        }
+        const LabelSurface made = maker.Make(static_cast<int>(item) + 1, number, own,
+          [&, item](double share, const std::string&)
+          {
+            const bool goesOn = course.Tell(item, share);
+            return std::this_thread::get_id() == caller ? tell(text) : goesOn;
+          });
+        if (made.Surface) // else it was stopped, and what there is stays
+        {
+          surfaces[item] = made;
+        }
+        course.Tell(item, 1.0);
+      });
+  };
+  const double afterwards = maker.KeepsApart() ? 0.3 * whole : 0.0;
+  whole -= afterwards;
+  makeDue("Surfaces of the labels");
+  for (int round = 0; maker.KeepsApart() && !course.IsStopped; ++round)
+  {
+    before += whole;
+    whole = round == 0 ? 0.5 * afterwards : 0.5 * whole;
+    const std::vector<int> touching = maker.DrawApart(surfaces, threads);
+    if (touching.empty() || round == MostRoundsApart)
+    {
+      break;
+    }
+    std::fill(isDue.begin(), isDue.end(), std::uint8_t(0));
+    for (const int object : touching)
+    {
+      isDue[static_cast<std::size_t>(object) - 1] = 1;
+      course.Tell(static_cast<std::size_t>(object) - 1, 0.0);
+    }
+    makeDue("Drawing neighbours apart");
+  }
   return surfaces;
 }
 }

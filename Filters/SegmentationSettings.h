@@ -75,6 +75,7 @@ struct SegmentationSettings
   InitializationType Initialization = InitializationType::EnclosingIcosahedron;
   std::vector<Point> SeedPositions; ///< world, beside those of input port 1
   int CoarsestLevel = -1;           ///< -1: the last that serves
+  bool BeginsBelowImage = false;    ///< at level -1, whatever CoarsestLevel is; FinestLevel is -1
   std::vector<Point> AttractingPositions; ///< world, beside those of input port 2
   RecoveryType Recovery = RecoveryType::RecoverObjects;
   KeepComponentsType KeepComponents = KeepComponentsType::AllComponents;

@@ -16,6 +16,7 @@
 #include "PrefixErrors.h"
 #include "VersionCompatibility.h"
 #include "WholeInput.h"
+#include "Workspace.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -203,7 +204,6 @@ int vtkLabelsToSurfaces::RequestUpdateExtent(
 void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSet* output)
 {
   const vtkInternals& internals = *this->Internals;
-  internals.Settings.Check();
   this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
   const auto show = [this](double share, const std::string& text)
   {
@@ -226,10 +226,10 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
       choice.Names = internals.Names;
       choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));
       choice.IsMerged = internals.Merge;
-      choice.AllIsKept = internals.Settings.KeepComponents == 0 && internals.Settings.Gap == 0.0 &&
-        internals.Settings.FinestLevel <= 0 && internals.Settings.EdgeLength == 0.0;
       return 0;
     });
+  internals.Settings.Check(
+    volumic::Workspace(image->Image(), volumic::Metric::World).WorldUnit());
   if (!image->Warning().empty())
   {
     vtkWarningMacro("Input port 0: " << image->Warning());
@@ -245,7 +245,7 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
   const int wanted = internals.Merge ? 1 : static_cast<int>(choice.Labels.size());
   const std::vector<volumic::LabelSurface> surfaces =
     volumic::MakeLabelSurfaces(maker, *bricks, wanted, internals.NumberOfThreads, threads, show);
-  const std::string warning = volumic::FillBlocks(choice, *image, surfaces, output);
+  const std::string warning = volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);

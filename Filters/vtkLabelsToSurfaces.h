@@ -21,8 +21,9 @@
  * @par Output:
  * A vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order of the labels' values,
  * named by the label's name, or `Label 3`; with Merge one block, named `Labels 1, 3`, or `Label 3`.
- * A label that asks for more than the triangles can hold, such as a single voxel, has an empty
- * block, and a warning tells which; and of which more voxels than half are on the wrong side. World
+ * A label that asks for more than the triangles can hold has an empty block, and a warning tells
+ * which; and of which more voxels than half are on the wrong side, and, with Gap, of which triangles
+ * touch those of neighbours all the same. World
  * coordinates; arrays and field data of each block as vtkDeformableSurface has them, and:
  * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
  * - field data: with an entry for the label, with Merge for each that was merged, `Label` (int),
@@ -40,7 +41,8 @@
  * most is taken off, so that fields of two labels are never both positive: also what labels claim
  * that are not among Labels, so that a label has the same surface whichever others are made. The
  * surface starts as the field's iso-surface at FinestLevel, so that no part is lost by coarser
- * levels.
+ * levels. What level 0 does not hold, a label or eight voxels of it or more that stick out, makes
+ * level -1 do this label, where nothing else is asked for; its field data `Level` tells.
  * @par
  * Only the voxels about a label are worked on. Labels are made side by side by the threads; results
  * do not depend on their number.
@@ -124,8 +126,10 @@ public:
   ///@{
   /**
    * Space between the surfaces of neighbouring labels, world units: each is drawn back by half of
-   * it, also from the background. Default: 0: they touch, and may overlap by what their triangles
-   * cut off differently.
+   * it, also from the background. At most eight times the smallest distance of voxels. All surfaces
+   * are tested against their neighbours, exactly; those that touch are made again, further inside
+   * there, up to five times. Default: 0: they touch, and may overlap by what their triangles cut off
+   * differently.
    */
   void SetGap(double gap);
   double GetGap();
@@ -148,7 +152,8 @@ public:
   ///@{
   /**
    * As vtkDeformableSurface: 0, the default: triangles as large as voxels; 1, 2, ...: each sqrt(3)
-   * times larger; -1: smaller, for what is a voxel thin.
+   * times larger; -1: sqrt(3) times smaller, from the start: for what is a voxel thin. With 0 a
+   * label that loses more than single voxels gets these, too.
    */
   void SetFinestLevel(int level);
   int GetFinestLevel();

@@ -32,6 +32,7 @@ set(volumic_core_sources
   Labels/LabelClaims.cxx
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
+  Labels/TouchingSurfaces.cxx
   Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
@@ -146,6 +147,7 @@ set(volumic_core_headers
   Labels/LabelField.h
   Labels/LabelHold.h
   Labels/LabelMap.h
+  Labels/TouchingSurfaces.h
   Labels/WrongVoxels.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h

@@ -287,3 +287,49 @@ TEST(LabelClaims, SettledFieldsAreNeverPositiveTogether)
   }
   EXPECT_LE(mostTogether(), 0.02);
 }
+
+namespace
+{
+/** Where between the centres of a voxel inside and one outside the field is 0. */
+double CrossingOf(float inside, float outside)
+{
+  return inside / (static_cast<double>(inside) - outside);
+}
+}
+
+TEST(LabelFieldOfThinParts, RodsAndVoxelsKeepTheirWidth)
+{
+  const LabelMap rod = MakeLabelMap({ 32, 24, 24 }, 1,
+    [](int i, int j, int k) { return i > 5 && i < 26 && j == 12 && k == 12 ? 1 : 0; });
+  const LabelField field = FieldOf(rod, 1);
+  const LabelMap voxel = MakeLabelMap({ 24, 24, 24 }, 1,
+    [](int i, int j, int k) { return i == 12 && j == 12 && k == 12 ? 1 : 0; });
+  const LabelField small = FieldOf(voxel, 1);
+  const float middle = ValueAt(field, 16, 12, 12);
+  for (const int side : { -1, 1 })
+  {
+    EXPECT_NEAR(CrossingOf(middle, ValueAt(field, 16, 12 + side, 12)), 0.5, 0.12);
+    EXPECT_NEAR(CrossingOf(middle, ValueAt(field, 16, 12, 12 + side)), 0.5, 0.12);
+    EXPECT_NEAR(
+      CrossingOf(ValueAt(small, 12, 12, 12), ValueAt(small, 12 + side, 12, 12)), 0.6, 0.12);
+  }
+}
+
+TEST(LabelFieldOfThinParts, SlitsKeepTheirsToo)
+{
+  const auto isRod = [](int i, int j, int k)
+  { return i > 5 && i < 26 && (j == 12 || j == 13) && k == 12; };
+  const LabelMap map = MakeLabelMap(
+    { 32, 26, 24 }, 2, [&](int i, int j, int k) { return isRod(i, j, k) ? 1 : 2; });
+  const LabelField rod = FieldOf(map, 1);
+  const LabelField others = FieldOf(map, 2);
+  EXPECT_EQ(CountWrongSigns(map, 1, rod), 0);
+  EXPECT_EQ(CountWrongSigns(map, 2, others), 0);
+  for (int j = 9; j < 17; ++j)
+  {
+    for (int k = 9; k < 16; ++k)
+    {
+      EXPECT_NEAR(ValueAt(rod, 16, j, k), -ValueAt(others, 16, j, k), 0.05) << j << ", " << k;
+    }
+  }
+}

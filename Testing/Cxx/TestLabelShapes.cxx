@@ -3,15 +3,10 @@
 
 // What vtkLabelsToSurfaces promises, on shapes that are known by formula, by the judge that shares
 // no code with it.
-#include "LabelJudge.h"
-#include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
-#include "vtkLabelsToSurfaces.h"
+#include "JudgedLabels.h"
 
 #include <vtkCellData.h>
-#include <vtkFieldData.h>
 #include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -29,43 +24,6 @@ using namespace volumic::support;
 
 namespace
 {
-using Filter = vtkSmartPointer<vtkLabelsToSurfaces>;
-
-Filter FilterOf(vtkDataObject* image)
-{
-  auto filter = Filter::New();
-  filter->SetInputDataObject(image);
-  return filter;
-}
-
-vtkPolyData* BlockOf(vtkLabelsToSurfaces* filter, unsigned int block = 0)
-{
-  filter->Update();
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
-  return vtkPolyData::SafeDownCast(blocks->GetBlock(block));
-}
-
-double FieldOf(vtkPolyData* surface, const char* name)
-{
-  return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
-}
-
-/** Q1 to Q3 in world units; of Q3's .97 for the mean radius ratio .95 is asked for here. */
-void ExpectGoodTriangles(vtkPolyData* block, double quantile01 = 0.8)
-{
-  const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
-  EXPECT_TRUE(verdict.Topology.Closed);
-  EXPECT_TRUE(verdict.Topology.Manifold);
-  EXPECT_TRUE(verdict.Topology.Outward);
-  EXPECT_EQ(verdict.Topology.UnusedPoints, 0u);
-  EXPECT_EQ(verdict.Intersections.Pairs, 0u);
-  EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u);
-  EXPECT_EQ(verdict.Lengths.ShareOutside, 0.0) << Describe(verdict);
-  EXPECT_GT(verdict.Shapes.Least, 0.5) << Describe(verdict);
-  EXPECT_GT(verdict.Shapes.Quantile01, quantile01) << Describe(verdict);
-  EXPECT_GT(verdict.Shapes.Mean, 0.95) << Describe(verdict);
-}
-
 /** How well shapes are found; lengths in smallest distances of voxels. */
 struct Promise
 {
@@ -135,55 +93,6 @@ INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
     return LabelShapeName(info.param.Kind) + std::to_string(info.param.Size) +
       (info.param.Stretch > 1.0 ? "Stretched" : "");
   });
-
-//------------------------------------------------------------------------------
-TEST(LabelNeighbours, HardlyOverlap)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  double sum = 0.0, count = 0.0;
-  for (unsigned int a = 0; a < 4; ++a)
-  {
-    for (unsigned int b = a + 1; b < 4; ++b)
-    {
-      const OverlapVerdict verdict = JudgeOverlap(
-        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
-      sum += verdict.MeanDepth * static_cast<double>(verdict.VerticesInside);
-      count += static_cast<double>(verdict.VerticesInside);
-    }
-  }
-  ASSERT_GT(count, 100.0); // they are in contact
-  EXPECT_LT(sum / count, 0.05);
-}
-
-TEST(LabelNeighbours, AreApartWithAGap)
-{
-  DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
-  shapes.Map.Spacing = { 0.4, 0.4, 0.4 }; // Gap is one of world units
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  filter->SetGap(0.3 * 0.4);
-  for (unsigned int a = 0; a < 4; ++a)
-  {
-    ExpectGoodTriangles(BlockOf(filter, a));
-    for (unsigned int b = a + 1; b < 4; ++b)
-    {
-      const OverlapVerdict verdict = JudgeOverlap(
-        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
-      EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
-      EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
-    }
-  }
-}
-
-TEST(LabelNeighbours, AreDrawnBackByHalfTheGap)
-{
-  DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 64);
-  shapes.Map.Spacing = { 0.4, 0.4, 0.4 };
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  const double before = FieldOf(BlockOf(filter), "Volume");
-  filter->SetGap(0.4);
-  EXPECT_NEAR(FieldOf(BlockOf(filter), "Volume") / before, std::pow(19.5 / 20.0, 3.0), 0.004);
-}
 
 //------------------------------------------------------------------------------
 TEST(LabelGeometry, DoesNotMatter)

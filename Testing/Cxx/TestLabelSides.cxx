@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Labels/DrawBack.h"
+#include "Core/Labels/TouchingSurfaces.h"
 #include "Core/Labels/WrongVoxels.h"
 #include "LabelTestTools.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 using namespace volumic;
@@ -131,4 +135,89 @@ TEST(CorrectBends, LetsBentBoundariesGoOut)
     });
   // The Laplacian of the distance to a sphere is 2 over its radius.
   EXPECT_NEAR(sum / count, 0.8 * 2. / 9., 0.05);
+}
+
+TEST(SizeOfLargestLostPart, CountsVoxelsThatShareFacesButNotThoseBesideWhatIsKept)
+{
+  // A block with a rod of 7 voxels on it, a row of 3 around a corner, and one beside that by an edge.
+  const auto isObject = [](int i, int j, int k)
+  {
+    const bool isRod = i >= 4 && i < 11 && j == 3 && k == 3;
+    const bool isRow = k == 8 && ((j == 3 && (i == 6 || i == 7)) || (j == 4 && i == 7));
+    return i < 4 || isRod || isRow || (i == 8 && j == 5 && k == 8);
+  };
+  const LabelMap map = MakeLabelMap({ 12, 12, 12 }, 2,
+    [&](int i, int j, int k) { return isObject(i, j, k) ? 1 : i == 11 ? 2 : 0; });
+  const auto lost = [&](const std::function<bool(int, int, int)>& isWrong)
+  {
+    std::vector<std::int64_t> wrong;
+    for (int v = 0; v < 12 * 12 * 12; ++v)
+    {
+      if (isWrong(v % 12, v / 12 % 12, v / 144))
+      {
+        wrong.push_back(v);
+      }
+    }
+    return SizeOfLargestLostPart(map, 1, wrong);
+  };
+  EXPECT_EQ(lost([](int, int, int) { return false; }), 0);
+  EXPECT_EQ(lost([](int i, int, int) { return i == 11; }), 0) << "another object's, inside";
+  EXPECT_EQ(lost([](int i, int, int) { return i > 3; }), 6) << "but for the voxel on the block";
+  EXPECT_EQ(lost([](int i, int, int k) { return i > 3 && k == 8; }), 3);
+  EXPECT_EQ(lost([](int i, int j, int) { return i == 3 && j == 3; }), 0) << "a ridge";
+}
+
+namespace
+{
+/** About (x, 10, 10). */
+IndexedSurface OctahedronAt(double x, double radius)
+{
+  IndexedSurface made;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double side : { -radius, radius })
+    {
+      Point p = { x, 10., 10. };
+      p[axis] += side;
+      made.Points.push_back(p);
+    }
+  }
+  made.Triangles = { { 1, 3, 5 }, { 3, 0, 5 }, { 0, 2, 5 }, { 2, 1, 5 }, { 3, 1, 4 }, { 0, 3, 4 },
+    { 2, 0, 4 }, { 1, 2, 4 } };
+  return made;
+}
+}
+
+TEST(FindTouching, NamesTheTrianglesOfBothThatMeet)
+{
+  const std::vector<std::vector<int>> touching =
+    FindTouching({ OctahedronAt(5., 3.), OctahedronAt(10.5, 3.), OctahedronAt(30., 3.) }, OnThisThread());
+  ASSERT_EQ(touching.size(), 3u);
+  EXPECT_EQ(touching[0], (std::vector<int>{ 0, 3, 4, 7 })) << "all about the corner at larger x";
+  EXPECT_EQ(touching[1], (std::vector<int>{ 1, 2, 5, 6 }));
+  EXPECT_TRUE(touching[2].empty());
+}
+
+TEST(FindTouching, TouchingInAPointCountsAndANestedOneDoesNot)
+{
+  const auto meet = [](const IndexedSurface& a, const IndexedSurface& b)
+  { return !FindTouching({ a, b }, OnThisThread())[0].empty(); };
+  EXPECT_TRUE(meet(OctahedronAt(5., 3.), OctahedronAt(11., 3.)));
+  EXPECT_FALSE(meet(OctahedronAt(5., 3.), OctahedronAt(11.01, 3.)));
+  EXPECT_FALSE(meet(OctahedronAt(5., 3.), OctahedronAt(5., 1.))) << "inside, but not in contact";
+  EXPECT_FALSE(meet(OctahedronAt(5., 3.), IndexedSurface()));
+}
+
+TEST(VoxelsAbout, AreThoseAboutTheTriangles)
+{
+  const IndexedSurface octahedron = OctahedronAt(5.5, 3.);
+  EXPECT_TRUE(VoxelsAbout(octahedron, {}).empty());
+  const std::vector<std::array<int, 3>> voxels = VoxelsAbout(octahedron, { 0 });
+  EXPECT_TRUE(std::is_sorted(voxels.begin(), voxels.end()));
+  EXPECT_EQ(std::adjacent_find(voxels.begin(), voxels.end()), voxels.end());
+  const auto has = [&](int i, int j, int k)
+  { return std::count(voxels.begin(), voxels.end(), std::array<int, 3>{ i, j, k }) == 1; };
+  EXPECT_TRUE(has(8, 10, 10) && has(9, 10, 10)) << "about its corner (8.5, 10, 10)";
+  EXPECT_TRUE(has(5, 13, 10) && has(5, 10, 13));
+  EXPECT_FALSE(has(3, 10, 10));
 }

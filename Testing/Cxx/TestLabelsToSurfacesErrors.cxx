@@ -152,6 +152,8 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   this->Filter->SetSmoothing(2.);
   this->Filter->SetGap(-0.5);
   this->ExpectError({ "Gap is -0.5" });
+  this->Filter->SetGap(8.01);
+  this->ExpectError({ "Gap is 8.01", "at most 8" });
   this->Filter->SetGap(0.);
   this->Filter->SetMetric(2);
   this->ExpectError({ "Metric is 2" });
@@ -222,10 +224,52 @@ TEST_F(LabelsToSurfacesErrors, LabelsOfDustAreNamed)
     return isDust || isSolid ? 9. : TwoBalls(i, j, k);
   };
   this->Filter->SetInputData(LabelImageOf(34, 28, 28, dust));
+  this->Filter->SetFinestLevel(1); // of level 0, and below, voxels that are alone have surfaces
   const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
   this->Filter->Update();
-  EXPECT_GT(BlockOf(this->Filter, 2)->GetNumberOfCells(), 20) << "of the solid part";
+  EXPECT_GT(BlockOf(this->Filter, 2)->GetNumberOfCells(), 10) << "of the solid part";
   EXPECT_TRUE(warnings.Has("More voxels than half are on the wrong side of the surface of Label 9"))
     << warnings.Get();
   EXPECT_FALSE(warnings.Has("Label 3")) << warnings.Get();
+}
+
+namespace
+{
+/** A row of voxels, label 1, and one that is alone, label 2. */
+double RowAndVoxel(int i, int j, int k)
+{
+  return i > 5 && i < 26 && j == 8 && k == 8 ? 1. : i == 16 && j == 16 && k == 16 ? 2. : 0.;
+}
+}
+
+TEST_F(LabelsToSurfacesErrors, WhatIsLostIsToldWithAnySettingsAndWithTheWayOut)
+{
+  this->Filter->SetInputData(LabelImageOf(32, 24, 24, RowAndVoxel));
+  const auto warned = [this]
+  {
+    const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+    this->Filter->Update();
+    return warnings.Get();
+  };
+  const auto has = [](const std::string& text, const char* part)
+  { return text.find(part) != std::string::npos; };
+  EXPECT_EQ(warned(), "");
+  this->Filter->SetFinestLevel(1);
+  std::string warning = warned();
+  EXPECT_TRUE(has(warning, "No surface is left of Label 1, Label 2")) << warning;
+  EXPECT_TRUE(has(warning, "A lower Finest Level")) << warning;
+  this->Filter->SetFinestLevel(0);
+  this->Filter->SetEdgeLength(3.);
+  warning = warned();
+  EXPECT_TRUE(has(warning, "A shorter Edge Length")) << warning;
+  this->Filter->SetEdgeLength(0.);
+  this->Filter->SetGap(2.);
+  warning = warned();
+  EXPECT_TRUE(has(warning, "taken away by Gap")) << warning;
+  EXPECT_FALSE(has(warning, "Finest Level")) << "it does not help: " << warning;
+  this->Filter->SetGap(0.);
+  this->Filter->SetKeepComponents(3);
+  this->Filter->SetMinimumComponentVolume(1000.);
+  warning = warned();
+  EXPECT_TRUE(has(warning, "left out by Keep Components")) << warning;
 }

@@ -52,6 +52,37 @@ struct Neighbourhood
     }
   }
 };
+
+/** Calls visit(place) for places all over a triangle. */
+template <typename Visit>
+void ForPlacesOn(const IndexedSurface& surface, const Triangle& t, Visit&& visit)
+{
+  for (int i = 0; i <= Steps; ++i)
+  {
+    for (int j = 0; j <= Steps - i; ++j)
+    {
+      const std::array<double, 3> weights = { i / static_cast<double>(Steps),
+        j / static_cast<double>(Steps), (Steps - i - j) / static_cast<double>(Steps) };
+      Point place = { 0., 0., 0. };
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const Point& p = surface.Points[static_cast<std::size_t>(t[corner])];
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          place[axis] += weights[corner] * p[axis];
+        }
+      }
+      visit(place);
+    }
+  }
+}
+
+template <typename T>
+void SortUnique(std::vector<T>& values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
 }
 
 bool DrawBackWithin(
@@ -60,35 +91,45 @@ bool DrawBackWithin(
   std::vector<std::int64_t> lowered;
   for (const Triangle& t : surface.Triangles)
   {
-    for (int i = 0; i <= Steps; ++i)
-    {
-      for (int j = 0; j <= Steps - i; ++j)
+    ForPlacesOn(surface, t,
+      [&](const Point& place)
       {
-        const std::array<double, 3> weights = { i / static_cast<double>(Steps),
-          j / static_cast<double>(Steps), (Steps - i - j) / static_cast<double>(Steps) };
-        Point place = { 0., 0., 0. };
-        for (int corner = 0; corner < 3; ++corner)
-        {
-          const Point& p = surface.Points[static_cast<std::size_t>(t[corner])];
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            place[axis] += weights[corner] * p[axis];
-          }
-        }
         const Neighbourhood about(original, place);
         if (about.Value < LeastInside)
         {
           lowered.insert(lowered.end(), about.Voxels.begin(), about.Voxels.end());
         }
-      }
-    }
+      });
   }
-  std::sort(lowered.begin(), lowered.end());
-  lowered.erase(std::unique(lowered.begin(), lowered.end()), lowered.end());
+  SortUnique(lowered);
   for (const std::int64_t voxel : lowered)
   {
     field.Values[static_cast<std::size_t>(voxel)] -= by;
   }
   return !lowered.empty();
+}
+
+std::vector<std::array<int, 3>> VoxelsAbout(
+  const IndexedSurface& surface, const std::vector<int>& triangles)
+{
+  std::vector<std::array<int, 3>> voxels;
+  for (const int t : triangles)
+  {
+    ForPlacesOn(surface, surface.Triangles[static_cast<std::size_t>(t)],
+      [&](const Point& place)
+      {
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          std::array<int, 3> at;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            at[axis] = static_cast<int>(std::floor(place[axis])) + (corner >> axis & 1);
+          }
+          voxels.push_back(at);
+        }
+      });
+  }
+  SortUnique(voxels);
+  return voxels;
 }
 }

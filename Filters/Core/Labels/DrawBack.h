@@ -6,6 +6,9 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Labels/LabelField.h"
 
+#include <array>
+#include <vector>
+
 namespace volumic
 {
 /**
@@ -21,6 +24,10 @@ namespace volumic
  */
 bool DrawBackWithin(
   const LabelField& original, const IndexedSurface& surface, float by, LabelField& field);
+
+/** The same for triangles that touch a neighbour: the voxels that are to be lowered, sorted. */
+std::vector<std::array<int, 3>> VoxelsAbout(
+  const IndexedSurface& surface, const std::vector<int>& triangles);
 }
 
 #endif

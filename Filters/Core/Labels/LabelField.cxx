@@ -274,13 +274,22 @@ private:
   }
 
   /** Whether one of the other side beside it is: it must not take all of the way between. */
-  bool IsBesideThin(int i, int j, int k) const
+  bool IsBesideThin(int i, int j, int k) const { return this->WayToThin(i, j, k) > 0.; }
+
+  /** To the nearest of the other side beside it that is thin; 0: there is none. */
+  double WayToThin(int i, int j, int k) const
   {
     const bool side = this->IsObject(i, j, k);
     const auto isThinOther = [&](int a, int b, int c)
     { return this->IsObject(a, b, c) != side && this->IsThin(a, b, c); };
-    return isThinOther(i - 1, j, k) || isThinOther(i + 1, j, k) || isThinOther(i, j - 1, k) ||
-      isThinOther(i, j + 1, k) || isThinOther(i, j, k - 1) || isThinOther(i, j, k + 1);
+    const std::array<double, 3>& way = this->Map.Spacing;
+    double least = 0.;
+    const auto take = [&least](bool isThere, double length)
+    { least = isThere && (least == 0. || length < least) ? length : least; };
+    take(isThinOther(i - 1, j, k) || isThinOther(i + 1, j, k), way[0]);
+    take(isThinOther(i, j - 1, k) || isThinOther(i, j + 1, k), way[1]);
+    take(isThinOther(i, j, k - 1) || isThinOther(i, j, k + 1), way[2]);
+    return least;
   }
 
   double MarginAt(int i, int j, int k) const
@@ -311,6 +320,15 @@ private:
     for (int x = 0; x < count; ++x)
     {
       const float side = this->SideOf(i + x, j, k);
+      if (side * values[x] > 1.f && !this->IsThin(i + x, j, k))
+      {
+        const double way = this->WayToThin(i + x, j, k);
+        if (way > 0. && side * values[x] > way)
+        {
+          constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
+            static_cast<float>(-this->Options.MostBesideThin * way) });
+        }
+      }
       if (side * values[x] >= MostWrong)
       {
         continue;

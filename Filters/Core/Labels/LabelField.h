@@ -28,6 +28,12 @@ struct LabelFieldOptions
   /** and for these: with less a part that is a voxel thin gets the thickness of two. */
   double MarginBesideThin = 0.25;
   /**
+   * What the same are held to, as a share of the way to the thin one, where the field has them
+   * further outside than that is: the Gaussian leaves a rod, or a single voxel, a fraction of its
+   * width.
+   */
+  double MostBesideThin = 0.35;
+  /**
    * How much of its Laplacian is taken off the distance: triangles whose corners are on a bent
    * surface cut off e^2 / 16 of it in the mean, e being the length of their edges.
    */

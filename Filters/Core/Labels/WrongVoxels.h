@@ -18,6 +18,14 @@ namespace volumic
  */
 std::vector<std::int64_t> FindWrongVoxels(
   const LabelBricks& bricks, int object, const IndexedSurface& surface);
+
+/**
+ * Voxels of the largest part of an object, joined by faces, that its surface has left out. Those
+ * beside a voxel that it has inside don't count: what is cut off along a ridge is no part.
+ * @param wrong what FindWrongVoxels() has found
+ */
+std::int64_t SizeOfLargestLostPart(
+  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong);
 }
 
 #endif

@@ -78,22 +78,32 @@ private:
   Point Low;
   Point High;
 };
+
+double LargestCoordinate(const IndexedSurface& surface)
+{
+  double largest = 0.;
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (const int corner : t)
+    {
+      const Point& p = surface.Points[corner];
+      largest = std::max({ largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
+    }
+  }
+  return largest;
+}
 }
 
 int CountSelfIntersections(const IndexedSurface& surface, int limit, IntersectionWork* work)
 {
   const int count = static_cast<int>(surface.Triangles.size());
   double sum = 0.;
-  double extent = 0.;
   for (int i = 0; i < count; ++i)
   {
     const MeshTriangle triangle = RoundedTriangle(surface, i);
     sum += Length(triangle.Corner[1] - triangle.Corner[0]);
-    for (const VectorD& p : triangle.Corner)
-    {
-      extent = std::max({ extent, std::abs(p.X), std::abs(p.Y), std::abs(p.Z) });
-    }
   }
+  const double extent = LargestCoordinate(surface);
   const double meanEdge = sum / std::max(count, 1);
   const double tolerance = std::max(ToleranceOfEdges * meanEdge, ToleranceOfExtent * extent);
   const double margin = tolerance + RoundingOfExtent * extent;
@@ -124,6 +134,36 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
         }
         return limit == 0 || found < limit;
       });
+  }
+  return found;
+}
+
+std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSurface& other,
+  const TriangleTree& tree, double tolerance)
+{
+  const double margin = tolerance +
+    RoundingOfExtent * std::max(LargestCoordinate(surface), LargestCoordinate(other));
+  std::vector<int> found;
+  for (int i = 0; i < static_cast<int>(surface.Triangles.size()); ++i)
+  {
+    const MeshTriangle triangle = RoundedTriangle(surface, i);
+    const CandidateBox box(triangle, margin);
+    bool isFound = false;
+    tree.Traverse([&](const TriangleTree::Node& node) { return box.Reaches(node); },
+      [&](int j)
+      {
+        MeshTriangle candidate = RoundedTriangle(other, j);
+        for (int& vertex : candidate.Vertex)
+        {
+          vertex = -1 - vertex; // none of this surface's
+        }
+        isFound = TrianglesIntersect(triangle, candidate, tolerance);
+        return !isFound;
+      });
+    if (isFound)
+    {
+      found.push_back(i);
+    }
   }
   return found;
 }

@@ -5,8 +5,12 @@
 
 #include "Core/Common/IndexedSurface.h"
 
+#include <vector>
+
 namespace volumic
 {
+class TriangleTree;
+
 /** What a search for intersections has looked at. */
 struct IntersectionWork
 {
@@ -21,6 +25,14 @@ struct IntersectionWork
  */
 int CountSelfIntersections(
   const IndexedSurface& surface, int limit = 0, IntersectionWork* work = nullptr);
+
+/**
+ * The triangles, from first to last, that another surface intersects, or comes nearer to than
+ * `tolerance`; points are rounded to float.
+ * @param tree of the other surface
+ */
+std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSurface& other,
+  const TriangleTree& tree, double tolerance);
 }
 
 #endif
