@@ -245,7 +245,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
   const int wanted = internals.Merge ? 1 : static_cast<int>(choice.Labels.size());
   const std::vector<volumic::LabelSurface> surfaces =
     volumic::MakeLabelSurfaces(maker, *bricks, wanted, internals.NumberOfThreads, threads, show);
-  const std::string warning = volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output);
+  const std::string warning =
+    volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);

@@ -398,15 +398,20 @@ class OptionsTest(LabelsTest):
         voxels = label_voxels()
         voxels[2, 2, 26] = 9
         volume = self.map_file("dot.vti", label_image(voxels))
-        process = self.run_tool(volume, self.path("o/"), "--labels", "1,9", "--report",
-                                self.path("r.json"))
+        # Level 0 loses it, -1 does not.
+        process = self.run_tool(volume, self.path("h/"), "--labels", "1,9")
+        self.assertNotIn("warning", process.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("h"))), ["label-1.vtp", "label-9.vtp"])
+        process = self.run_tool(volume, self.path("o/"), "--labels", "1,9", "--finest", "1",
+                                "--report", self.path("r.json"))
         self.assertRegex(process.stderr, "warning: .*Label 9")
         self.assertEqual(os.listdir(self.path("o")), ["label-1.vtp"])
         report = json.loads(self.content("r.json"))
         row = [row for row in report["labels"] if row["label"] == 9][0]
         self.assertEqual((row["triangles"], row["files"], row["voxels"]), (0, [], 1))
         self.assertIn("Label 9", report["warnings"][0])
-        self.refused("none of the labels has a surface", volume, self.path("p/"), "--labels", "9")
+        self.refused("none of the labels has a surface", volume, self.path("p/"), "--labels", "9",
+                     "--finest", "1")
         self.assertFalse(os.path.exists(self.path("p")))
 
     @unittest.skipUnless(os.environ.get("VOLUMIC_MPIRUN"), "no mpirun")

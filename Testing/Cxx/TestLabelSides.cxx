@@ -139,7 +139,7 @@ TEST(CorrectBends, LetsBentBoundariesGoOut)
 
 TEST(SizeOfLargestLostPart, CountsVoxelsThatShareFacesButNotThoseBesideWhatIsKept)
 {
-  // A block with a rod of 7 voxels on it, a row of 3 around a corner, and one beside that by an edge.
+  // A block with a rod of 7 voxels on it, a row of 3 around a corner, and one by an edge of that.
   const auto isObject = [](int i, int j, int k)
   {
     const bool isRod = i >= 4 && i < 11 && j == 3 && k == 3;
@@ -190,8 +190,8 @@ IndexedSurface OctahedronAt(double x, double radius)
 
 TEST(FindTouching, NamesTheTrianglesOfBothThatMeet)
 {
-  const std::vector<std::vector<int>> touching =
-    FindTouching({ OctahedronAt(5., 3.), OctahedronAt(10.5, 3.), OctahedronAt(30., 3.) }, OnThisThread());
+  const std::vector<std::vector<int>> touching = FindTouching(
+    { OctahedronAt(5., 3.), OctahedronAt(10.5, 3.), OctahedronAt(30., 3.) }, OnThisThread());
   ASSERT_EQ(touching.size(), 3u);
   EXPECT_EQ(touching[0], (std::vector<int>{ 0, 3, 4, 7 })) << "all about the corner at larger x";
   EXPECT_EQ(touching[1], (std::vector<int>{ 1, 2, 5, 6 }));

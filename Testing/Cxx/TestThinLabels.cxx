@@ -32,16 +32,17 @@ LabelMap MapOf(int size, const std::function<bool(int, int, int)>& isLabel)
 std::vector<std::pair<std::string, LabelMap>> ThinLabels()
 {
   const auto along = [](int i) { return i >= 6 && i < 26; };
-  return { { "row", MapOf(32, [&](int i, int j, int k) { return along(i) && j == 16 && k == 16; }) },
-    { "row of pairs",
-      MapOf(32, [&](int i, int j, int k) { return along(i) && j == 16 && (k == 16 || k == 17); }) },
-    { "diagonal of voxels", MapOf(32, [&](int i, int j, int k) { return along(i) && i == j && i == k; }) },
-    { "stair",
-      MapOf(32, [&](int i, int j, int k)
-        { return along(i) && ((i == j && (i == k || i + 1 == k)) || (i + 1 == j && i + 1 == k)); }) },
-    { "plate", MapOf(32, [&](int i, int j, int k) { return along(i) && along(j) && k == 16; }) },
-    { "two voxels", MapOf(32, [](int i, int j, int k)
-        { return (i == 16 || i == 17) && j == 16 && k == 16; }) } };
+  const auto isRow = [&](int i, int j, int k) { return along(i) && j == 16 && k == 16; };
+  const auto isPairs = [&](int i, int j, int k)
+  { return along(i) && j == 16 && (k == 16 || k == 17); };
+  const auto isDiagonal = [&](int i, int j, int k) { return along(i) && i == j && i == k; };
+  const auto isStair = [&](int i, int j, int k)
+  { return along(i) && ((i == j && (i == k || i + 1 == k)) || (i + 1 == j && i + 1 == k)); };
+  const auto isPlate = [&](int i, int j, int k) { return along(i) && along(j) && k == 16; };
+  const auto isTwo = [](int i, int j, int k) { return (i == 16 || i == 17) && j == 16 && k == 16; };
+  return { { "row", MapOf(32, isRow) }, { "row of pairs", MapOf(32, isPairs) },
+    { "diagonal of voxels", MapOf(32, isDiagonal) }, { "stair", MapOf(32, isStair) },
+    { "plate", MapOf(32, isPlate) }, { "two voxels", MapOf(32, isTwo) } };
 }
 } // namespace
 
