@@ -62,6 +62,9 @@ constexpr double ShareOfLongest = 0.625;
  */
 constexpr double BendPerLevel = 0.4;
 
+/** In smallest distances of voxels: fields of labels hold signs a voxel and a half from boundaries. */
+constexpr double MostTolerance = 1.0;
+
 /** Twice what fields reach, in smallest distances of voxels. */
 constexpr double MostGap = 2.0 * LabelField::Far;
 
@@ -164,6 +167,12 @@ void LabelSettings::Check(double unit) const
   {
     Refuse("Smoothing is ", this->Smoothing, " voxels; it must be at most 10.");
   }
+  CheckNumber("Voxel Tolerance", this->VoxelTolerance);
+  if (this->VoxelTolerance > MostTolerance)
+  {
+    Refuse("Voxel Tolerance is ", this->VoxelTolerance, " voxels; it must be at most ",
+      MostTolerance, ".");
+  }
   CheckNumber("Gap", this->Gap);
   if (this->Gap > MostGap * unit)
   {
@@ -200,6 +209,7 @@ LabelSurfaceMaker::LabelSurfaceMaker(
   const std::array<double, 3>& spacing = bricks.Map().Spacing;
   const double longest = *std::max_element(spacing.begin(), spacing.end());
   this->Options.Sigma = settings.Smoothing * std::max(1.0, ShareOfLongest * longest);
+  this->Options.Tolerance = settings.VoxelTolerance;
   if (settings.EdgeLength != 0.0)
   {
     // Fields get as much room as their levels need, whatever the size of the image.
@@ -336,6 +346,13 @@ IndexedSurface LabelSurfaceMaker::InVoxels(vtkPolyData* surface) const
   return indexed;
 }
 
+std::vector<std::int64_t> LabelSurfaceMaker::FindMissed(
+  int object, const IndexedSurface& surface) const
+{
+  return FindMissedVoxels(this->Bricks.Map(), FindWrongVoxels(this->Bricks, object, surface),
+    surface, this->Settings.VoxelTolerance);
+}
+
 bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface& surface,
   const LabelField& original, LabelField& field) const
 {
@@ -349,12 +366,12 @@ bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface&
     const float further = FurtherMargins[static_cast<std::size_t>(round)];
     const VoxelNumbers numbers(this->Bricks.Map().Size);
     std::vector<HeldVoxel> held;
-    for (const std::int64_t voxel : FindWrongVoxels(this->Bricks, object, surface))
+    for (const std::int64_t voxel : this->FindMissed(object, surface))
     {
       const std::array<int, 3> p = numbers.PlaceOf(voxel);
       if (halfGap == 0.0)
       {
-        held.push_back({ voxel, further });
+        held.push_back({ voxel, further - static_cast<float>(this->Settings.VoxelTolerance) });
       }
       else if (this->Bricks.Map().At(p[0], p[1], p[2]) == object)
       {
@@ -425,10 +442,10 @@ bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
   {
     return false;
   }
-  return SeverelyLost * made.WrongVoxels > this->Bricks.ExtentOf(object).Voxels ||
-    (this->Settings.Gap == 0.0 && made.WrongVoxels >= LostPartSize &&
+  return SeverelyLost * made.MissedVoxels > this->Bricks.ExtentOf(object).Voxels ||
+    (this->Settings.Gap == 0.0 && made.MissedVoxels >= LostPartSize &&
       SizeOfLargestLostPart(this->Bricks.Map(), object,
-        FindWrongVoxels(this->Bricks, object, this->InVoxels(made.Surface))) >= LostPartSize);
+        this->FindMissed(object, this->InVoxels(made.Surface))) >= LostPartSize);
 }
 
 LabelSurface LabelSurfaceMaker::Make(
@@ -447,7 +464,7 @@ LabelSurface LabelSurfaceMaker::Make(
       [&](double share, const std::string& text)
       { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
     // Null: it was stopped; what level 0 has is finished.
-    if (finer.Surface && finer.WrongVoxels < made.WrongVoxels)
+    if (finer.Surface && finer.MissedVoxels < made.MissedVoxels)
     {
       made = finer;
     }
@@ -467,7 +484,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(int level, int object, int numberOfThread
     return made;
   }
   const LabelExtent& extent = this->Bricks.ExtentOf(object);
-  made.WrongVoxels = extent.Voxels;
+  made.WrongVoxels = made.MissedVoxels = extent.Voxels;
   SegmentationRequest request;
   request.Progress = [&](double share, const std::string& text)
   { return progress(FieldShare + (1.0 - FieldShare) * share, text); };
@@ -509,8 +526,11 @@ LabelSurface LabelSurfaceMaker::MakeAt(int level, int object, int numberOfThread
     }
     ScaleResidual(surface, Workspace(this->Image, Metric::World).WorldUnit());
     made.Surface = surface;
-    made.WrongVoxels = static_cast<vtkIdType>(
-      FindWrongVoxels(this->Bricks, object, this->InVoxels(surface)).size());
+    const IndexedSurface inVoxels = this->InVoxels(surface);
+    const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, inVoxels);
+    made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
+    made.MissedVoxels = static_cast<vtkIdType>(
+      FindMissedVoxels(this->Bricks.Map(), wrong, inVoxels, this->Settings.VoxelTolerance).size());
   }
   catch (const std::invalid_argument&)
   {

@@ -26,6 +26,7 @@ namespace volumic
 struct LabelSettings
 {
   double Smoothing = 2.0; ///< smallest distances of voxels, or 5/8 of the longest
+  double VoxelTolerance = 0.0; ///< smallest distances of voxels
   double Gap = 0.0;       ///< world units
   int Metric = 1;
   double EdgeLength = 0.0;
@@ -45,6 +46,7 @@ struct LabelSurface
 {
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
   vtkIdType WrongVoxels = 0;
+  vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance
   vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
 };
 
@@ -109,6 +111,8 @@ private:
   FieldImage MakeField(int level, int object, HostThreads& threads) const;
   SegmentationVolume MakeVolume(
     int level, vtkImageData* field, const Progress& progress) const;
+  /** The wrong voxels that are further from the surface than VoxelTolerance. */
+  std::vector<std::int64_t> FindMissed(int object, const IndexedSurface& surface) const;
   /** In coordinates in which voxel (i, j, k) of the map is at (i, j, k). */
   IndexedSurface InVoxels(vtkPolyData* surface) const;
   /**

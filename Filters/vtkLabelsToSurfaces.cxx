@@ -81,6 +81,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
 VolumicLabelProperty(BackgroundLabel, int, BackgroundLabel)
 VolumicLabelProperty(Merge, bool, Merge)
 VolumicLabelProperty(Smoothing, double, Settings.Smoothing)
+VolumicLabelProperty(VoxelTolerance, double, Settings.VoxelTolerance)
 VolumicLabelProperty(Gap, double, Settings.Gap)
 VolumicLabelProperty(Metric, int, Settings.Metric)
 VolumicLabelProperty(EdgeLength, double, Settings.EdgeLength)
@@ -311,6 +312,7 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BackgroundLabel: " << this->GetBackgroundLabel() << endl;
   os << indent << "Merge: " << this->GetMerge() << endl;
   os << indent << "Smoothing: " << this->GetSmoothing() << endl;
+  os << indent << "VoxelTolerance: " << this->GetVoxelTolerance() << endl;
   os << indent << "Gap: " << this->GetGap() << endl;
   os << indent << "Metric: " << this->GetMetric() << endl;
   os << indent << "EdgeLength: " << this->GetEdgeLength() << endl;

@@ -125,6 +125,18 @@ public:
 
   ///@{
   /**
+   * How far the centre of a voxel may be on the wrong side of the surface, in smallest distances of
+   * voxels, at most 1. 0: none is, as far as triangles can: each voxel of a rough label sticks out.
+   * With .5 what is one voxel high or deep, as noise and the stairs of resampled maps, becomes
+   * smooth; volumes stay, and so does what is thin: a centre may be wrong only where the surface is
+   * so near. Default: 0.
+   */
+  void SetVoxelTolerance(double voxels);
+  double GetVoxelTolerance();
+  ///@}
+
+  ///@{
+  /**
    * Space between the surfaces of neighbouring labels, world units: each is drawn back by half of
    * it, also from the background. At most eight times the smallest distance of voxels. All surfaces
    * are tested against their neighbours, exactly; those that touch are made again, further inside

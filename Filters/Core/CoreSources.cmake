@@ -30,8 +30,10 @@ set(volumic_core_sources
   Labels/DrawBack.cxx
   Labels/LabelBricks.cxx
   Labels/LabelClaims.cxx
+  Labels/LabelDistance.cxx
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
+  Labels/LabelSides.cxx
   Labels/TouchingSurfaces.cxx
   Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx

@@ -148,6 +148,8 @@ std::map<std::string, Taker> Takers(LabelBenchmarkOptions& o)
   { o.Settings.FinestLevel = ToInteger(name, text, -8); };
   takers["--smoothing"] = [&o](const auto& name, const auto& text)
   { o.Settings.Smoothing = ToNumber(name, text); };
+  takers["--voxel-tolerance"] = [&o](const auto& name, const auto& text)
+  { o.Settings.VoxelTolerance = ToNumber(name, text); };
   return takers;
 }
 
@@ -187,7 +189,7 @@ const char* const LabelBenchmarkUsage =
   "                     windowed-more: vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter;\n"
   "                     nets: vtkSurfaceNets3D; antialiased: ITK; remeshed: windowed and CGAL\n"
   "  --threads N        of us; peers have one (default 1)\n"
-  "  --smoothing S --finest LEVEL   of us\n"
+  "  --smoothing S --voxel-tolerance T --finest LEVEL   of us\n"
   "  --repetitions N    of which the fastest counts (default 1)\n"
   "  --csv FILE.csv     all figures; targets in FILE-targets.csv\n"
   "  --mask             all labels of the map as one\n";

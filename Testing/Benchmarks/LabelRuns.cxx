@@ -73,6 +73,10 @@ vtkSmartPointer<vtkLabelsToSurfaces> MakeFilter(
   {
     filter->SetSmoothing(settings.Smoothing);
   }
+  if (settings.VoxelTolerance >= 0.0)
+  {
+    filter->SetVoxelTolerance(settings.VoxelTolerance);
+  }
   filter->SetGap(settings.Gap * map.ShortestSpacing());
   filter->SetFinestLevel(settings.FinestLevel);
   filter->SetNumberOfThreads(settings.Threads);

@@ -23,6 +23,7 @@ struct LabelSettings
 {
   int Threads = 1;         ///< of ours; peers have one
   double Smoothing = -1.0; ///< of ours; negative: as it comes
+  double VoxelTolerance = -1.0; ///< of ours; negative: as it comes
   double Gap = 0.0;        ///< of ours, in smallest distances of voxels
   int FinestLevel = 0;     ///< of ours
   int Repetitions = 1;     ///< of what is measured, of which the fastest counts

@@ -3,9 +3,10 @@
 #include "Core/Labels/LabelField.h"
 
 #include "Core/Common/Blocks.h"
-#include "Core/Labels/BoundaryGaussian.h"
 #include "Core/Labels/BoundaryRows.h"
+#include "Core/Labels/LabelDistance.h"
 #include "Core/Labels/LabelHold.h"
+#include "Core/Labels/LabelSides.h"
 
 #include <algorithm>
 #include <array>
@@ -23,48 +24,10 @@ constexpr float MostWrong = 1.5f;
 constexpr float MostCurvature = 0.35f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
+/** Times which it is looked for what a tolerance would lose. */
+constexpr int MostRescues = 4;
 /** The Laplacian of the distance is taken this near to the boundary. */
 constexpr float MostBent = 2.5f;
-
-/** The quantiles of the normal distribution, from a table: the same bits on any machine. */
-class NormalQuantile
-{
-public:
-  static const NormalQuantile& Table()
-  {
-    static const NormalQuantile table;
-    return table;
-  }
-
-  float At(float share) const
-  {
-    const float place = std::clamp(share, 0.f, 1.f) * Steps;
-    const int step = std::min(static_cast<int>(place), Steps - 1);
-    const float* values = this->Values.data() + step;
-    return values[0] + (place - static_cast<float>(step)) * (values[1] - values[0]);
-  }
-
-private:
-  static constexpr int Steps = 4096;
-
-  NormalQuantile()
-  {
-    for (int i = 0; i <= Steps; ++i)
-    {
-      const double share = std::clamp(i / static_cast<double>(Steps), 1e-5, 1. - 1e-5);
-      double low = -5.;
-      double high = 5.;
-      for (int halving = 0; halving < 50; ++halving)
-      {
-        const double middle = 0.5 * (low + high);
-        (0.5 * std::erfc(-middle / std::sqrt(2.)) < share ? low : high) = middle;
-      }
-      this->Values[static_cast<std::size_t>(i)] = static_cast<float>(0.5 * (low + high));
-    }
-  }
-
-  std::array<float, Steps + 1> Values;
-};
 
 /** Makes the field of one object, step by step. */
 class FieldMaker
@@ -73,7 +36,8 @@ public:
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor)
     : Map(bricks.Map())
-    , Object(static_cast<LabelMap::Number>(object))
+    , Object(object)
+    , Sides(bricks.Map(), object)
     , Options(options)
     , Threads(executor)
     , Rows(bricks, object)
@@ -87,7 +51,8 @@ public:
     this->FillFarVoxels();
     if (this->Options.Sigma > 0.)
     {
-      this->MakeDistance();
+      MakeLabelDistance(
+        this->Map, this->Object, this->Rows, this->Options.Sigma, this->Field, this->Threads);
       this->CorrectBends(this->Options.ChordCorrection);
       this->Hold({});
     }
@@ -109,8 +74,7 @@ public:
   }
 
 private:
-  float SideOf(int i, int j, int k) const { return this->IsObject(i, j, k) ? 1.f : -1.f; }
-  bool IsObject(int i, int j, int k) const { return this->Map.At(i, j, k) == this->Object; }
+  bool HasTolerance() const { return this->Options.Tolerance > 0.; }
   float* RowAt(int i, int j, int k)
   {
     return this->Field.Values.data() + this->Field.Box.NumberOf(i, j, k);
@@ -128,84 +92,13 @@ private:
         for (int j = box.First[1]; j < box.End[1]; ++j)
         {
           float* row = this->RowAt(box.First[0], j, k);
-          this->CopyMembership(box.First[0], j, k, box.Length(0), row);
+          this->Sides.CopyMembership(box.First[0], j, k, box.Length(0), row);
           for (int x = 0; x < box.Length(0); ++x)
           {
             row[x] = row[x] > 0.5f ? size : -size;
           }
         }
       });
-  }
-
-  /** 1 in the object, 0 elsewhere, also outside the map. */
-  void CopyMembership(int i, int j, int k, int count, float* values) const
-  {
-    std::fill(values, values + count, 0.f);
-    const std::array<int, 3>& size = this->Map.Size;
-    if (j < 0 || k < 0 || j >= size[1] || k >= size[2])
-    {
-      return;
-    }
-    const int first = std::max(i, 0);
-    const int end = std::min(i + count, size[0]);
-    const LabelMap::Number* row =
-      this->Map.Voxels.data() + VoxelBox::Of(size).NumberOf(0, j, k);
-    for (int x = first; x < end; ++x)
-    {
-      values[x - i] = row[x] == this->Object ? 1.f : 0.f;
-    }
-  }
-
-  void MakeDistance()
-  {
-    const auto sigma = static_cast<float>(this->Options.Sigma);
-    std::array<double, 3> inVoxels;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      inVoxels[axis] = this->Options.Sigma / this->Map.Spacing[axis];
-    }
-    BoundaryGaussian gaussian(this->Rows, inVoxels);
-    LargeVector<float> smooth(this->Field.Values.size());
-    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
-      { this->CopyMembership(i, j, k, count, values); }, smooth, this->Threads);
-    this->ForValues(smooth, [sigma](float& value, float share)
-      { value = std::clamp(sigma * NormalQuantile::Table().At(share), -LabelField::Far,
-          LabelField::Far); });
-    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
-      { this->CopyMissingVolume(i, j, k, count, values); }, smooth, this->Threads);
-    const float perShare = sigma * 2.5066283f; // sqrt(2 pi)
-    this->ForValues(smooth, [perShare](float& value, float missing)
-      { value = std::clamp(value + perShare * missing, -LabelField::Far, LabelField::Far); });
-  }
-
-  /** Calls change(value, other) for each voxel of the rows. */
-  template <typename Change>
-  void ForValues(const LargeVector<float>& others, Change&& change)
-  {
-    this->Rows.For(this->Threads,
-      [&](int i, int j, int k, int count)
-      {
-        float* values = this->RowAt(i, j, k);
-        const float* other = others.data() + this->Field.Box.NumberOf(i, j, k);
-        for (int x = 0; x < count; ++x)
-        {
-          change(values[x], other[x]);
-        }
-      });
-  }
-
-  /** The membership less what of each voxel is inside by the field; off the rows there is none. */
-  void CopyMissingVolume(int i, int j, int k, int count, float* values) const
-  {
-    this->CopyMembership(i, j, k, count, values);
-    const VoxelBox& box = this->Field.Box;
-    const int first = std::max(i, box.First[0]);
-    const int end = std::min(i + count, box.End[0]);
-    const float* row = this->Field.Values.data() + box.NumberOf(first, j, k);
-    for (int x = first; x < end; ++x)
-    {
-      values[x - i] -= std::clamp(row[x - first] + 0.5f, 0.f, 1.f);
-    }
   }
 
   void CorrectBends(double amount)
@@ -248,18 +141,23 @@ private:
       });
   }
 
-  /** Whether both neighbours along an axis are on the other side. */
+  /** Within a tolerance nothing is held for being thin. */
   bool IsThin(int i, int j, int k) const
   {
-    const bool side = this->IsObject(i, j, k);
-    return (this->IsObject(i - 1, j, k) != side && this->IsObject(i + 1, j, k) != side) ||
-      (this->IsObject(i, j - 1, k) != side && this->IsObject(i, j + 1, k) != side) ||
-      (this->IsObject(i, j, k - 1) != side && this->IsObject(i, j, k + 1) != side);
+    return this->IsStrict(i, j, k) && this->Sides.IsThin(i, j, k);
   }
 
   void Hold(const std::vector<HeldVoxel>& held)
   {
+    if (this->HasTolerance())
+    {
+      this->Field.IsStrict.resize(this->Field.Values.size(), 0);
+    }
     HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+    for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindLost(); ++round)
+    {
+      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+    }
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
@@ -267,10 +165,50 @@ private:
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          const float side = this->SideOf(i + x, j, k);
-          values[x] = side * std::clamp(side * values[x], LeastSize, LabelField::Far);
+          const float side = this->Sides.Of(i + x, j, k);
+          values[x] =
+            side * std::clamp(side * values[x], this->LeastAt(i + x, j, k), LabelField::Far);
         }
       });
+  }
+
+  float LeastAt(int i, int j, int k) const
+  {
+    return this->IsStrict(i, j, k) ? LeastSize
+                                   : LeastSize - static_cast<float>(this->Options.Tolerance);
+  }
+
+  bool IsStrict(int i, int j, int k) const
+  {
+    const VoxelBox& box = this->Field.Box;
+    return !this->HasTolerance() ||
+      (box.Contains({ i, j, k }) &&
+        this->Field.IsStrict[static_cast<std::size_t>(box.NumberOf(i, j, k))] != 0);
+  }
+
+  /** Has those be strict that are wrong, as are all of their side beside them. @return any new */
+  bool FindLost()
+  {
+    std::vector<unsigned char> ofLayers(static_cast<std::size_t>(this->Rows.NumberOfLayers()), 0);
+    ForBlocks(this->Threads, ofLayers.size(), 1,
+      [&](std::size_t layer, std::size_t, std::size_t)
+      {
+        this->Rows.ForLayer(static_cast<int>(layer),
+          [&](int i, int j, int k, int count)
+          {
+            unsigned char* strict =
+              this->Field.IsStrict.data() + this->Field.Box.NumberOf(i, j, k);
+            for (int x = 0; x < count; ++x)
+            {
+              if (strict[x] == 0 && this->Sides.IsLost(this->Field, i + x, j, k))
+              {
+                strict[x] = 1;
+                ofLayers[layer] = 1;
+              }
+            }
+          });
+      });
+    return std::count(ofLayers.begin(), ofLayers.end(), 1) > 0;
   }
 
   /** Whether one of the other side beside it is: it must not take all of the way between. */
@@ -279,9 +217,9 @@ private:
   /** To the nearest of the other side beside it that is thin; 0: there is none. */
   double WayToThin(int i, int j, int k) const
   {
-    const bool side = this->IsObject(i, j, k);
+    const bool side = this->Sides.IsObject(i, j, k);
     const auto isThinOther = [&](int a, int b, int c)
-    { return this->IsObject(a, b, c) != side && this->IsThin(a, b, c); };
+    { return this->Sides.IsObject(a, b, c) != side && this->IsThin(a, b, c); };
     const std::array<double, 3>& way = this->Map.Spacing;
     double least = 0.;
     const auto take = [&least](bool isThere, double length)
@@ -294,9 +232,10 @@ private:
 
   double MarginAt(int i, int j, int k) const
   {
-    return this->IsThin(i, j, k)       ? this->Options.ThinMargin
+    return this->IsThin(i, j, k)    ? this->Options.ThinMargin
       : this->IsBesideThin(i, j, k) ? this->Options.MarginBesideThin
-                                    : this->Options.Margin;
+      : this->IsStrict(i, j, k)     ? this->Options.Margin
+                                    : this->Options.Margin - this->Options.Tolerance;
   }
 
   std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
@@ -319,7 +258,7 @@ private:
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
     {
-      const float side = this->SideOf(i + x, j, k);
+      const float side = this->Sides.Of(i + x, j, k);
       if (side * values[x] > 1.f && !this->IsThin(i + x, j, k))
       {
         const double way = this->WayToThin(i + x, j, k);
@@ -348,7 +287,8 @@ private:
   }
 
   const LabelMap& Map;
-  LabelMap::Number Object;
+  int Object;
+  LabelSides Sides;
   LabelFieldOptions Options;
   Executor& Threads;
   BoundaryRows Rows;

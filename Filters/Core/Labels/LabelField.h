@@ -23,6 +23,11 @@ struct LabelFieldOptions
    * centre that triangles cut it off, with more stairs come back.
    */
   double Margin = 0.1;
+  /**
+   * How far it may be on the other side of the centre, if that of a voxel beside it, of the same
+   * side, is where it belongs: so that no part is lost.
+   */
+  double Tolerance = 0.;
   /** The same for a voxel whose two neighbours along an axis are both on the other side, */
   double ThinMargin = 0.4;
   /** and for these: with less a part that is a voxel thin gets the thickness of two. */
@@ -55,6 +60,8 @@ struct LabelField
 
   VoxelBox Box;
   LargeVector<float> Values; ///< positive inside; x fastest
+  /** With a tolerance those that have none, as no voxel beside them is where it belongs. */
+  LargeVector<unsigned char> IsStrict;
 };
 
 /**
@@ -71,7 +78,8 @@ struct LabelField
  * 3. ChordCorrection.
  * 4. The smallest change, in the norm of which a sum of two Gaussians is the kernel, that gives all
  *    voxel centres the sign that they have in the map, and Margin as size: a quadratic programme,
- *    solved by coordinate ascent in its multipliers, voxel after voxel.
+ *    solved by coordinate ascent in its multipliers, voxel after voxel. With a Tolerance only what
+ *    is further off than that is changed, and then what would be lost.
  *
  * Tried instead: the sign alone held (single voxels stick out as spikes), the thin plate energy of
  * d under the same constraints (twice the error of the normals), Gaussians of higher order instead

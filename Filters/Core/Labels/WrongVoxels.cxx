@@ -5,6 +5,7 @@
 #include "Core/Common/DisjointSets.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/RowCrossing.h"
+#include "Core/Mesh/TriangleTree.h"
 
 #include <algorithm>
 #include <array>
@@ -100,6 +101,41 @@ std::vector<std::int64_t> FindWrongVoxels(
     }
   }
   return wrong;
+}
+
+std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
+  const std::vector<std::int64_t>& wrong, const IndexedSurface& surface, double tolerance)
+{
+  if (wrong.empty() || surface.Triangles.empty() || tolerance == 0.)
+  {
+    return wrong;
+  }
+  const auto scaled = [&map](Point place)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] *= map.Spacing[axis];
+    }
+    return place;
+  };
+  IndexedSurface inUnits = surface;
+  for (Point& p : inUnits.Points)
+  {
+    p = scaled(p);
+  }
+  const TriangleTree tree(inUnits);
+  const VoxelNumbers numbers(map.Size);
+  std::vector<std::int64_t> missed;
+  for (const std::int64_t voxel : wrong)
+  {
+    const auto [i, j, k] = numbers.PlaceOf(voxel);
+    if (tree.SquaredDistance(scaled({ static_cast<double>(i), static_cast<double>(j),
+          static_cast<double>(k) })) > tolerance * tolerance)
+    {
+      missed.push_back(voxel);
+    }
+  }
+  return missed;
 }
 
 std::int64_t SizeOfLargestLostPart(

@@ -20,6 +20,13 @@ std::vector<std::int64_t> FindWrongVoxels(
   const LabelBricks& bricks, int object, const IndexedSurface& surface);
 
 /**
+ * Those of the wrong voxels that are further than a tolerance from the surface, in smallest distances
+ * of voxels.
+ */
+std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
+  const std::vector<std::int64_t>& wrong, const IndexedSurface& surface, double tolerance);
+
+/**
  * Voxels of the largest part of an object, joined by faces, that its surface has left out. Those
  * beside a voxel that it has inside don't count: what is cut off along a ridge is no part.
  * @param wrong what FindWrongVoxels() has found

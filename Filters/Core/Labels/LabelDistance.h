@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelDistance_h
+#define volumicLabelDistance_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Labels/BoundaryRows.h"
+#include "Core/Labels/LabelField.h"
+#include "Core/Labels/LabelMap.h"
+
+namespace volumic
+{
+/**
+ * Steps 1 and 2 of MakeLabelField(): a smooth distance to the boundary of an object.
+ * @param rows  of the object; the field has their box, and only their voxels are written
+ * @param sigma standard deviation of the Gaussian, in smallest distances of voxels
+ */
+void MakeLabelDistance(const LabelMap& map, int object, const BoundaryRows& rows, double sigma,
+  LabelField& field, Executor& executor);
+}
+
+#endif
