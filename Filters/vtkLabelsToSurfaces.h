@@ -209,6 +209,13 @@ public:
   void ClearLabelColors();
   ///@}
 
+  /**
+   * Seconds that the work on the surface of a block took at the last update: of the one thread that
+   * made it, or, of a large label, of all together. No field data, as these are the same at each
+   * run. 0 for a block that is none.
+   */
+  double GetSeconds(int block);
+
 protected:
   vtkLabelsToSurfaces();
   ~vtkLabelsToSurfaces() override;
