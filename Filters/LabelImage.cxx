@@ -163,8 +163,8 @@ void LabelImage::CountLabels(Executor& executor)
             {
               ++i;
             }
-            counts[static_cast<int>(value)].Add(RunOf(
-              extent, static_cast<vtkIdType>(first), static_cast<vtkIdType>(i) - 1));
+            counts[static_cast<int>(value)].Add(
+              RunOf(extent, static_cast<vtkIdType>(first), static_cast<vtkIdType>(i) - 1));
           }
           const std::lock_guard<std::mutex> lock(mutex);
           if (i < end)

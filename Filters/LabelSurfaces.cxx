@@ -101,7 +101,7 @@ private:
   std::vector<std::atomic<float>> Shares;
   double Whole;
   std::string Title;
-  mutable std::mutex Mutex; ///< of what follows
+  mutable std::mutex Mutex;          ///< of what follows
   std::vector<std::size_t> UnderWay; ///< in the order in which they were begun
   std::size_t Finished = 0;
   std::size_t Expected = 0;
@@ -328,13 +328,13 @@ void Making::MakeDue(const std::string& title)
   this->Do(title,
     [&](std::size_t item, int numberOfThreads, HostThreads& threads)
     {
-      const LabelSurface made = this->Maker.Make(static_cast<int>(item) + 1, numberOfThreads,
-        threads,
-        [&, item](double share, const std::string&)
-        {
-          const bool goesOn = this->State.Tell(item, share);
-          return std::this_thread::get_id() == caller ? this->Tell() : goesOn;
-        });
+      const LabelSurface made =
+        this->Maker.Make(static_cast<int>(item) + 1, numberOfThreads, threads,
+          [&, item](double share, const std::string&)
+          {
+            const bool goesOn = this->State.Tell(item, share);
+            return std::this_thread::get_id() == caller ? this->Tell() : goesOn;
+          });
       if (made.Surface) // else it was stopped, and what there is stays
       {
         this->Surfaces[item] = made;

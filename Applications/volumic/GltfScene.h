@@ -20,8 +20,9 @@ struct SceneObject
 };
 
 /**
- * Write surfaces as a scene of glTF 2.0, binary (.glb): a node and a mesh for each, with normals, and
- * a material of its colour for each label. VTK's writers of glTF know no names, or need a window.
+ * Write surfaces as a scene of glTF 2.0, binary (.glb): a node and a mesh for each, with normals,
+ * and a material of its colour for each label. VTK's writers of glTF know no names, or need a
+ * window.
  *
  * Lengths are those of the world. All vertices are told from the middle of the scene, as single
  * precision, so that those that surfaces share stay the same; a node about all moves them back, and

@@ -32,8 +32,8 @@ struct KnownLabel
 std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer);
 
 /**
- * Find the labels that texts of --labels ask for: `all`, numbers, ranges as 7-9 and names, in which *
- * stands for any text, with commas between. The background is one of them only by its number or
+ * Find the labels that texts of --labels ask for: `all`, numbers, ranges as 7-9 and names, in which
+ * * stands for any text, with commas between. The background is one of them only by its number or
  * whole name.
  * @return their places among `known`, ascending
  * @throws Failure that tells those that there are, if a text asks for none of them; `all` may.

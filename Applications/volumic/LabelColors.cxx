@@ -26,7 +26,8 @@ using Bytes = std::array<unsigned char, 3>;
 Bytes AsBytes(const Vector3& color)
 {
   Bytes bytes;
-  std::transform(color.begin(), color.end(), bytes.begin(), [](double part)
+  std::transform(color.begin(), color.end(), bytes.begin(),
+    [](double part)
     { return static_cast<unsigned char>(std::lround(255.0 * std::clamp(part, 0.0, 1.0))); });
   return bytes;
 }

@@ -59,7 +59,7 @@ std::vector<OutputName> OtherOutputs(const ToolOptions& options)
 OutputName::Kind FormOf(const std::string& name)
 {
   return SuffixOf(name) == ".vtm" || HasPieces(name) ? OutputName::Kind::Blocks
-                                                                  : OutputName::Kind::File;
+                                                     : OutputName::Kind::File;
 }
 
 std::string PathIn(const std::string& folder, const LabelSurface& surface,
@@ -112,9 +112,9 @@ LabelOutput OutputOf(const std::string& name)
   std::error_code failed;
   const bool isFolder =
     EndsWith(name, "/") || SuffixOf(name).empty() || fs::is_directory(name, failed);
-  return isFolder ? LabelOutput::Folder
-                  : (SuffixOf(name) == ".vtm" || IsScene(name) ? LabelOutput::Blocks
-                                                               : LabelOutput::File);
+  return isFolder
+    ? LabelOutput::Folder
+    : (SuffixOf(name) == ".vtm" || IsScene(name) ? LabelOutput::Blocks : LabelOutput::File);
 }
 
 void CheckLabelOutput(const ToolOptions& options, const std::string& name)
@@ -206,8 +206,8 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
       const std::string stem = fs::path(name).replace_extension().string();
       throw Failure(name + ": " + std::to_string(surfaces.size()) +
         " labels have as many surfaces: give a folder (" + stem + "/ --format " +
-        SuffixOf(name).substr(1) + ") or blocks (" + stem +
-        ".vtm, " + stem + ".glb), or make one of them with --merge");
+        SuffixOf(name).substr(1) + ") or blocks (" + stem + ".vtm, " + stem +
+        ".glb), or make one of them with --merge");
     }
   }
   for (const std::string& name : options.Surfaces)

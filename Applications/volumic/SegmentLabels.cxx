@@ -269,8 +269,8 @@ void TellEnd(const std::vector<LabelSurface>& surfaces, const Announcer& announc
 }
 
 /** The volume, with its names. @param known the labels in it */
-void Announce(const ToolOptions& options, const LabelMap& map,
-  const std::vector<KnownLabel>& known, int background, const Announcer& announcer)
+void Announce(const ToolOptions& options, const LabelMap& map, const std::vector<KnownLabel>& known,
+  int background, const Announcer& announcer)
 {
   const auto count = std::count_if(known.begin(), known.end(),
     [background](const KnownLabel& label) { return label.Label != background; });

@@ -220,8 +220,8 @@ bool ToolOptions::HasProperty(const std::string& property) const
 
 bool ToolOptions::WantsSurface() const
 {
-  return this->ListsLabels || !this->Surfaces.empty() || !this->Levels.empty() || !this->Report.empty() ||
-    !this->History.empty() || !this->Snapshots.empty();
+  return this->ListsLabels || !this->Surfaces.empty() || !this->Levels.empty() ||
+    !this->Report.empty() || !this->History.empty() || !this->Snapshots.empty();
 }
 
 ToolOptions ParseOptions(int argc, const char* const argv[])
