@@ -121,7 +121,7 @@ std::vector<LabelSurface> PlanSurfaces(
   if (chosen.empty())
   {
     throw Failure(options.Volume + ": it has no label but the background, " +
-      std::to_string(filter->GetBackgroundLabel()) + "; another one may be (--background)");
+      std::to_string(filter->GetBackgroundLabel()) + "; choose another one with --background");
   }
   for (const std::size_t i : chosen)
   {
