@@ -51,6 +51,10 @@
  * As vtkDeformableSurface: the message names the port, the array or the value, and the way out; the
  * output is empty; ask GetErrorCode() after Update().
  *
+ * @par Progress:
+ * GetProgressText() tells how many surfaces are finished and which is under way, of several the one
+ * begun last: `12 of 39, liver`.
+ *
  * @par Cancelling:
  * AbortExecute is looked at several times a second: surfaces that are finished then are handed
  * over, that under way has `StopReason` `cancelled`, others are empty blocks with that reason.
