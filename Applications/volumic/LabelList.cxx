@@ -4,7 +4,6 @@
 
 #include "JsonWriter.h"
 #include "Report.h"
-#include "Texts.h"
 
 #include <algorithm>
 #include <array>
@@ -44,38 +43,29 @@ std::string BoxText(const std::array<int, 6>& box)
   return text;
 }
 
-/** Characters, each of which is taken to be as wide as another. */
-std::size_t WidthOf(const std::string& text)
-{
-  std::size_t width = 0;
-  for (std::size_t at = 0; at < text.size(); ++width)
-  {
-    at += std::max<std::size_t>(CharacterBytes(text, at), 1);
-  }
-  return width;
-}
-
 Row RowOf(const KnownLabel& label, const LabelList& list)
 {
-  Row row = { std::to_string(label.Label), PlainName(label.Name), std::to_string(label.Voxels),
+  Row row = { std::to_string(label.Label), std::to_string(label.Voxels),
     SixDigits(VolumeOf(label, list.Volume)) };
   if (list.Layers > 1)
   {
     row.push_back(std::to_string(label.Layer));
   }
   row.push_back(BoxText(label.Box));
+  row.push_back(PlainName(label.Name)); // the last, as it may be long
   return row;
 }
 }
 
 void WriteTable(std::ostream& out, const LabelList& list)
 {
-  std::vector<Row> rows = { { "label", "name", "voxels", "volume" } };
+  std::vector<Row> rows = { { "label", "voxels", "volume" } };
   if (list.Layers > 1)
   {
     rows.front().push_back("layer");
   }
   rows.front().emplace_back("box (first..last voxel along i, j, k)");
+  rows.front().emplace_back("name");
   for (const KnownLabel& label : list.Labels)
   {
     rows.push_back(RowOf(label, list));
@@ -87,11 +77,11 @@ void WriteTable(std::ostream& out, const LabelList& list)
       std::size_t width = 0;
       for (const Row& other : rows)
       {
-        width = std::max(width, WidthOf(other[column]));
+        width = std::max(width, other[column].size());
       }
       const bool isLast = column + 1 == row.size();
-      const std::string blanks(isLast ? 0 : width - WidthOf(row[column]), ' ');
-      const bool isNumber = column != 1;
+      const std::string blanks(isLast ? 0 : width - row[column].size(), ' ');
+      const bool isNumber = column + 2 < row.size();
       out << (isNumber ? blanks + row[column] : row[column] + blanks) << (isLast ? "\n" : "  ");
     }
   }

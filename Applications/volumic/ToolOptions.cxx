@@ -105,7 +105,7 @@ const std::vector<ProgramOption>& InputOptions()
       [](ToolOptions& chosen, const std::string& text) { chosen.Labels.push_back(text); } },
     Switch("list-labels", &ToolOptions::ListsLabels,
       "print the labels of the volume, or those of --labels, instead of making surfaces: number, "
-      "name, voxels, volume, and the box of voxel indices that they are in; with --report as JSON"),
+      "voxels, volume, the box of voxel indices that they are in, and name; with --report as JSON"),
     Text("label-names", "FILE", &ToolOptions::NamesOfLabels,
       "names and colours of labels: JSON, ITK-SNAP's label descriptions, a colour table or .csv; "
       "without this option those of the volume, or of a file beside it"),

@@ -553,7 +553,7 @@ TEST(LabelTable, TellsWhereLabelsAre)
     [](int i, int j, int k)
     {
       const int place = i + 80 * (j + 70 * k);
-      return place == 81 || place == 325 ? 5
+      return place == 81 || place == 325    ? 5
         : place >= 262100 && place < 262200 ? 6
         : i == 9 && j > 30 && j < 33        ? 7
                                             : 1;
