@@ -44,6 +44,7 @@ public:
   /** Some of the items are to be done, for the first time or anew. */
   void Expect(const std::string& title, const std::vector<std::uint8_t>& isDue)
   {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Title = title;
     this->Finished = 0;
     this->Expected = static_cast<std::size_t>(std::count(isDue.begin(), isDue.end(), 1));
@@ -100,8 +101,8 @@ private:
   const std::vector<std::string>& Names;
   std::vector<std::atomic<float>> Shares;
   double Whole;
+  mutable std::mutex Mutex; ///< of what follows
   std::string Title;
-  mutable std::mutex Mutex;          ///< of what follows
   std::vector<std::size_t> UnderWay; ///< in the order in which they were begun
   std::size_t Finished = 0;
   std::size_t Expected = 0;
