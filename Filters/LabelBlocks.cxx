@@ -117,6 +117,21 @@ std::string Listed(const std::vector<std::string>& texts)
 }
 }
 
+std::vector<int> LabelChoice::LabelsOf(std::size_t surface) const
+{
+  return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
+}
+
+std::vector<std::string> LabelChoice::SurfaceNames() const
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
+  {
+    names.push_back(this->Names.NameOf(this->LabelsOf(i)));
+  }
+  return names;
+}
+
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
   vtkMultiBlockDataSet* output)
@@ -127,12 +142,11 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    const std::vector<int> labels =
-      choice.IsMerged ? choice.Labels : std::vector<int>{ choice.Labels[i] };
+    const std::vector<int> labels = choice.LabelsOf(i);
     vtkIdType voxels = 0;
     for (const int label : labels)
     {
-      voxels += image.Labels().at(label);
+      voxels += image.Labels().at(label).Count;
     }
     const std::string name = choice.Names.NameOf(labels);
     vtkNew<vtkPolyData> surface;

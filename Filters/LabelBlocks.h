@@ -7,6 +7,7 @@
 #include "LabelNames.h"
 #include "LabelSurface.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct LabelChoice
   std::vector<int> Labels; ///< sorted
   bool IsMerged = false;   ///< one surface about all
   LabelNames Names;
+
+  std::size_t NumberOfSurfaces() const { return this->IsMerged ? 1 : this->Labels.size(); }
+  /** Of a surface. */
+  std::vector<int> LabelsOf(std::size_t surface) const;
+  /** The names of all surfaces. */
+  std::vector<std::string> SurfaceNames() const;
 };
 
 /**

@@ -63,8 +63,32 @@ template <typename T>
     "Surface (vtkVolumeToSurface).");
 }
 
+/** Voxels that follow each other along rows, and from row to row; `last` is one of them. */
+LabelVoxels RunOf(const int* extent, vtkIdType first, vtkIdType last)
+{
+  const vtkIdType row = extent[1] - extent[0] + 1;
+  const vtkIdType slice = row * (extent[3] - extent[2] + 1);
+  const auto index = [&](vtkIdType place) { return static_cast<int>(place); };
+  LabelVoxels run;
+  run.Count = last - first + 1;
+  std::copy_n(extent, 6, run.Extent.begin());
+  if (first / row == last / row)
+  {
+    run.Extent[0] = extent[0] + index(first % row);
+    run.Extent[1] = extent[0] + index(last % row);
+  }
+  if (first / slice == last / slice)
+  {
+    run.Extent[2] = extent[2] + index(first % slice / row);
+    run.Extent[3] = extent[2] + index(last % slice / row);
+  }
+  run.Extent[4] = extent[4] + index(first / slice);
+  run.Extent[5] = extent[4] + index(last / slice);
+  return run;
+}
+
 /** `0, 1, 3, 4 and 112 others`. */
-std::string ListOf(const std::map<int, vtkIdType>& counts)
+std::string ListOf(const std::map<int, LabelVoxels>& counts)
 {
   constexpr std::size_t most = 20;
   std::string text;
@@ -80,6 +104,18 @@ std::string ListOf(const std::map<int, vtkIdType>& counts)
   }
   return text;
 }
+}
+
+void LabelVoxels::Add(const LabelVoxels& others)
+{
+  for (int axis = 0; axis < 3 && this->Count > 0; ++axis)
+  {
+    const std::size_t first = 2 * static_cast<std::size_t>(axis);
+    this->Extent[first] = std::min(this->Extent[first], others.Extent[first]);
+    this->Extent[first + 1] = std::max(this->Extent[first + 1], others.Extent[first + 1]);
+  }
+  this->Extent = this->Count > 0 ? this->Extent : others.Extent;
+  this->Count += others.Count;
 }
 
 LabelImage::LabelImage(vtkDataObject* input, vtkInformation* selection, Executor& executor)
@@ -107,6 +143,7 @@ void LabelImage::CountLabels(Executor& executor)
 {
   std::mutex mutex;
   const auto count = static_cast<std::size_t>(this->Voxels->GetNumberOfTuples());
+  const int* extent = this->Geometry->GetExtent();
   VisitVoxels(this->Voxels,
     [&](const auto* voxels)
     {
@@ -116,7 +153,7 @@ void LabelImage::CountLabels(Executor& executor)
       ForBlocks(executor, count, Grain,
         [&](std::size_t, std::size_t begin, std::size_t end)
         {
-          std::unordered_map<int, vtkIdType> counts;
+          std::unordered_map<int, LabelVoxels> counts;
           std::size_t i = begin;
           for (; i < end && IsLabel(voxels[i]);)
           {
@@ -126,7 +163,8 @@ void LabelImage::CountLabels(Executor& executor)
             {
               ++i;
             }
-            counts[static_cast<int>(value)] += static_cast<vtkIdType>(i - first);
+            counts[static_cast<int>(value)].Add(
+              RunOf(extent, static_cast<vtkIdType>(first), static_cast<vtkIdType>(i) - 1));
           }
           const std::lock_guard<std::mutex> lock(mutex);
           if (i < end)
@@ -136,7 +174,7 @@ void LabelImage::CountLabels(Executor& executor)
           }
           for (const auto& entry : counts)
           {
-            this->Counts[entry.first] += entry.second;
+            this->Counts[entry.first].Add(entry.second);
           }
         });
       if (isWrong)

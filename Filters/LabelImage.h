@@ -9,6 +9,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,6 +23,16 @@ class vtkPolyData;
 
 namespace volumic
 {
+/** The voxels of a label. */
+struct LabelVoxels
+{
+  vtkIdType Count = 0;
+  /** Indices of the first and last along each axis, as an extent of VTK. */
+  std::array<int, 6> Extent = { 0, -1, 0, -1, 0, -1 };
+
+  void Add(const LabelVoxels& others);
+};
+
 /** A label map as it comes in. Errors are std::invalid_argument. */
 class LabelImage
 {
@@ -37,8 +48,7 @@ public:
 
   /** Voxels are its points; without arrays that matter. */
   vtkImageData* Image() const { return this->Geometry; }
-  /** How many voxels each label has. */
-  const std::map<int, vtkIdType>& Labels() const { return this->Counts; }
+  const std::map<int, LabelVoxels>& Labels() const { return this->Counts; }
   /** What the user should know: that the array has no integers' type. Empty: nothing. */
   const std::string& Warning() const { return this->Told; }
 
@@ -66,7 +76,7 @@ private:
 
   vtkSmartPointer<vtkImageData> Geometry;
   vtkSmartPointer<vtkDataArray> Voxels;
-  std::map<int, vtkIdType> Counts;
+  std::map<int, LabelVoxels> Counts;
   std::string Told;
 };
 }

@@ -45,6 +45,7 @@ struct LabelSettings
 struct LabelSurface
 {
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
+  double Seconds = 0.0;                 ///< that the work on it took, from its begin to its end
   vtkIdType WrongVoxels = 0;
   vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance
   vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same

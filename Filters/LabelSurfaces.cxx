@@ -15,6 +15,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace volumic
 {
@@ -26,11 +27,12 @@ constexpr std::chrono::milliseconds Pause(50);
 /** With Gap: how often surfaces that touch those of neighbours are made again, further inside. */
 constexpr int MostRoundsApart = 5;
 
-/** What is done of all objects. */
+/** What is done of all objects, and which of them are under way. */
 class Course
 {
 public:
-  explicit Course(const std::vector<double>& sizes) : Sizes(sizes), Shares(sizes.size())
+  Course(const std::vector<double>& sizes, const std::vector<std::string>& names)
+    : Sizes(sizes), Names(names), Shares(sizes.size())
   {
     for (std::atomic<float>& share : this->Shares)
     {
@@ -39,12 +41,40 @@ public:
     this->Whole = std::accumulate(sizes.begin(), sizes.end(), 0.0);
   }
 
-  /** On any thread. @return whether to go on. */
+  /** Some of the items are to be done, for the first time or anew. */
+  void Expect(const std::string& title, const std::vector<std::uint8_t>& isDue)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Title = title;
+    this->Finished = 0;
+    this->Expected = static_cast<std::size_t>(std::count(isDue.begin(), isDue.end(), 1));
+    for (std::size_t i = 0; i < isDue.size(); ++i)
+    {
+      this->Shares[i] = isDue[i] != 0 ? 0.f : this->Shares[i].load();
+    }
+  }
+
+  // The next three on any thread.
+
+  void Begin(std::size_t item)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->UnderWay.push_back(item);
+  }
+  /** @return whether to go on. */
   bool Tell(std::size_t item, double share)
   {
     this->Shares[item] = static_cast<float>(share);
     return !this->IsStopped;
   }
+  void End(std::size_t item)
+  {
+    this->Shares[item] = 1.f;
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->UnderWay.erase(std::find(this->UnderWay.begin(), this->UnderWay.end(), item));
+    ++this->Finished;
+  }
+
   double Share() const
   {
     double done = 0.0;
@@ -55,12 +85,27 @@ public:
     return done / this->Whole;
   }
 
+  /** `12 of 39, liver`: how many are finished, and that which was begun last of those under way. */
+  std::string Text() const
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const std::string text =
+      this->Title + std::to_string(this->Finished) + " of " + std::to_string(this->Expected);
+    return this->UnderWay.empty() ? text : text + ", " + this->Names[this->UnderWay.back()];
+  }
+
   std::atomic<bool> IsStopped{ false };
 
 private:
   const std::vector<double>& Sizes;
+  const std::vector<std::string>& Names;
   std::vector<std::atomic<float>> Shares;
   double Whole;
+  mutable std::mutex Mutex; ///< of what follows
+  std::string Title;
+  std::vector<std::size_t> UnderWay; ///< in the order in which they were begun
+  std::size_t Finished = 0;
+  std::size_t Expected = 0;
 };
 
 /** Work on items, each on one thread, while the calling one tells how it goes. */
@@ -143,10 +188,10 @@ private:
 };
 
 /** About the work that an object is: the bricks that it is in. */
-std::vector<double> SizesOf(const LabelBricks& bricks, int wanted)
+std::vector<double> SizesOf(const LabelBricks& bricks, std::size_t wanted)
 {
   std::vector<double> sizes;
-  for (int object = 1; object <= wanted; ++object)
+  for (int object = 1; object <= static_cast<int>(wanted); ++object)
   {
     const LabelExtent& extent = bricks.ExtentOf(object);
     sizes.push_back(1.0 +
@@ -154,129 +199,193 @@ std::vector<double> SizesOf(const LabelBricks& bricks, int wanted)
   }
   return sizes;
 }
-}
 
-std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
-  int wanted, int numberOfThreads, HostThreads& threads,
-  const LabelSurfaceMaker::Progress& progress)
+/** The work on all objects: which are made one after another and which side by side, and when. */
+class Making
 {
-  const std::vector<double> sizes = SizesOf(bricks, wanted);
-  std::vector<std::size_t> order(sizes.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
-  const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int most = numberOfThreads > 0 ? std::min(numberOfThreads, hardware) : hardware;
-  // While one is on its own, the others would wait for it at the end.
-  std::size_t alone = 0;
-  double rest = std::accumulate(sizes.begin(), sizes.end(), 0.0);
-  while (alone < order.size() && sizes[order[alone]] * most > rest)
+public:
+  Making(LabelSurfaceMaker& maker, const LabelBricks& bricks, const std::vector<std::string>& names,
+    int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
+    : Maker(maker), Bricks(bricks), NumberOfThreads(numberOfThreads), Threads(threads),
+      Progress(progress), Sizes(SizesOf(bricks, names.size())), State(Sizes, names),
+      IsDue(names.size(), 1), Surfaces(names.size()), Seconds(names.size(), 0.0)
   {
-    rest -= sizes[order[alone++]];
+    this->Plan();
   }
 
-  std::vector<LabelSurface> surfaces(sizes.size());
-  std::vector<std::uint8_t> isDue(sizes.size(), 1);
-  Course course(sizes);
-  constexpr double claimShare = 0.1;
-  double before = 0.0;
-  double whole = 1.0;
-  const auto tell = [&](const std::string& text)
+  void AddClaims();
+  void MakeSurfaces();
+  std::vector<LabelSurface> Take();
+
+private:
+  using Work = std::function<void(std::size_t item, int numberOfThreads, HostThreads& threads)>;
+
+  void Plan();
+  /** On the calling thread. @return whether to go on. */
+  bool Tell(const std::string& text);
+  bool Tell() { return this->Tell(this->State.Text()); }
+  /** Work on the items that are due. */
+  void Do(const std::string& title, const Work& work);
+  void MakeDue(const std::string& title);
+
+  LabelSurfaceMaker& Maker;
+  const LabelBricks& Bricks;
+  int NumberOfThreads;
+  HostThreads& Threads;
+  const LabelSurfaceMaker::Progress& Progress;
+  std::vector<double> Sizes;
+  Course State;
+  std::vector<std::uint8_t> IsDue;
+  std::vector<LabelSurface> Surfaces;
+  std::vector<double> Seconds;
+  std::vector<std::size_t> Order; ///< large ones first
+  std::size_t Alone = 0;          ///< so many of these one after another
+  int Most = 1;                   ///< threads
+  double Before = 0.0;            ///< share of all work that is done
+  double Whole = 1.0;             ///< share of what the items' shares are of
+};
+
+void Making::Plan()
+{
+  const std::vector<double>& sizes = this->Sizes;
+  this->Order.resize(sizes.size());
+  std::iota(this->Order.begin(), this->Order.end(), std::size_t(0));
+  std::stable_sort(this->Order.begin(), this->Order.end(),
+    [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+  const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  this->Most = this->NumberOfThreads > 0 ? std::min(this->NumberOfThreads, hardware) : hardware;
+  // While one is on its own, the others would wait for it at the end.
+  double rest = std::accumulate(sizes.begin(), sizes.end(), 0.0);
+  while (this->Alone < sizes.size() && sizes[this->Order[this->Alone]] * this->Most > rest)
   {
-    if (!progress(before + whole * course.Share(), text))
-    {
-      course.IsStopped = true;
-    }
-    return !course.IsStopped;
-  };
-  const auto doAll = [&](const std::string& text,
-                       const std::function<void(std::size_t, int, HostThreads&)>& work)
+    rest -= sizes[this->Order[this->Alone++]];
+  }
+}
+
+bool Making::Tell(const std::string& text)
+{
+  if (!this->Progress(this->Before + this->Whole * this->State.Share(), text))
   {
-    if (!tell(text))
+    this->State.IsStopped = true;
+  }
+  return !this->State.IsStopped;
+}
+
+void Making::Do(const std::string& title, const Work& work)
+{
+  this->State.Expect(title, this->IsDue);
+  if (!this->Tell())
+  {
+    return;
+  }
+  const auto doItem = [&](std::size_t item, int numberOfThreads, HostThreads& threads)
+  {
+    if (this->State.IsStopped || this->IsDue[item] == 0)
     {
       return;
     }
-    for (std::size_t i = 0; i < alone && tell(text); ++i)
-    {
-      work(order[i], numberOfThreads, threads);
-    }
-    SideBySide others({ order.begin() + static_cast<std::ptrdiff_t>(alone), order.end() },
-      [&](std::size_t item)
-      {
-        HostThreads one(1);
-        work(item, 1, one);
-      });
-    others.Run(most, [&] { tell(text); });
+    const auto started = std::chrono::steady_clock::now();
+    this->State.Begin(item);
+    work(item, numberOfThreads, threads);
+    this->State.End(item);
+    this->Seconds[item] +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
-  if (maker.HasClaims())
+  for (std::size_t i = 0; i < this->Alone && this->Tell(); ++i)
   {
-    whole = claimShare;
-    doAll("Fields of the labels",
-      [&](std::size_t item, int, HostThreads& own)
-      {
-        if (!course.IsStopped)
-        {
-          maker.AddClaim(static_cast<int>(item) + 1, own);
-          course.Tell(item, 1.0);
-        }
-      });
-    for (const int neighbour : bricks.NeighboursOf(wanted))
+    doItem(this->Order[i], this->NumberOfThreads, this->Threads);
+  }
+  SideBySide others(
+    { this->Order.begin() + static_cast<std::ptrdiff_t>(this->Alone), this->Order.end() },
+    [&](std::size_t item)
     {
-      if (tell("Fields of the labels about them"))
-      {
-        maker.AddClaim(neighbour, threads);
-      }
-    }
-    before = claimShare;
-    whole = 1.0 - claimShare;
-    for (std::size_t i = 0; i < sizes.size(); ++i)
+      HostThreads one(1);
+      doItem(item, 1, one);
+    });
+  others.Run(this->Most, [this] { this->Tell(); });
+}
+
+void Making::AddClaims()
+{
+  constexpr double claimShare = 0.1;
+  this->Whole = claimShare;
+  this->Do("fields: ",
+    [&](std::size_t item, int, HostThreads& threads)
+    { this->Maker.AddClaim(static_cast<int>(item) + 1, threads); });
+  for (const int neighbour : this->Bricks.NeighboursOf(static_cast<int>(this->Sizes.size())))
+  {
+    if (this->Tell("fields of the labels about them"))
     {
-      course.Tell(i, 0.0);
+      this->Maker.AddClaim(neighbour, this->Threads);
     }
   }
+  this->Before = claimShare;
+  this->Whole = 1.0 - claimShare;
+}
+
+void Making::MakeDue(const std::string& title)
+{
   const std::thread::id caller = std::this_thread::get_id();
-  const auto makeDue = [&](const std::string& text)
-  {
-    doAll(text,
-      [&](std::size_t item, int number, HostThreads& own)
-      {
-        if (course.IsStopped || isDue[item] == 0)
-        {
-          return;
-        }
-        const LabelSurface made = maker.Make(static_cast<int>(item) + 1, number, own,
+  this->Do(title,
+    [&](std::size_t item, int numberOfThreads, HostThreads& threads)
+    {
+      const LabelSurface made =
+        this->Maker.Make(static_cast<int>(item) + 1, numberOfThreads, threads,
           [&, item](double share, const std::string&)
           {
-            const bool goesOn = course.Tell(item, share);
-            return std::this_thread::get_id() == caller ? tell(text) : goesOn;
+            const bool goesOn = this->State.Tell(item, share);
+            return std::this_thread::get_id() == caller ? this->Tell() : goesOn;
           });
-        if (made.Surface) // else it was stopped, and what there is stays
-        {
-          surfaces[item] = made;
-        }
-        course.Tell(item, 1.0);
-      });
-  };
-  const double afterwards = maker.KeepsApart() ? 0.3 * whole : 0.0;
-  whole -= afterwards;
-  makeDue("Surfaces of the labels");
-  for (int round = 0; maker.KeepsApart() && !course.IsStopped; ++round)
+      if (made.Surface) // else it was stopped, and what there is stays
+      {
+        this->Surfaces[item] = made;
+      }
+    });
+}
+
+void Making::MakeSurfaces()
+{
+  const double afterwards = this->Maker.KeepsApart() ? 0.3 * this->Whole : 0.0;
+  this->Whole -= afterwards;
+  this->MakeDue("");
+  for (int round = 0; this->Maker.KeepsApart() && !this->State.IsStopped; ++round)
   {
-    before += whole;
-    whole = round == 0 ? 0.5 * afterwards : 0.5 * whole;
-    const std::vector<int> touching = maker.DrawApart(surfaces, threads);
+    this->Before += this->Whole;
+    this->Whole = round == 0 ? 0.5 * afterwards : 0.5 * this->Whole;
+    const std::vector<int> touching = this->Maker.DrawApart(this->Surfaces, this->Threads);
     if (touching.empty() || round == MostRoundsApart)
     {
       break;
     }
-    std::fill(isDue.begin(), isDue.end(), std::uint8_t(0));
+    std::fill(this->IsDue.begin(), this->IsDue.end(), std::uint8_t(0));
     for (const int object : touching)
     {
-      isDue[static_cast<std::size_t>(object) - 1] = 1;
-      course.Tell(static_cast<std::size_t>(object) - 1, 0.0);
+      this->IsDue[static_cast<std::size_t>(object) - 1] = 1;
     }
-    makeDue("Drawing neighbours apart");
+    this->MakeDue("apart: ");
   }
-  return surfaces;
+}
+
+std::vector<LabelSurface> Making::Take()
+{
+  for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
+  {
+    this->Surfaces[i].Seconds = this->Seconds[i];
+  }
+  return std::move(this->Surfaces);
+}
+}
+
+std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
+  const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
+  const LabelSurfaceMaker::Progress& progress)
+{
+  Making making(maker, bricks, names, numberOfThreads, threads, progress);
+  if (maker.HasClaims())
+  {
+    making.AddClaims();
+  }
+  making.MakeSurfaces();
+  return making.Take();
 }
 }

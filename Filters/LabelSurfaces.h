@@ -6,6 +6,7 @@
 #include "HostThreads.h"
 #include "LabelSurface.h"
 
+#include <string>
 #include <vector>
 
 namespace volumic
@@ -14,14 +15,15 @@ namespace volumic
  * The surfaces of objects of a label map: those that are large one after another, each by all
  * threads; the others side by side, each by one.
  *
- * @param wanted          the objects from 1 to this one get surfaces; those beyond it only claim
+ * @param names           of the objects that get surfaces, from 1 on; those beyond them only claim
  *                        places between
  * @param numberOfThreads 0: all
- * @param progress        called on the calling thread; after false, what is not finished is stopped
+ * @param progress        called on the calling thread, with a text such as `12 of 39, liver`; after
+ *                        false, what is not finished is stopped
  * @return one for each of them
  */
 std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
-  int wanted, int numberOfThreads, HostThreads& threads,
+  const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
   const LabelSurfaceMaker::Progress& progress);
 }
 

@@ -67,6 +67,9 @@ int vtkLabelTable::RequestData(
   names->SetName("Name");
   vtkNew<vtkIdTypeArray> voxels;
   voxels->SetName("Voxels");
+  vtkNew<vtkIntArray> extents;
+  extents->SetName("Extent");
+  extents->SetNumberOfComponents(6);
   vtkNew<vtkDoubleArray> colors;
   colors->SetName("Color");
   colors->SetNumberOfComponents(3);
@@ -82,13 +85,15 @@ int vtkLabelTable::RequestData(
     {
       labels->InsertNextValue(entry.first);
       names->InsertNextValue(known.NameOf(entry.first));
-      voxels->InsertNextValue(entry.second);
+      voxels->InsertNextValue(entry.second.Count);
+      extents->InsertNextTypedTuple(entry.second.Extent.data());
       colors->InsertNextTuple(known.ColorOf(entry.first).data());
     }
     vtkTable* table = vtkTable::GetData(outputVector);
     table->AddColumn(labels);
     table->AddColumn(names);
     table->AddColumn(voxels);
+    table->AddColumn(extents);
     table->AddColumn(colors);
   }
   catch (const std::exception& error)

@@ -12,8 +12,9 @@
  *
  * @par Output:
  * A vtkTable with a row per label, in the order of their values: `Label` (int), `Name` (string: the
- * one that comes with the image, or `Label 3`), `Voxels` (vtkIdType), `Color` (double, 3
- * components, 0 to 1: that which comes with the image, or one of a fixed palette).
+ * one that comes with the image, or `Label 3`), `Voxels` (vtkIdType), `Extent` (int, 6 components:
+ * indices of its first and last voxels along x, y and z, as an extent of the image), `Color`
+ * (double, 3 components, 0 to 1: that which comes with the image, or one of a fixed palette).
  *
  * @par Errors:
  * As vtkLabelsToSurfaces.

@@ -50,6 +50,7 @@ public:
   std::string ScratchDirectory;
   volumic::LabelNames Names;
   volumic::LimitedMemory Memory;
+  std::vector<double> Seconds; ///< of each block
 };
 
 //------------------------------------------------------------------------------
@@ -148,6 +149,15 @@ int vtkLabelsToSurfaces::GetLabel(int index)
 }
 
 //------------------------------------------------------------------------------
+double vtkLabelsToSurfaces::GetSeconds(int block)
+{
+  const std::vector<double>& seconds = this->Internals->Seconds;
+  return block >= 0 && block < static_cast<int>(seconds.size())
+    ? seconds[static_cast<std::size_t>(block)]
+    : 0.0;
+}
+
+//------------------------------------------------------------------------------
 void vtkLabelsToSurfaces::SetLabelName(int label, const char* name)
 {
   if (name && *name)
@@ -243,9 +253,12 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
       bricks.emplace(map, threads);
     });
   volumic::LabelSurfaceMaker maker(*bricks, image->Image(), internals.Settings);
-  const int wanted = internals.Merge ? 1 : static_cast<int>(choice.Labels.size());
-  const std::vector<volumic::LabelSurface> surfaces =
-    volumic::MakeLabelSurfaces(maker, *bricks, wanted, internals.NumberOfThreads, threads, show);
+  const std::vector<volumic::LabelSurface> surfaces = volumic::MakeLabelSurfaces(
+    maker, *bricks, choice.SurfaceNames(), internals.NumberOfThreads, threads, show);
+  for (const volumic::LabelSurface& surface : surfaces)
+  {
+    this->Internals->Seconds.push_back(surface.Seconds);
+  }
   const std::string warning =
     volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output);
   if (!warning.empty())
@@ -270,6 +283,7 @@ int vtkLabelsToSurfaces::RequestData(
     }
     return 1;
   }
+  this->Internals->Seconds.clear();
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   try

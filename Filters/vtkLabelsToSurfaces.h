@@ -22,9 +22,9 @@
  * A vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order of the labels' values,
  * named by the label's name, or `Label 3`; with Merge one block, named `Labels 1, 3`, or `Label 3`.
  * A label that asks for more than the triangles can hold has an empty block, and a warning tells
- * which; and of which more voxels than half are on the wrong side, and, with Gap, of which triangles
- * touch those of neighbours all the same. World
- * coordinates; arrays and field data of each block as vtkDeformableSurface has them, and:
+ * which; and of which more voxels than half are on the wrong side, and, with Gap, of which
+ * triangles touch those of neighbours all the same. World coordinates; arrays and field data of
+ * each block as vtkDeformableSurface has them, and:
  * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
  * - field data: with an entry for the label, with Merge for each that was merged, `Label` (int),
  *   `LabelName` (string) and `LabelColor` (double, 3 components, 0 to 1: as given, or one of a
@@ -50,6 +50,10 @@
  * @par Errors:
  * As vtkDeformableSurface: the message names the port, the array or the value, and the way out; the
  * output is empty; ask GetErrorCode() after Update().
+ *
+ * @par Progress:
+ * GetProgressText() tells how many surfaces are finished and which is under way, of several the one
+ * begun last: `12 of 39, liver`.
  *
  * @par Cancelling:
  * AbortExecute is looked at several times a second: surfaces that are finished then are handed
@@ -220,6 +224,13 @@ public:
   void SetLabelColor(int label, double red, double green, double blue);
   void ClearLabelColors();
   ///@}
+
+  /**
+   * Seconds that the work on the surface of a block took at the last update: of the one thread that
+   * made it, or, of a large label, of all together. No field data, as these are the same at each
+   * run. 0 for a block that is none.
+   */
+  double GetSeconds(int block);
 
 protected:
   vtkLabelsToSurfaces();

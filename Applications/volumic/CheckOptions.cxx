@@ -6,6 +6,8 @@
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -33,28 +35,46 @@ void CheckWithoutLabels(const ToolOptions& options)
   }
 }
 
-/** What makes no sense for surfaces of labels, which have no evolution to choose and look at. */
+/** Whether the property means something where labels are only listed. */
+bool IsOfList(const PropertyOption& property)
+{
+  static const std::string needed[] = { "SelectedComponent", "BackgroundLabel", "NumberOfThreads",
+    "MemoryLimit", "ScratchDirectory" };
+  return std::find(std::begin(needed), std::end(needed), property.Property) != std::end(needed);
+}
+
+/**
+ * What makes no sense for surfaces of labels, which have no evolution to choose and look at, or for
+ * a list of labels.
+ */
 void CheckWithLabels(const ToolOptions& options)
 {
+  const std::string asked = options.ListsLabels ? "--list-labels" : "--labels";
+  if (options.ListsLabels && !options.Surfaces.empty())
+  {
+    throw UsageError(options.Surfaces.front() +
+      ": --list-labels makes no surfaces; leave out the file or the option");
+  }
   const std::pair<const char*, bool> others[] = { { "seeds", !options.Seeds.empty() },
     { "seed-position", !options.SeedPositions.empty() },
     { "initial-surface", !options.InitialSurface.empty() },
     { "attracting-points", !options.AttractingPoints.empty() },
     { "attracting-position", !options.AttractingPositions.empty() },
     { "edges", !options.Edges.empty() }, { "history", !options.History.empty() },
-    { "levels-output", !options.Levels.empty() }, { "snapshots", !options.Snapshots.empty() } };
+    { "levels-output", !options.Levels.empty() }, { "snapshots", !options.Snapshots.empty() },
+    { "format", options.ListsLabels && !options.Format.empty() } };
   for (const auto& [option, isGiven] : others)
   {
     if (isGiven)
     {
-      throw UsageError("--" + std::string(option) + " and --labels exclude each other");
+      throw UsageError("--" + std::string(option) + " and " + asked + " exclude each other");
     }
   }
   for (const auto& [property, text] : options.Properties)
   {
-    if (!IsOfLabels(*property))
+    if (!(options.ListsLabels ? IsOfList(*property) : IsOfLabels(*property)))
     {
-      throw UsageError("--" + property->Option + " and --labels exclude each other");
+      throw UsageError("--" + property->Option + " and " + asked + " exclude each other");
     }
     if (property->Property == "KeepComponents" && text == "at-points")
     {

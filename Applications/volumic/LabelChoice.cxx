@@ -7,6 +7,7 @@
 #include "ToolErrors.h"
 
 #include <vtkDataArray.h>
+#include <vtkIntArray.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
 
@@ -186,6 +187,7 @@ std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer)
 {
   std::vector<KnownLabel> labels;
   auto* colors = vtkDataArray::SafeDownCast(table->GetColumnByName("Color"));
+  auto* extents = vtkIntArray::SafeDownCast(table->GetColumnByName("Extent"));
   for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
   {
     KnownLabel label;
@@ -193,6 +195,7 @@ std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer)
     label.Name = table->GetValueByName(row, "Name").ToString();
     label.Voxels = table->GetValueByName(row, "Voxels").ToTypeInt64();
     colors->GetTuple(row, label.Color.data());
+    extents->GetTypedTuple(row, label.Box.data());
     label.Layer = layer;
     labels.push_back(label);
   }
@@ -211,7 +214,7 @@ std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
       isName ? std::vector<std::string>{ text } : SplitAtCommas(text))
     {
       const std::vector<std::size_t> found = FindText(part, known, background);
-      if (found.empty())
+      if (found.empty() && Lower(part) != "all")
       {
         throw Failure("there is no label '" + part + "' (--labels); there are " +
           (known.empty() ? "none" : ListOf(known)));

@@ -7,6 +7,7 @@
 
 #include <vtkType.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -23,17 +24,19 @@ struct KnownLabel
   vtkIdType Voxels = 0;
   Vector3 Color = { 0.0, 0.0, 0.0 }; ///< 0 to 1
   int Layer = 0;                     ///< the image, of those of the map, that has it
+  /** Indices of the first and last voxels along the three axes, as an extent of VTK. */
+  std::array<int, 6> Box = { 0, -1, 0, -1, 0, -1 };
 };
 
 /** The rows of a vtkLabelTable. */
 std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer);
 
 /**
- * Find the labels that texts of --labels ask for: `all`, numbers, ranges as 7-9 and names, in which *
- * stands for any text, with commas between. The background is one of them only by its number or
+ * Find the labels that texts of --labels ask for: `all`, numbers, ranges as 7-9 and names, in which
+ * * stands for any text, with commas between. The background is one of them only by its number or
  * whole name.
  * @return their places among `known`, ascending
- * @throws Failure that tells those that there are, if a text asks for none of them.
+ * @throws Failure that tells those that there are, if a text asks for none of them; `all` may.
  */
 std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
   const std::vector<KnownLabel>& known, int background);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelOutputs.h"
 
+#include "GltfScene.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
 #include "OutputChecks.h"
@@ -57,8 +58,8 @@ std::vector<OutputName> OtherOutputs(const ToolOptions& options)
 
 OutputName::Kind FormOf(const std::string& name)
 {
-  return OutputOf(name) == LabelOutput::Blocks || HasPieces(name) ? OutputName::Kind::Blocks
-                                                                  : OutputName::Kind::File;
+  return SuffixOf(name) == ".vtm" || HasPieces(name) ? OutputName::Kind::Blocks
+                                                     : OutputName::Kind::File;
 }
 
 std::string PathIn(const std::string& folder, const LabelSurface& surface,
@@ -75,9 +76,20 @@ SurfaceWriting WritingOf(
     options.PieceSize, style };
 }
 
-void WriteAsBlocks(
+/** All in one file. */
+void WriteTogether(
   const std::vector<LabelSurface>& surfaces, const std::string& name, ProgressStyle style)
 {
+  if (IsScene(name))
+  {
+    std::vector<SceneObject> objects;
+    for (const LabelSurface& surface : surfaces)
+    {
+      objects.push_back({ surface.Name, surface.Surface });
+    }
+    WriteScene(objects, name, style);
+    return;
+  }
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (const LabelSurface& surface : surfaces)
   {
@@ -100,8 +112,9 @@ LabelOutput OutputOf(const std::string& name)
   std::error_code failed;
   const bool isFolder =
     EndsWith(name, "/") || SuffixOf(name).empty() || fs::is_directory(name, failed);
-  return isFolder ? LabelOutput::Folder
-                  : (SuffixOf(name) == ".vtm" ? LabelOutput::Blocks : LabelOutput::File);
+  return isFolder
+    ? LabelOutput::Folder
+    : (SuffixOf(name) == ".vtm" || IsScene(name) ? LabelOutput::Blocks : LabelOutput::File);
 }
 
 void CheckLabelOutput(const ToolOptions& options, const std::string& name)
@@ -193,8 +206,8 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
       const std::string stem = fs::path(name).replace_extension().string();
       throw Failure(name + ": " + std::to_string(surfaces.size()) +
         " labels have as many surfaces: give a folder (" + stem + "/ --format " +
-        SuffixOf(name).substr(1) + ") or blocks (" + stem +
-        ".vtm), or make one of them with --merge");
+        SuffixOf(name).substr(1) + ") or blocks (" + stem + ".vtm, " + stem +
+        ".glb), or make one of them with --merge");
     }
   }
   for (const std::string& name : options.Surfaces)
@@ -234,7 +247,7 @@ std::string WriteLabelSurfaces(
   {
     if (OutputOf(name) == LabelOutput::Blocks)
     {
-      attempt([&] { WriteAsBlocks(surfaces, name, style); });
+      attempt([&] { WriteTogether(surfaces, name, style); });
       continue;
     }
     // Of many files in a folder not each has a line of its own.

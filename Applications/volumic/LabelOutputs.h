@@ -24,6 +24,7 @@ struct LabelSurface
   std::string FileName;           ///< in a folder, without suffix
   vtkSmartPointer<vtkPolyData> Surface; ///< may have no points
   std::vector<std::string> Files;       ///< that were written of it alone
+  double Seconds = 0.0;                 ///< that the work on it took
 
   /** Whether something stopped it on its way, or before it began. */
   bool IsUnfinished() const;
@@ -33,7 +34,7 @@ struct LabelSurface
 enum class LabelOutput
 {
   Folder, ///< it ends with a slash, is one, or has no suffix
-  Blocks, ///< .vtm
+  Blocks, ///< .vtm and .glb: one file of all
   File    ///< of one surface
 };
 

@@ -80,6 +80,7 @@ void WriteReport(std::ostream& out, const LabelReport& report)
     vtkPolyData* surface = each.Surface;
     json.BeginObject();
     WriteNames(json, each);
+    json.Member("seconds", each.Seconds);
     json.Member("wrong_voxels", static_cast<double>(WrongVoxels(surface)));
     WriteSurfaceFacts(
       json, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });

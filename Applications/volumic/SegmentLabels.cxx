@@ -3,6 +3,7 @@
 #include "SegmentLabels.h"
 
 #include "Announcer.h"
+#include "LabelList.h"
 #include "LabelMap.h"
 #include "LabelNames.h"
 #include "LabelOutputs.h"
@@ -34,6 +35,7 @@
 #include <filesystem>
 #include <iostream>
 #include <sstream>
+#include <utility>
 
 namespace tool
 {
@@ -63,8 +65,9 @@ auto OfVolume(const ToolOptions& options, const Work& work) -> decltype(work())
   }
 }
 
-std::vector<KnownLabel> KnownLabels(
-  const ToolOptions& options, const LabelMap& map, const Announcer& announcer)
+/** @param warnings those of the filter, which are told, go here */
+std::vector<KnownLabel> KnownLabels(const ToolOptions& options, const LabelMap& map,
+  const Announcer& announcer, std::vector<std::string>& warnings)
 {
   std::vector<KnownLabel> known;
   for (int layer = 0; layer < static_cast<int>(map.Layers.size()); ++layer)
@@ -77,16 +80,17 @@ std::vector<KnownLabel> KnownLabels(
       for (const std::string& warning : run.Warnings)
       {
         announcer.Say("warning: " + options.Volume + ": " + warning);
+        warnings.push_back(warning);
       }
       const std::vector<KnownLabel> more = LabelsOf(table->GetOutput(), layer);
       known.insert(known.end(), more.begin(), more.end());
     }
     catch (const Failure& failure)
     {
-      // A few of very many labels can be chosen by their numbers.
+      // A few of very many labels can be chosen by their numbers, but not told of.
       const std::vector<KnownLabel> some =
         NumberedLabels(options.Labels, GetLabelNames(map.Layers[static_cast<std::size_t>(layer)]));
-      if (some.empty() || map.Layers.size() > 1)
+      if (some.empty() || map.Layers.size() > 1 || options.ListsLabels)
       {
         throw Failure(options.Volume + ": " + failure.what());
       }
@@ -114,6 +118,11 @@ std::vector<LabelSurface> PlanSurfaces(
   std::vector<LabelSurface> surfaces;
   const std::vector<std::size_t> chosen = OfVolume(options,
     [&] { return ChooseLabels(options.Labels, known, filter->GetBackgroundLabel()); });
+  if (chosen.empty())
+  {
+    throw Failure(options.Volume + ": it has no label but the background, " +
+      std::to_string(filter->GetBackgroundLabel()) + "; choose another one with --background");
+  }
   for (const std::size_t i : chosen)
   {
     if (!filter->GetMerge() || surfaces.empty())
@@ -160,6 +169,7 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   for (unsigned int i = 0; i < own.size() && i < blocks->GetNumberOfBlocks(); ++i)
   {
+    own[i]->Seconds = filter->GetSeconds(static_cast<int>(i));
     own[i]->Surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i));
     const char* name = blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME());
     own[i]->Name = name ? name : own[i]->Name;
@@ -194,25 +204,31 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
   }
 }
 
+/** Print or write what --report asks for. */
+void PublishReport(const ToolOptions& options, const std::string& text)
+{
+  if (options.Report == "-")
+  {
+    std::cout << text;
+  }
+  else
+  {
+    WriteText(text, options.Report);
+  }
+}
+
 /** Write surfaces and report. @throws Failure if not all could be written. */
 void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   const LabelReport& report, ProgressStyle style)
 {
   std::string failures = WriteLabelSurfaces(options, surfaces, style);
-  std::ostringstream text;
   if (!options.Report.empty())
   {
+    std::ostringstream text;
     WriteReport(text, report);
-  }
-  if (options.Report == "-")
-  {
-    std::cout << text.str();
-  }
-  else if (!options.Report.empty())
-  {
     try
     {
-      WriteText(text.str(), options.Report);
+      PublishReport(options, text.str());
     }
     catch (const Failure& failure)
     {
@@ -252,11 +268,10 @@ void TellEnd(const std::vector<LabelSurface>& surfaces, const Announcer& announc
   }
 }
 
-/** The volume, with its names. @return the labels in it */
-std::vector<KnownLabel> Announce(
-  const ToolOptions& options, const LabelMap& map, int background, const Announcer& announcer)
+/** The volume, with its names. @param known the labels in it */
+void Announce(const ToolOptions& options, const LabelMap& map, const std::vector<KnownLabel>& known,
+  int background, const Announcer& announcer)
 {
-  const std::vector<KnownLabel> known = KnownLabels(options, map, announcer);
   const auto count = std::count_if(known.begin(), known.end(),
     [background](const KnownLabel& label) { return label.Label != background; });
   const std::array<int, 3> size = map.Facts.Size();
@@ -265,7 +280,31 @@ std::vector<KnownLabel> Announce(
     NumberText(size[2]) + " voxels, " + vtkImageScalarTypeNameMacro(map.Facts.Type) + ", " +
     std::to_string(count) + (count == 1 ? " label" : " labels") +
     (layers > 1 ? " in " + std::to_string(layers) + " layers" : ""));
-  return known;
+}
+
+/** The labels that are chosen, as --list-labels has them. */
+void ListLabels(const ToolOptions& options, const LabelMap& map,
+  const std::vector<KnownLabel>& known, int background, std::vector<std::string> warnings)
+{
+  LabelList list{ std::filesystem::path(options.Volume).filename().string(), map.Facts,
+    static_cast<int>(map.Layers.size()) };
+  list.Warnings = std::move(warnings);
+  const std::vector<std::size_t> chosen =
+    OfVolume(options, [&] { return ChooseLabels(options.Labels, known, background); });
+  for (const std::size_t i : chosen)
+  {
+    list.Labels.push_back(known[i]);
+  }
+  if (!options.Report.empty())
+  {
+    std::ostringstream text;
+    WriteReport(text, list);
+    PublishReport(options, text.str());
+  }
+  if (options.Report != "-")
+  {
+    WriteTable(std::cout, list);
+  }
 }
 }
 
@@ -293,8 +332,15 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   {
     return Success;
   }
-  const std::vector<KnownLabel> known =
-    Announce(options, map, filters.Labels->GetBackgroundLabel(), announcer);
+  const int background = filters.Labels->GetBackgroundLabel();
+  std::vector<std::string> warnings;
+  const std::vector<KnownLabel> known = KnownLabels(options, map, announcer, warnings);
+  Announce(options, map, known, background, announcer);
+  if (options.ListsLabels)
+  {
+    ListLabels(options, map, known, background, std::move(warnings));
+    return Success;
+  }
   std::vector<LabelSurface> surfaces = PlanSurfaces(options, known, filters.Labels);
   MadeFolders folders;
   CheckLabelSurfaces(options, surfaces, folders);

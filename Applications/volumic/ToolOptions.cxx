@@ -103,6 +103,9 @@ const std::vector<ProgramOption>& InputOptions()
       "the volume is a label map: make a surface of each of these labels, given as numbers, ranges "
       "and names with commas between, such as 1,7-9,liver,lung_*",
       [](ToolOptions& chosen, const std::string& text) { chosen.Labels.push_back(text); } },
+    Switch("list-labels", &ToolOptions::ListsLabels,
+      "print the labels of the volume, or those of --labels, instead of making surfaces: number, "
+      "voxels, volume, the box of voxel indices that they are in, and name; with --report as JSON"),
     Text("label-names", "FILE", &ToolOptions::NamesOfLabels,
       "names and colours of labels: JSON, ITK-SNAP's label descriptions, a colour table or .csv; "
       "without this option those of the volume, or of a file beside it"),
@@ -217,8 +220,8 @@ bool ToolOptions::HasProperty(const std::string& property) const
 
 bool ToolOptions::WantsSurface() const
 {
-  return !this->Surfaces.empty() || !this->Levels.empty() || !this->Report.empty() ||
-    !this->History.empty() || !this->Snapshots.empty();
+  return this->ListsLabels || !this->Surfaces.empty() || !this->Levels.empty() ||
+    !this->Report.empty() || !this->History.empty() || !this->Snapshots.empty();
 }
 
 ToolOptions ParseOptions(int argc, const char* const argv[])
@@ -272,6 +275,10 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
       throw UsageError("--" + name + ": " + error.what());
     }
   }
+  if (options.ListsLabels && options.Labels.empty())
+  {
+    options.Labels = { "all" };
+  }
   CheckOptions(options);
   return options;
 }
@@ -300,8 +307,10 @@ void PrintHelp(std::ostream& out, const FilterTrio& filters)
          "\n"
          "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
          "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
-         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .iv .g .geo .facet .tri; all are written\n"
-         "         (with --labels also a folder for a file per label, OUT/, or a .vtm)\n"
+         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .glb .iv .g .geo .facet .tri; all are\n"
+         "         written\n"
+         "         (with --labels also a folder for a file per label, OUT/, or all in one\n"
+         "         .vtm or .glb)\n"
          "\n"
          "Input:\n";
   for (const ProgramOption& option : InputOptions())

@@ -39,6 +39,7 @@ struct ToolOptions
   Positions AttractingPositions;                ///< beside those of the file
   std::string Edges;                            ///< point array of the volume, or file of a volume
   std::vector<std::string> Labels; ///< which of them get surfaces; empty: it is no label map
+  bool ListsLabels = false;        ///< to tell them, and make no surfaces
   std::string NamesOfLabels;       ///< file of names; empty: as the volume has them
   std::string Format;              ///< suffix of surfaces in a folder, without its dot
   std::string History;                          ///< .csv
@@ -55,7 +56,7 @@ struct ToolOptions
 
   bool HasProperty(const std::string& property) const;
 
-  /** Whether a surface is wanted, or something that tells of it. */
+  /** Whether a surface is wanted, or something that tells of it, or of the labels. */
   bool WantsSurface() const;
 };
 

@@ -5,6 +5,8 @@
 #include "CheckInputs.h"
 #include "CheckWritten.h"
 #include "FileGrowth.h"
+#include "GltfScene.h"
+#include "LabelColors.h"
 #include "OutputFiles.h"
 #include "Ranks.h"
 #include "RunWriter.h"
@@ -139,11 +141,19 @@ void WriteStl(const SurfaceFile& file)
   RunWriter(writer.Get(), file.Line);
 }
 
+/** With the colour of its label at each vertex, if there are labels. */
 void WritePly(const SurfaceFile& file)
 {
   const FileGrowth growth(file.Path, BytesOf(file.Surface, 12, 13), file.Line);
   vtkNew<vtkPLYWriter> writer;
-  writer->SetInputData(file.Surface);
+  vtkNew<vtkPolyData> surface;
+  surface->ShallowCopy(file.Surface);
+  if (const auto colors = VertexColors(file.Surface))
+  {
+    surface->GetPointData()->AddArray(colors);
+    writer->SetArrayName(colors->GetName());
+  }
+  writer->SetInputData(surface);
   writer->SetFileName(file.Path.c_str());
   writer->AddComment(file.Remark);
   RunWriter(writer.Get(), file.Line);
@@ -235,6 +245,13 @@ void WriteLegacyFile(const SurfaceFile& file)
   WriteLegacy(file.Surface, file.Path, file.Line);
 }
 
+void WriteGlbFile(const SurfaceFile& file)
+{
+  const std::vector<SurfaceLabel> labels = LabelsOf(file.Surface);
+  const std::string name = labels.size() == 1 ? labels.front().Name : "surface";
+  WriteGlb({ { name, file.Surface } }, file.Path, file.Line);
+}
+
 void WritePiecesFile(const SurfaceFile& file)
 {
   WritePieces(file.Surface, file.Path, file.PieceSize, file.Line);
@@ -272,6 +289,7 @@ const Format* FindFormat(const std::string& name)
     { ".vtk", { WriteLegacyFile, nullptr } },
     { ".stl", { WriteStl, CheckTriangles<84, 50> } },
     { ".ply", { WritePly, CheckWrittenPly } },
+    { ".glb", { WriteGlbFile, nullptr } },
     { ".obj", { WriteWith<vtkOBJWriter>, CheckObj } },
     { ".iv", { WriteInventor, CheckPairs<14> } },
     { ".g", { WriteByu, CheckPairs<2> } },
@@ -290,8 +308,13 @@ void CheckSurfaceName(const std::string& name)
   {
     throw UsageError(name +
       ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
-      ".obj .iv .g .geo .facet .tri");
+      ".obj .glb .iv .g .geo .facet .tri");
   }
+}
+
+bool IsScene(const std::string& name)
+{
+  return SuffixOf(name) == ".glb";
 }
 
 bool HasPieces(const std::string& name)
@@ -394,6 +417,17 @@ void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle st
       ProgressLine line(TitleOf(name), style);
       WriteVti(volume, path, line);
       CheckXml(path);
+    });
+}
+
+void WriteScene(
+  const std::vector<SceneObject>& objects, const std::string& name, ProgressStyle style)
+{
+  WriteBeside(name,
+    [&](const std::string& path)
+    {
+      ProgressLine line(TitleOf(name), style);
+      WriteGlb(objects, path, line);
     });
 }
 

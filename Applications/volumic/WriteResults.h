@@ -6,6 +6,7 @@
 #include "ProgressLine.h"
 
 #include <string>
+#include <vector>
 
 class vtkImageData;
 class vtkMultiBlockDataSet;
@@ -15,6 +16,7 @@ class vtkTable;
 namespace tool
 {
 class Ranks;
+struct SceneObject;
 
 // All write beside the file, which takes its place when it is whole (see OutputFiles.h), and throw
 // a Failure that names the file if that cannot be. What is large shows its progress.
@@ -24,6 +26,9 @@ void CheckSurfaceName(const std::string& name);
 
 /** Whether a surface of this name has files in a folder beside it. */
 bool HasPieces(const std::string& name);
+
+/** Whether a file of this name holds several surfaces with their names and colours. */
+bool IsScene(const std::string& name);
 
 /** How a surface is written. */
 struct SurfaceWriting
@@ -35,7 +40,7 @@ struct SurfaceWriting
 
 /**
  * Write a surface in the format of the suffix. Arrays and field data go along where the format has
- * a place for them (.vtp, .pvtp, .vtk).
+ * a place for them (.vtp, .pvtp, .vtk), and colours of labels (.ply, .glb).
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing);
 
@@ -51,6 +56,10 @@ void CheckVolumeName(const std::string& name);
 
 /** Write a volume with all its arrays and field data as .vti. */
 void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle style);
+
+/** Write the surfaces that are not empty to one file of which IsScene() is true. */
+void WriteScene(
+  const std::vector<SceneObject>& objects, const std::string& name, ProgressStyle style);
 
 /** Write the blocks that are not empty to one .vtm, with their files in a folder beside it. */
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style);

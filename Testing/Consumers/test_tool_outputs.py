@@ -22,7 +22,7 @@ from vtkmodules.vtkIOXML import (
 from limited_files import largest_file
 from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
 
-SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "iv", "g", "geo", "facet", "tri")
+SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "iv", "g", "geo", "facet", "tri")
 OLD = b"an older result"
 
 

@@ -25,6 +25,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -61,6 +62,15 @@ void AddNames(vtkImageData* image)
   image->GetFieldData()->AddArray(values);
   image->GetFieldData()->AddArray(names);
   image->GetFieldData()->AddArray(colors);
+}
+
+using Extent = std::array<int, 6>;
+
+Extent ExtentIn(vtkIntArray* extents, vtkIdType row)
+{
+  Extent extent;
+  extents->GetTypedTuple(row, extent.data());
+  return extent;
 }
 
 /** How many points of one surface are inside a ball. */
@@ -441,6 +451,24 @@ TEST(LabelsToSurfaces, SmoothingRemovesStairsButNoVoxels)
   EXPECT_LT(roughness(2.), 0.25 * roughness(0.));
 }
 
+TEST(LabelsToSurfaces, TellsWhichIsUnderWay)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(BallsImage());
+  AddNames(vtkImageData::SafeDownCast(filter->GetInputDataObject(0, 0)));
+  filter->SetMerge(true); // it is made on the calling thread, which tells of each iteration
+  filter->SetLabelName(3, "left half");
+  filter->AddLabel(3);
+  ProgressListener one(filter);
+  filter->Update();
+  EXPECT_EQ(one.Texts.count("0 of 1, left half"), 1u);
+  filter->SetMerge(false);
+  filter->AddLabel(7);
+  ProgressListener listener(filter);
+  filter->Update();
+  EXPECT_EQ(listener.Texts.count("0 of 2"), 1u);
+}
+
 TEST(LabelsToSurfaces, TellsProgressAndCanBeStopped)
 {
   vtkNew<vtkLabelsToSurfaces> filter;
@@ -450,6 +478,10 @@ TEST(LabelsToSurfaces, TellsProgressAndCanBeStopped)
   filter->Update();
   EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
   EXPECT_EQ(listener.Shares.back(), 1.);
+  EXPECT_GT(filter->GetSeconds(0), 0.);
+  EXPECT_GT(filter->GetSeconds(1), 0.);
+  EXPECT_EQ(filter->GetSeconds(-1), 0.);
+  EXPECT_EQ(filter->GetSeconds(2), 0.);
   const vtkIdType all = BlockOf(filter, 0)->GetNumberOfCells();
 
   listener.StopAt = 0.;
@@ -503,10 +535,39 @@ TEST(LabelTable, ListsTheLabelsOfAnImage)
   const double sum = labels->GetValueByName(0, "Voxels").ToDouble() +
     labels->GetValueByName(1, "Voxels").ToDouble() + labels->GetValueByName(2, "Voxels").ToDouble();
   EXPECT_EQ(sum, 34. * 28. * 28.);
+  auto* extents = vtkIntArray::SafeDownCast(labels->GetColumnByName("Extent"));
+  ASSERT_TRUE(extents);
+  EXPECT_EQ(ExtentIn(extents, 0), (Extent{ 0, 33, 0, 27, 0, 27 }));
+  EXPECT_EQ(ExtentIn(extents, 1), (Extent{ 4, 18, 7, 21, 7, 21 }));
   auto* colors = vtkDoubleArray::SafeDownCast(labels->GetColumnByName("Color"));
   ASSERT_TRUE(colors);
   EXPECT_EQ(colors->GetNumberOfComponents(), 3);
   EXPECT_NE(colors->GetComponent(1, 0), colors->GetComponent(2, 0)) << "a palette";
+}
+
+TEST(LabelTable, TellsWhereLabelsAre)
+{
+  // A run of voxels over the end of rows and of slices, on both sides of what a thread takes.
+  const int begins[3] = { -2, 5, 70 };
+  const auto image = LabelImageOf(80, 70, 60,
+    [](int i, int j, int k)
+    {
+      const int place = i + 80 * (j + 70 * k);
+      return place == 81 || place == 325    ? 5
+        : place >= 262100 && place < 262200 ? 6
+        : i == 9 && j > 30 && j < 33        ? 7
+                                            : 1;
+    });
+  image->SetExtent(begins[0], begins[0] + 79, begins[1], begins[1] + 69, begins[2], begins[2] + 59);
+  vtkNew<vtkLabelTable> table;
+  table->SetInputData(image);
+  table->Update();
+  auto* extents = vtkIntArray::SafeDownCast(table->GetOutput()->GetColumnByName("Extent"));
+  ASSERT_EQ(extents->GetNumberOfTuples(), 4);
+  EXPECT_EQ(ExtentIn(extents, 0), (Extent{ -2, 77, 5, 74, 70, 129 }));
+  EXPECT_EQ(ExtentIn(extents, 1), (Extent{ -1, 3, 6, 9, 70, 70 }));
+  EXPECT_EQ(ExtentIn(extents, 2), (Extent{ -2, 77, 61, 62, 116, 116 }));
+  EXPECT_EQ(ExtentIn(extents, 3), (Extent{ 7, 7, 36, 37, 70, 129 }));
 }
 
 TEST(LabelTable, RefusesWhatIsNoLabelMap)

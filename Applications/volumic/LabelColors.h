@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelColors_h
+#define volumicLabelColors_h
+
+#include "VolumeImage.h"
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+class vtkUnsignedCharArray;
+
+namespace tool
+{
+/** A label that a surface of vtkLabelsToSurfaces is about. */
+struct SurfaceLabel
+{
+  int Label = 0;
+  std::string Name;
+  Vector3 Color = { 0.0, 0.0, 0.0 }; ///< 0 to 1, as screens have it (sRGB)
+};
+
+/** Of the surface's field data; none if it is not about labels. */
+std::vector<SurfaceLabel> LabelsOf(vtkPolyData* surface);
+
+/** The label of each triangle; null if the surface is not about labels. */
+const int* TriangleLabels(vtkPolyData* surface);
+
+/** A colour for each vertex, that of the first triangle about it; null as above. */
+vtkSmartPointer<vtkUnsignedCharArray> VertexColors(vtkPolyData* surface);
+}
+
+#endif

@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`volumic --list-labels`: the labels of a volume as a table and as JSON, and no surfaces."""
+
+import json
+import os
+import subprocess
+import unittest
+
+import numpy as np
+
+from test_tool_labels import BLOBS, NAMES, SPACING, LabelsTest, label_image, label_voxels
+from tool_test_case import PROGRAM, make_image
+
+
+def box_of(voxels, label):
+    """First and last index along x, y, z."""
+    places = np.argwhere(voxels == label)[:, ::-1]
+    return np.ravel(list(zip(places.min(0), places.max(0)))).tolist()
+
+
+class ListTest(LabelsTest):
+    def table(self, *arguments):
+        """The lines of the table, split, below its heading."""
+        lines = self.run_tool("--list-labels", *arguments).stdout.splitlines()
+        self.assertRegex(lines[0], r"^ *label +voxels +volume +.*box \(first\.\.last voxel along i, "
+                                   r"j, k\) +name$")
+        return [line.split() for line in lines[1:]]
+
+    def listed(self, *arguments):
+        return self.report("--list-labels", *arguments)["labels"]
+
+    def test_a_table(self):
+        lines = self.table(self.map_file(), "--label-names", self.names_file())
+        voxels = label_voxels()
+        self.assertEqual([int(line[0]) for line in lines], sorted(BLOBS))
+        for line in lines:
+            label = int(line[0])
+            name = NAMES.get(label, f"Label {label}")
+            count = (voxels == label).sum()
+            box = box_of(voxels, label)
+            self.assertEqual(int(line[1]), count)
+            self.assertAlmostEqual(float(line[2]), count * SPACING.prod(), delta=1e-3)
+            self.assertEqual(line[3:6], [f"{box[i]}..{box[i + 1]}" for i in (0, 2, 4)])
+            self.assertEqual(" ".join(line[6:]), name)
+
+    def test_columns_are_straight_whatever_the_names(self):
+        names = self.write_bytes("n.json", json.dumps(
+            {1: "h\u00e9patique", 2: "a\nb\tc", 7: "\u809d\u81d3"}).encode())
+        lines = self.run_tool("--list-labels", self.map_file(), "--label-names",
+                              names).stdout.splitlines()
+        self.assertEqual(len(lines), 5)
+        names = ["name", "Label -3", "h\u00e9patique", "a b c", "\u809d\u81d3"]
+        self.assertEqual([line[lines[0].index("name"):] for line in lines], names)
+
+    def test_as_json(self):
+        voxels = label_voxels()
+        rows = self.listed(self.map_file(), "--label-names", self.names_file())
+        self.assertEqual([row["label"] for row in rows], sorted(BLOBS))
+        for row in rows:
+            self.assertEqual(list(row), ["label", "name", "color", "layer", "voxels", "volume",
+                                         "box"])
+            self.assertEqual(row["name"], NAMES.get(row["label"], f"Label {row['label']}"))
+            self.assertEqual(row["box"], box_of(voxels, row["label"]))
+            self.assertEqual(row["layer"], 0)
+        surfaces = self.rows(self.map_file(), "--labels", "all")
+        for row in rows:
+            for name in ("voxels", "color", "layer"):
+                self.assertEqual(row[name], surfaces[row["label"]][name])
+
+    def test_both(self):
+        lines = self.table(self.map_file(), "--report", self.path("r.json"), "-q")
+        report = json.loads(self.content("r.json"))
+        self.assertEqual(len(lines), len(report["labels"]))
+        self.assertEqual(report["input"]["dimensions"], [28, 28, 18])
+        self.assertEqual(report["warnings"], [])
+
+    def test_choice(self):
+        volume, names = self.map_file(), self.names_file()
+        for options, labels in ((["--labels", "l*"], [1, 2]), (["--labels", "0,7"], [0, 7]),
+                                (["--background", "1"], [-3, 0, 2, 7])):
+            rows = self.listed(volume, "--label-names", names, *options)
+            self.assertEqual([row["label"] for row in rows], labels)
+        self.refused("map.vti: there is no label 'kidney'", volume, "--list-labels", "--labels",
+                     "kidney")
+
+    def test_no_labels(self):
+        volume = self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1")))
+        self.assertEqual(self.table(volume), [])
+        self.refused("none.vti: it has no label but the background, 0; .*--background", volume,
+                     self.path("o/"), "--labels", "all")
+
+    def test_layers(self):
+        voxels = label_voxels()
+        layers = np.stack([voxels == 1, voxels == 7], -1).astype("u1")
+        head = ["NRRD0004", "type: uint8", "dimension: 4", "sizes: 2 28 28 18", "encoding: raw",
+                "kinds: list domain domain domain", "endian: little",
+                "space directions: none (1,0,0) (0,1,0) (0,0,1)"]
+        for i, name in enumerate(("Leber", "Milz")):
+            head += [f"Segment{i}_Name:={name}", f"Segment{i}_LabelValue:=1",
+                     f"Segment{i}_Layer:={i}"]
+        file = self.write_bytes("s.seg.nrrd", "\n".join(head).encode() + b"\n\n"
+                                + layers.tobytes())
+        rows = self.listed(file)
+        self.assertEqual([(row["label"], row["name"], row["layer"]) for row in rows],
+                         [(1, "Leber", 0), (1, "Milz", 1)])
+        self.assertEqual(rows[1]["box"], box_of(voxels, 7))
+        heading, *lines = self.run_tool(file, "--list-labels").stdout.splitlines()
+        self.assertIn("layer", heading.split())
+        self.assertEqual([line.split()[3] for line in lines], ["0", "1"])
+        row, = self.listed(file, "--component", "1")
+        self.assertEqual(row["box"], box_of(voxels, 7))
+
+    def test_floating_point_and_spacing(self):
+        volume = self.map_file("f.vti", label_image(label_voxels("f4")))
+        report = self.report(volume, "--list-labels", "--labels", "7", "--spacing", "1,1,3")
+        row, = report["labels"]
+        self.assertEqual(row["volume"], 3 * row["voxels"])
+        self.assertEqual(report["labels"][0]["box"], box_of(label_voxels(), 7))
+        half = self.map_file("h.vti", make_image(np.full((9, 9, 9), 0.5)))
+        self.refused("h.vti: .*labels must be integers", half, "--list-labels")
+        many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
+        self.refused("more than 4096", self.map_file("many.vti", label_image(many)),
+                     "--list-labels", "--labels", "7")
+
+    def test_what_excludes_what(self):
+        for reason, arguments in (
+                ("out.stl: --list-labels makes no surfaces", ["out.stl"]),
+                ("--merge and --list-labels exclude each other", ["--merge"]),
+                ("--format and --list-labels exclude", ["--format", "stl"]),
+                ("--iso and --list-labels exclude", ["--iso", "3"]),
+                ("--finest and --list-labels exclude", ["--finest", "1"]),
+                ("--seeds and --list-labels exclude", ["--seeds", "a.txt"])):
+            self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
+        self.refused("no volume is given", "--list-labels", status=2)
+
+    def test_reports_that_cannot_be_written(self):
+        volume = self.map_file()
+        self.refused("there is no folder .*none", volume, "--list-labels", "--report",
+                     self.path("none/r.json"))
+        self.refused("it is the input", volume, "--list-labels", "--report", volume)
+        if os.path.exists("/dev/full"):
+            self.refused("/dev/full: cannot be written", volume, "--list-labels", "--report",
+                         "/dev/full")
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                process = subprocess.run([PROGRAM, volume, "--list-labels"], stdout=full,
+                                         stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual(process.returncode, 1)
+            self.assertIn("the standard output cannot be written", process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

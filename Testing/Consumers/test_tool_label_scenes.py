@@ -1,0 +1,266 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""`volumic --labels`: colours and names in .ply and .glb, read without what has written them."""
+
+import json
+import os
+import re
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOGeometry import vtkGLTFReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+from test_tool_labels import NAMES, LabelsTest, label_image, label_voxels
+from tool_test_case import ISO, PROGRAM, make_image
+
+COLORS = {1: (200, 30, 0), 2: (0, 255, 120), 7: (10, 20, 30), -3: (255, 255, 255)}
+
+
+def read(reader, path):
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def triangles_of(surface):
+    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def points_of(surface):
+    return vtk_to_numpy(surface.GetPoints().GetData())
+
+
+def enclosed(points, triangles):
+    """The volume; negative where triangles turn inward."""
+    a, b, c = (points[triangles[:, i]].astype(float) for i in range(3))
+    return (a * np.cross(b, c)).sum() / 6
+
+
+def linear(color):
+    share = np.array(color) / 255
+    return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+
+
+class Scene:
+    """A .glb by the words of the specification of glTF 2.0."""
+
+    def __init__(self, data):
+        magic, version, size, json_size, json_type = struct.unpack("<4sIII4s", data[:20])
+        assert (magic, version, size, json_type) == (b"glTF", 2, len(data), b"JSON")
+        assert json_size % 4 == 0
+        self.text = json.loads(data[20:20 + json_size])
+        start = 28 + json_size
+        bytes_size, bytes_type = struct.unpack("<I4s", data[start - 8:start])
+        assert (bytes_type, start + bytes_size) == (b"BIN\0", len(data)) and bytes_size % 4 == 0
+        assert self.text["buffers"] == [{"byteLength": bytes_size}]
+        self.bytes = data[start:]
+        assert self.text["asset"]["version"] == "2.0"
+
+    def numbers(self, index):
+        """Of an accessor, in rows of three."""
+        accessor = self.text["accessors"][index]
+        view = self.text["bufferViews"][accessor["bufferView"]]
+        is_vector = accessor["type"] == "VEC3"
+        kind = {5126: "<f4", 5125: "<u4"}[accessor["componentType"]]
+        assert view["target"] == (34962 if is_vector else 34963)
+        count = accessor["count"] * (3 if is_vector else 1)
+        assert accessor["byteOffset"] + 4 * count <= view["byteLength"]
+        start = view["byteOffset"] + accessor["byteOffset"]
+        assert start % 4 == 0 and view["byteOffset"] + view["byteLength"] <= len(self.bytes)
+        rows = np.frombuffer(self.bytes, kind, count, start).reshape(-1, 3)
+        if "min" in accessor:
+            np.testing.assert_array_equal(rows.min(0), np.array(accessor["min"], "f4"))
+            np.testing.assert_array_equal(rows.max(0), np.array(accessor["max"], "f4"))
+        return rows
+
+    def nodes(self):
+        """{name: (node, mesh)} of those that show something, all below the first node."""
+        root, *others = self.text["nodes"]
+        assert self.text["scenes"][self.text["scene"]]["nodes"] == [0]
+        assert root["children"] == list(range(1, 1 + len(others)))
+        return {node["name"]: (node, self.text["meshes"][node["mesh"]]) for node in others}
+
+    def parts(self, mesh):
+        """For each primitive: points where the volume is, normals, triangles, material."""
+        root = self.text["nodes"][0]
+        x, y, z = root["translation"]
+        for part in mesh["primitives"]:
+            points = self.numbers(part["attributes"]["POSITION"]) + np.array([x, -z, y])
+            yield (points, self.numbers(part["attributes"]["NORMAL"]),
+                   self.numbers(part["indices"]), self.text["materials"][part["material"]])
+
+
+class ScenesTest(LabelsTest):
+    def colored_names(self):
+        lines = [f"{label},{NAMES.get(label, '')},#" + "".join(f"{c:02x}" for c in color)
+                 for label, color in COLORS.items()]
+        return self.write_bytes("n.csv", ("label,name,color\n" + "\n".join(lines)).encode())
+
+    def scene(self, name):
+        return Scene(self.content(name))
+
+
+class GlbTest(ScenesTest):
+    def test_a_node_for_each_label(self):
+        volume, names = self.map_file(), self.colored_names()
+        self.run_tool(volume, self.path("a.glb"), self.path("a/"), "--labels", "all",
+                      "--label-names", names)
+        scene = self.scene("a.glb")
+        self.assertEqual(list(scene.nodes()), ["Label -3", "liver", "Left lung", "spleen/x"])
+        for name, (node, mesh) in scene.nodes().items():
+            label, = node["extras"]["labels"]
+            self.assertEqual((mesh["name"], node["extras"]["stop_reason"]), (name, "converged"))
+            file = {"liver": "liver", "Left lung": "Left_lung", "spleen/x": "spleen_x",
+                    "Label -3": "label--3"}[name]
+            surface = read(vtkXMLPolyDataReader(), self.path(f"a/{file}.vtp"))
+            (points, normals, triangles, material), = scene.parts(mesh)
+            np.testing.assert_allclose(points, points_of(surface), atol=2e-6)
+            np.testing.assert_array_equal(triangles, triangles_of(surface))
+            np.testing.assert_array_equal(normals,
+                                          vtk_to_numpy(surface.GetPointData().GetNormals()))
+            np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-5)
+            self.assertGreater(enclosed(points, triangles), 0)
+            self.assertEqual(material["name"], name)
+            color = material["pbrMetallicRoughness"]["baseColorFactor"]
+            np.testing.assert_allclose(color, [*linear(COLORS[label]), 1], atol=1e-9)
+
+    def test_vtk_reads_it(self):
+        self.run_tool(self.map_file(), self.path("a.glb"), "--labels", "all")
+        blocks = read(vtkGLTFReader(), self.path("a.glb"))
+        iterator = blocks.NewIterator()
+        bounds = []
+        while not iterator.IsDoneWithTraversal():
+            bounds.append(iterator.GetCurrentDataObject().GetBounds())
+            iterator.GoToNextItem()
+        self.assertEqual(len(bounds), 4)
+        for label, (x0, x1, y0, y1, z0, z1) in zip((-3, 1, 2, 7), bounds):
+            # z upwards is y of glTF, and y is -z.
+            np.testing.assert_allclose((x0, x1, -z1, -z0, y0, y1), self.bounds_of(label), atol=.75)
+
+    def test_far_from_zero(self):
+        far = make_image(label_voxels(), (1e-3, 1e-3, 1e-3), (1e4, -2e4, 3e4))
+        self.run_tool(self.map_file("far.vti", far), self.path("a.glb"), self.path("a/"),
+                      "--labels", "1,2")
+        for (_, mesh), label in zip(self.scene("a.glb").nodes().values(), (1, 2)):
+            (points, _, _, _), = self.scene("a.glb").parts(mesh)
+            surface = read(vtkXMLPolyDataReader(), self.path(f"a/label-{label}.vtp"))
+            np.testing.assert_allclose(points, points_of(surface), rtol=0, atol=1e-8)
+
+    def test_merged(self):
+        self.run_tool(self.map_file(), self.path("a.glb"), self.path("a.vtp"), "--labels", "1,2",
+                      "--merge", "--label-names", self.colored_names())
+        scene = self.scene("a.glb")
+        (name, (node, mesh)), = scene.nodes().items()
+        self.assertEqual((name, node["extras"]["labels"]), ("Labels 1, 2", [1, 2]))
+        surface = read(vtkXMLPolyDataReader(), self.path("a.vtp"))
+        labels = vtk_to_numpy(surface.GetCellData().GetArray("Label"))
+        for (points, _, triangles, material), label in zip(scene.parts(mesh), (1, 2), strict=True):
+            self.assertEqual(material["name"], NAMES[label])
+            np.testing.assert_allclose(points, points_of(surface), atol=2e-6)
+            np.testing.assert_array_equal(triangles, triangles_of(surface)[labels == label])
+
+    def test_names(self):
+        names = {1: "same", 2: "same", 7: 'a/"b"\\\u00e9\u809d', -3: ""}
+        file = self.write_bytes("n.json", json.dumps(names).encode())
+        self.run_tool(self.map_file(), self.path("a.glb"), "--labels", "all", "--label-names", file)
+        told = [node.get("name") for node in self.scene("a.glb").text["nodes"]]
+        self.assertEqual(told, [None, "Label -3", "same", "same", names[7]])
+
+    def test_labels_without_a_surface_are_left_out(self):
+        voxels = label_voxels()
+        voxels[2, 2, 26] = 9
+        volume = self.map_file("dot.vti", label_image(voxels))
+        self.run_tool(volume, self.path("a.glb"), "--labels", "1,9", "--finest", "1")
+        self.assertEqual(list(self.scene("a.glb").nodes()), ["Label 1"])
+
+    def test_one_surface(self):
+        self.run_tool(self.map_file(), self.path("o"), "--labels", "1", "--format", "glb",
+                      "--label-names", self.names_file())
+        self.assertEqual(os.listdir(self.path("o")), ["liver.glb"])
+        self.assertEqual(list(self.scene("o/liver.glb").nodes()), ["liver"])
+        self.run_tool(self.ball_file(), self.path("b.glb"), self.path("b.vtp"), "--iso", ISO)
+        scene = self.scene("b.glb")
+        (node, mesh), = scene.nodes().values()
+        self.assertEqual((node["name"], node["extras"]["labels"]), ("surface", []))
+        (points, _, triangles, material), = scene.parts(mesh)
+        surface = read(vtkXMLPolyDataReader(), self.path("b.vtp"))
+        np.testing.assert_allclose(points, points_of(surface), atol=2e-6)
+        np.testing.assert_array_equal(triangles, triangles_of(surface))
+        np.testing.assert_allclose(material["pbrMetallicRoughness"]["baseColorFactor"],
+                                   [*linear((204, 204, 204)), 1])
+
+    def test_what_cannot_be_written(self):
+        volume = self.map_file()
+        self.refused("there is no folder .*none", volume, self.path("none/a.glb"), "--labels",
+                     "all")
+        os.rename(volume, self.path("map.glb"))
+        self.refused("map.glb: cannot be written: it is the input", self.path("map.glb"),
+                     self.path("map.glb"), "--labels", "all")
+        if os.path.exists("/dev/full"):
+            os.symlink("/dev/full", self.path("full.glb"))
+            self.refused("full.glb: cannot be written .No space left", self.map_file(),
+                         self.path("full.glb"), "--labels", "all")
+
+    def test_interrupt_keeps_what_is_finished(self):
+        z, y, x = np.mgrid[0:75, 0:75, 0:75]
+        voxels = 1 + (x // 15) + 5 * (y // 15) + 25 * (z // 15)
+        voxels[((x % 15 - 7) ** 2 + (y % 15 - 7) ** 2 + (z % 15 - 7) ** 2) > 50] = 0
+        volume = self.map_file("many.vti", make_image(voxels.astype("u1"), (1, 1, 1)))
+        command = [PROGRAM, volume, self.path("a.glb"), "--labels", "all", "--progress",
+                   "--threads", "1", "--finest", "-1"]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            for line in process.stderr:
+                if re.match(r"Making surfaces: .* (\d{2,}) of 125, Label", line):
+                    break
+            process.send_signal(signal.SIGINT)
+            started = time.monotonic()
+            rest = process.stderr.read()
+            self.assertEqual(process.wait(timeout=60), 3, rest)
+        self.assertLess(time.monotonic() - started, 30)
+        reasons = [node["extras"]["stop_reason"]
+                   for node, _ in self.scene("a.glb").nodes().values()]
+        self.assertTrue(10 <= reasons.count("converged") < 125, reasons)
+
+
+class PlyTest(ScenesTest):
+    def test_vertices_have_the_colour_of_their_label(self):
+        self.run_tool(self.map_file(), self.path("o"), "--labels", "all", "--format", "ply",
+                      "--label-names", self.colored_names())
+        self.run_tool(self.map_file(), self.path("p"), "--labels", "all", "--label-names",
+                      self.colored_names())
+        for file, label in (("liver", 1), ("Left_lung", 2), ("spleen_x", 7), ("label--3", -3)):
+            surface = read(vtkPLYReader(), self.path(f"o/{file}.ply"))
+            colors = vtk_to_numpy(surface.GetPointData().GetArray("RGB"))
+            self.assertEqual(len(colors), surface.GetNumberOfPoints())
+            self.assertEqual({tuple(color) for color in colors}, {COLORS[label]})
+            same = read(vtkXMLPolyDataReader(), self.path(f"p/{file}.vtp"))
+            np.testing.assert_array_equal(points_of(surface), points_of(same).astype("f4"))
+            np.testing.assert_array_equal(triangles_of(surface), triangles_of(same))
+
+    def test_merged(self):
+        self.run_tool(self.map_file(), self.path("a.ply"), self.path("a.vtp"), "--labels", "1,2",
+                      "--merge", "--label-names", self.colored_names())
+        surface = read(vtkPLYReader(), self.path("a.ply"))
+        colors = vtk_to_numpy(surface.GetPointData().GetArray("RGB"))
+        same = read(vtkXMLPolyDataReader(), self.path("a.vtp"))
+        labels = vtk_to_numpy(same.GetCellData().GetArray("Label"))
+        triangles = triangles_of(same)
+        for point, color in enumerate(colors):
+            about = labels[(triangles == point).any(1)]
+            self.assertEqual(tuple(color), COLORS[about[0]])
+        self.assertEqual(len(np.unique(colors, axis=0)), 2)
+
+    def test_other_surfaces_have_none(self):
+        self.run_tool(self.ball_file(), self.path("b.ply"), "--iso", ISO)
+        self.assertNotIn(b"red", self.content("b.ply")[:500])
+
+
+if __name__ == "__main__":
+    unittest.main()
