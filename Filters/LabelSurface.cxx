@@ -464,7 +464,8 @@ LabelSurface LabelSurfaceMaker::Make(
       [&](double share, const std::string& text)
       { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
     // Null: it was stopped; what level 0 has is finished.
-    if (finer.Surface && finer.MissedVoxels < made.MissedVoxels)
+    if (finer.Surface &&
+      (finer.MissedVoxels < made.MissedVoxels || made.Surface->GetNumberOfCells() == 0))
     {
       made = finer;
     }

@@ -19,9 +19,11 @@ namespace
 /** Where the Gaussian loses voxels, one that is narrower by this factor takes its place, */
 constexpr double NarrowerBy = 0.7071067811865476;
 /** until it has become so narrow that it moves hardly anything, in smallest distances of voxels, */
-constexpr double LeastSigma = 0.45;
+static const double LeastSigma = getenv("LSG") ? atof(getenv("LSG")) : 0.95;
 /** fading out from them with this one. */
 constexpr double FadingSigma = 1.25;
+/** As a share; where there is less, no boundary is near, and its volume is out of reach. */
+constexpr float LeastBoundary = 1e-6f;
 
 /** The quantiles of the normal distribution, from a table: the same bits on any machine. */
 class NormalQuantile
@@ -83,6 +85,7 @@ public:
     {
       this->MakeNarrower(narrower, lost);
     }
+    this->CorrectVolume(sigma);
   }
 
 private:
@@ -106,11 +109,41 @@ private:
     this->ForValues(smooth, [sigma](float& value, float share)
       { value = std::clamp(sigma * NormalQuantile::Table().At(share), -LabelField::Far,
           LabelField::Far); });
+  }
+
+  void CorrectVolume(double ofGaussian)
+  {
+    const auto sigma = static_cast<float>(ofGaussian);
+    BoundaryGaussian gaussian(this->Rows, this->InVoxels(ofGaussian));
+    LargeVector<float> smooth(this->Field.Values.size());
+    LargeVector<float> boundary(this->Field.Values.size());
+    const float most = sigma * 2.5066283f; // sqrt(2 pi): at a flat boundary alone
+    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
+      { this->CopyBoundary(i, j, k, count, values); }, boundary, this->Threads);
     gaussian.Smooth([this](int i, int j, int k, int count, float* values)
       { this->CopyMissingVolume(i, j, k, count, values); }, smooth, this->Threads);
-    const float perShare = sigma * 2.5066283f; // sqrt(2 pi)
-    this->ForValues(smooth, [perShare](float& value, float missing)
-      { value = std::clamp(value + perShare * missing, -LabelField::Far, LabelField::Far); });
+    for (std::size_t v = 0; v < smooth.size(); ++v)
+    {
+      smooth[v] *= std::min(most, 1.f / std::max(boundary[v], LeastBoundary));
+    }
+    this->ForValues(smooth, [](float& value, float missing)
+      { value = std::clamp(value + missing, -LabelField::Far, LabelField::Far); });
+  }
+
+  /** 1 where a small change of the field changes the volume that it has inside. */
+  void CopyBoundary(int i, int j, int k, int count, float* values) const
+  {
+    std::fill(values, values + count, 0.f);
+    this->ForField(i, j, k, count, values,
+      [](float& value, float field) { value = std::abs(field) < 0.5f ? 1.f : 0.f; });
+  }
+
+  /** The membership less what of each voxel is inside by the field; off the rows there is none. */
+  void CopyMissingVolume(int i, int j, int k, int count, float* values) const
+  {
+    this->Sides.CopyMembership(i, j, k, count, values);
+    this->ForField(i, j, k, count, values,
+      [](float& value, float field) { value -= std::clamp(field + 0.5f, 0.f, 1.f); });
   }
 
   /** About the voxels that are lost, fading into what there is. */
@@ -178,17 +211,17 @@ private:
       });
   }
 
-  /** The membership less what of each voxel is inside by the field; off the rows there is none. */
-  void CopyMissingVolume(int i, int j, int k, int count, float* values) const
+  /** Calls change(value, field) for those of `count` values that are in the box. */
+  template <typename Change>
+  void ForField(int i, int j, int k, int count, float* values, Change&& change) const
   {
-    this->Sides.CopyMembership(i, j, k, count, values);
     const VoxelBox& box = this->Field.Box;
     const int first = std::max(i, box.First[0]);
     const int end = std::min(i + count, box.End[0]);
     const float* row = this->Field.Values.data() + box.NumberOf(first, j, k);
     for (int x = first; x < end; ++x)
     {
-      values[x - i] -= std::clamp(row[x - first] + 0.5f, 0.f, 1.f);
+      change(values[x - i], row[x - first]);
     }
   }
 

@@ -20,12 +20,16 @@ namespace
 {
 /** Only voxels nearer to the boundary than this can come to the wrong side of it. */
 constexpr float MostWrong = 1.5f;
-/** More than that is the ridge of a thin part, which is no bend. */
+/** More than that is an edge, which chords do not follow. */
 constexpr float MostCurvature = 0.35f;
+/** Beside a thin part it is too far, as a share of the way to it: of half of that it should be. */
+constexpr float FarBesideThin = 0.7f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
 /** Times which it is looked for what a tolerance would lose. */
 constexpr int MostRescues = 4;
+/** Where the field is flatter it is a ridge, and has no bend. */
+constexpr float LeastSlope = 0.2f;
 /** The Laplacian of the distance is taken this near to the boundary. */
 constexpr float MostBent = 2.5f;
 
@@ -101,18 +105,14 @@ private:
       });
   }
 
+  /**
+   * Takes off the Laplacian, but for what of it is along the gradient: across a thin part the field
+   * is a ridge, which is no bend.
+   */
   void CorrectBends(double amount)
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
-    const std::array<std::int64_t, 3> step = { 1, box.Length(0),
-      static_cast<std::int64_t>(box.Length(0)) * box.Length(1) };
-    std::array<float, 3> weight;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      weight[axis] =
-        static_cast<float>(1. / (this->Map.Spacing[axis] * this->Map.Spacing[axis]));
-    }
     const auto correction = static_cast<float>(amount);
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
@@ -129,22 +129,46 @@ private:
         {
           if (std::abs(old[x]) < MostBent)
           {
-            float laplacian = 0.f;
-            for (int axis = 0; axis < 3; ++axis)
-            {
-              laplacian +=
-                weight[axis] * (old[x - step[axis]] - 2.f * old[x] + old[x + step[axis]]);
-            }
-            values[x] -= correction * std::clamp(laplacian, -MostCurvature, MostCurvature);
+            values[x] -= correction * std::clamp(this->BendAt(old + x), -MostCurvature, MostCurvature);
           }
         }
       });
   }
 
+  /** The second derivatives along the isosurface of a field; it must have voxels all about. */
+  float BendAt(const float* at) const
+  {
+    const VoxelBox& box = this->Field.Box;
+    const std::array<std::int64_t, 3> step = { 1, box.Length(0),
+      static_cast<std::int64_t>(box.Length(0)) * box.Length(1) };
+    std::array<float, 3> inverse;
+    std::array<float, 3> gradient;
+    float laplacian = 0.f;
+    float along = 0.f;
+    for (int a = 0; a < 3; ++a)
+    {
+      inverse[a] = static_cast<float>(1. / this->Map.Spacing[a]);
+      gradient[a] = 0.5f * inverse[a] * (at[step[a]] - at[-step[a]]);
+      const float second = inverse[a] * inverse[a] * (at[step[a]] - 2.f * at[0] + at[-step[a]]);
+      laplacian += second;
+      along += gradient[a] * gradient[a] * second;
+    }
+    for (int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3;
+      const float mixed = 0.25f * inverse[a] * inverse[b] *
+        (at[step[a] + step[b]] - at[step[a] - step[b]] - at[step[b] - step[a]] +
+          at[-step[a] - step[b]]);
+      along += 2.f * gradient[a] * gradient[b] * mixed;
+    }
+    const float square = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
+    return square > LeastSlope * LeastSlope ? laplacian - along / square : 0.f;
+  }
+
   /** Within a tolerance nothing is held for being thin. */
   bool IsThin(int i, int j, int k) const
   {
-    return this->IsStrict(i, j, k) && this->Sides.IsThin(i, j, k);
+    return this->IsStrict(i, j, k) && this->Sides.ThinWidth(i, j, k) > 0.;
   }
 
   void Hold(const std::vector<HeldVoxel>& held)
@@ -232,7 +256,7 @@ private:
 
   double MarginAt(int i, int j, int k) const
   {
-    return this->IsThin(i, j, k)    ? this->Options.ThinMargin
+    return this->IsThin(i, j, k)    ? std::min<double>(MostWrong, this->Options.ThinMargin * this->Sides.ThinWidth(i, j, k))
       : this->IsBesideThin(i, j, k) ? this->Options.MarginBesideThin
       : this->IsStrict(i, j, k)     ? this->Options.Margin
                                     : this->Options.Margin - this->Options.Tolerance;
@@ -259,10 +283,10 @@ private:
     for (int x = 0; x < count; ++x)
     {
       const float side = this->Sides.Of(i + x, j, k);
-      if (side * values[x] > 1.f && !this->IsThin(i + x, j, k))
+      if (side * values[x] > FarBesideThin && !this->IsThin(i + x, j, k))
       {
         const double way = this->WayToThin(i + x, j, k);
-        if (way > 0. && side * values[x] > way)
+        if (way > 0. && side * values[x] > FarBesideThin * way)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
             static_cast<float>(-this->Options.MostBesideThin * way) });
