@@ -5,30 +5,57 @@
  * Judges surfaces in files, by CGAL and by what shares no code with Volumic: a line for each, words
  * and figures in the order of the line that --help prints.
  *
- *     JudgeFiles FILE.vtp...
+ *     JudgeFiles [--map MAP.vti] FILE.vtp...
+ *
+ * With a map the files are surfaces of its labels, which their field data `Label` names: they are
+ * judged against its voxels and against each other, too.
  */
 
+#include "LabelJudge.h"
 #include "SurfaceJudge.h"
+#include "WrongVoxels.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <exception>
 #include <iomanip>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace
 {
 using namespace volumic::support;
 
-TriangleSurface ReadSurface(const std::string& file)
+/** A surface, and of which labels it is, if of any. */
+struct NamedSurface : TriangleSurface
+{
+  std::string File;
+  std::set<double> Labels;
+};
+
+/** What surfaces of labels have to do with others; pairs with all other files. */
+struct LabelVerdict
+{
+  std::size_t TouchingPairs = 0;  ///< of triangles
+  std::size_t VerticesInside = 0; ///< of the one inside the other, both ways
+  std::size_t WrongVoxels = 0;    ///< centres
+};
+
+NamedSurface ReadSurface(const std::string& file)
 {
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(file.c_str());
@@ -42,7 +69,13 @@ TriangleSurface ReadSurface(const std::string& file)
   {
     throw std::invalid_argument("has other cells than polygons");
   }
-  TriangleSurface surface;
+  NamedSurface surface;
+  surface.File = file;
+  vtkDataArray* labels = data->GetFieldData()->GetArray("Label");
+  for (vtkIdType i = 0; labels && i < labels->GetNumberOfTuples(); ++i)
+  {
+    surface.Labels.insert(labels->GetComponent(i, 0));
+  }
   surface.Points.resize(data->GetNumberOfPoints());
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
   {
@@ -64,9 +97,53 @@ TriangleSurface ReadSurface(const std::string& file)
   return surface;
 }
 
-void Judge(const std::string& file)
+std::size_t CountWrongVoxels(const NamedSurface& surface, vtkImageData* map)
 {
-  const TriangleSurface surface = ReadSurface(file);
+  TriangleSurface inIndices = surface;
+  for (std::size_t p = 0; p < surface.Points.size(); ++p)
+  {
+    map->TransformPhysicalPointToContinuousIndex(
+      surface.Points[p].data(), inIndices.Points[p].data());
+  }
+  std::array<int, 3> size;
+  map->GetDimensions(size.data());
+  const std::vector<char> enclosed = EnclosedVoxels(inIndices, size);
+  vtkDataArray* voxels = map->GetPointData()->GetScalars();
+  std::size_t wrong = 0;
+  for (std::size_t v = 0; v < enclosed.size(); ++v)
+  {
+    const double label = voxels->GetComponent(static_cast<vtkIdType>(v), 0);
+    wrong += (surface.Labels.count(label) > 0) != (enclosed[v] != 0);
+  }
+  return wrong;
+}
+
+/** Each pair once. */
+std::vector<LabelVerdict> JudgeLabels(
+  const std::vector<NamedSurface>& surfaces, const std::string& mapFile)
+{
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName(mapFile.c_str());
+  reader->Update();
+  std::vector<LabelVerdict> verdicts(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    verdicts[i].WrongVoxels = CountWrongVoxels(surfaces[i], reader->GetOutput());
+    for (std::size_t other = 0; other < i; ++other)
+    {
+      const OverlapVerdict overlap = JudgeOverlap(surfaces[i], surfaces[other]);
+      for (const std::size_t one : { i, other })
+      {
+        verdicts[one].TouchingPairs += overlap.IntersectingPairs;
+        verdicts[one].VerticesInside += overlap.VerticesInside;
+      }
+    }
+  }
+  return verdicts;
+}
+
+void Judge(const NamedSurface& surface, const LabelVerdict& label)
+{
   const TopologyVerdict topology = JudgeTopology(surface);
   const IntersectionVerdict intersections = JudgeIntersections(surface);
   std::cout << surface.Points.size() << ' ' << surface.Triangles.size() << ' ' << topology.Closed
@@ -74,7 +151,8 @@ void Judge(const std::string& file)
             << ' ' << intersections.Pairs << ' ' << intersections.FlatTriangles << ' '
             << topology.UnusedPoints << ' ' << topology.Components.size() << ' '
             << topology.EulerCharacteristic << ' ' << topology.Genus << ' ' << topology.Area << ' '
-            << topology.Volume << std::endl;
+            << topology.Volume << ' ' << label.TouchingPairs << ' ' << label.VerticesInside << ' '
+            << label.WrongVoxels << std::endl;
 }
 }
 
@@ -83,21 +161,32 @@ int main(int count, char** words)
   if (count > 1 && std::string(words[1]) == "--help")
   {
     std::cout << "points triangles closed manifold oriented outward intersections flat unused "
-                 "components euler genus area volume\n";
+                 "components euler genus area volume touching overlapping wrong\n";
     return 0;
   }
   std::cout << std::setprecision(17);
-  for (int i = 1; i < count; ++i)
+  const bool hasMap = count > 2 && std::string(words[1]) == "--map";
+  std::string file;
+  try
   {
-    try
+    std::vector<NamedSurface> surfaces;
+    for (int i = hasMap ? 3 : 1; i < count; ++i)
     {
-      Judge(words[i]);
+      file = words[i];
+      surfaces.push_back(ReadSurface(file));
     }
-    catch (const std::exception& error)
+    const std::vector<LabelVerdict> ofLabels =
+      hasMap ? JudgeLabels(surfaces, words[2]) : std::vector<LabelVerdict>(surfaces.size());
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
     {
-      std::cerr << words[i] << ": " << error.what() << '\n';
-      return 1;
+      file = surfaces[i].File;
+      Judge(surfaces[i], ofLabels[i]);
     }
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << file << ": " << error.what() << '\n';
+    return 1;
   }
   return 0;
 }

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random volumes through the command; every surface that it writes is judged. See campaign.sh.
 
-    campaign.py --program volumic --judge JudgeFiles --folder DIR --seeds N [--first SEED]
+    campaign.py --program volumic --judge JudgeFiles --folder DIR --seeds N [--first SEED] [--labels]
 
 Prints a line for each seed with an exception or of more than 20 s of processor time, then counts.
 Exit code: 0 without exceptions.
@@ -22,6 +22,7 @@ import subprocess
 import sys
 import threading
 
+import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from random_settings import RandomRun
@@ -40,6 +41,8 @@ class Outcome:
         self.words = ""  # the standard error
         self.surfaces = self.triangles = 0
         self.exceptions = []
+        self.told = []  # of labels: what is exceptional, but for a warning about it
+        self.volumes = []  # of labels of 100 voxels or more: over that of their voxels, less 1
 
     def refusal(self):
         """Why there is no surface, without names and numbers."""
@@ -79,13 +82,15 @@ def run_command(program, run, outcome):
 
 
 def field_data(path):
-    """{name: first value, a number or a text}"""
+    """{name: first value, a number or a text}, and all labels"""
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(path)
     reader.Update()
     fields = reader.GetOutput().GetFieldData()
     arrays = (fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays()))
-    return {array.GetName(): array.GetValue(0) for array in arrays if array.GetNumberOfValues()}
+    values = {array.GetName(): [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+              for array in arrays if array.GetNumberOfValues()}
+    return {name: all_of[0] for name, all_of in values.items()} | {"Labels": values.get("Label", [])}
 
 
 def faults(verdict, told):
@@ -108,7 +113,8 @@ def faults(verdict, told):
 def judge(program, names, files, outcome):
     if not files:
         return
-    judged = subprocess.run([program, *files], cwd=outcome.run.folder, capture_output=True,
+    the_map = ["--map", "volume.vti"] if outcome.run.is_of_labels else []
+    judged = subprocess.run([program, *the_map, *files], cwd=outcome.run.folder, capture_output=True,
                             text=True, check=False)
     if judged.returncode:
         outcome.exceptions.append(f"judge: {judged.stderr.strip()}")
@@ -121,8 +127,58 @@ def judge(program, names, files, outcome):
             if told.get("StopReason") not in ("vanished", *STOPPED):
                 outcome.exceptions.append(f"{path}: empty, {told.get('StopReason')}")
             continue
+        found = faults(verdict, told)
+        if outcome.run.is_of_labels:
+            found += faults_of_label(verdict, told, outcome)
         outcome.exceptions += [f"{path} ({told.get('StopReason', 'on its way')}): {fault}"
-                               for fault in faults(verdict, told)]
+                               for fault in found]
+
+
+def warned(outcome, start, label):
+    """Whether a warning that starts with these words names the label."""
+    listed = re.search(start + "([^:]*)(:|. Try)", outcome.words)
+    return listed and re.search(rf" {label}\b| others", listed[1])
+
+
+def faults_of_label(verdict, told, outcome):
+    found = []
+    run = outcome.run
+    if verdict["wrong"] != told["WrongVoxels"]:
+        found.append(f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}")
+    if "--gap" in run.words and (verdict["touching"] or verdict["overlapping"]):
+        text = f"{verdict['touching']:g} pairs of triangles touch others' in spite of the gap"
+        is_told = warned(outcome, "in spite of the Gap:", told["Label"])
+        (outcome.told if is_told else found).append(text)
+    if run.is_default and told["LabelVoxels"] >= 100:
+        outcome.volumes.append(told["Volume"] / told["LabelVoxels"] / run.spacing.prod() - 1)
+    return found
+
+
+def largest_parts(labels):
+    """{label: how many voxels its largest part has that is connected by faces}"""
+    part = np.arange(labels.size).reshape(labels.shape)
+    before = None
+    while not np.array_equal(part, before):
+        before = part.copy()
+        for axis in range(3):
+            for step in (1, -1):
+                a, b = np.moveaxis(part, axis, 0)[::step], np.moveaxis(labels, axis, 0)[::step]
+                for i in range(1, len(a)):
+                    a[i] = np.where(b[i] == b[i - 1], np.maximum(a[i], a[i - 1]), a[i])
+    return {label: np.unique(part[labels == label], return_counts=True)[1].max()
+            for label in np.unique(labels) if label}
+
+
+def check_labels(outcome, folder, files):
+    """None is lost without a warning, and none at all by default, but for single voxels."""
+    made = [label for f in files for label in field_data(os.path.join(folder, f))["Labels"]]
+    for label, size in largest_parts(outcome.run.labels).items():
+        if label not in made:
+            text = f"no surface of {label}, {size} voxels"
+            if not warned(outcome, "No surface is left of", label):
+                outcome.exceptions.append(text)
+            elif outcome.run.is_default:
+                outcome.told.append(text)
 
 
 def check_status(outcome, folder):
@@ -148,7 +204,7 @@ def try_seed(seed, arguments, names):
     folder = os.path.join(arguments.folder, str(seed))
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    run = RandomRun(seed, folder)
+    run = RandomRun(seed, folder, arguments.labels)
     outcome = Outcome(seed, run)
     with open(os.path.join(folder, "command"), "w", encoding="utf-8") as file:
         file.write(shlex.join([arguments.program, *run.words]) + "\n")
@@ -156,6 +212,8 @@ def try_seed(seed, arguments, names):
     check_status(outcome, folder)
     files = sorted(glob.glob("**/*.vtp", root_dir=folder, recursive=True))
     judge(arguments.judge, names, [f for f in files if f != "given.vtp"], outcome)
+    if run.is_of_labels and (outcome.status == 0 or "none of the labels" in outcome.words):
+        check_labels(outcome, folder, files)
     if not outcome.exceptions and outcome.seconds <= SLOW_SECONDS and not arguments.keep:
         shutil.rmtree(folder)
     return outcome
@@ -167,6 +225,15 @@ def tell(outcomes):
     refusals = collections.Counter(o.refusal() for o in outcomes if o.status == 1)
     for words, times in refusals.most_common():
         print(f"    {times} x {words}")
+    for outcome in outcomes:
+        if outcome.told:
+            print(f"    told by {outcome.line()}: {'; '.join(outcome.told)}")
+    volumes = np.array([v for o in outcomes for v in o.volumes])
+    if volumes.size:
+        print(f"{volumes.size} labels of 100 voxels or more by default: volume "
+              f"{100 * np.median(volumes):+.2f} % in the median, 1 in 20 more than "
+              f"{100 * np.quantile(abs(volumes), .95):.1f} % off, worst "
+              f"{100 * volumes[abs(volumes).argmax()]:+.1f} %")
     slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
     print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
           f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "
@@ -182,6 +249,7 @@ def main():
     parser.add_argument("--seeds", type=int, required=True)
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--labels", action="store_true")
     arguments = parser.parse_args()
     arguments.keep = arguments.seeds == 1
     names = subprocess.run([arguments.judge, "--help"], capture_output=True, text=True,
