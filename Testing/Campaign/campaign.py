@@ -42,7 +42,7 @@ class Outcome:
         self.surfaces = self.triangles = 0
         self.exceptions = []
         self.told = []  # of labels: what is exceptional, but for a warning about it
-        self.volumes = []  # of labels of 100 voxels or more: over that of their voxels, less 1
+        self.labels = []  # of 100 voxels or more by default: (error of volume, wrong voxels, text)
 
     def refusal(self):
         """Why there is no surface, without names and numbers."""
@@ -150,7 +150,10 @@ def faults_of_label(verdict, told, outcome):
         is_told = warned(outcome, "in spite of the Gap:", told["Label"])
         (outcome.told if is_told else found).append(text)
     if run.is_default and told["LabelVoxels"] >= 100:
-        outcome.volumes.append(told["Volume"] / told["LabelVoxels"] / run.spacing.prod() - 1)
+        voxels = told["LabelVoxels"]
+        outcome.labels.append((100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
+                               100 * verdict["wrong"] / voxels,
+                               f"label {told['Label']} of {voxels} voxels, {outcome.line()}"))
     return found
 
 
@@ -228,12 +231,15 @@ def tell(outcomes):
     for outcome in outcomes:
         if outcome.told:
             print(f"    told by {outcome.line()}: {'; '.join(outcome.told)}")
-    volumes = np.array([v for o in outcomes for v in o.volumes])
-    if volumes.size:
-        print(f"{volumes.size} labels of 100 voxels or more by default: volume "
-              f"{100 * np.median(volumes):+.2f} % in the median, 1 in 20 more than "
-              f"{100 * np.quantile(abs(volumes), .95):.1f} % off, worst "
-              f"{100 * volumes[abs(volumes).argmax()]:+.1f} %")
+    labels = [label for outcome in outcomes for label in outcome.labels]
+    for which, name in enumerate(("volume less that of the voxels", "wrong voxels")[:len(labels)]):
+        labels.sort(key=lambda label: -abs(label[which]))
+        values = np.array([label[which] for label in labels])
+        print(f"{name} of {len(labels)} labels of 100 voxels or more by default: "
+              f"{np.median(values):.2f} % in the median, 1 in 20 more than "
+              f"{np.quantile(abs(values), .95):.1f} %, the most")
+        for label in labels[:5]:
+            print(f"    {label[which]:.1f} %: {label[2]}")
     slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
     print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
           f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "
