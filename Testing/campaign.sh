@@ -16,7 +16,7 @@ Usage: bash Testing/campaign.sh [OPTION]... SEEDS [FIRST]
 SEEDS runs from seed FIRST on (1). A line is printed for each with an exception, or with more than
 20 s of processor time, whose files stay in build/campaign/SEED; its file `command` is the command
 line, to be run there. `campaign.sh 1 SEED` keeps the files whatever comes out.
-  --labels   small maps of labels alone, also against their voxels and against each other
+  --labels   small maps of labels, also judged against their voxels and against each other
   --jobs N   runs at a time (default: one for each processor)
   --sweeps   all but the smallest levels evolve block by block, as only those of many voxels do: a
              copy of the sources with other bounds is built for it

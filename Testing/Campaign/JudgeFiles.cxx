@@ -8,7 +8,8 @@
  *     JudgeFiles [--map MAP.vti] FILE.vtp...
  *
  * With a map the files are surfaces of its labels, which their field data `Label` names: they are
- * judged against its voxels and against each other, too.
+ * judged against its voxels and against each other, too, and the numbers of the wrong voxels, x
+ * fastest, end the line.
  */
 
 #include "LabelJudge.h"
@@ -50,9 +51,9 @@ struct NamedSurface : TriangleSurface
 /** What surfaces of labels have to do with others; pairs with all other files. */
 struct LabelVerdict
 {
-  std::size_t TouchingPairs = 0;  ///< of triangles
-  std::size_t VerticesInside = 0; ///< of the one inside the other, both ways
-  std::size_t WrongVoxels = 0;    ///< centres
+  std::size_t TouchingPairs = 0;        ///< of triangles
+  std::size_t VerticesInside = 0;       ///< of the one inside the other, both ways
+  std::vector<std::size_t> WrongVoxels; ///< by their centres
 };
 
 NamedSurface ReadSurface(const std::string& file)
@@ -97,7 +98,7 @@ NamedSurface ReadSurface(const std::string& file)
   return surface;
 }
 
-std::size_t CountWrongVoxels(const NamedSurface& surface, vtkImageData* map)
+std::vector<std::size_t> FindWrongVoxels(const NamedSurface& surface, vtkImageData* map)
 {
   TriangleSurface inIndices = surface;
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
@@ -109,11 +110,14 @@ std::size_t CountWrongVoxels(const NamedSurface& surface, vtkImageData* map)
   map->GetDimensions(size.data());
   const std::vector<char> enclosed = EnclosedVoxels(inIndices, size);
   vtkDataArray* voxels = map->GetPointData()->GetScalars();
-  std::size_t wrong = 0;
+  std::vector<std::size_t> wrong;
   for (std::size_t v = 0; v < enclosed.size(); ++v)
   {
     const double label = voxels->GetComponent(static_cast<vtkIdType>(v), 0);
-    wrong += (surface.Labels.count(label) > 0) != (enclosed[v] != 0);
+    if ((surface.Labels.count(label) > 0) != (enclosed[v] != 0))
+    {
+      wrong.push_back(v);
+    }
   }
   return wrong;
 }
@@ -128,7 +132,7 @@ std::vector<LabelVerdict> JudgeLabels(
   std::vector<LabelVerdict> verdicts(surfaces.size());
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    verdicts[i].WrongVoxels = CountWrongVoxels(surfaces[i], reader->GetOutput());
+    verdicts[i].WrongVoxels = FindWrongVoxels(surfaces[i], reader->GetOutput());
     for (std::size_t other = 0; other < i; ++other)
     {
       const OverlapVerdict overlap = JudgeOverlap(surfaces[i], surfaces[other]);
@@ -152,7 +156,12 @@ void Judge(const NamedSurface& surface, const LabelVerdict& label)
             << topology.UnusedPoints << ' ' << topology.Components.size() << ' '
             << topology.EulerCharacteristic << ' ' << topology.Genus << ' ' << topology.Area << ' '
             << topology.Volume << ' ' << label.TouchingPairs << ' ' << label.VerticesInside << ' '
-            << label.WrongVoxels << std::endl;
+            << label.WrongVoxels.size();
+  for (const std::size_t voxel : label.WrongVoxels)
+  {
+    std::cout << ' ' << voxel;
+  }
+  std::cout << std::endl;
 }
 }
 

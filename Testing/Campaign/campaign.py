@@ -42,6 +42,7 @@ class Outcome:
         self.surfaces = self.triangles = 0
         self.exceptions = []
         self.told = []  # of labels: what is exceptional, but for a warning about it
+        self.wrong = {}  # of labels: numbers of voxels
         self.labels = []  # of 100 voxels or more by default: (error of volume, wrong voxels, text)
 
     def refusal(self):
@@ -119,7 +120,8 @@ def judge(program, names, files, outcome):
     if judged.returncode:
         outcome.exceptions.append(f"judge: {judged.stderr.strip()}")
     for path, line in zip(files, judged.stdout.splitlines()):
-        verdict = dict(zip(names, map(float, line.split())))
+        words = line.split()
+        verdict = dict(zip(names, map(float, words)))
         told = field_data(os.path.join(outcome.run.folder, path))
         outcome.surfaces += 1
         outcome.triangles += int(verdict["triangles"])
@@ -130,6 +132,8 @@ def judge(program, names, files, outcome):
         found = faults(verdict, told)
         if outcome.run.is_of_labels:
             found += faults_of_label(verdict, told, outcome)
+            for label in told["Labels"]:
+                outcome.wrong[label] = np.array(words[len(names):], int)
         outcome.exceptions += [f"{path} ({told.get('StopReason', 'on its way')}): {fault}"
                                for fault in found]
 
@@ -157,8 +161,8 @@ def faults_of_label(verdict, told, outcome):
     return found
 
 
-def largest_parts(labels):
-    """{label: how many voxels its largest part has that is connected by faces}"""
+def parts_of(labels):
+    """A number for each voxel, the same for all of a part that is connected by faces."""
     part = np.arange(labels.size).reshape(labels.shape)
     before = None
     while not np.array_equal(part, before):
@@ -168,20 +172,26 @@ def largest_parts(labels):
                 a, b = np.moveaxis(part, axis, 0)[::step], np.moveaxis(labels, axis, 0)[::step]
                 for i in range(1, len(a)):
                     a[i] = np.where(b[i] == b[i - 1], np.maximum(a[i], a[i - 1]), a[i])
-    return {label: np.unique(part[labels == label], return_counts=True)[1].max()
-            for label in np.unique(labels) if label}
+    return part.ravel()
 
 
-def check_labels(outcome, folder, files):
-    """None is lost without a warning, and none at all by default, but for single voxels."""
-    made = [label for f in files for label in field_data(os.path.join(folder, f))["Labels"]]
-    for label, size in largest_parts(outcome.run.labels).items():
-        if label not in made:
-            text = f"no surface of {label}, {size} voxels"
-            if not warned(outcome, "No surface is left of", label):
-                outcome.exceptions.append(text)
-            elif outcome.run.is_default:
-                outcome.told.append(text)
+def check_labels(outcome):
+    """None is lost without a warning, and by default none at all, nor any large part."""
+    labels = outcome.run.labels.ravel()
+    part = parts_of(outcome.run.labels)
+    for label in set(labels) - {0}:
+        own = np.flatnonzero(labels == label)
+        lost = np.setdiff1d(part[own], part[np.setdiff1d(own, outcome.wrong.get(label, own))])
+        largest, voxels = (max(np.count_nonzero(part == p) for p in some) if len(some) else 0
+                           for some in (lost, np.unique(part[own])))
+        text = f"of label {label} the largest part lost is of {largest}, the largest of {voxels}"
+        is_missing = label not in outcome.wrong
+        if (is_missing and not warned(outcome, "No surface is left of", label)) or (
+                outcome.run.is_default and largest == voxels > 1 and not is_missing
+                and not warned(outcome, "wrong side of the surface of", label)):
+            outcome.exceptions.append(text)
+        elif outcome.run.is_default and largest > 1 and (is_missing or largest >= 8):
+            outcome.told.append(text)
 
 
 def check_status(outcome, folder):
@@ -216,7 +226,7 @@ def try_seed(seed, arguments, names):
     files = sorted(glob.glob("**/*.vtp", root_dir=folder, recursive=True))
     judge(arguments.judge, names, [f for f in files if f != "given.vtp"], outcome)
     if run.is_of_labels and (outcome.status == 0 or "none of the labels" in outcome.words):
-        check_labels(outcome, folder, files)
+        check_labels(outcome)
     if not outcome.exceptions and outcome.seconds <= SLOW_SECONDS and not arguments.keep:
         shutil.rmtree(folder)
     return outcome
@@ -230,7 +240,7 @@ def tell(outcomes):
         print(f"    {times} x {words}")
     for outcome in outcomes:
         if outcome.told:
-            print(f"    told by {outcome.line()}: {'; '.join(outcome.told)}")
+            print(f"    told by seed {outcome.seed} ({outcome.run.kind}): {'; '.join(outcome.told)}")
     labels = [label for outcome in outcomes for label in outcome.labels]
     for which, name in enumerate(("volume less that of the voxels", "wrong voxels")[:len(labels)]):
         labels.sort(key=lambda label: -abs(label[which]))

@@ -27,7 +27,7 @@ class RandomRun:
     def __init__(self, seed, folder, only_labels):
         self.rng = np.random.default_rng(seed)
         self.folder = folder
-        self.is_default = False  # such labels as it is about, a surface of each
+        self.is_default = False  # of labels: none may be lost
         self.is_of_labels = only_labels
         if only_labels:
             self.words = self.of_small_labels()
@@ -74,13 +74,14 @@ class RandomRun:
         self.size = labels.shape[::-1]
         self.write_labels(labels)
         smallest = self.spacing.min()
-        smoothing = self.now_and_then(.4, "--smoothing", self.number(0, 4))
+        number = "0" if self.chance(.15) else self.number(.1, 4)
+        smoothing = self.now_and_then(.4, "--smoothing", number)
         gap = self.now_and_then(.5, "--gap", f"{smallest * 3 * 150 ** -self.rng.random():.6g}")
         other = [] if self.chance(.5) else [
             *self.now_and_then(.5, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.2, "--edge-length", f"{smallest * self.rng.uniform(.7, 4):.6g}"),
             *self.now_and_then(.3, "--keep", "largest")]
-        self.is_default = not gap and not other
+        self.is_default = not gap and not other and smoothing[1:] != ["0"]
         merge = self.chance(.05)
         return [
             "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,

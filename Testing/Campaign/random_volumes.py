@@ -241,7 +241,7 @@ def random_small_labels(rng):
     spacing = np.exp(rng.uniform(0, np.log(5), 3)) if rng.random() < .5 else np.ones(3)
     factor = 1 + int(rng.random() < .15)
     maps, names = LabelMaps(rng, -(-size // factor), spacing), []
-    while not names or rng.random() < .25:
+    while not maps.labels.any() or rng.random() < .25:
         names.append(str(rng.choice(("touching_blobs", "grains", "layers", "plates", "rods", "dust",
                                      "nested", "noise_of_labels"),
                                     p=(.2, .15, .15, .15, .15, .08, .09, .03))))
