@@ -41,19 +41,13 @@ namespace
 {
 using namespace volumic::support;
 
-/** A surface, and of which labels it is, if of any. */
+/** A surface, and what there is to say of it if it is one of labels. */
 struct NamedSurface : TriangleSurface
 {
-  std::string File;
   std::set<double> Labels;
-};
-
-/** What surfaces of labels have to do with others; pairs with all other files. */
-struct LabelVerdict
-{
-  std::size_t TouchingPairs = 0;        ///< of triangles
-  std::size_t VerticesInside = 0;       ///< of the one inside the other, both ways
-  std::vector<std::size_t> WrongVoxels; ///< by their centres
+  std::size_t TouchingPairs = 0;  ///< of triangles with all other files
+  std::size_t VerticesInside = 0; ///< of the one inside the other, both ways
+  std::vector<std::size_t> WrongVoxels;
 };
 
 NamedSurface ReadSurface(const std::string& file)
@@ -64,14 +58,13 @@ NamedSurface ReadSurface(const std::string& file)
   vtkPolyData* data = reader->GetOutput();
   if (reader->GetErrorCode() != 0 || !data)
   {
-    throw std::invalid_argument("cannot be read");
+    throw std::invalid_argument(file + " cannot be read");
   }
   if (data->GetNumberOfCells() != data->GetNumberOfPolys())
   {
-    throw std::invalid_argument("has other cells than polygons");
+    throw std::invalid_argument(file + " has other cells than polygons");
   }
   NamedSurface surface;
-  surface.File = file;
   vtkDataArray* labels = data->GetFieldData()->GetArray("Label");
   for (vtkIdType i = 0; labels && i < labels->GetNumberOfTuples(); ++i)
   {
@@ -90,7 +83,7 @@ NamedSurface ReadSurface(const std::string& file)
     faces->GetCurrentCell(size, corners);
     if (size != 3)
     {
-      throw std::invalid_argument("has polygons that are no triangles");
+      throw std::invalid_argument(file + " has polygons that are no triangles");
     }
     surface.Triangles.push_back(
       { static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2]) });
@@ -98,7 +91,7 @@ NamedSurface ReadSurface(const std::string& file)
   return surface;
 }
 
-std::vector<std::size_t> FindWrongVoxels(const NamedSurface& surface, vtkImageData* map)
+void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
 {
   TriangleSurface inIndices = surface;
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
@@ -109,44 +102,37 @@ std::vector<std::size_t> FindWrongVoxels(const NamedSurface& surface, vtkImageDa
   std::array<int, 3> size;
   map->GetDimensions(size.data());
   const std::vector<char> enclosed = EnclosedVoxels(inIndices, size);
-  vtkDataArray* voxels = map->GetPointData()->GetScalars();
-  std::vector<std::size_t> wrong;
   for (std::size_t v = 0; v < enclosed.size(); ++v)
   {
-    const double label = voxels->GetComponent(static_cast<vtkIdType>(v), 0);
-    if ((surface.Labels.count(label) > 0) != (enclosed[v] != 0))
+    const double label = map->GetPointData()->GetScalars()->GetTuple1(static_cast<vtkIdType>(v));
+    if (surface.Labels.count(label) != static_cast<std::size_t>(enclosed[v]))
     {
-      wrong.push_back(v);
+      surface.WrongVoxels.push_back(v);
     }
   }
-  return wrong;
 }
 
-/** Each pair once. */
-std::vector<LabelVerdict> JudgeLabels(
-  const std::vector<NamedSurface>& surfaces, const std::string& mapFile)
+void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile)
 {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(mapFile.c_str());
   reader->Update();
-  std::vector<LabelVerdict> verdicts(surfaces.size());
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    verdicts[i].WrongVoxels = FindWrongVoxels(surfaces[i], reader->GetOutput());
+    FindWrongVoxels(surfaces[i], reader->GetOutput());
     for (std::size_t other = 0; other < i; ++other)
     {
       const OverlapVerdict overlap = JudgeOverlap(surfaces[i], surfaces[other]);
       for (const std::size_t one : { i, other })
       {
-        verdicts[one].TouchingPairs += overlap.IntersectingPairs;
-        verdicts[one].VerticesInside += overlap.VerticesInside;
+        surfaces[one].TouchingPairs += overlap.IntersectingPairs;
+        surfaces[one].VerticesInside += overlap.VerticesInside;
       }
     }
   }
-  return verdicts;
 }
 
-void Judge(const NamedSurface& surface, const LabelVerdict& label)
+void Judge(const NamedSurface& surface)
 {
   const TopologyVerdict topology = JudgeTopology(surface);
   const IntersectionVerdict intersections = JudgeIntersections(surface);
@@ -155,9 +141,9 @@ void Judge(const NamedSurface& surface, const LabelVerdict& label)
             << ' ' << intersections.Pairs << ' ' << intersections.FlatTriangles << ' '
             << topology.UnusedPoints << ' ' << topology.Components.size() << ' '
             << topology.EulerCharacteristic << ' ' << topology.Genus << ' ' << topology.Area << ' '
-            << topology.Volume << ' ' << label.TouchingPairs << ' ' << label.VerticesInside << ' '
-            << label.WrongVoxels.size();
-  for (const std::size_t voxel : label.WrongVoxels)
+            << topology.Volume << ' ' << surface.TouchingPairs << ' ' << surface.VerticesInside
+            << ' ' << surface.WrongVoxels.size();
+  for (const std::size_t voxel : surface.WrongVoxels)
   {
     std::cout << ' ' << voxel;
   }
@@ -175,26 +161,25 @@ int main(int count, char** words)
   }
   std::cout << std::setprecision(17);
   const bool hasMap = count > 2 && std::string(words[1]) == "--map";
-  std::string file;
   try
   {
     std::vector<NamedSurface> surfaces;
     for (int i = hasMap ? 3 : 1; i < count; ++i)
     {
-      file = words[i];
-      surfaces.push_back(ReadSurface(file));
+      surfaces.push_back(ReadSurface(words[i]));
     }
-    const std::vector<LabelVerdict> ofLabels =
-      hasMap ? JudgeLabels(surfaces, words[2]) : std::vector<LabelVerdict>(surfaces.size());
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (hasMap)
     {
-      file = surfaces[i].File;
-      Judge(surfaces[i], ofLabels[i]);
+      JudgeLabels(surfaces, words[2]);
+    }
+    for (const NamedSurface& surface : surfaces)
+    {
+      Judge(surface);
     }
   }
   catch (const std::exception& error)
   {
-    std::cerr << file << ": " << error.what() << '\n';
+    std::cerr << error.what() << '\n';
     return 1;
   }
   return 0;

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random volumes through the command; every surface that it writes is judged. See campaign.sh.
 
-    campaign.py --program volumic --judge JudgeFiles --folder DIR --seeds N [--first SEED] [--labels]
+    campaign.py --program volumic --judge JudgeFiles --folder DIR --seeds N [--first SEED]
 
 Prints a line for each seed with an exception or of more than 20 s of processor time, then counts.
 Exit code: 0 without exceptions.
@@ -13,6 +13,7 @@ import argparse
 import collections
 import concurrent.futures
 import glob
+import itertools
 import os
 import re
 import resource
@@ -91,7 +92,7 @@ def field_data(path):
     arrays = (fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays()))
     values = {array.GetName(): [array.GetValue(i) for i in range(array.GetNumberOfValues())]
               for array in arrays if array.GetNumberOfValues()}
-    return {name: all_of[0] for name, all_of in values.items()} | {"Labels": values.get("Label", [])}
+    return {name: some[0] for name, some in values.items()} | {"Labels": values.get("Label", [])}
 
 
 def faults(verdict, told):
@@ -115,8 +116,8 @@ def judge(program, names, files, outcome):
     if not files:
         return
     the_map = ["--map", "volume.vti"] if outcome.run.is_of_labels else []
-    judged = subprocess.run([program, *the_map, *files], cwd=outcome.run.folder, capture_output=True,
-                            text=True, check=False)
+    judged = subprocess.run([program, *the_map, *files], cwd=outcome.run.folder,
+                            capture_output=True, text=True, check=False)
     if judged.returncode:
         outcome.exceptions.append(f"judge: {judged.stderr.strip()}")
     for path, line in zip(files, judged.stdout.splitlines()):
@@ -145,33 +146,29 @@ def warned(outcome, start, label):
 
 
 def faults_of_label(verdict, told, outcome):
-    found = []
-    run = outcome.run
-    if verdict["wrong"] != told["WrongVoxels"]:
-        found.append(f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}")
-    if "--gap" in run.words and (verdict["touching"] or verdict["overlapping"]):
-        text = f"{verdict['touching']:g} pairs of triangles touch others' in spite of the gap"
-        is_told = warned(outcome, "in spite of the Gap:", told["Label"])
-        (outcome.told if is_told else found).append(text)
-    if run.is_default and told["LabelVoxels"] >= 100:
-        voxels = told["LabelVoxels"]
+    run, label, voxels = outcome.run, told["Label"], told["LabelVoxels"]
+    if run.is_default and voxels >= 100:
         outcome.labels.append((100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
                                100 * verdict["wrong"] / voxels,
-                               f"label {told['Label']} of {voxels} voxels, {outcome.line()}"))
-    return found
+                               f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
+    if verdict["wrong"] != told["WrongVoxels"]:
+        yield f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}"
+    if "--gap" in run.words and (verdict["touching"] or verdict["overlapping"]):
+        text = f"{verdict['touching']:g} pairs of triangles touch others' in spite of the gap"
+        if not warned(outcome, "in spite of the Gap:", label):
+            yield text
+        outcome.told.append(f"{label}: {text}")
 
 
 def parts_of(labels):
     """A number for each voxel, the same for all of a part that is connected by faces."""
-    part = np.arange(labels.size).reshape(labels.shape)
-    before = None
+    part, before = np.arange(labels.size).reshape(labels.shape), None
     while not np.array_equal(part, before):
         before = part.copy()
-        for axis in range(3):
-            for step in (1, -1):
-                a, b = np.moveaxis(part, axis, 0)[::step], np.moveaxis(labels, axis, 0)[::step]
-                for i in range(1, len(a)):
-                    a[i] = np.where(b[i] == b[i - 1], np.maximum(a[i], a[i - 1]), a[i])
+        for axis, step in itertools.product(range(3), (1, -1)):
+            a, b = np.moveaxis(part, axis, 0)[::step], np.moveaxis(labels, axis, 0)[::step]
+            for i in range(1, len(a)):
+                a[i] = np.where(b[i] == b[i - 1], np.maximum(a[i], a[i - 1]), a[i])
     return part.ravel()
 
 
@@ -179,18 +176,18 @@ def check_labels(outcome):
     """None is lost without a warning, and by default none at all, nor any large part."""
     labels = outcome.run.labels.ravel()
     part = parts_of(outcome.run.labels)
+    sizes = np.bincount(part)
     for label in set(labels) - {0}:
         own = np.flatnonzero(labels == label)
         lost = np.setdiff1d(part[own], part[np.setdiff1d(own, outcome.wrong.get(label, own))])
-        largest, voxels = (max(np.count_nonzero(part == p) for p in some) if len(some) else 0
-                           for some in (lost, np.unique(part[own])))
+        largest, voxels = sizes[lost].max(initial=0), sizes[part[own]].max()
         text = f"of label {label} the largest part lost is of {largest}, the largest of {voxels}"
-        is_missing = label not in outcome.wrong
-        if (is_missing and not warned(outcome, "No surface is left of", label)) or (
-                outcome.run.is_default and largest == voxels > 1 and not is_missing
-                and not warned(outcome, "wrong side of the surface of", label)):
+        is_missing, is_default = label not in outcome.wrong, outcome.run.is_default
+        start = "No surface is left of" if is_missing else "on the wrong side of the surface of"
+        if ((is_missing or (is_default and largest == voxels > 1))
+                and not warned(outcome, start, label)):
             outcome.exceptions.append(text)
-        elif outcome.run.is_default and largest > 1 and (is_missing or largest >= 8):
+        elif is_default and largest > 1 and (largest == voxels or largest >= 8):
             outcome.told.append(text)
 
 
@@ -240,7 +237,7 @@ def tell(outcomes):
         print(f"    {times} x {words}")
     for outcome in outcomes:
         if outcome.told:
-            print(f"    told by seed {outcome.seed} ({outcome.run.kind}): {'; '.join(outcome.told)}")
+            print(f"    told by seed {outcome.seed}, {outcome.run.kind}: {'; '.join(outcome.told)}")
     labels = [label for outcome in outcomes for label in outcome.labels]
     for which, name in enumerate(("volume less that of the voxels", "wrong voxels")[:len(labels)]):
         labels.sort(key=lambda label: -abs(label[which]))

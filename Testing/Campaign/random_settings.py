@@ -28,14 +28,11 @@ class RandomRun:
         self.rng = np.random.default_rng(seed)
         self.folder = folder
         self.is_default = False  # of labels: none may be lost
-        self.is_of_labels = only_labels
-        if only_labels:
-            self.words = self.of_small_labels()
-        else:
-            most_voxels = 150000 if self.chance(.05) else 25000
-            self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
-            self.is_of_labels = self.chance(.15)
-            self.words = self.of_labels() if self.is_of_labels else self.of_surface()
+        most_voxels = 150000 if self.chance(.05) else 25000
+        self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
+        self.is_of_labels = only_labels or self.chance(.15)
+        self.words = (self.of_small_labels() if only_labels else
+                      self.of_labels() if self.is_of_labels else self.of_surface())
         self.words = [self.volume, *self.words, "--threads", str(self.rng.integers(1, 3))]
         if self.chance(.1):
             self.words += ["--memory", f"{self.rng.integers(250, 400)}M", "--scratch", "."]
@@ -65,17 +62,16 @@ class RandomRun:
             *self.now_and_then(.2, "--keep", "largest")]
 
     def write_labels(self, labels):
-        self.labels = labels
+        self.labels, self.size = labels, np.array(labels.shape[::-1])
         image = random_volumes.make_image(self.rng, labels.astype("u1"), self.spacing)
         self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
 
     def of_small_labels(self):
         labels, self.spacing, self.kind = random_volumes.random_small_labels(self.rng)
-        self.size = labels.shape[::-1]
         self.write_labels(labels)
         smallest = self.spacing.min()
-        number = "0" if self.chance(.15) else self.number(.1, 4)
-        smoothing = self.now_and_then(.4, "--smoothing", number)
+        smoothing = self.now_and_then(.4, "--smoothing", self.rng.choice(("0", self.number(.1, 4)),
+                                                                         p=(.15, .85)))
         gap = self.now_and_then(.5, "--gap", f"{smallest * 3 * 150 ** -self.rng.random():.6g}")
         other = [] if self.chance(.5) else [
             *self.now_and_then(.5, "--finest", str(self.rng.choice((-1, 1, 2)))),
