@@ -16,6 +16,7 @@ Usage: bash Testing/campaign.sh [OPTION]... SEEDS [FIRST]
 SEEDS runs from seed FIRST on (1). A line is printed for each with an exception, or with more than
 20 s of processor time, whose files stay in build/campaign/SEED; its file `command` is the command
 line, to be run there. `campaign.sh 1 SEED` keeps the files whatever comes out.
+  --labels   small maps of labels, also judged against their voxels and against each other
   --jobs N   runs at a time (default: one for each processor)
   --sweeps   all but the smallest levels evolve block by block, as only those of many voxels do: a
              copy of the sources with other bounds is built for it
@@ -28,6 +29,7 @@ USAGE
 jobs=
 program=$build/vtk/bin/volumic
 sweeps= # the folder of the copy
+labels=
 numbers=()
 take_option()
 {
@@ -37,6 +39,7 @@ take_option()
       jobs=$2
       ;;
     --sweeps) sweeps=$build/campaign-sweeps ;;
+    --labels) labels=--labels ;;
     *)
       [[ $1 =~ ^[0-9]+$ && ${#numbers[@]} -lt 2 ]] || return 1
       numbers+=("$1")
@@ -78,4 +81,4 @@ fi
 mkdir -p "$build/campaign"
 nice "$(vtk_python)" "$root/Testing/Campaign/campaign.py" --program "$program" \
   --judge "$build/vtk/bin/JudgeFiles" --folder "$build/campaign" --seeds "${numbers[0]}" \
-  --first "${numbers[1]:-1}" --jobs "${jobs:-$(nproc)}"
+  --first "${numbers[1]:-1}" --jobs "${jobs:-$(nproc)}" $labels

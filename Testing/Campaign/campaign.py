@@ -13,6 +13,7 @@ import argparse
 import collections
 import concurrent.futures
 import glob
+import itertools
 import os
 import re
 import resource
@@ -22,6 +23,7 @@ import subprocess
 import sys
 import threading
 
+import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from random_settings import RandomRun
@@ -40,6 +42,9 @@ class Outcome:
         self.words = ""  # the standard error
         self.surfaces = self.triangles = 0
         self.exceptions = []
+        self.told = []  # of labels: what is exceptional, but for a warning about it
+        self.wrong = {}  # of labels: numbers of voxels
+        self.labels = []  # of 100 voxels or more by default: (error of volume, wrong voxels, text)
 
     def refusal(self):
         """Why there is no surface, without names and numbers."""
@@ -79,13 +84,15 @@ def run_command(program, run, outcome):
 
 
 def field_data(path):
-    """{name: first value, a number or a text}"""
+    """{name: first value, a number or a text}, and all labels"""
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(path)
     reader.Update()
     fields = reader.GetOutput().GetFieldData()
     arrays = (fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays()))
-    return {array.GetName(): array.GetValue(0) for array in arrays if array.GetNumberOfValues()}
+    values = {array.GetName(): [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+              for array in arrays if array.GetNumberOfValues()}
+    return {name: some[0] for name, some in values.items()} | {"Labels": values.get("Label", [])}
 
 
 def faults(verdict, told):
@@ -108,12 +115,14 @@ def faults(verdict, told):
 def judge(program, names, files, outcome):
     if not files:
         return
-    judged = subprocess.run([program, *files], cwd=outcome.run.folder, capture_output=True,
-                            text=True, check=False)
+    the_map = ["--map", "volume.vti"] if outcome.run.is_of_labels else []
+    judged = subprocess.run([program, *the_map, *files], cwd=outcome.run.folder,
+                            capture_output=True, text=True, check=False)
     if judged.returncode:
         outcome.exceptions.append(f"judge: {judged.stderr.strip()}")
     for path, line in zip(files, judged.stdout.splitlines()):
-        verdict = dict(zip(names, map(float, line.split())))
+        words = line.split()
+        verdict = dict(zip(names, map(float, words)))
         told = field_data(os.path.join(outcome.run.folder, path))
         outcome.surfaces += 1
         outcome.triangles += int(verdict["triangles"])
@@ -121,8 +130,65 @@ def judge(program, names, files, outcome):
             if told.get("StopReason") not in ("vanished", *STOPPED):
                 outcome.exceptions.append(f"{path}: empty, {told.get('StopReason')}")
             continue
+        found = faults(verdict, told)
+        if outcome.run.is_of_labels:
+            found += faults_of_label(verdict, told, outcome)
+            for label in told["Labels"]:
+                outcome.wrong[label] = np.array(words[len(names):], int)
         outcome.exceptions += [f"{path} ({told.get('StopReason', 'on its way')}): {fault}"
-                               for fault in faults(verdict, told)]
+                               for fault in found]
+
+
+def warned(outcome, start, label):
+    """Whether a warning that starts with these words names the label."""
+    listed = re.search(start + "([^:]*)(:|. Try)", outcome.words)
+    return listed and re.search(rf" {label}\b| others", listed[1])
+
+
+def faults_of_label(verdict, told, outcome):
+    run, label, voxels = outcome.run, told["Label"], told["LabelVoxels"]
+    if run.is_default and voxels >= 100:
+        outcome.labels.append((100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
+                               100 * verdict["wrong"] / voxels,
+                               f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
+    if verdict["wrong"] != told["WrongVoxels"]:
+        yield f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}"
+    if "--gap" in run.words and (verdict["touching"] or verdict["overlapping"]):
+        text = f"{verdict['touching']:g} pairs of triangles touch others' in spite of the gap"
+        if not warned(outcome, "in spite of the Gap:", label):
+            yield text
+        outcome.told.append(f"{label}: {text}")
+
+
+def parts_of(labels):
+    """A number for each voxel, the same for all of a part that is connected by faces."""
+    part, before = np.arange(labels.size).reshape(labels.shape), None
+    while not np.array_equal(part, before):
+        before = part.copy()
+        for axis, step in itertools.product(range(3), (1, -1)):
+            a, b = np.moveaxis(part, axis, 0)[::step], np.moveaxis(labels, axis, 0)[::step]
+            for i in range(1, len(a)):
+                a[i] = np.where(b[i] == b[i - 1], np.maximum(a[i], a[i - 1]), a[i])
+    return part.ravel()
+
+
+def check_labels(outcome):
+    """None is lost without a warning, and by default none at all, nor any large part."""
+    labels = outcome.run.labels.ravel()
+    part = parts_of(outcome.run.labels)
+    sizes = np.bincount(part)
+    for label in set(labels) - {0}:
+        own = np.flatnonzero(labels == label)
+        lost = np.setdiff1d(part[own], part[np.setdiff1d(own, outcome.wrong.get(label, own))])
+        largest, voxels = sizes[lost].max(initial=0), sizes[part[own]].max()
+        text = f"of label {label} the largest part lost is of {largest}, the largest of {voxels}"
+        is_missing, is_default = label not in outcome.wrong, outcome.run.is_default
+        start = "No surface is left of" if is_missing else "on the wrong side of the surface of"
+        if ((is_missing or (is_default and largest == voxels > 1))
+                and not warned(outcome, start, label)):
+            outcome.exceptions.append(text)
+        elif is_default and largest > 1 and (largest == voxels or largest >= 8):
+            outcome.told.append(text)
 
 
 def check_status(outcome, folder):
@@ -148,7 +214,7 @@ def try_seed(seed, arguments, names):
     folder = os.path.join(arguments.folder, str(seed))
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    run = RandomRun(seed, folder)
+    run = RandomRun(seed, folder, arguments.labels)
     outcome = Outcome(seed, run)
     with open(os.path.join(folder, "command"), "w", encoding="utf-8") as file:
         file.write(shlex.join([arguments.program, *run.words]) + "\n")
@@ -156,6 +222,8 @@ def try_seed(seed, arguments, names):
     check_status(outcome, folder)
     files = sorted(glob.glob("**/*.vtp", root_dir=folder, recursive=True))
     judge(arguments.judge, names, [f for f in files if f != "given.vtp"], outcome)
+    if run.is_of_labels and (outcome.status == 0 or "none of the labels" in outcome.words):
+        check_labels(outcome)
     if not outcome.exceptions and outcome.seconds <= SLOW_SECONDS and not arguments.keep:
         shutil.rmtree(folder)
     return outcome
@@ -167,6 +235,18 @@ def tell(outcomes):
     refusals = collections.Counter(o.refusal() for o in outcomes if o.status == 1)
     for words, times in refusals.most_common():
         print(f"    {times} x {words}")
+    for outcome in outcomes:
+        if outcome.told:
+            print(f"    told by seed {outcome.seed}, {outcome.run.kind}: {'; '.join(outcome.told)}")
+    labels = [label for outcome in outcomes for label in outcome.labels]
+    for which, name in enumerate(("volume less that of the voxels", "wrong voxels")[:len(labels)]):
+        labels.sort(key=lambda label: -abs(label[which]))
+        values = np.array([label[which] for label in labels])
+        print(f"{name} of {len(labels)} labels of 100 voxels or more by default: "
+              f"{np.median(values):.2f} % in the median, 1 in 20 more than "
+              f"{np.quantile(abs(values), .95):.1f} %, the most")
+        for label in labels[:5]:
+            print(f"    {label[which]:.1f} %: {label[2]}")
     slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
     print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
           f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "
@@ -182,6 +262,7 @@ def main():
     parser.add_argument("--seeds", type=int, required=True)
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--labels", action="store_true")
     arguments = parser.parse_args()
     arguments.keep = arguments.seeds == 1
     names = subprocess.run([arguments.judge, "--help"], capture_output=True, text=True,

@@ -24,13 +24,15 @@ def write(writer, data, folder, name):
 class RandomRun:
     """Words of the command line, for files in `folder`, where the run is to be started."""
 
-    def __init__(self, seed, folder):
+    def __init__(self, seed, folder, only_labels):
         self.rng = np.random.default_rng(seed)
         self.folder = folder
+        self.is_default = False  # of labels: none may be lost
         most_voxels = 150000 if self.chance(.05) else 25000
         self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
-        self.is_of_labels = self.chance(.15)
-        self.words = self.of_labels() if self.is_of_labels else self.of_surface()
+        self.is_of_labels = only_labels or self.chance(.15)
+        self.words = (self.of_small_labels() if only_labels else
+                      self.of_labels() if self.is_of_labels else self.of_surface())
         self.words = [self.volume, *self.words, "--threads", str(self.rng.integers(1, 3))]
         if self.chance(.1):
             self.words += ["--memory", f"{self.rng.integers(250, 400)}M", "--scratch", "."]
@@ -48,9 +50,8 @@ class RandomRun:
 
     def of_labels(self):
         labels, self.kind = random_volumes.random_labels(self.rng, self.size, self.spacing)
-        image = random_volumes.make_image(self.rng, labels.astype("u1"), self.spacing)
-        self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
         smallest = self.spacing.min()
+        self.write_labels(labels)
         return [
             "labels", "--labels", "all",
             *self.now_and_then(.3, "--smoothing", self.number(0, 4)),
@@ -59,6 +60,28 @@ class RandomRun:
             *self.now_and_then(.3, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.1, "--edge-length", f"{smallest * self.rng.uniform(.7, 6):.6g}"),
             *self.now_and_then(.2, "--keep", "largest")]
+
+    def write_labels(self, labels):
+        self.labels, self.size = labels, np.array(labels.shape[::-1])
+        image = random_volumes.make_image(self.rng, labels.astype("u1"), self.spacing)
+        self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
+
+    def of_small_labels(self):
+        labels, self.spacing, self.kind = random_volumes.random_small_labels(self.rng)
+        self.write_labels(labels)
+        smallest = self.spacing.min()
+        smoothing = self.now_and_then(.4, "--smoothing", self.rng.choice(("0", self.number(.1, 4)),
+                                                                         p=(.15, .85)))
+        gap = self.now_and_then(.5, "--gap", f"{smallest * 3 * 150 ** -self.rng.random():.6g}")
+        other = [] if self.chance(.5) else [
+            *self.now_and_then(.5, "--finest", str(self.rng.choice((-1, 1, 2)))),
+            *self.now_and_then(.2, "--edge-length", f"{smallest * self.rng.uniform(.7, 4):.6g}"),
+            *self.now_and_then(.3, "--keep", "largest")]
+        self.is_default = not gap and not other and smoothing[1:] != ["0"]
+        merge = self.chance(.05)
+        return [
+            "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,
+            *smoothing, *gap, *other, *self.now_and_then(.3, "--metric", "voxels")]
 
     # ---- The surface of an object ----
 

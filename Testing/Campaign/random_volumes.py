@@ -173,6 +173,75 @@ def random_labels(rng, size, spacing):
     return labels, "+".join(names)
 
 
+class LabelMaps(Shapes):
+    """Small maps of labels, integers [z, y, x] of which 0 is the background."""
+
+    def __init__(self, rng, size, spacing):
+        super().__init__(rng, size, spacing, rng.random() < .5)
+        self.labels = np.zeros(self.shape, int)
+        self.count = int(rng.integers(1, 10))
+        self.some_places = rng.random((self.count, 3)) * self.extent
+
+    def touching_blobs(self):
+        for label, centre in enumerate(self.some_places, 1):
+            axes = self.extent.min() * self.rng.uniform(.1, .5, 3)
+            self.labels[(((self.places - centre) / axes) ** 2).sum(-1) < 1] = label
+
+    def grains(self):
+        """Voronoi's; some of them background."""
+        distances = [np.linalg.norm(self.places - p, axis=-1) for p in self.some_places]
+        self.labels = np.argmin(distances, 0) + self.rng.integers(0, 2)
+
+    def layers(self):
+        """About each other, as skin and bone: half a voxel thick or more."""
+        axes = self.rng.uniform(.5, 1.5, 3) * np.sign(self.rng.random(3) - .2).clip(0)
+        height = np.linalg.norm((self.places - self.extent / 2) * axes, axis=-1)
+        height += self.rng.choice((0, 0, 2)) * (self.smooth_noise() - .5)
+        ends = np.cumsum(self.rng.uniform(.5, 4, self.count + 1))
+        self.labels = np.digitize(height, ends) % (self.count + 1)
+
+    def plates(self):
+        for label, place in enumerate(self.some_places, 1):
+            normal = direction(self.rng)[0]
+            height = np.abs((self.places - place) @ normal)
+            self.labels[height < self.rng.uniform(.5, 1.5)] = label
+
+    def rods(self):
+        """Of a voxel or two, along axes and diagonals; voxels may have but corners in common."""
+        for label in range(1, self.count + 1):
+            place, step = self.rng.integers(0, self.shape), self.rng.integers(-1, 2, 3)
+            wide = self.rng.integers(1, 3)
+            for _ in range(self.rng.integers(1, max(self.shape))):
+                where = tuple(slice(max(a, 0), max(a + wide, 0)) for a in place)
+                self.labels[where] = label
+                place = place + step
+
+    def dust(self):
+        """Voxels by chance, few or nearly all."""
+        some = self.rng.random(self.shape) < 10 ** self.rng.uniform(-3, 0)
+        self.labels[some] = self.rng.integers(1, self.count + 1, some.sum())
+
+    def nested(self):
+        low, high = np.zeros(3, int), np.array(self.shape)
+        for label in range(1, self.count + 1):
+            low, high = low + self.rng.integers(0, 3, 3), high - self.rng.integers(0, 3, 3)
+            self.labels[tuple(map(slice, low.clip(0), high.clip(0)))] = label
+
+
+def random_small_labels(rng):
+    """A map, its voxels' distances, up to 1 : 5, and its name."""
+    size = np.exp(rng.uniform(np.log(8), np.log(36), 3)).astype(int)
+    spacing = np.exp(rng.uniform(0, np.log(5), 3)) if rng.random() < .5 else np.ones(3)
+    factor = 1 + int(rng.random() < .15)
+    maps, names = LabelMaps(rng, -(-size // factor), spacing), []
+    while not maps.labels.any() or rng.random() < .25:
+        names.append(str(rng.choice(("touching_blobs", "grains", "layers", "plates", "rods", "dust",
+                                     "nested"), p=(.2, .15, .15, .15, .15, .1, .1))))
+        getattr(maps, names[-1])()
+    labels = np.kron(maps.labels, np.ones((factor,) * 3, int))
+    return labels, spacing * 10 ** rng.uniform(-2, 1), "+".join(names + ["twice"] * (factor - 1))
+
+
 def to_type(rng, field, name):
     """Voxels of a type, on all or a part of what it can hold."""
     kind = np.dtype(name)
