@@ -159,6 +159,8 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     AddField<vtkIdTypeArray>(surface, "LabelVoxels", std::vector<vtkIdType>{ voxels });
     AddField<vtkIdTypeArray>(
       surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });
+    AddField<vtkIdTypeArray>(
+      surface, "MissedVoxels", std::vector<vtkIdType>{ surfaces[i].MissedVoxels });
     const auto block = static_cast<unsigned int>(i);
     output->SetBlock(block, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());

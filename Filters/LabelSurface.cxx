@@ -62,7 +62,7 @@ constexpr double ShareOfLongest = 0.625;
  */
 constexpr double BendPerLevel = 0.4;
 
-/** In smallest distances of voxels: fields of labels hold signs a voxel and a half from boundaries. */
+/** In smallest distances of voxels: signs are held a voxel and a half from boundaries. */
 constexpr double MostTolerance = 1.0;
 
 /** Twice what fields reach, in smallest distances of voxels. */
@@ -74,8 +74,11 @@ constexpr double MostGap = 2.0 * LabelField::Far;
  */
 constexpr double LeastLowering = 0.2;
 
-/** A part of so many voxels that level 0 has lost is worth three times the triangles. */
+/** A part of so many voxels that level 0 has lost is worth three times the triangles, */
 constexpr std::int64_t LostPartSize = 8;
+
+/** but of a large label one of so many: a mask of a whole head has crumbs about it. */
+constexpr std::int64_t LostPartShare = 20000;
 
 /** In smallest distances of voxels: boundaries are twice as far from centres. */
 constexpr double MostHarmlessHalfGap = 0.25;
@@ -442,10 +445,12 @@ bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
   {
     return false;
   }
-  return SeverelyLost * made.MissedVoxels > this->Bricks.ExtentOf(object).Voxels ||
-    (this->Settings.Gap == 0.0 && made.MissedVoxels >= LostPartSize &&
+  const std::int64_t voxels = this->Bricks.ExtentOf(object).Voxels;
+  const std::int64_t worth = std::max(LostPartSize, voxels / LostPartShare);
+  return SeverelyLost * made.MissedVoxels > voxels ||
+    (this->Settings.Gap == 0.0 && made.MissedVoxels >= worth &&
       SizeOfLargestLostPart(this->Bricks.Map(), object,
-        this->FindMissed(object, this->InVoxels(made.Surface))) >= LostPartSize);
+        this->FindMissed(object, this->InVoxels(made.Surface))) >= worth);
 }
 
 LabelSurface LabelSurfaceMaker::Make(

@@ -30,7 +30,8 @@
  *   `LabelName` (string) and `LabelColor` (double, 3 components, 0 to 1: as given, or one of a
  *   fixed palette); `LabelVoxels` (vtkIdType: voxels of the label), `WrongVoxels` (vtkIdType: of
  *   the label's that have their centres outside, and of others that have them inside; with Gap,
- *   those that it puts there count, too).
+ *   those that it puts there count, too); `MissedVoxels` (vtkIdType: those of them that are further
+ *   from the surface than VoxelTolerance).
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made

@@ -59,9 +59,9 @@ void WriteProperties(JsonWriter& json, const FilterTrio& filters)
 }
 }
 
-vtkIdType WrongVoxels(vtkPolyData* surface)
+vtkIdType WrongVoxels(vtkPolyData* surface, const char* name)
 {
-  vtkDataArray* wrong = surface->GetFieldData()->GetArray("WrongVoxels");
+  vtkDataArray* wrong = surface->GetFieldData()->GetArray(name);
   return wrong && wrong->GetNumberOfTuples() > 0
     ? static_cast<vtkIdType>(wrong->GetComponent(0, 0))
     : 0;
@@ -82,6 +82,7 @@ void WriteReport(std::ostream& out, const LabelReport& report)
     WriteNames(json, each);
     json.Member("seconds", each.Seconds);
     json.Member("wrong_voxels", static_cast<double>(WrongVoxels(surface)));
+    json.Member("missed_voxels", static_cast<double>(WrongVoxels(surface, "MissedVoxels")));
     WriteSurfaceFacts(
       json, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
     WriteComponents(json, surface);

@@ -30,7 +30,7 @@ struct LabelReport
 void WriteReport(std::ostream& out, const LabelReport& report);
 
 /** Of a surface's field data: voxel centres on the wrong side; 0 where that is not told. */
-vtkIdType WrongVoxels(vtkPolyData* surface);
+vtkIdType WrongVoxels(vtkPolyData* surface, const char* name = "WrongVoxels");
 }
 
 #endif

@@ -146,9 +146,11 @@ set(volumic_core_headers
   Labels/DrawBack.h
   Labels/LabelBricks.h
   Labels/LabelClaims.h
+  Labels/LabelDistance.h
   Labels/LabelField.h
   Labels/LabelHold.h
   Labels/LabelMap.h
+  Labels/LabelSides.h
   Labels/TouchingSurfaces.h
   Labels/WrongVoxels.h
   Mesh/CellSurface.h

@@ -77,11 +77,13 @@ class RandomRun:
             *self.now_and_then(.5, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.2, "--edge-length", f"{smallest * self.rng.uniform(.7, 4):.6g}"),
             *self.now_and_then(.3, "--keep", "largest")]
-        self.is_default = not gap and not other and smoothing[1:] != ["0"]
+        tolerance = self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1))
+        self.is_default = not (gap or other or tolerance) and smoothing[1:] != ["0"]
         merge = self.chance(.05)
         return [
             "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,
-            *smoothing, *gap, *other, *self.now_and_then(.3, "--metric", "voxels")]
+            *smoothing, *gap, *other, *self.now_and_then(.3, "--metric", "voxels"),
+            *tolerance]
 
     # ---- The surface of an object ----
 

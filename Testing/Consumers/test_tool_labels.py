@@ -316,7 +316,9 @@ class OptionsTest(LabelsTest):
     def test_every_property_of_labels_is_set(self):
         volume = self.map_file()
         values = {"BackgroundLabel": ("--background", "1"), "Gap": ("--gap", "0.25"),
-                  "Smoothing": ("--smoothing", "0.5"), "Metric": ("--metric", "voxels"),
+                  "Smoothing": ("--smoothing", "0.5"),
+                  "VoxelTolerance": ("--voxel-tolerance", "0.25"),
+                  "Metric": ("--metric", "voxels"),
                   "EdgeLength": ("--edge-length", "1.2"), "FinestLevel": ("--finest", "1"),
                   "KeepComponents": ("--keep", "large"),
                   "MinimumComponentVolume": ("--minimum-component-volume", "2"),
@@ -340,6 +342,9 @@ class OptionsTest(LabelsTest):
         plain = volume_of()
         self.assertLess(volume_of("--gap", "0.5")["volume"], 0.9 * plain["volume"])
         self.assertNotEqual(volume_of("--smoothing", "0")["area"], plain["area"])
+        smooth = volume_of("--voxel-tolerance", "0.5")
+        self.assertNotEqual(smooth["area"], plain["area"])
+        self.assertGreaterEqual(smooth["wrong_voxels"], smooth["missed_voxels"])
         for options in (("--finest", "1"), ("--edge-length", "1.2")):
             self.assertLess(volume_of(*options)["vertices"], 0.6 * plain["vertices"])
         self.assertNotEqual(volume_of("--metric", "voxels")["vertices"], plain["vertices"])
@@ -377,6 +382,7 @@ class OptionsTest(LabelsTest):
                 self.refused(f"{option}( at-points)? and --labels exclude each other", "a.vti",
                              "out/", "--labels", "1", *arguments, status=2)
         for option in (("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--background", "1"),
+                       ("--voxel-tolerance", "0.5"),
                        ("--format", "stl"), ("--label-names", "n")):
             self.refused(f"{option[0]} needs --labels", "a.vti", "out.stl", *option, status=2)
         for reason, arguments in (
@@ -392,6 +398,8 @@ class OptionsTest(LabelsTest):
         volume = self.map_file()
         self.refused("map.vti: .*Gap", volume, self.path("o/"), "--labels", "1", "--gap", "-1")
         self.refused("Smoothing", volume, self.path("o/"), "--labels", "1", "--smoothing", "-1")
+        self.refused("Voxel Tolerance is 2 voxels; it must be at most 1", volume, self.path("o/"),
+                     "--labels", "1", "--voxel-tolerance", "2")
         self.assertFalse(os.path.exists(self.path("o")))
         self.run_tool(volume, self.path("o/"), "--labels", "1")
 

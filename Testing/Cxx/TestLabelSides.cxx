@@ -17,6 +17,23 @@
 
 using namespace volumic;
 
+TEST(FindMissedVoxels, FindsThoseThatAreFurtherFromTheSurfaceInTheWorld)
+{
+  LabelMap map = MakeLabelMap({ 8, 8, 8 }, 1, [](int, int, int) { return 0; });
+  map.Spacing = { 1., 1., 2. };
+  IndexedSurface corner;
+  corner.Points = { { 0., 0., 2.5 }, { 9., 0., 2.5 }, { 0., 9., 2.5 } };
+  corner.Triangles = { { 0, 1, 2 } };
+  const VoxelBox all = VoxelBox::Of(map.Size);
+  const std::vector<std::int64_t> wrong = { all.NumberOf(2, 2, 1), all.NumberOf(2, 2, 2),
+    all.NumberOf(2, 2, 3) };
+  const std::vector<std::int64_t> furthest = { wrong[0] };
+  EXPECT_EQ(FindMissedVoxels(map, wrong, corner, 0.), wrong);
+  EXPECT_EQ(FindMissedVoxels(map, wrong, corner, 0.9), wrong);
+  EXPECT_EQ(FindMissedVoxels(map, wrong, corner, 1.1), furthest);
+  EXPECT_EQ(FindMissedVoxels(map, wrong, IndexedSurface(), 1.), wrong);
+}
+
 TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
 {
   LabelMap map = MakeLabelMap({ 32, 32, 32 }, 1, [](int i, int j, int k)

@@ -150,6 +150,11 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   this->Filter->SetSmoothing(std::nan(""));
   this->ExpectError({ "Smoothing is nan" });
   this->Filter->SetSmoothing(2.);
+  this->Filter->SetVoxelTolerance(-0.5);
+  this->ExpectError({ "Voxel Tolerance is -0.5" });
+  this->Filter->SetVoxelTolerance(1.5);
+  this->ExpectError({ "Voxel Tolerance is 1.5 voxels", "at most 1" });
+  this->Filter->SetVoxelTolerance(0.);
   this->Filter->SetGap(-0.5);
   this->ExpectError({ "Gap is -0.5" });
   this->Filter->SetGap(8.01);

@@ -75,6 +75,19 @@ TEST(ThinLabels, LoseNoVoxelWithTheFinestTriangles)
   }
 }
 
+TEST(ThinLabels, StayWithAToleranceToo)
+{
+  for (const auto& [name, map] : ThinLabels())
+  {
+    SCOPED_TRACE(name);
+    const Filter filter = FilterOf(ToImage(map));
+    filter->SetVoxelTolerance(0.5);
+    vtkPolyData* block = BlockOf(filter);
+    ASSERT_GT(block->GetNumberOfCells(), 0);
+    EXPECT_LE(FieldOf(block, "MissedVoxels"), 0.15 * FieldOf(block, "LabelVoxels"));
+  }
+}
+
 // One that is lost on its way makes the triangles of its label smaller, not those of others.
 TEST(ThinLabels, LeaveOtherLabelsAsTheyAre)
 {

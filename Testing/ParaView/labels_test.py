@@ -245,6 +245,7 @@ class LabelErrorsTest(LabelsTestCase):
                 ("Gap", -1.0, 0.0, ("-1",)),
                 ("Gap", math.nan, 0.0, ("nan",)),
                 ("Smoothing", -0.5, 2.0, ("-0.5",)),
+                ("VoxelTolerance", 1.5, 0.0, ("1.5", "at most 1")),
                 ("EdgeLength", -1.0, 0.0, ("-1",)),
                 ("FinestLevel", -2, 1, ("-2",))):
             with self.subTest(property=name, value=bad):

@@ -18,8 +18,8 @@ from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu,
 
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
-BASIC = ("SetInputArrayToProcess", "Labels", "BackgroundLabel", "Merge", "Smoothing", "Gap",
-         "FinestLevel", "EdgeLength")
+BASIC = ("SetInputArrayToProcess", "Labels", "BackgroundLabel", "Merge", "Smoothing",
+         "VoxelTolerance", "Gap", "FinestLevel", "EdgeLength")
 ADVANCED = ("KeepComponents", "Metric", "NumberOfThreads", "MemoryLimit", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 

@@ -18,12 +18,10 @@ namespace
 {
 /** Where the Gaussian loses voxels, one that is narrower by this factor takes its place, */
 constexpr double NarrowerBy = 0.7071067811865476;
-/** until it has become so narrow that it moves hardly anything, in smallest distances of voxels, */
-static const double LeastSigma = getenv("LSG") ? atof(getenv("LSG")) : 0.95;
+/** until it is as narrow as this, in smallest distances of voxels, */
+constexpr double LeastSigma = 0.95;
 /** fading out from them with this one. */
 constexpr double FadingSigma = 1.25;
-/** As a share; where there is less, no boundary is near, and its volume is out of reach. */
-constexpr float LeastBoundary = 1e-6f;
 
 /** The quantiles of the normal distribution, from a table: the same bits on any machine. */
 class NormalQuantile
@@ -75,17 +73,23 @@ public:
   {
   }
 
-  /** With less smoothing where voxels would be lost. */
-  void Make(double sigma)
+  /**
+   * With less smoothing where voxels would be lost: for what is held to all voxels once the volume
+   * has been made up for, else before, as a thin part may be made too thick by that.
+   */
+  void Make(double sigma, bool isHeld)
   {
-    this->MakeWith(sigma);
+    this->MakeWith(sigma, isHeld);
     LargeVector<unsigned char> lost(this->Field.Values.size(), 0);
     for (double narrower = sigma * NarrowerBy; narrower > LeastSigma && this->FindLost(lost);
          narrower *= NarrowerBy)
     {
-      this->MakeNarrower(narrower, lost);
+      this->MakeNarrower(narrower, isHeld, lost);
     }
-    this->CorrectVolume(sigma);
+    if (!isHeld)
+    {
+      this->CorrectVolume(sigma, false);
+    }
   }
 
 private:
@@ -99,35 +103,51 @@ private:
     return inVoxels;
   }
 
-  void MakeWith(double ofGaussian)
+  void MakeWith(double ofGaussian, bool isCorrected)
   {
     const auto sigma = static_cast<float>(ofGaussian);
     BoundaryGaussian gaussian(this->Rows, this->InVoxels(ofGaussian));
     LargeVector<float> smooth(this->Field.Values.size());
     gaussian.Smooth([this](int i, int j, int k, int count, float* values)
-      { this->Sides.CopyMembership(i, j, k, count, values); }, smooth, this->Threads);
-    this->ForValues(smooth, [sigma](float& value, float share)
-      { value = std::clamp(sigma * NormalQuantile::Table().At(share), -LabelField::Far,
-          LabelField::Far); });
+      { this->Sides.CopyMembership(i, j, k, count, values); },
+      smooth, this->Threads);
+    this->ForValues(smooth,
+      [sigma](float& value, float share)
+      {
+        value =
+          std::clamp(sigma * NormalQuantile::Table().At(share), -LabelField::Far, LabelField::Far);
+      });
+    if (isCorrected)
+    {
+      this->CorrectVolume(ofGaussian, true);
+    }
   }
 
-  void CorrectVolume(double ofGaussian)
+  /** Step 2. @param isHeld as in Make(): what makes a thin part too thick is taken back */
+  void CorrectVolume(double ofGaussian, bool isHeld)
   {
     const auto sigma = static_cast<float>(ofGaussian);
     BoundaryGaussian gaussian(this->Rows, this->InVoxels(ofGaussian));
-    LargeVector<float> smooth(this->Field.Values.size());
-    LargeVector<float> boundary(this->Field.Values.size());
-    const float most = sigma * 2.5066283f; // sqrt(2 pi): at a flat boundary alone
+    LargeVector<float> missing(this->Field.Values.size());
     gaussian.Smooth([this](int i, int j, int k, int count, float* values)
-      { this->CopyBoundary(i, j, k, count, values); }, boundary, this->Threads);
-    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
-      { this->CopyMissingVolume(i, j, k, count, values); }, smooth, this->Threads);
-    for (std::size_t v = 0; v < smooth.size(); ++v)
+      { this->CopyMissingVolume(i, j, k, count, values); },
+      missing, this->Threads);
+    const float perShare = sigma * 2.5066283f; // sqrt(2 pi)
+    LargeVector<float> boundary(isHeld ? 0 : missing.size());
+    if (!isHeld)
     {
-      smooth[v] *= std::min(most, 1.f / std::max(boundary[v], LeastBoundary));
+      gaussian.Smooth([this](int i, int j, int k, int count, float* values)
+        { this->CopyBoundary(i, j, k, count, values); },
+        boundary, this->Threads);
     }
-    this->ForValues(smooth, [](float& value, float missing)
-      { value = std::clamp(value + missing, -LabelField::Far, LabelField::Far); });
+    for (std::size_t v = 0; v < missing.size(); ++v)
+    {
+      const bool isThin = !isHeld && boundary[v] * perShare > 1.f;
+      missing[v] *= isThin ? 1.f / boundary[v] : perShare;
+    }
+    this->ForValues(missing,
+      [](float& value, float more)
+      { value = std::clamp(value + more, -LabelField::Far, LabelField::Far); });
   }
 
   /** 1 where a small change of the field changes the volume that it has inside. */
@@ -147,26 +167,28 @@ private:
   }
 
   /** About the voxels that are lost, fading into what there is. */
-  void MakeNarrower(double sigma, const LargeVector<unsigned char>& lost)
+  void MakeNarrower(double sigma, bool isCorrected, const LargeVector<unsigned char>& lost)
   {
     const VoxelBox& box = this->Field.Box;
     LargeVector<float> fading(this->Field.Values.size());
-    BoundaryGaussian(this->Rows, this->InVoxels(FadingSigma)).Smooth(
-      [&](int i, int j, int k, int count, float* values)
-      {
-        for (int x = 0; x < count; ++x)
+    BoundaryGaussian(this->Rows, this->InVoxels(FadingSigma))
+      .Smooth(
+        [&](int i, int j, int k, int count, float* values)
         {
-          const bool isLost = box.Contains({ i + x, j, k }) &&
-            lost[static_cast<std::size_t>(box.NumberOf(i + x, j, k))] != 0;
-          values[x] = isLost ? 1.f : 0.f;
-        }
-      },
-      fading, this->Threads);
+          for (int x = 0; x < count; ++x)
+          {
+            const bool isLost = box.Contains({ i + x, j, k }) &&
+              lost[static_cast<std::size_t>(box.NumberOf(i + x, j, k))] != 0;
+            values[x] = isLost ? 1.f : 0.f;
+          }
+        },
+        fading, this->Threads);
     const double cubed = FadingSigma * FadingSigma * FadingSigma;
     const double voxel = this->Map.Spacing[0] * this->Map.Spacing[1] * this->Map.Spacing[2];
-    const auto perShare = static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: 1 at one alone
+    const auto perShare =
+      static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: 1 at one alone
     const LargeVector<float> before = this->Field.Values;
-    this->MakeWith(sigma);
+    this->MakeWith(sigma, isCorrected);
     for (std::size_t v = 0; v < before.size(); ++v)
     {
       const float share = std::min(1.f, perShare * fading[v]);
@@ -233,9 +255,9 @@ private:
 };
 }
 
-void MakeLabelDistance(const LabelMap& map, int object, const BoundaryRows& rows, double sigma,
-  LabelField& field, Executor& executor)
+void MakeLabelDistance(const LabelMap& map, int object, const BoundaryRows& rows,
+  const LabelFieldOptions& options, LabelField& field, Executor& executor)
 {
-  DistanceMaker(map, object, rows, field, executor).Make(sigma);
+  DistanceMaker(map, object, rows, field, executor).Make(options.Sigma, options.Tolerance == 0.);
 }
 }

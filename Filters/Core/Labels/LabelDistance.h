@@ -12,11 +12,10 @@ namespace volumic
 {
 /**
  * Steps 1 and 2 of MakeLabelField(): a smooth distance to the boundary of an object.
- * @param rows  of the object; the field has their box, and only their voxels are written
- * @param sigma standard deviation of the Gaussian, in smallest distances of voxels
+ * @param rows of the object; the field has their box, and only their voxels are written
  */
-void MakeLabelDistance(const LabelMap& map, int object, const BoundaryRows& rows, double sigma,
-  LabelField& field, Executor& executor);
+void MakeLabelDistance(const LabelMap& map, int object, const BoundaryRows& rows,
+  const LabelFieldOptions& options, LabelField& field, Executor& executor);
 }
 
 #endif

@@ -22,8 +22,6 @@ namespace
 constexpr float MostWrong = 1.5f;
 /** More than that is an edge, which chords do not follow. */
 constexpr float MostCurvature = 0.35f;
-/** Beside a thin part it is too far, as a share of the way to it: of half of that it should be. */
-constexpr float FarBesideThin = 0.7f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
 /** Times which it is looked for what a tolerance would lose. */
@@ -56,7 +54,7 @@ public:
     if (this->Options.Sigma > 0.)
     {
       MakeLabelDistance(
-        this->Map, this->Object, this->Rows, this->Options.Sigma, this->Field, this->Threads);
+        this->Map, this->Object, this->Rows, this->Options, this->Field, this->Threads);
       this->CorrectBends(this->Options.ChordCorrection);
       this->Hold({});
     }
@@ -105,10 +103,6 @@ private:
       });
   }
 
-  /**
-   * Takes off the Laplacian, but for what of it is along the gradient: across a thin part the field
-   * is a ridge, which is no bend.
-   */
   void CorrectBends(double amount)
   {
     const VoxelBox& box = this->Field.Box;
@@ -129,13 +123,14 @@ private:
         {
           if (std::abs(old[x]) < MostBent)
           {
-            values[x] -= correction * std::clamp(this->BendAt(old + x), -MostCurvature, MostCurvature);
+            values[x] -=
+              correction * std::clamp(this->BendAt(old + x), -MostCurvature, MostCurvature);
           }
         }
       });
   }
 
-  /** The second derivatives along the isosurface of a field; it must have voxels all about. */
+  /** The Laplacian, or what of it is along the isosurface; there must be voxels all about. */
   float BendAt(const float* at) const
   {
     const VoxelBox& box = this->Field.Box;
@@ -161,14 +156,16 @@ private:
           at[-step[a] - step[b]]);
       along += 2.f * gradient[a] * gradient[b] * mixed;
     }
-    const float square = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
-    return square > LeastSlope * LeastSlope ? laplacian - along / square : 0.f;
+    const float square =
+      gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
+    const float ofSurface = square > LeastSlope * LeastSlope ? laplacian - along / square : 0.f;
+    return this->HasTolerance() ? ofSurface : laplacian;
   }
 
   /** Within a tolerance nothing is held for being thin. */
   bool IsThin(int i, int j, int k) const
   {
-    return this->IsStrict(i, j, k) && this->Sides.ThinWidth(i, j, k) > 0.;
+    return this->IsStrict(i, j, k) && this->Sides.IsThin(i, j, k);
   }
 
   void Hold(const std::vector<HeldVoxel>& held)
@@ -256,7 +253,7 @@ private:
 
   double MarginAt(int i, int j, int k) const
   {
-    return this->IsThin(i, j, k)    ? std::min<double>(MostWrong, this->Options.ThinMargin * this->Sides.ThinWidth(i, j, k))
+    return this->IsThin(i, j, k)    ? this->Options.ThinMargin
       : this->IsBesideThin(i, j, k) ? this->Options.MarginBesideThin
       : this->IsStrict(i, j, k)     ? this->Options.Margin
                                     : this->Options.Margin - this->Options.Tolerance;
@@ -283,10 +280,10 @@ private:
     for (int x = 0; x < count; ++x)
     {
       const float side = this->Sides.Of(i + x, j, k);
-      if (side * values[x] > FarBesideThin && !this->IsThin(i + x, j, k))
+      if (side * values[x] > 1.f && !this->IsThin(i + x, j, k))
       {
         const double way = this->WayToThin(i + x, j, k);
-        if (way > 0. && side * values[x] > FarBesideThin * way)
+        if (way > 0. && side * values[x] > way)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
             static_cast<float>(-this->Options.MostBesideThin * way) });

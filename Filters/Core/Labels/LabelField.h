@@ -40,7 +40,9 @@ struct LabelFieldOptions
   double MostBesideThin = 0.35;
   /**
    * How much of its Laplacian is taken off the distance: triangles whose corners are on a bent
-   * surface cut off e^2 / 16 of it in the mean, e being the length of their edges.
+   * surface cut off e^2 / 16 of it in the mean, e being the length of their edges. With a Tolerance
+   * only what of it is along the isosurface: across a thin part the field is a ridge, which is no
+   * bend. Without, all of it, which makes up for what is held.
    */
   double ChordCorrection = 0.3;
 };
@@ -71,10 +73,13 @@ struct LabelField
  *
  * 1. The membership, 1 in the object and 0 elsewhere, smoothed by a Gaussian, g. Of a flat boundary
  *    it is the normal distribution of the distance, whose inverse makes a distance d of it: sigma
- *    times the quantile of g.
+ *    times the quantile of g. Where d is wrong at a voxel's centre, and at all of its side beside
+ *    it, as in what is thin, a narrower Gaussian takes its place, until none is lost: after step 2,
+ *    but with a Tolerance before it.
  * 2. Where the boundary is bent, or the object thin, d is off to one side. The Gaussian of
  *    (membership - clamp(d + 1/2, 0, 1)), the volume that is missing near each place, times
- *    sigma sqrt(2 pi), is added to it.
+ *    sigma sqrt(2 pi), is added to it. With a Tolerance that factor is less where two boundaries
+ *    are near, each of which it moves: over the Gaussian of the places where |d| < 1/2.
  * 3. ChordCorrection.
  * 4. The smallest change, in the norm of which a sum of two Gaussians is the kernel, that gives all
  *    voxel centres the sign that they have in the map, and Margin as size: a quadratic programme,

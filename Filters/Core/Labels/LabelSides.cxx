@@ -44,16 +44,11 @@ bool LabelSides::IsLost(const LabelField& field, int i, int j, int k) const
     !isRight(i, j + 1, k) && !isRight(i, j, k - 1) && !isRight(i, j, k + 1);
 }
 
-double LabelSides::ThinWidth(int i, int j, int k) const
+bool LabelSides::IsThin(int i, int j, int k) const
 {
   const bool side = this->IsObject(i, j, k);
-  const std::array<double, 3>& spacing = this->Map->Spacing;
-  double width = 0.;
-  const auto take = [&width](bool isThin, double length)
-  { width = isThin && (width == 0. || length < width) ? length : width; };
-  take(this->IsObject(i - 1, j, k) != side && this->IsObject(i + 1, j, k) != side, spacing[0]);
-  take(this->IsObject(i, j - 1, k) != side && this->IsObject(i, j + 1, k) != side, spacing[1]);
-  take(this->IsObject(i, j, k - 1) != side && this->IsObject(i, j, k + 1) != side, spacing[2]);
-  return width;
+  return (this->IsObject(i - 1, j, k) != side && this->IsObject(i + 1, j, k) != side) ||
+    (this->IsObject(i, j - 1, k) != side && this->IsObject(i, j + 1, k) != side) ||
+    (this->IsObject(i, j, k - 1) != side && this->IsObject(i, j, k + 1) != side);
 }
 }

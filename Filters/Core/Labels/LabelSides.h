@@ -31,11 +31,8 @@ public:
   /** Whether it has the wrong one, and so it has at all voxels of the same side beside this one. */
   bool IsLost(const LabelField& field, int i, int j, int k) const;
 
-  /**
-   * The least distance of voxels of the axes along which both neighbours are on the other side; 0:
-   * there is none.
-   */
-  double ThinWidth(int i, int j, int k) const;
+  /** Whether both neighbours along an axis are on the other side. */
+  bool IsThin(int i, int j, int k) const;
 
 private:
   const LabelMap* Map;

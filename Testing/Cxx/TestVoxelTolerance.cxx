@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Rough labels, smooth or strict: VoxelTolerance and Smoothing, by judges that share no code with
+// the filter.
+#include "JudgedLabels.h"
+
+#include <vtkImplicitPolyDataDistance.h>
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+using namespace volumic::support;
+
+namespace
+{
+constexpr int Size = 40;
+
+/** 0 to 1, another one for each voxel. */
+double NoiseAt(int i, int j, int k)
+{
+  auto bits = static_cast<std::uint32_t>(i + Size * (j + Size * k)) * 2654435761u;
+  bits ^= bits >> 15;
+  bits *= 2246822519u;
+  bits ^= bits >> 13;
+  return bits / 4294967296.0;
+}
+
+/** A ball whose boundary is off by up to .6 voxels, at random, as what is found by a threshold. */
+LabelMap RoughBall(double stretch = 1.0)
+{
+  LabelMap map;
+  map.Size = { Size, Size, Size };
+  map.Spacing = { 0.5, 0.5, 0.5 * stretch };
+  for (int k = 0; k < Size; ++k)
+  {
+    for (int j = 0; j < Size; ++j)
+    {
+      for (int i = 0; i < Size; ++i)
+      {
+        const double radius = std::hypot(i - 19.3, j - 19.6, k - 19.4);
+        map.Values.push_back(radius + 1.2 * NoiseAt(i, j, k) - 0.6 < 13.0 ? 1 : 0);
+      }
+    }
+  }
+  return map;
+}
+
+/** Wrong centres, and how far the furthest of them is, by VTK's signed distance; world units. */
+struct Wrong
+{
+  int Count = 0;
+  int Missed = 0; ///< further than the tolerance
+};
+
+Wrong JudgeWrong(vtkPolyData* surface, const LabelMap& map, double tolerance)
+{
+  vtkNew<vtkImplicitPolyDataDistance> distance;
+  distance->SetInput(surface);
+  Wrong wrong;
+  for (std::size_t v = 0; v < map.Values.size(); ++v)
+  {
+    const auto at = [&](std::size_t index, int axis)
+    { return map.Origin[axis] + static_cast<double>(index) * map.Spacing[axis]; };
+    const double value = distance->EvaluateFunction(
+      at(v % Size, 0), at(v / Size % Size, 1), at(v / Size / Size, 2));
+    if ((map.Values[v] != 0) != (value < 0.0))
+    {
+      ++wrong.Count;
+      wrong.Missed += std::abs(value) > tolerance ? 1 : 0;
+    }
+  }
+  return wrong;
+}
+
+double DihedralOf(vtkPolyData* block)
+{
+  return JudgeDihedrals(ToTriangleSurface(block)).Quantile95;
+}
+
+double VolumeByVoxels(vtkPolyData* block, const LabelMap& map)
+{
+  return FieldOf(block, "Volume") /
+    (FieldOf(block, "LabelVoxels") * map.Spacing[0] * map.Spacing[1] * map.Spacing[2]);
+}
+}
+
+TEST(VoxelTolerance, MakesARoughLabelSmoothAndKeepsItsVolume)
+{
+  const LabelMap map = RoughBall();
+  const Filter filter = FilterOf(ToImage(map));
+  EXPECT_EQ(filter->GetVoxelTolerance(), 0.0);
+  filter->SetFinestLevel(-1); // of both, so that edges are as long
+  const double strict = DihedralOf(BlockOf(filter));
+  filter->SetVoxelTolerance(0.5);
+  vtkPolyData* block = BlockOf(filter);
+  EXPECT_LT(DihedralOf(block), 0.6 * strict);
+  EXPECT_NEAR(VolumeByVoxels(block, map), 1.0, 0.01);
+  const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
+  EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Manifold && verdict.Topology.Outward);
+  EXPECT_EQ(verdict.Intersections.Pairs, 0u);
+}
+
+TEST(VoxelTolerance, IsTheFurthestThatACentreIsWrongAndWhatIsFurtherIsTold)
+{
+  for (const double stretch : { 1.0, 2.0 })
+  {
+    for (const double tolerance : { 0.0, 0.3, 0.6 })
+    {
+      SCOPED_TRACE(tolerance);
+      const LabelMap map = RoughBall(stretch);
+      const Filter filter = FilterOf(ToImage(map));
+      filter->SetVoxelTolerance(tolerance);
+      vtkPolyData* block = BlockOf(filter);
+      const Wrong wrong = JudgeWrong(block, map, tolerance * map.Spacing[0]);
+      EXPECT_EQ(FieldOf(block, "WrongVoxels"), wrong.Count);
+      EXPECT_EQ(FieldOf(block, "MissedVoxels"), wrong.Missed);
+      EXPECT_LT(wrong.Missed, 0.02 * FieldOf(block, "LabelVoxels"));
+      EXPECT_TRUE(tolerance == 0.0 || wrong.Count > 2 * wrong.Missed);
+    }
+  }
+}
+
+TEST(LabelSmoothing, MoreOfItIsNotRougher)
+{
+  const Filter filter = FilterOf(ToImage(RoughBall()));
+  for (const double tolerance : { 0.0, 0.5 })
+  {
+    SCOPED_TRACE(tolerance);
+    filter->SetVoxelTolerance(tolerance);
+    filter->SetSmoothing(1.0);
+    const double little = DihedralOf(BlockOf(filter));
+    for (const double smoothing : { 2.0, 3.0, 4.0 })
+    {
+      filter->SetSmoothing(smoothing);
+      EXPECT_LT(DihedralOf(BlockOf(filter)), 1.05 * little) << smoothing;
+    }
+  }
+}
