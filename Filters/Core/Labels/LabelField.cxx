@@ -130,36 +130,41 @@ private:
       });
   }
 
-  /** The Laplacian, or what of it is along the isosurface; there must be voxels all about. */
+  /** What CorrectBends() takes off, as it is at a voxel; there must be others all about. */
   float BendAt(const float* at) const
   {
     const VoxelBox& box = this->Field.Box;
     const std::array<std::int64_t, 3> step = { 1, box.Length(0),
       static_cast<std::int64_t>(box.Length(0)) * box.Length(1) };
     std::array<float, 3> inverse;
-    std::array<float, 3> gradient;
-    float laplacian = 0.f;
-    float along = 0.f;
+    std::array<float, 3> second;
     for (int a = 0; a < 3; ++a)
     {
       inverse[a] = static_cast<float>(1. / this->Map.Spacing[a]);
-      gradient[a] = 0.5f * inverse[a] * (at[step[a]] - at[-step[a]]);
-      const float second = inverse[a] * inverse[a] * (at[step[a]] - 2.f * at[0] + at[-step[a]]);
-      laplacian += second;
-      along += gradient[a] * gradient[a] * second;
+      second[a] = inverse[a] * inverse[a] * (at[-step[a]] - 2.f * at[0] + at[step[a]]);
     }
+    const float laplacian = second[0] + second[1] + second[2];
+    if (!this->HasTolerance())
+    {
+      return laplacian;
+    }
+    std::array<float, 3> gradient;
+    for (int a = 0; a < 3; ++a)
+    {
+      gradient[a] = 0.5f * inverse[a] * (at[step[a]] - at[-step[a]]);
+    }
+    float square = 0.f;
+    float across = 0.f; // the second derivative along the gradient, times its square
     for (int a = 0; a < 3; ++a)
     {
       const int b = (a + 1) % 3;
       const float mixed = 0.25f * inverse[a] * inverse[b] *
         (at[step[a] + step[b]] - at[step[a] - step[b]] - at[step[b] - step[a]] +
           at[-step[a] - step[b]]);
-      along += 2.f * gradient[a] * gradient[b] * mixed;
+      square += gradient[a] * gradient[a];
+      across += gradient[a] * (gradient[a] * second[a] + 2.f * gradient[b] * mixed);
     }
-    const float square =
-      gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
-    const float ofSurface = square > LeastSlope * LeastSlope ? laplacian - along / square : 0.f;
-    return this->HasTolerance() ? ofSurface : laplacian;
+    return square > LeastSlope * LeastSlope ? laplacian - across / square : 0.f;
   }
 
   /** Within a tolerance nothing is held for being thin. */
