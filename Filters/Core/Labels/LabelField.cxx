@@ -192,8 +192,8 @@ private:
         for (int x = 0; x < count; ++x)
         {
           const float side = this->Sides.Of(i + x, j, k);
-          values[x] =
-            side * std::clamp(side * values[x], this->LeastAt(i + x, j, k), LabelField::Far);
+          const float least = this->LeastAt(i + x, j, k);
+          values[x] = side * std::clamp(side * values[x], least, LabelField::Far);
         }
       });
   }
