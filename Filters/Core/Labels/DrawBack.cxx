@@ -76,19 +76,12 @@ void ForPlacesOn(const IndexedSurface& surface, const Triangle& t, Visit&& visit
     }
   }
 }
-
-template <typename T>
-void SortUnique(std::vector<T>& values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 }
 
 bool DrawBackWithin(
   const LabelField& original, const IndexedSurface& surface, float by, LabelField& field)
 {
-  std::vector<std::int64_t> lowered;
+  LargeVector<unsigned char> isLowered(field.Values.size(), 0);
   for (const Triangle& t : surface.Triangles)
   {
     ForPlacesOn(surface, t,
@@ -97,16 +90,23 @@ bool DrawBackWithin(
         const Neighbourhood about(original, place);
         if (about.Value < LeastInside)
         {
-          lowered.insert(lowered.end(), about.Voxels.begin(), about.Voxels.end());
+          for (const std::int64_t voxel : about.Voxels)
+          {
+            isLowered[static_cast<std::size_t>(voxel)] = 1;
+          }
         }
       });
   }
-  SortUnique(lowered);
-  for (const std::int64_t voxel : lowered)
+  bool isAny = false;
+  for (std::size_t voxel = 0; voxel < isLowered.size(); ++voxel)
   {
-    field.Values[static_cast<std::size_t>(voxel)] -= by;
+    if (isLowered[voxel] != 0)
+    {
+      field.Values[voxel] -= by;
+      isAny = true;
+    }
   }
-  return !lowered.empty();
+  return isAny;
 }
 
 std::vector<std::array<int, 3>> VoxelsAbout(
@@ -129,7 +129,8 @@ std::vector<std::array<int, 3>> VoxelsAbout(
         }
       });
   }
-  SortUnique(voxels);
+  std::sort(voxels.begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return voxels;
 }
 }
