@@ -340,6 +340,17 @@ TEST(LabelFieldWithTolerance, HasBumpsAndPitsWrongByThatButLosesNothingThin)
   EXPECT_NEAR(ValueAt(others, 20, 8, 11), -ValueAt(field, 20, 8, 11), 0.02);
 }
 
+TEST(LabelFieldWithTolerance, DoesNotThickenPlates)
+{
+  const LabelMap map = MakeLabelMap(
+    { 32, 32, 32 }, 1, [](int, int, int k) { return k >= 14 && k < 17 ? 1 : 0; });
+  LabelFieldOptions options;
+  options.Tolerance = 0.5;
+  const LabelField field =
+    MakeLabelField(LabelBricks(map, OnThisThread()), 1, options, OnThisThread());
+  EXPECT_NEAR(CrossingOf(ValueAt(field, 16, 16, 16), ValueAt(field, 16, 16, 17)), 0.5, 0.15);
+}
+
 TEST(LabelFieldOfThinParts, KeepTheirThicknessWithMuchSmoothing)
 {
   const LabelMap map = MakeLabelMap(
