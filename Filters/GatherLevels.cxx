@@ -103,7 +103,7 @@ bool StaysInPieces(
 {
   const SegmentationSettings& settings = volume.Settings;
   vtkDataArray* nans = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
-  return SurfaceEvolution::AreInSweeps(settings.Options, pieces.Size()) && edges.empty() && nans &&
+  return SurfaceEvolution::AreShared(settings.Options, pieces.Size()) && edges.empty() && nans &&
     nans->GetTuple1(0) == 0.0 && settings.EdgeLength == 0.0 && settings.SnapshotInterval == 0 &&
     settings.End.FinestLevel >= 0 && settings.End.MemoryLimit == 0 &&
     settings.End.ScratchDirectory.empty() && !settings.End.Resume;

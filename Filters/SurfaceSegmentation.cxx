@@ -296,7 +296,7 @@ bool SurfaceSegmentation::MayBeShared(int level) const
 {
   // Snapshots, mean edges, and what attracts are for the whole surface, on one rank.
   return this->Request.Together && level < this->Choice.Coarsest && level >= 0 &&
-    SurfaceEvolution::AreInSweeps(
+    SurfaceEvolution::AreShared(
       this->Settings.Options, this->Levels.Pyramid().SizeOf(level)) &&
     this->Settings.SnapshotInterval == 0 && this->Settings.EdgeLength == 0.0 &&
     !this->Levels.HasPoints() && !this->Levels.HasEdges();
@@ -351,7 +351,8 @@ bool SurfaceSegmentation::EvolveOn(
   surface = evolution.Result();
   const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
     reason != StopReason::Cancelled &&
-    !SurfaceEvolution::AreInSweeps(this->Settings.Options, image.Size);
+    !(this->Request.Together &&
+      SurfaceEvolution::AreShared(this->Settings.Options, image.Size));
   while (mayBeRevised && !evolution.IsStopped() && !surface.Points.empty() &&
     this->Request.Revise(surface))
   {

@@ -15,6 +15,7 @@ set(volumic_core_sources
   Common/ScratchMemory.cxx
   Common/ScratchStore.cxx
   Common/StandardThreads.cxx
+  Common/VisitSchedule.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
   Image/Field.cxx
@@ -59,7 +60,6 @@ set(volumic_core_sources
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
   Surface/ConnectedVertices.cxx
-  Surface/EditCells.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RankBlocks.cxx
@@ -84,8 +84,8 @@ set(volumic_core_sources
   Evolution/EvolutionRanks.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
-  Evolution/EvolutionSweeps.cxx
   Evolution/EvolutionVerification.cxx
+  Evolution/EvolutionVisits.cxx
   Evolution/GivenSurface.cxx
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx
@@ -122,6 +122,7 @@ set(volumic_core_headers
   Common/Select.h
   Common/StandardThreads.h
   Common/Vector.h
+  Common/VisitSchedule.h
   Image/AxisOperator.h
   Image/EdgeAttraction.h
   Image/Field.h
@@ -178,7 +179,6 @@ set(volumic_core_headers
   Surface/ComponentNesting.h
   Surface/ComponentWatch.h
   Surface/ConnectedVertices.h
-  Surface/EditCells.h
   Surface/FaceShape.h
   Surface/NewFaces.h
   Surface/NormalCone.h

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/Dynamics.h"
 
-#include "Core/Common/Select.h"
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace volumic
 {
 namespace
 {
-constexpr std::size_t BlockSize = 256;
 /** Distance, in delta, over which the isopotential force grows to its bound. */
 constexpr float ForceRange = 0.75f;
 /** A vertex has moved visibly when it is this far from its anchor along its normal, in delta. */
@@ -47,7 +45,6 @@ float Clamp(float x)
 Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
   : TheField(field)
   , Options(options)
-  , Threads(executor)
 {
   if (options.EdgeAttractionWeight > 0 && field.Image().Edges)
   {
@@ -128,79 +125,57 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
 }
 
 void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
-  const std::vector<Proximity::ClosePair>& pairs)
+  const std::vector<Proximity::ClosePair>& pairs, Step& step) const
 {
-  const std::size_t n = active.size();
-  this->Force.resize(n);
-  this->Fastest.assign((n + BlockSize - 1) / BlockSize, 0.f);
   const float friction = this->Drag;
-  const float step = static_cast<float>(this->Options.MaximumStep) * state.Sizing.Smallest();
   const float longest = this->Longest;
-  ForBlocks(this->Threads, n, BlockSize,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      float fastest = 0;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = active[i];
-        this->Force[i] = this->ForceAt(state, v, state.FieldValue[v]) * state.Sizing.At(v);
-        const Vector speed =
-          (state.Velocity[v] + this->Force[i] * longest) * (1 / (1 + friction * longest));
-        fastest = std::max(fastest, SquaredLength(speed));
-      }
-      this->Fastest[b] = fastest;
-    });
+  step.Force.resize(active.size());
   float fastest = 0;
-  for (float x : this->Fastest)
+  for (std::size_t i = 0; i < active.size(); ++i)
   {
-    fastest = std::max(fastest, x);
+    const int v = active[i];
+    step.Force[i] = this->ForceAt(state, v, state.FieldValue[v]) * state.Sizing.At(v);
+    const Vector speed =
+      (state.Velocity[v] + step.Force[i] * longest) * (1 / (1 + friction * longest));
+    fastest = std::max(fastest, SquaredLength(speed));
   }
   fastest = std::sqrt(fastest);
-  this->Step = fastest * longest > step ? step / fastest : longest;
-  this->Threads.For(n, BlockSize,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        Vector& velocity = state.Velocity[active[i]];
-        velocity =
-          (velocity + this->Force[i] * this->Step) * (1 / (1 + friction * this->Step));
-      }
-    });
-  this->ApplyContacts(state, pairs);
+  const float way = static_cast<float>(this->Options.MaximumStep) * state.Sizing.Smallest();
+  step.Time = fastest * longest > way ? way / fastest : longest;
+  for (std::size_t i = 0; i < active.size(); ++i)
+  {
+    Vector& velocity = state.Velocity[active[i]];
+    velocity = (velocity + step.Force[i] * step.Time) * (1 / (1 + friction * step.Time));
+  }
+  this->ApplyContacts(state, active, pairs, step);
 }
 
 void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
-  const std::vector<Proximity::ClosePair>& pairs, bool snap)
+  const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step) const
 {
-  this->Step = 1;
-  this->Threads.For(vertices.size(), BlockSize,
-    [&](std::size_t begin, std::size_t end)
+  step.Time = 1;
+  for (const int v : vertices)
+  {
+    const float longest = LongestRelaxation * state.Sizing.At(v);
+    const Vector n = state.Normal[v].Axis();
+    Vector pull = state.Laplacian[v];
+    pull.Padding = 0;
+    Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
+    if (snap && this->Options.SnapToIsoValue)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = vertices[i];
-        const float longest = LongestRelaxation * state.Sizing.At(v);
-        const Vector n = state.Normal[v].Axis();
-        Vector pull = state.Laplacian[v];
-        pull.Padding = 0;
-        Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
-        if (snap && this->Options.SnapToIsoValue)
-        {
-          const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
-          move += n * this->TheField.StepToIso(sample, n, longest);
-        }
-        if (this->Edges && this->Options.SnapToEdges)
-        {
-          const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
-          move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
-        }
-        const float length = Length(move);
-        state.Velocity[v] = length > longest ? move * (longest / length) : move;
-      }
-    });
+      const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
+      move += n * this->TheField.StepToIso(sample, n, longest);
+    }
+    if (this->Edges && this->Options.SnapToEdges)
+    {
+      const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+      move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
+    }
+    const float length = Length(move);
+    state.Velocity[v] = length > longest ? move * (longest / length) : move;
+  }
   // Contacts: nothing may come nearer than it is.
-  this->ApplyContacts(state, pairs);
+  this->ApplyContacts(state, vertices, pairs, step);
 }
 
 bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
@@ -222,55 +197,53 @@ bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const
   return front ? value > 0 : value < 0;
 }
 
-void Dynamics::ApplyContacts(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs)
+void Dynamics::ApplyContacts(SurfaceState& state, const std::vector<int>& moving,
+  const std::vector<Proximity::ClosePair>& pairs, Step& step) const
 {
+  if (pairs.empty())
+  {
+    return;
+  }
+  for (const int v : moving)
+  {
+    state.Marks[v] |= IsMoving;
+  }
   // The pairs of a vertex follow each other.
-  const std::vector<int> first = SelectIndices(this->Threads, pairs.size(),
-    [&](std::size_t i)
+  step.Contacts.clear();
+  for (std::size_t from = 0; from < pairs.size();)
+  {
+    const int v = pairs[from].V;
+    std::size_t to = from + 1;
+    while (to < pairs.size() && pairs[to].V == v)
     {
-      const int v = pairs[i].V;
-      return (i == 0 || pairs[i - 1].V != v) && state.Mesh.IsAlive(v) && state.Active[v] != 0;
-    });
-  this->Contacts.resize(first.size());
-  this->Threads.For(first.size(), BlockSize,
-    [&](std::size_t begin, std::size_t end)
+      ++to;
+    }
+    if (state.Mesh.IsAlive(v) && (state.Marks[v] & IsMoving))
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const auto from = static_cast<std::size_t>(first[i]);
-        std::size_t to = from + 1;
-        while (to < pairs.size() && pairs[to].V == pairs[from].V)
-        {
-          ++to;
-        }
-        this->Contacts[i] = { pairs[from].V, from, to, Vector() };
-      }
-    });
+      step.Contacts.push_back({ v, from, to, Vector() });
+    }
+    from = to;
+  }
   for (int sweep = 0; sweep < ContactSweeps; ++sweep)
   {
-    this->Threads.For(this->Contacts.size(), 256,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          ContactsOfVertex& contacts = this->Contacts[i];
-          contacts.Correction = this->CorrectionOf(state, pairs, contacts, sweep == 0);
-        }
-      });
-    this->Threads.For(this->Contacts.size(), BlockSize,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          state.Velocity[this->Contacts[i].Vertex] -= this->Contacts[i].Correction;
-        }
-      });
+    for (ContactsOfVertex& contacts : step.Contacts)
+    {
+      contacts.Correction = this->CorrectionOf(state, pairs, contacts, sweep == 0, step.Time);
+    }
+    for (const ContactsOfVertex& contacts : step.Contacts)
+    {
+      state.Velocity[contacts.Vertex] -= contacts.Correction;
+    }
+  }
+  for (const int v : moving)
+  {
+    state.Marks[v] &= static_cast<std::uint8_t>(~IsMoving);
   }
 }
 
 Vector Dynamics::CorrectionOf(const SurfaceState& state,
   const std::vector<Proximity::ClosePair>& pairs, const ContactsOfVertex& contacts,
-  bool separates) const
+  bool separates, float time) const
 {
   const int v = contacts.Vertex;
   Vector sum;
@@ -290,14 +263,14 @@ Vector Dynamics::CorrectionOf(const SurfaceState& state,
     }
     const Vector direction = across * (1 / distance);
     float approach = Dot(state.Velocity[v], direction);
-    if (state.Active[w])
+    if (state.Marks[w] & IsMoving)
     {
       approach = 0.5f * (approach - Dot(state.Velocity[w], direction));
     }
     const float least = state.Sizing.ShortestEdge(v, w);
     if (separates && distance < least)
     {
-      approach = std::max(approach, 0.f) + ContactRecovery * (least - distance) / this->Step;
+      approach = std::max(approach, 0.f) + ContactRecovery * (least - distance) / time;
     }
     if (approach > 0)
     {
@@ -308,88 +281,64 @@ Vector Dynamics::CorrectionOf(const SurfaceState& state,
   return sum * (1.f / static_cast<float>(std::max(count, 1)));
 }
 
-void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active)
+void Dynamics::Displace(
+  SurfaceState& state, const std::vector<int>& active, const Step& step) const
 {
-  this->Threads.For(active.size(), BlockSize,
-    [&](std::size_t begin, std::size_t end)
+  for (const int v : active)
+  {
+    const float longest = static_cast<float>(this->Options.MaximumStep) * state.Sizing.At(v);
+    const Vector p = state.Mesh.Position[v];
+    state.PreviousPosition[v] = p;
+    Vector move = state.Velocity[v] * step.Time;
+    const float length = Length(move);
+    if (length > longest)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = active[i];
-        const float longest = static_cast<float>(this->Options.MaximumStep) * state.Sizing.At(v);
-        Vector& p = state.Mesh.Position[v];
-        state.PreviousPosition[v] = p;
-        Vector move = state.Velocity[v] * this->Step;
-        const float length = Length(move);
-        if (length > longest)
-        {
-          move *= longest / length;
-        }
-        state.Displacement[v] = std::min(length, longest);
-        p = state.Margin.Confined(p, p + move);
-      }
-    });
-  const std::vector<int> leaving = SelectOf(this->Threads, active,
-    [&state](int v) { return !state.Grid.IsInPlace(v, state.Mesh.Position[v]); });
-  state.Grid.MoveAll(leaving, state.Mesh.Position, this->Threads);
+      move *= longest / length;
+    }
+    state.Displacement[v] = std::min(length, longest);
+    state.MoveTo(v, state.Margin.Confined(p, p + move));
+  }
 }
 
 void Dynamics::Freeze(
-  SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working)
+  SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working) const
 {
-  this->HasMoved.resize(state.Mesh.Rings.size(), 0);
-  this->Threads.For(active.size(), BlockSize,
-    [&](std::size_t begin, std::size_t end)
+  for (const int v : active)
+  {
+    if (!state.Mesh.IsAlive(v))
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = active[i];
-        if (!state.Mesh.IsAlive(v))
-        {
-          continue;
-        }
-        const float alongNormal = VisibleAlongNormal * state.Sizing.At(v);
-        const float anywhere = Visible * state.Sizing.At(v);
-        const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
-        if (std::abs(Dot(moved, state.Normal[v].Axis())) > alongNormal ||
-          SquaredLength(moved) > anywhere * anywhere)
-        {
-          state.Anchor[v] = state.Mesh.Position[v];
-          this->HasMoved[v] = 1;
-        }
-      }
-    });
-  this->Threads.For(working.size(), BlockSize,
-    [&](std::size_t begin, std::size_t end)
+      continue;
+    }
+    const float alongNormal = VisibleAlongNormal * state.Sizing.At(v);
+    const float anywhere = Visible * state.Sizing.At(v);
+    const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
+    if (std::abs(Dot(moved, state.Normal[v].Axis())) > alongNormal ||
+      SquaredLength(moved) > anywhere * anywhere)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = working[i];
-        const Ring& ring = state.Mesh.Rings[v];
-        bool moved = this->HasMoved[v];
-        for (int k = 0; k < ring.Count && !moved; ++k)
-        {
-          moved = this->HasMoved[ring.Item[k]];
-        }
-        if (moved)
-        {
-          state.Activate(v);
-        }
-        else if (this->Options.FreezeMotionlessVertices && state.Active[v] &&
-          ++state.RestCount[v] >= RestingIterations)
-        {
-          state.Active[v] = 0;
-          state.Velocity[v] = Vector();
-        }
-      }
-    });
-  this->Threads.For(active.size(), BlockSize,
-    [&](std::size_t begin, std::size_t end)
+      state.Anchor[v] = state.Mesh.Position[v];
+      state.Marks[v] |= HasMoved;
+    }
+  }
+  for (const int v : working)
+  {
+    const Ring& ring = state.Mesh.Rings[v];
+    const bool moved = (state.Marks[v] & HasMoved) ||
+      std::any_of(ring.Item, ring.Item + ring.Count,
+        [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
+    if (moved)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        this->HasMoved[active[i]] = 0;
-      }
-    });
+      state.Activate(v);
+    }
+    else if (this->Options.FreezeMotionlessVertices && state.Active[v] &&
+      ++state.RestCount[v] >= RestingIterations)
+    {
+      state.Active[v] = 0;
+      state.Velocity[v] = Vector();
+    }
+  }
+  for (const int v : active)
+  {
+    state.Marks[v] &= static_cast<std::uint8_t>(~HasMoved);
+  }
 }
 }

@@ -9,15 +9,16 @@
 #include "Core/Surface/Proximity.h"
 #include "Core/Surface/SurfaceState.h"
 
+#include <cstddef>
 #include <memory>
-#include <cstdint>
 #include <vector>
 
 namespace volumic
 {
 /**
  * Forces, time step, Newton's law with friction, contact, displacement and freezing: everything
- * of an iteration that moves vertices. Forces are gathered per vertex, so threads need no locks.
+ * of an iteration that moves vertices. It only reads, but for the state and the step that a visit
+ * hands in, so visits share it.
  *
  * Forces, in delta per unit of time squared (mass 1):
  * - tension F_c: TensionWeight times the pull to the barycentre of the neighbours, less its
@@ -46,6 +47,23 @@ namespace volumic
 class Dynamics
 {
 public:
+  /** The close pairs of a vertex, and what of its velocity they forbid. */
+  struct ContactsOfVertex
+  {
+    int Vertex;
+    std::size_t Begin; ///< Of the pairs.
+    std::size_t End;
+    Vector Correction;
+  };
+  /** A step in time of some vertices. */
+  struct Step
+  {
+    float Time = 0;
+    std::vector<Vector> Force;              ///< In the order of the vertices.
+    std::vector<ContactsOfVertex> Contacts; ///< Of those that have any.
+  };
+
+  /** @param executor for what it finds out about the map of edges */
   Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor);
 
   /**
@@ -53,7 +71,7 @@ public:
    * last examination.
    */
   void Accelerate(SurfaceState& state, const std::vector<int>& active,
-    const std::vector<Proximity::ClosePair>& pairs);
+    const std::vector<Proximity::ClosePair>& pairs, Step& step) const;
 
   /**
    * Instead of Accelerate, at the end of a level: velocities that even the mesh out tangentially
@@ -61,20 +79,17 @@ public:
    * SurfaceOptions::SnapToEdges, up to the ridge of the map of edges, never towards a contact.
    */
   void Relax(SurfaceState& state, const std::vector<int>& vertices,
-    const std::vector<Proximity::ClosePair>& pairs, bool snap);
+    const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step) const;
 
   /** Displaces them; the place before is kept in SurfaceState::PreviousPosition. */
-  void Displace(SurfaceState& state, const std::vector<int>& active);
+  void Displace(SurfaceState& state, const std::vector<int>& active, const Step& step) const;
 
   /**
    * After roll back: vertices at rest become motionless, the neighbours of moved ones active.
    * `working` holds the active vertices and all their neighbours.
    */
   void Freeze(
-    SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working);
-
-  /** Of the last step. */
-  double TimeStep() const { return this->Step; }
+    SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working) const;
 
 private:
   void SetPace();
@@ -85,31 +100,18 @@ private:
    * cut needs.
    */
   bool MayClose(const SurfaceState& state, int v, int w) const;
-  /** The close pairs of a vertex, and what of its velocity they forbid. */
-  struct ContactsOfVertex
-  {
-    int Vertex;
-    std::size_t Begin; ///< Of the pairs.
-    std::size_t End;
-    Vector Correction;
-  };
   /** Takes from the velocities what would bring vertices nearer than eq. (1) allows. */
-  void ApplyContacts(SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs);
+  void ApplyContacts(SurfaceState& state, const std::vector<int>& moving,
+    const std::vector<Proximity::ClosePair>& pairs, Step& step) const;
   Vector CorrectionOf(const SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs,
-    const ContactsOfVertex& contacts, bool separates) const;
+    const ContactsOfVertex& contacts, bool separates, float time) const;
 
   const Field& TheField;
   const SurfaceOptions& Options;
-  Executor& Threads;
   std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
   float Drag = 0;       ///< Friction as it acts.
   float Longest = 0;    ///< Time step, unless shortened.
   float InnerShare = 1; ///< Of the internal forces that the time step can follow.
-  float Step = 0;
-  LargeVector<Vector> Force;
-  LargeVector<std::uint8_t> HasMoved; ///< Visibly, per vertex; 0 between calls.
-  std::vector<float> Fastest;
-  std::vector<ContactsOfVertex> Contacts;
 };
 }
 

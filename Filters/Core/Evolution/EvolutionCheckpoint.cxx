@@ -71,7 +71,7 @@ void SurfaceEvolution::Save(CheckedWriter& file) const
   file.Put(self.LastLost);
   file.Put(self.Preparing);
   file.Put(self.SinceEvolved);
-  file.Put(self.Iteration.Remembered());
+  file.Put(self.Unchecked);
   file.Put(s.Sizing.OfLevel());
   file.PutList(s.Mesh.Position);
   SaveRings(file, s.Mesh.Rings);
@@ -92,7 +92,7 @@ void SurfaceEvolution::Load(CheckedReader& file)
   self.LastLost = file.Get<LostParts>();
   self.Preparing = file.Get<HistoryRow>();
   self.SinceEvolved = file.Get<EditCounts>();
-  self.Iteration.Remember(file.Get<SurfaceIteration::Memory>());
+  self.Unchecked = file.Get<int>();
   s.Sizing = SizingField(file.Get<float>());
   file.GetList(s.Mesh.Position);
   LoadRings(file, s.Mesh.Rings);

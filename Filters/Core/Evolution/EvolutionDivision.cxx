@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The way of a surface to the next level's edge lengths: as a whole, or in the blocks that it will
-// evolve in there.
+// The way of a surface to the next level's edge lengths, on one rank or on all.
 
 #include "Core/Common/Blocks.h"
 #include "Core/Common/Refuse.h"
@@ -138,8 +137,8 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
   const SizingField sizing = s.Sizing;
   s.Sizing = sizing.ForEdgesOf(this->LongestEdge());
   this->LayGrid();
-  this->Iteration.UpdateActive();
-  const std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections();
+  const std::vector<Proximity::FacePair> found =
+    Proximity::FindIntersections(s, this->OwnVertices(), this->Threads);
   s.Sizing = sizing;
   return found;
 }
@@ -163,6 +162,7 @@ void SurfaceEvolution::Implementation::KeepEdgesAbout(
 void SurfaceEvolution::Implementation::DivideOnce()
 {
   SurfaceState& s = this->State;
+  this->Blocks.reset(); // Its places are anyone's again.
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   const int olds = s.Mesh.Size();
@@ -198,10 +198,9 @@ bool SurfaceEvolution::Implementation::HasEdgeTooLong() const
   return HasEdgeOver(this->State, 1.0001f, this->Threads);
 }
 
-void SurfaceEvolution::Implementation::LayGridInBlocks()
+void SurfaceEvolution::Implementation::LayGridOnRanks()
 {
   SurfaceState& s = this->State;
-  this->Iteration.Forget();
   const std::size_t n = s.Mesh.Rings.size();
   s.Grid.Reset(this->GridLow, this->GridHigh, s.Sizing.LargestReach());
   s.Grid.Lengthen(n);
@@ -234,14 +233,15 @@ std::vector<int> SurfaceEvolution::Implementation::OwnVertices() const
   return own;
 }
 
-std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsInBlocks()
+std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsOnRanks()
 {
   SurfaceState& s = this->State;
   const SizingField sizing = s.Sizing;
   s.Sizing = sizing.ForEdgesOf(this->LongestEdge());
-  this->LayGridInBlocks();
+  this->LayGridOnRanks();
   const std::vector<int> own = this->OwnVertices();
-  std::vector<Proximity::FacePair> found = this->Iteration.FindIntersections(own);
+  std::vector<Proximity::FacePair> found =
+    Proximity::FindIntersections(s, own, this->Threads);
   for (const int v : own)
   {
     // What was found of them is not known of those that other ranks own.
@@ -249,7 +249,7 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
     s.NearOthers[v] = 1;
   }
   s.Sizing = sizing;
-  this->LayGridInBlocks();
+  this->LayGridOnRanks();
   if (this->OnRanks)
   {
     MessageWriter writer;
@@ -268,14 +268,6 @@ void SurfaceEvolution::Implementation::SpreadMesh()
 {
   // One that is whole on rank 0, and of which nothing is known but the mesh.
   SurfaceState& s = this->State;
-  this->Iteration.Forget();
-  if (!this->AreRanks())
-  {
-    this->Blocks.reset();
-    this->LayGrid();
-    this->Blocks = std::make_unique<SurfaceBlocks>(s, this->FrameOfLevel(), this->Threads);
-    return;
-  }
   const SurfaceMesh whole = std::exchange(s.Mesh, SurfaceMesh());
   this->FindGridBox(whole);
   this->AgreeOnGridBox();
@@ -286,10 +278,9 @@ void SurfaceEvolution::Implementation::SpreadMesh()
   this->OnRanks->ScatterMesh(whole, this->GridLow, this->GridHigh);
 }
 
-bool SurfaceEvolution::Implementation::DivideInBlocks()
+bool SurfaceEvolution::Implementation::DivideOnRanks()
 {
   SurfaceState& s = this->State;
-  this->InSweeps = true;
   SurfaceMesh old;
   std::unique_ptr<KeptEdges> kept;
   for (int round = 0;; ++round)
@@ -310,7 +301,7 @@ bool SurfaceEvolution::Implementation::DivideInBlocks()
       faces = volumic::Divide(s.Mesh, round > 0 ? kept.get() : nullptr, this->Threads);
     }
     this->SpreadMesh();
-    const std::vector<Proximity::FacePair> found = this->FindIntersectionsInBlocks();
+    const std::vector<Proximity::FacePair> found = this->FindIntersectionsOnRanks();
     if (found.empty())
     {
       break;
@@ -330,17 +321,5 @@ bool SurfaceEvolution::Implementation::DivideInBlocks()
   }
   this->Threads.EndPhase("Division");
   return this->GoOn(Monitor::Activity::Dividing, 1.);
-}
-
-void SurfaceEvolution::Implementation::SplitLongEdgesInBlocks()
-{
-  BlockVisits visits;
-  visits.OnlyActive = false;
-  visits.Doing = Monitor::Activity::Dividing;
-  visits.From = 1.;
-  visits.Visit = [this](const std::vector<int>& vertices)
-  { this->Blocks->AddNew(this->Iteration.SplitLongEdges(vertices)); };
-  this->VisitBlocks(visits);
-  this->Threads.EndPhase("Long edges");
 }
 }

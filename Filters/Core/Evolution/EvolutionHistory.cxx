@@ -12,8 +12,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread sums up at a time. */
-constexpr std::size_t SumBlock = 4096;
 }
 
 double SurfaceEvolution::Implementation::Lap()
@@ -34,25 +32,7 @@ void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
 {
   row.Vertices = this->State.Mesh.NumberOfVertices();
   row.EulerCharacteristic = this->State.EulerCharacteristic;
-  row.Components = this->Iteration.NumberOfComponents();
-}
-
-double SurfaceEvolution::Implementation::KineticEnergy() const
-{
-  const SurfaceState& s = this->State;
-  const std::vector<int>& active = this->Iteration.ActiveVertices();
-  return SumOfBlocks(this->Threads, active.size(), SumBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      double sum = 0;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = active[i];
-        const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
-        sum += 0.5 * speed * speed;
-      }
-      return sum;
-    });
+  row.Components = this->Watch.NumberOfComponents();
 }
 
 void SurfaceEvolution::Implementation::BeginRow(HistoryRow& row)
@@ -79,42 +59,10 @@ void SurfaceEvolution::Implementation::KeepRow(const HistoryRow& row)
   ++this->LastIterations;
 }
 
-void SurfaceEvolution::Implementation::FillRow(HistoryRow& row)
-{
-  const SurfaceState& s = this->State;
-  row.Iteration = static_cast<int>(this->Rows.size()) + 1;
-  row.Level = this->Level;
-  row.Merges = s.Counts.Merges;
-  row.Cuts = s.Counts.Cuts;
-  row.Splits = s.Counts.Splits;
-  row.Collapses = s.Counts.Collapses;
-  row.Flips = s.Counts.Flips;
-  row.Deletions = s.Counts.Removed;
-  row.DeletedGenus = s.Counts.RemovedGenus;
-  this->FillCounts(row);
-  row.KineticEnergy = this->KineticEnergy() / std::max(row.Vertices, 1);
-  row.MeanEdgeLength = this->MeanEdgeLength();
-  row.IterationVertices = row.Vertices;
-  row.IterationMeanEdgeLength = row.MeanEdgeLength;
-  row.IterationEulerCharacteristic = row.EulerCharacteristic;
-  row.IterationComponents = row.Components;
-}
-
 double SurfaceEvolution::Implementation::MeanEdgeLength()
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  const double sum = this->Blocks
-    ? this->SumOfBlocksOf([this](int v) { return this->State.EdgeLengthSum[v]; })
-    : SumOfBlocks(this->Threads, mesh.Rings.size(), SumBlock,
-        [&](std::size_t begin, std::size_t end)
-        {
-          double block = 0;
-          for (std::size_t v = begin; v < end; ++v)
-          {
-            block += this->State.EdgeLengthSum[v];
-          }
-          return block;
-        });
+  const double sum = this->SumOfBlocksOf([this](int v) { return this->State.EdgeLengthSum[v]; });
   // Each edge is in two sums.
   const std::int64_t edges =
     NumberOfEdges(mesh.NumberOfVertices(), this->State.EulerCharacteristic);

@@ -12,6 +12,7 @@
 #include "Core/Image/Field.h"
 #include "Core/Mesh/Division.h"
 #include "Core/Surface/RankBlocks.h"
+#include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/RankComponents.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
@@ -20,6 +21,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace volumic
@@ -27,7 +29,7 @@ namespace volumic
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
- * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionSweeps.cxx does so block by
+ * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx does so block by
  * block, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
  * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
  */
@@ -46,7 +48,11 @@ struct SurfaceEvolution::Implementation
   int LastIterations = 0;
   LostParts LastLost;
   LostBoundary Lost; ///< Of the parts that the last division found.
-  SurfaceIteration Iteration;
+  ComponentWatch Watch; ///< Of the whole surface.
+  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
+  std::vector<std::unique_ptr<SurfaceIteration>> Iterations; ///< Of visits, one for each thread.
+  std::vector<SurfaceIteration*> Idle;                       ///< Of them, those in no visit.
+  std::mutex Handing; ///< Held while visits take them, or add to what is all visits'.
   RestCriterion Rest;
   CycleCriterion Cycle;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
@@ -56,22 +62,20 @@ struct SurfaceEvolution::Implementation
   bool Stopped = false;     ///< By the monitor.
   Verdict LastVerdict;
   bool IsMending = false;   ///< Which is not stopped.
-  bool InSweeps = false;    ///< The level evolves block by block: EvolutionSweeps.cxx.
-  std::unique_ptr<SurfaceBlocks> Blocks; ///< While it does.
+  bool IsShared = false;    ///< The level is worked on by all ranks.
+  std::unique_ptr<SurfaceBlocks> Blocks; ///< Once a level has begun.
   Communicator* Ranks = nullptr;         ///< Null: alone.
   std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
   std::unique_ptr<RankBlocks> OnRanks;   ///< While the surface is in parts: EvolutionRanks.cxx.
   std::unique_ptr<RankComponents> OfRanks; ///< Once there have been ranks.
-  int Visiting = NoBlock;                ///< The block that is being visited.
   Vector GridLow, GridHigh;              ///< As the grid was laid last.
   struct
   {
-    int Sweep = 0;  ///< From 1; 0: the level evolves as a whole.
+    int Sweep = 0;  ///< Of the level, from 1.
+    int Active = 0; ///< Vertices, in the last one.
     int Block = 0;  ///< Visits of this sweep, and
     int Blocks = 0; ///< how many there are at most.
     double Iterations = 0.; ///< Beyond LastIterations: an estimate.
-    double From = 0.; ///< Shares of the activity before and after the visit.
-    double To = 0.;
   } Visit;
   EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
 
@@ -79,16 +83,19 @@ struct SurfaceEvolution::Implementation
   struct BlockVisits
   {
     bool OnlyActive = true; ///< Blocks in which nothing may move are left out.
+    bool IsAsked = true;    ///< The listener is told, and may stop it.
     Monitor::Activity Doing = Monitor::Activity::Iterating;
     double From = 0.; ///< Shares of the activity, before and after.
     double To = 1.;
     double Iterations = 0.; ///< That a visit makes.
-    std::function<void(const std::vector<int>& vertices)> Visit; ///< The list may grow.
+    /** On any thread; State::Counts is the sum of the shares' afterwards. */
+    std::function<void(BlockVisit& visit, SurfaceIteration& iteration)> Visit;
   };
   /** An iteration in all the blocks of a sweep. */
   struct SweptRow
   {
     HistoryRow Row;
+    EditCounts Counts;
     int Vertices = 0; ///< How many more there are.
     int EulerCharacteristic = 0;
     std::vector<double> KineticEnergy; ///< Of each block.
@@ -98,7 +105,6 @@ struct SurfaceEvolution::Implementation
     : Options(options)
     , Threads(executor)
     , Listener(monitor)
-    , Iteration(this->State, executor)
   {
   }
 
@@ -109,6 +115,7 @@ struct SurfaceEvolution::Implementation
   bool HasIteration() const;
   double Lap();
   void Enter(const LevelImage& image, int level);
+  void Clear();
   void Reset();
   void Recover();
   void FindGridBox(const SurfaceMesh& mesh);
@@ -123,14 +130,14 @@ struct SurfaceEvolution::Implementation
   void DivideOnce();
   void KeepEdgesAbout(const std::vector<Proximity::FacePair>& pairs,
     const LargeVector<Triangle>& faces, const SurfaceMesh& old, int round, KeptEdges& kept);
-  // The same for a level in sweeps.
   SurfaceBlocks::Frame FrameOfLevel() const;
-  bool DivideInBlocks();
+  void MakeBlocks();
+  // On several ranks.
+  bool DivideOnRanks();
   void SpreadMesh();
-  void LayGridInBlocks();
+  void LayGridOnRanks();
   std::vector<int> OwnVertices() const;
-  std::vector<Proximity::FacePair> FindIntersectionsInBlocks();
-  void SplitLongEdgesInBlocks();
+  std::vector<Proximity::FacePair> FindIntersectionsOnRanks();
   /** @param isSound it has been made well: its edges need not be legal already */
   void Take(const IndexedSurface& surface, bool isSound);
   void TakeRemeshed(const IndexedSurface& surface);
@@ -138,35 +145,37 @@ struct SurfaceEvolution::Implementation
   void Begin(const IndexedSurface& surface);
   void Adapt();
   void ActivateAll();
-  void KeepActiveIfMoving();
-  void Iterate(
-    HistoryRow& row, Dynamics& dynamics, Remesher& remesher, SurfaceIteration::Mode mode);
-  void IterateOnce(Dynamics& dynamics, Remesher& remesher);
-  void DecideOnSweeps();
-  void BeginSweeps();
-  void EndSweeps();
+
+  // By visits: EvolutionVisits.cxx.
   void AddPlaces();
-  Box AboutBlock() const;
-  bool VisitBlock(int block, std::size_t visited, const BlockVisits& visits);
+  SurfaceIteration& TakeIteration();
+  void VisitBlock(int block, const BlockVisits& visits);
   void VisitBlocks(const BlockVisits& visits);
-  void RunSweep(Dynamics& dynamics, Remesher& remesher);
-  void VisitToEvolve(const std::vector<int>& vertices, Dynamics& dynamics, Remesher& remesher,
+  void RunSweep(const Dynamics& dynamics);
+  void VisitToEvolve(BlockVisit& visit, SurfaceIteration& iteration, const Dynamics& dynamics,
     std::vector<SweptRow>& rows);
-  double SumOfBlocksOf(const std::function<double(int v)>& ofVertex);
+  void KeepSweptRows(std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic);
+  /** Some iterations in each block that has active vertices. */
+  void VisitAll(SurfaceIteration::Mode mode, const Dynamics& dynamics, int iterations,
+    Monitor::Activity doing, double from, double to);
+  void KeepActiveIfMoving(const SurfaceIteration& iteration);
+  void RunPasses(const Dynamics& dynamics);
+  void Polish(const std::function<bool(int v)>& isWanted);
+  double SumOfBlocksOf(const std::function<double(int v)>& ofVertex) const;
+  double KineticEnergy(const SurfaceIteration& iteration) const;
   double Area();
   double Volume();
-  void KeepSweptRows(std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic);
-  void RunPasses(Dynamics& dynamics, Remesher& remesher);
-  void RegulariseInSweeps(Dynamics& dynamics, Remesher& remesher);
-  void PolishInSweeps();
 
   // On several ranks: EvolutionRanks.cxx.
   bool AreRanks() const { return this->Ranks && this->Ranks->NumberOfRanks() > 1; }
+  void BeginVisits();
+  void EndVisits();
   bool IsFirstRank() const { return !this->AreRanks() || this->Ranks->Rank() == 0; }
   void ShareBlocks(const SurfaceMesh& mesh);
   void AgreeOnGridBox();
   VoxelBox OwnVoxels() const;
-  void VisitBlocksOnRanks(const BlockVisits& visits);
+  void VisitBlocksOnRanks(
+    const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn);
   void AgreeOnStop();
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
@@ -179,20 +188,16 @@ struct SurfaceEvolution::Implementation
   void LabelComponents();
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
-  double KineticEnergy() const;
-  void FillRow(HistoryRow& row);
   double MeanEdgeLength();
   void FillCounts(HistoryRow& row) const;
-  void FitMeanEdge(Dynamics& dynamics);
+  void FitMeanEdge(const Dynamics& dynamics);
   void DeleteInsideOut();
   void DeleteThoseInsideOut();
   void DeleteDegenerate();
   void FinishRow();
   void FindMissing();
-  void Regularise(Dynamics& dynamics);
+  void Regularise(const Dynamics& dynamics);
   void Revise(const LevelImage& image);
-  std::vector<int> Polish(const Checkpoint& goOn, const std::vector<int>* vertices);
-  void PolishAll();
   StopReason Evolve();
   StopReason Run();
 };

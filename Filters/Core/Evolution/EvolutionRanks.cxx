@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 
 namespace volumic
@@ -63,24 +64,53 @@ VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
   return voxels;
 }
 
-void SurfaceEvolution::Implementation::VisitBlocksOnRanks(const BlockVisits& visits)
+void SurfaceEvolution::Implementation::BeginVisits()
+{
+  if (!this->IsShared || this->OnRanks)
+  {
+    return; // It has come here in blocks.
+  }
+  this->State.Sizing = BroadcastValue(*this->Ranks, this->State.Sizing);
+  this->Blocks.reset();
+  this->ShareBlocks(this->State.Mesh);
+  this->AgreeOnGridBox();
+  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+}
+
+void SurfaceEvolution::Implementation::EndVisits()
+{
+  if (!this->OnRanks) // Else the surface stays in parts until it is wanted as a whole.
+  {
+    this->Blocks.reset();
+  }
+}
+
+void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
+  const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn)
 {
   std::size_t visited = 0;
   for (const std::vector<int>& ofColour : this->Blocks->ByColour())
   {
-    for (const int block : ofColour)
-    {
-      if (!this->OnRanks->IsOwn(block) || this->Stopped ||
-        (visits.OnlyActive && !this->Blocks->HasActive(block)))
+    std::vector<int> own;
+    std::copy_if(ofColour.begin(), ofColour.end(), std::back_inserter(own),
+      [&](int block)
       {
-        continue;
-      }
+        return this->OnRanks->IsOwn(block) && !this->Stopped &&
+          !(visits.OnlyActive && !this->Blocks->HasActive(block));
+      });
+    for (const int block : own)
+    {
       this->OnRanks->BeginVisit(block);
-      this->VisitBlock(block, visited, visits);
+    }
+    ForBlocks(this->Threads, own.size(), 1,
+      [&](std::size_t i, std::size_t, std::size_t) { this->VisitBlock(own[i], visits); });
+    for (const int block : own)
+    {
       this->OnRanks->EndVisit(block);
     }
     visited += ofColour.size();
     this->OnRanks->Exchange();
+    goOn(visited);
     this->AgreeOnStop();
   }
   this->OnRanks->ShareCounts();
@@ -170,14 +200,15 @@ RankComponents& SurfaceEvolution::Implementation::ComponentsOfRanks()
 void SurfaceEvolution::Implementation::TakeComponents(bool areChecked)
 {
   this->OnRanks->ShareCounts();
-  this->Iteration.TakeComponents(this->OfRanks->NumberOfComponents(), areChecked);
+  this->Watch.TakeNumber(this->OfRanks->NumberOfComponents());
+  this->Unchecked = areChecked ? 0 : this->Unchecked;
 }
 
 void SurfaceEvolution::Implementation::LabelComponents()
 {
   if (!this->OnRanks)
   {
-    this->Iteration.LabelComponents();
+    this->Watch.Label(this->State, this->Threads);
     return;
   }
   this->ComponentsOfRanks().Label(this->State, this->Threads);
@@ -188,7 +219,7 @@ void SurfaceEvolution::Implementation::DeleteDegenerate()
 {
   if (!this->OnRanks)
   {
-    this->Iteration.DeleteDegenerate();
+    this->Watch.DeleteDegenerate(this->State);
     return;
   }
   this->ComponentsOfRanks().DeleteDegenerate(this->State);
@@ -199,7 +230,8 @@ void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
 {
   if (!this->OnRanks)
   {
-    this->Iteration.DeleteInsideOut();
+    this->Watch.DeleteInsideOut(this->State, this->Threads);
+    this->Unchecked = 0;
     return;
   }
   this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
@@ -231,10 +263,9 @@ void SurfaceEvolution::Implementation::Unite()
 {
   if (this->OnRanks)
   {
-    this->Iteration.Forget();
     this->OnRanks->Gather();
+    this->OnRanks.reset();
+    this->MakeBlocks();
   }
-  this->OnRanks.reset();
-  this->Blocks.reset();
 }
 }

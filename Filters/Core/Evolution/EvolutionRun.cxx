@@ -3,8 +3,6 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Common/Blocks.h"
 #include "Core/Evolution/Stopwatch.h"
-#include "Core/Mesh/SurfaceMeasures.h"
-#include "Core/Surface/SurfacePolish.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,12 +14,8 @@ namespace volumic
 {
 namespace
 {
-/** Passes of tangential smoothing and snapping at the end of a level. */
-constexpr int RegularisationPasses = 12;
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexGrain = 2048;
-/** Way in a pass, in delta, under which a vertex is left where it is. */
-constexpr float SmallestMove = 0.015f;
 /** Iterations after which the estimate of a level's progress is 1 - 1/e of its way. */
 constexpr double TypicalIterations = 80.;
 /** Share of a level's progress that is left to what comes before and after its iterations. */
@@ -69,7 +63,7 @@ bool SurfaceEvolution::Implementation::Ask(
   status.Doing = doing;
   status.Iteration = this->LastIterations;
   status.Vertices = this->State.Mesh.NumberOfVertices();
-  status.ActiveVertices = static_cast<int>(this->Iteration.ActiveVertices().size());
+  status.ActiveVertices = this->Visit.Active;
   status.Sweep = this->Visit.Sweep;
   status.Block = this->Visit.Block;
   status.Blocks = this->Visit.Blocks;
@@ -86,30 +80,6 @@ Checkpoint SurfaceEvolution::Implementation::CheckpointOf(
   { return this->GoOn(doing, from + (to - from) * share); };
 }
 
-void SurfaceEvolution::Implementation::Iterate(
-  HistoryRow& row, Dynamics& dynamics, Remesher& remesher, SurfaceIteration::Mode mode)
-{
-  const auto start = std::chrono::steady_clock::now();
-  const bool evolves = mode == SurfaceIteration::Mode::Evolve;
-  const auto goOn = [this, evolves]
-  { return !evolves || this->GoOn(Monitor::Activity::Iterating, 1.); };
-  this->Iteration.Run(row, dynamics, remesher, mode, this->LastIterations, goOn);
-  this->SinceEvolved.Cuts += this->State.Counts.Cuts;
-  this->SinceEvolved.Removed += this->State.Counts.Removed;
-  row.Seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void SurfaceEvolution::Implementation::IterateOnce(Dynamics& dynamics, Remesher& remesher)
-{
-  HistoryRow row;
-  this->BeginRow(row);
-  this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
-  this->FillRow(row);
-  this->Threads.EndPhase("History");
-  row.Seconds = this->Lap();
-  this->KeepRow(row);
-}
-
 StopReason SurfaceEvolution::Implementation::Evolve()
 {
   SurfaceState& s = this->State;
@@ -117,9 +87,6 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   this->Rest.Reset();
   this->Cycle.Reset();
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  const bool evidence = this->Options.IsopotentialWeight > 0;
-  Remesher remesher(s, evidence ? this->TheField.get() : nullptr, this->Options.TopologyChanges,
-    this->Threads);
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
   while (true)
   {
@@ -136,14 +103,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     {
       return StopReason::IterationLimit;
     }
-    if (this->InSweeps)
-    {
-      this->RunSweep(dynamics, remesher);
-    }
-    else
-    {
-      this->IterateOnce(dynamics, remesher);
-    }
+    this->RunSweep(dynamics);
     this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.);
     this->AgreeOnStop();
     if (this->Stopped)
@@ -169,49 +129,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   }
 }
 
-void SurfaceEvolution::Implementation::KeepActiveIfMoving()
-{
-  // What went some way in the last pass stays active, with its neighbours, and what was edited.
-  SurfaceState& s = this->State;
-  const std::vector<int>& last = this->Iteration.ActiveVertices();
-  const auto moves = [&s](int v)
-  {
-    const float least = SmallestMove * s.Sizing.At(v);
-    return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
-  };
-  this->Threads.For(last.size(), VertexGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = last[i];
-        s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves(v));
-      }
-    });
-  std::vector<std::vector<int>> beside((last.size() + VertexGrain - 1) / VertexGrain);
-  ForBlocks(this->Threads, last.size(), VertexGrain,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        if (moves(last[i]))
-        {
-          const Ring& ring = s.Mesh.Rings[last[i]];
-          std::copy_if(ring.Item, ring.Item + ring.Count, std::back_inserter(beside[block]),
-            [&s](int w) { return !s.Active[w]; });
-        }
-      }
-    });
-  for (const std::vector<int>& ofBlock : beside)
-  {
-    for (const int v : ofBlock)
-    {
-      s.Active[v] = 1;
-    }
-  }
-}
-
-void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
+void SurfaceEvolution::Implementation::FitMeanEdge(const Dynamics& dynamics)
 {
   // Edges anywhere in [delta, 2.5 delta] are left as they are, so their mean depends on where they
   // come from. With delta changing slowly the worst of them are collapsed or split first.
@@ -223,7 +141,6 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
   const double unit = this->TheField->Image().Unit;
   const float least = static_cast<float>(SizingField::LeastSamplingRatio * unit);
   const float most = static_cast<float>(unit);
-  Remesher remesher(s, this->TheField.get(), false, this->Threads);
   double first = 0.;
   for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0 &&
        this->GoOn(Monitor::Activity::Regularising, 0.);
@@ -241,22 +158,15 @@ void SurfaceEvolution::Implementation::FitMeanEdge(Dynamics& dynamics)
     s.Sizing = SizingField(delta);
     this->Reset();
     s.Velocity.Fill(Vector());
-    HistoryRow row;
-    if (this->InSweeps)
-    {
-      this->Iteration.Examine(); // Of all: Reset has left it to the visits.
-    }
-    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
+    this->VisitAll(
+      SurfaceIteration::Mode::Regularise, dynamics, 1, Monitor::Activity::Regularising, 0., 0.);
   }
 }
 
-void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
+void SurfaceEvolution::Implementation::Regularise(const Dynamics& dynamics)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = this->State;
-  const LargeVector<std::uint8_t> active =
-    this->InSweeps ? LargeVector<std::uint8_t>() : s.Active.AsVector();
-  Remesher remesher(s, this->TheField.get(), false, this->Threads);
   const auto forAll = [this, &s](auto&& work)
   {
     this->Threads.For(static_cast<std::size_t>(s.Mesh.Size()), VertexGrain,
@@ -278,69 +188,14 @@ void SurfaceEvolution::Implementation::Regularise(Dynamics& dynamics)
       s.WasActive[v] = s.Active[v];
     });
   this->ActivateAll();
-  if (this->InSweeps)
-  {
-    this->RegulariseInSweeps(dynamics, remesher);
-    this->PolishInSweeps();
-  }
-  else
-  {
-    this->RunPasses(dynamics, remesher);
-    this->PolishAll();
-  }
+  this->RunPasses(dynamics);
+  this->Polish([](int) { return true; });
   forAll(
-    [&](int v)
+    [&s](int v)
     {
-      // Of a level in sweeps a place may have been used again on another rank.
-      s.Active[v] = this->InSweeps ? s.WasActive[v] != 0
-                                   : v >= static_cast<int>(active.size()) || active[v];
+      s.Active[v] = s.WasActive[v];
       s.Velocity[v] = Vector();
     });
-}
-
-void SurfaceEvolution::Implementation::RunPasses(Dynamics& dynamics, Remesher& remesher)
-{
-  SurfaceState& s = this->State;
-  HistoryRow row;
-  for (int pass = 0; pass < RegularisationPasses && s.Mesh.NumberOfVertices() > 0 &&
-       this->GoOn(Monitor::Activity::Regularising, PassesShare * pass / RegularisationPasses);
-       ++pass)
-  {
-    if (pass > 0)
-    {
-      this->KeepActiveIfMoving();
-    }
-    s.Disturbed.Fill(0);
-    this->Threads.EndPhase("Regularisation");
-    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Regularise);
-  }
-}
-
-std::vector<int> SurfaceEvolution::Implementation::Polish(
-  const Checkpoint& goOn, const std::vector<int>* vertices)
-{
-  SurfaceState& s = this->State;
-  s.Counts = EditCounts();
-  SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
-    this->Options.TopologyChanges, this->Threads, goOn);
-  vertices ? polish.Run(*vertices) : polish.Run();
-  std::vector<int> changed = polish.TakeChanged();
-  this->Iteration.UpdateChanged(changed);
-  this->Threads.EndPhase("Polish");
-  this->SinceEvolved.Cuts += s.Counts.Cuts;
-  return changed;
-}
-
-void SurfaceEvolution::Implementation::PolishAll()
-{
-  SurfaceState& s = this->State;
-  this->Polish(this->CheckpointOf(Monitor::Activity::Regularising, PassesShare), nullptr);
-  if (s.Counts.Cuts > 0)
-  {
-    this->Iteration.LabelComponents();
-    this->Iteration.DeleteDegenerate();
-  }
-  this->SinceEvolved.Removed += s.Counts.Removed;
 }
 
 void SurfaceEvolution::Implementation::DeleteInsideOut()
@@ -353,7 +208,7 @@ void SurfaceEvolution::Implementation::DeleteInsideOut()
 void SurfaceEvolution::Implementation::FindMissing()
 {
   LostBoundary::Missing missing;
-  if (this->Blocks)
+  if (this->OnRanks)
   {
     const std::vector<std::uint8_t> areNear = this->AreNearOnRanks(this->Lost.Voxels());
     missing = this->Lost.MissedBy(areNear, this->Area());
@@ -387,10 +242,10 @@ void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
         }
       }
     });
-  std::vector<int> active;
+  bool isAny = false;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
-    s.Active[v] = 0;
+    s.Active[v] = s.WasActive[v] = 0;
     if (s.Mesh.IsAlive(v))
     {
       const Ring& ring = s.Mesh.Rings[v];
@@ -399,29 +254,25 @@ void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
         std::any_of(ring.Item, ring.Item + ring.Count,
           [&](int w) { return isOff[static_cast<std::size_t>(w)] != 0; });
     }
-    if (s.Active[v])
-    {
-      active.push_back(v);
-    }
+    s.WasActive[v] = s.Active[v];
+    isAny = isAny || s.Active[v];
   }
-  if (active.empty())
+  if (!isAny)
   {
     return;
   }
-  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  Remesher remesher(s, this->TheField.get(), false, this->Threads);
-  this->RunPasses(dynamics, remesher);
-  this->Polish(this->CheckpointOf(Monitor::Activity::Regularising, PassesShare), &active);
+  this->MakeBlocks();
+  const Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  this->RunPasses(dynamics);
+  this->Polish([&s](int v) { return s.WasActive[v] != 0; });
   this->DeleteInsideOut();
   this->Verify();
+  this->EndVisits();
 }
 
 StopReason SurfaceEvolution::Implementation::Run()
 {
-  if (this->InSweeps)
-  {
-    this->BeginSweeps();
-  }
+  this->BeginVisits();
   const StopReason reason = this->Evolve();
   this->DeleteInsideOut();
   if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
@@ -430,7 +281,7 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->Verify();
     this->FinishRow();
     this->FindMissing();
-    this->EndSweeps();
+    this->EndVisits();
     return reason;
   }
   HistoryRow none;
@@ -439,12 +290,9 @@ StopReason SurfaceEvolution::Implementation::Run()
   if (this->WantedMeanEdge > 0.)
   {
     this->AddUpSinceEvolved();
-    this->Unite(); // Done as a whole.
+    this->Unite(); // Its steps make the blocks anew.
     this->FitMeanEdge(dynamics);
-    if (this->InSweeps)
-    {
-      this->BeginSweeps();
-    }
+    this->BeginVisits();
   }
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
@@ -453,7 +301,7 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->FinishRow();
   watch.Lap(Phase::Regularisation);
   this->FindMissing();
-  this->EndSweeps();
+  this->EndVisits();
   watch.Lap(Phase::Recovery);
   if (this->Stopped)
   {

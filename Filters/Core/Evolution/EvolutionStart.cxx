@@ -20,6 +20,8 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexBlock = 8192;
+/** The same where their shape is found. */
+constexpr std::size_t ShapeBlock = 256;
 }
 
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
@@ -38,40 +40,34 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
   this->Level = level;
   this->LastIterations = 0;
   this->Visit = {};
-  this->InSweeps = false;
+  this->IsShared = this->AreRanks() && AreShared(this->Options, image.Size);
   this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
+}
+
+void SurfaceEvolution::Implementation::Clear()
+{
+  this->Blocks.reset(); // With its places.
+  this->State.Mesh.Clear();
 }
 
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
-  this->DecideOnSweeps();
+  this->Blocks.reset(); // Its places are anyone's again.
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   this->Threads.EndPhase("Order");
   this->LayGrid();
+  this->MakeBlocks();
   this->Threads.EndPhase("Grid");
   this->SplitLongEdges();
-  this->Threads.EndPhase("Long edges");
-  if (!this->InSweeps) // Else each visit examines its own.
-  {
-    this->Iteration.Examine();
-    this->Threads.EndPhase("Proximity");
-  }
-  this->Iteration.LabelComponents();
-  this->Threads.EndPhase("Labels");
-}
-
-void SurfaceEvolution::Implementation::SplitLongEdges()
-{
-  // Verification relies on it that no edge is longer than the constraints allow.
-  this->Iteration.UpdateActive();
-  this->Iteration.SplitLongEdges();
-  if (this->HasEdgeTooLong())
+  if (!this->Stopped && this->HasEdgeTooLong())
   {
     // Full rings all about it: not seen yet.
-    this->TakeRemeshed(this->State.Mesh.ToIndexed(this->Threads));
+    this->TakeRemeshed(s.Mesh.ToIndexed(this->Threads));
   }
+  this->Watch.Label(s, this->Threads);
+  this->Threads.EndPhase("Labels");
 }
 
 void SurfaceEvolution::Implementation::FindGridBox(const SurfaceMesh& mesh)
@@ -106,9 +102,20 @@ void SurfaceEvolution::Implementation::FindGridBox(const SurfaceMesh& mesh)
 
 void SurfaceEvolution::Implementation::LayGrid()
 {
-  this->Iteration.Forget();
-  this->FindGridBox(this->State.Mesh);
-  this->State.Reset(this->GridLow, this->GridHigh, this->Threads);
+  SurfaceState& s = this->State;
+  this->FindGridBox(s.Mesh);
+  s.Reset(this->GridLow, this->GridHigh, this->Threads);
+  ForBlocks(this->Threads, s.Mesh.Rings.size(), ShapeBlock,
+    [&s](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (s.Mesh.IsAlive(v))
+        {
+          s.UpdateShape(v);
+        }
+      }
+    });
 }
 
 void SurfaceEvolution::Implementation::ActivateAll()
@@ -189,7 +196,7 @@ void SurfaceEvolution::Implementation::Append(const IndexedSurface& surface)
   }
   SurfaceState& s = this->State;
   const int first = s.Mesh.Append(surface, this->Threads);
-  if (this->Blocks) // Else all is examined anew.
+  if (this->Blocks)
   {
     std::vector<int> added(s.Mesh.Size() - first);
     std::iota(added.begin(), added.end(), first);

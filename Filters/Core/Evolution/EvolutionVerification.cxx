@@ -51,6 +51,7 @@ void SurfaceEvolution::Implementation::Verify()
   {
     return;
   }
+  this->Blocks.reset(); // Its places are anyone's again.
   const SurfaceMesh before = this->State.Mesh;
   const bool wasStopped = std::exchange(this->Stopped, false);
   this->IsMending = true;
@@ -62,6 +63,7 @@ void SurfaceEvolution::Implementation::Verify()
   {
     this->State.Mesh = before;
     this->LayGrid();
+    this->MakeBlocks();
     this->LastVerdict.Left = this->LastVerdict.Found;
   }
   this->IsMending = false;

@@ -42,6 +42,8 @@ constexpr double LeastShareOfVolume = 0.5;
  * split or collapse for so many vertices.
  */
 constexpr int MaximumNumberOfRounds = 40;
+/** Iterations of a round. */
+constexpr int AdaptingPasses = 1;
 constexpr int VerticesPerEdit = 1000;
 /** Of the whole start, for the progress; the rest are the rounds. */
 constexpr double ShareOfRemeshing = 0.5;
@@ -205,7 +207,7 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool is
              : FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel())))
   {
     this->Begin(surface);
-    if (this->Iteration.Intersections().empty())
+    if (Proximity::FindIntersections(this->State, this->OwnVertices(), this->Threads).empty())
     {
       if (lengths.Shortest < s.Sizing.OfLevel())
       {
@@ -224,7 +226,7 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool is
 
 void SurfaceEvolution::Implementation::Begin(const IndexedSurface& surface)
 {
-  this->State.Mesh.Clear();
+  this->Clear();
   this->State.Mesh.Append(surface);
   this->Reset();
 }
@@ -267,16 +269,14 @@ void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surfac
 void SurfaceEvolution::Implementation::Adapt()
 {
   // The verified displacements and edits of an iteration, until the lengths are legal.
-  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  Remesher remesher(this->State, this->TheField.get(), false, this->Threads);
-  for (int round = 0; round < MaximumNumberOfRounds &&
-       this->GoOn(Monitor::Activity::Starting,
-         ShareOfRemeshing + (1. - ShareOfRemeshing) * round / MaximumNumberOfRounds);
-       ++round)
+  const Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  for (int round = 0; round < MaximumNumberOfRounds && !this->Stopped; ++round)
   {
-    HistoryRow row;
+    const auto shareAt = [](int done)
+    { return ShareOfRemeshing + (1. - ShareOfRemeshing) * done / MaximumNumberOfRounds; };
     this->ActivateAll();
-    this->Iterate(row, dynamics, remesher, SurfaceIteration::Mode::Adapt);
+    this->VisitAll(SurfaceIteration::Mode::Adapt, dynamics, AdaptingPasses,
+      Monitor::Activity::Starting, shareAt(round), shareAt(round + 1));
     const EditCounts& counts = this->State.Counts;
     if (counts.Splits + counts.Collapses <=
       this->State.Mesh.NumberOfVertices() / VerticesPerEdit)

@@ -78,7 +78,7 @@ void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
   Implementation& self = *this->Self;
   Stopwatch watch(self.Preparing, self.Threads);
   self.Enter(image, level);
-  self.State.Mesh.Clear();
+  self.Clear();
   self.State.Mesh.Append(EnclosingSurface(image, self.State.Sizing.OfLevel()));
   self.Reset();
   watch.Lap(Phase::Division);
@@ -96,7 +96,7 @@ int SurfaceEvolution::StartSeeds(
     self.Options.SeedRadius > 0. ? self.Options.SeedRadius : 1.2 * delta, SmallestSeed * delta);
   const std::vector<Point> places =
     ChooseSeeds(*self.TheField, centres, 2. * radius + 1.6 * delta);
-  self.State.Mesh.Clear();
+  self.Clear();
   for (const Point& centre : places)
   {
     self.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
@@ -155,10 +155,10 @@ void SurfaceEvolution::Unite()
   this->Self->Unite();
 }
 
-bool SurfaceEvolution::AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size)
+bool SurfaceEvolution::AreShared(const SurfaceOptions& options, const std::array<int, 3>& size)
 {
   const std::int64_t voxels = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
-  return voxels > options.Sweeps.MostVoxels;
+  return voxels > options.MostVoxelsOfRank;
 }
 
 void SurfaceEvolution::SetMeanEdgeLength(double length)
@@ -189,10 +189,10 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   {
     divisions = BroadcastValue(*self.Ranks, divisions);
   }
-  if (divisions == 1 && AreInSweeps(self.Options, image.Size))
+  if (divisions == 1 && self.IsShared)
   {
-    bool goesOn = self.DivideInBlocks();
-    self.SplitLongEdgesInBlocks();
+    bool goesOn = self.DivideOnRanks();
+    self.SplitLongEdges();
     watch.Lap(Phase::Division);
     goesOn = !self.IsOnAnyRank(!goesOn || self.Stopped);
     if (goesOn)
@@ -206,8 +206,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   }
   if (!self.IsFirstRank())
   {
-    self.State.Mesh.Clear();
-    self.InSweeps = true;
+    self.Clear();
     return true;
   }
   // After each of these steps the surface is one to hand over.
@@ -217,19 +216,13 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     self.DivideOnce();
     goesOn = self.GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
   }
-  if (divisions < 1)
-  {
-    self.LayGrid();
-  }
-  self.SplitLongEdges();
+  self.Reset();
   watch.Lap(Phase::Division);
   if (goesOn && self.GoOn(Monitor::Activity::Dividing, 1.))
   {
     self.Recover();
   }
   watch.Lap(Phase::Recovery);
-  self.Reset();
-  watch.Lap(Phase::Division);
   self.GoOn(Monitor::Activity::Recovering, 1.);
   return true;
 }

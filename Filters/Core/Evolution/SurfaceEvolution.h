@@ -186,8 +186,8 @@ public:
   void SetRanks(Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels = {});
   /** Brings the surface of several ranks to rank 0. */
   void Unite();
-  /** Whether a level of so many voxels evolves in sweeps (SweepOptions). */
-  static bool AreInSweeps(const SurfaceOptions& options, const std::array<int, 3>& size);
+  /** Whether all ranks work on a level of so many voxels, where there are several. */
+  static bool AreShared(const SurfaceOptions& options, const std::array<int, 3>& size);
 
   /**
    * For the levels to come: before its final regularisation, delta is changed by small steps, as

@@ -3,27 +3,24 @@
 #ifndef volumicSurfaceIteration_h
 #define volumicSurfaceIteration_h
 
-#include "Core/Common/Box.h"
-#include "Core/Common/Executor.h"
 #include "Core/Evolution/Dynamics.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/Proximity.h"
 #include "Core/Surface/Remesher.h"
+#include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceState.h"
 
-#include <cstdint>
-#include <functional>
-#include <utility>
 #include <vector>
 
 namespace volumic
 {
 /**
- * An iteration: velocities, displacement, splits, verification with roll back, merges and cuts, the
- * other edits, components that must go. It keeps what one iteration tells the next: which pairs of
- * vertices are close, which components are small. Before and after each call the surface is closed,
- * oriented, manifold and free of intersections.
+ * The iterations of a visit: velocities, displacement, splits, verification with roll back, merges
+ * and cuts, the other edits, components that must go. It keeps what one iteration tells the next:
+ * which pairs of vertices are close, which components are small. Before and after each call the
+ * surface is closed, oriented, manifold and free of intersections. Sequential; others may be at work
+ * in visits of blocks that do not touch this one.
  *
  * Why it stays free of them, by what changes the mesh:
  * - Splits change no place of the surface, but for rounding, less than SizingField::Contact. They
@@ -55,92 +52,38 @@ public:
     Adapt
   };
 
-  SurfaceIteration(SurfaceState& state, Executor& executor)
+  explicit SurfaceIteration(SurfaceState& state)
     : State(state)
-    , Threads(executor)
   {
   }
 
-  /** For a surface whose vertices have other numbers or lie in another grid. */
-  void Forget();
-
   /**
-   * From now on it works on the vertices of a list only, all others keep still, as if they were not
-   * active; the list may grow between two calls. What happens to components that are not small is
-   * left to EndVisit's caller: LabelComponents(), DeleteInsideOut(). The vertices must have a shape
-   * that is up to date.
-   * @param about what may be looked at
+   * From now on it works on the vertices of a visit, all others keep still, as if they were not
+   * active. Components are watched that are small and lie where the visit may write. The vertices
+   * must have a shape that is up to date.
    */
-  void BeginVisit(const std::vector<int>& vertices, const Box& about);
-  /** On all vertices again. */
+  void BeginVisit(BlockVisit& visit);
+  /** Its pairs are the visit's again. */
   void EndVisit();
-  /** The active vertices and those beside them, and what the last iteration has made or changed. */
-  const std::vector<int>& WorkingVertices() const { return this->Working; }
-  /** Whether cuts or deletions ask for DeleteInsideOut(). */
-  bool IsUnchecked() const { return this->Unchecked > 0; }
-
-  /** What it remembers from level to level, of a surface that rests. */
-  struct Memory
-  {
-    int CollapsesSinceLabels = 0;
-    int Unchecked = 0;
-  };
-  Memory Remembered() const { return { this->CollapsesSinceLabels, this->Unchecked }; }
-  void Remember(const Memory& memory)
-  {
-    this->CollapsesSinceLabels = memory.CollapsesSinceLabels;
-    this->Unchecked = memory.Unchecked;
-  }
-
-  /** Collects the active vertices; their shape is up to date afterwards. */
-  void UpdateActive();
-  /** Finds close pairs and intersections of the active vertices; edges must be legal. */
-  void Examine() { this->Near.Examine(this->State, this->Active, this->Threads); }
-  /** The same for intersections alone, in little memory; some may be named more than once. */
-  std::vector<Proximity::FacePair> FindIntersections()
-  {
-    return this->FindIntersections(this->Active);
-  }
-  std::vector<Proximity::FacePair> FindIntersections(const std::vector<int>& vertices);
-  const std::vector<Proximity::FacePair>& Intersections() const
-  {
-    return this->Near.Intersections();
-  }
-  /** The vertices that the last iteration, or UpdateActive(), has found active. */
-  const std::vector<int>& ActiveVertices() const { return this->Active; }
-
-  /** Splits all edges of the active vertices that are too long. */
-  void SplitLongEdges() { this->Active = this->SplitLongEdges(std::move(this->Active)); }
-  /** The same for those of a list. @return the list, and the new ones. */
-  std::vector<int> SplitLongEdges(std::vector<int> vertices);
 
   /**
-   * Counts and times of phases go to the row; SurfaceState::Counts are those of this iteration.
-   * @param number of the iteration, for what is not done in each of them
-   * @param goOn   asked when the surface has been displaced and verified: false ends it there
+   * Times of phases go to the row, counts to the visit's share. New vertices are in
+   * WorkingVertices(): those that are to move next time must be put on the visit's list.
    */
-  void Run(HistoryRow& row, Dynamics& dynamics, Remesher& remesher, Mode mode, int number,
-    const std::function<bool()>& goOn);
+  void Run(HistoryRow& row, const Dynamics& dynamics, Remesher& remesher, Mode mode);
+
+  /** The vertices that the last iteration has found active. */
+  const std::vector<int>& ActiveVertices() const { return this->Active; }
+  /** These and those beside them, and what the last iteration has made or changed. */
+  const std::vector<int>& WorkingVertices() const { return this->Working; }
+  /** Whether the visit has deleted a component. */
+  bool HasDeleted() const { return this->Deleted; }
 
   /** After edits: shape of the vertices, and that their stars must be examined again. */
-  void UpdateChanged(std::vector<int> changed);
-
-  // Components, see ComponentWatch.
-  void LabelComponents() { this->Watch.Label(this->State, this->Threads); }
-  void DeleteDegenerate() { this->Watch.DeleteDegenerate(this->State); }
-  void DeleteInsideOut();
-  int NumberOfComponents() const { return this->Watch.NumberOfComponents(); }
-  /** What others have found (RankComponents). @param areChecked none is inside out */
-  void TakeComponents(int number, bool areChecked)
-  {
-    this->Watch.TakeNumber(number);
-    this->Unchecked = areChecked ? 0 : this->Unchecked;
-  }
+  static void UpdateChanged(SurfaceState& state, std::vector<int> changed);
 
 private:
   void CollectActive();
-  void ClearMarks();
-  void Label();
   void CollectWorking();
   void AddUnmoved(int v);
   bool IsSuspect(int v) const;
@@ -149,21 +92,20 @@ private:
   void RollBackVertex(int v);
   void SplitBeforeVerification(Remesher& remesher);
   void RestoreConstraints(Remesher& remesher);
-  void WatchComponents(int number);
+  void WatchComponents();
+  void UpdateShape(const std::vector<int>& vertices);
 
   SurfaceState& State;
-  Executor& Threads;
+  BlockVisit* Visit = nullptr; ///< See BeginVisit.
   Proximity Near;    ///< Of all; keeps the pairs.
   Proximity Recheck; ///< Of what has been rolled back.
   ComponentWatch Watch;
-  const std::vector<int>* Visited = nullptr; ///< See BeginVisit; null: all vertices.
-  Box About; ///< See BeginVisit.
+  Dynamics::Step Step;
   std::vector<int> Active;
-  std::vector<int> Working;            ///< See CollectWorking.
-  LargeVector<std::uint8_t> IsWorking; ///< Whether that has it.
-  std::vector<int> Suspects;           ///< See CollectSuspects.
-  int CollapsesSinceLabels = 0;
-  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
+  std::vector<int> Working;  ///< See CollectWorking; they have the mark IsWorking.
+  std::vector<int> Suspects; ///< See CollectSuspects.
+  EditCounts Labelled;       ///< Of the share, when components were labelled.
+  bool Deleted = false;
 };
 }
 

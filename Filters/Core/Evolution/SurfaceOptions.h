@@ -10,17 +10,6 @@
 namespace volumic
 {
 /**
- * Levels that are large evolve in sweeps over blocks, by their size alone: whatever the memory, the
- * threads or the run, a level is always evolved the same way. No property; tests set them.
- */
-struct SweepOptions
-{
-  std::int64_t MostVoxels = std::int64_t(1) << 26; ///< Of a level that evolves as a whole: 406^3.
-  int MostVertices = 4000000; ///< Of its surface, when the level begins.
-  double BlockSide = 128.;    ///< In delta: about as many voxels of the level.
-};
-
-/**
  * All properties of the deformable surface, with their only defaults.
  * Weights are relative to a mass of 1 per vertex; forces are measured in delta, so that one set
  * of weights serves every level.
@@ -67,7 +56,8 @@ struct SurfaceOptions : FieldOptions
   int MinimumPartSize = 20; ///< Voxels of the level that a lost part must have to be recovered.
 
   double MaximumStep = 0.5; ///< Largest displacement of an iteration, in delta; at most 0.5.
-  SweepOptions Sweeps;
+  /** Of a level that one rank works on alone, where there are several: 406^3. No property. */
+  std::int64_t MostVoxelsOfRank = std::int64_t(1) << 26;
 };
 }
 

@@ -54,11 +54,6 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
 int SurfaceMesh::AddVertex(const Vector& position, VertexPlaces* places)
 {
   std::vector<int>& free = places ? places->Free : this->Free;
-  if (free.empty() && this->IsKept && this->Unused.Count() > 0)
-  {
-    free.push_back(this->Unused.Next++);
-    --this->Aside;
-  }
   if (free.empty())
   {
     Grow(this->Position, this->Position.size() + 1, Vector());
@@ -77,46 +72,6 @@ void SurfaceMesh::RemoveVertex(int v, VertexPlaces* places)
   (places ? places->Removed : this->Free).push_back(v);
 }
 
-void SurfaceMesh::Lend(VertexPlaces& places, std::size_t n)
-{
-  const std::size_t size = this->Rings.size();
-  const std::size_t missing = n > this->Free.size() ? n - this->Free.size() : 0;
-  int first = static_cast<int>(size);
-  int count = static_cast<int>(missing);
-  if (this->IsKept)
-  {
-    first = this->Unused.Next;
-    count = std::min(count, this->Unused.Count());
-    this->Unused.Next += count;
-    this->Aside -= count;
-  }
-  else
-  {
-    Grow(this->Position, size + missing, Vector());
-    Grow(this->Rings, size + missing, Ring());
-  }
-  // The last of them is taken first.
-  for (int i = count; i > 0; --i)
-  {
-    places.Free.push_back(first + i - 1);
-  }
-  const auto begin = this->Free.end() - static_cast<std::ptrdiff_t>(n - missing);
-  places.Free.insert(places.Free.end(), begin, this->Free.end());
-  this->Free.erase(begin, this->Free.end());
-}
-
-void SurfaceMesh::TakeBack(VertexPlaces& places)
-{
-  this->Free.insert(this->Free.end(), places.Free.begin(), places.Free.end());
-  places.Free.clear();
-}
-
-void SurfaceMesh::TakeRemoved(VertexPlaces& places)
-{
-  this->Free.insert(this->Free.end(), places.Removed.begin(), places.Removed.end());
-  places.Removed.clear();
-}
-
 UnusedPlaces SurfaceMesh::AddUnusedPlaces(int n)
 {
   const int size = this->Size();
@@ -126,33 +81,23 @@ UnusedPlaces SurfaceMesh::AddUnusedPlaces(int n)
   return { size, size + n };
 }
 
-void SurfaceMesh::PutAside(VertexPlaces& places, UnusedPlaces& unused)
+void SurfaceMesh::PutAside(VertexPlaces& places)
 {
   this->Aside += static_cast<std::int64_t>(this->Free.size());
   places.Free.insert(places.Free.end(), this->Free.begin(), this->Free.end());
   this->Free.clear();
-  unused = this->Unused;
-  this->Unused = {};
-  this->IsKept = false;
-}
-
-void SurfaceMesh::TakeFromAside(VertexPlaces& places, const UnusedPlaces& unused)
-{
-  this->Free.swap(places.Free);
-  places.Free.clear();
-  this->Aside -= static_cast<std::int64_t>(this->Free.size());
-  this->Unused = unused;
-  this->IsKept = true;
 }
 
 void SurfaceMesh::FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused)
 {
+  places.TakeRemoved();
   this->Aside -= static_cast<std::int64_t>(places.Free.size()) + unused.Count();
   for (int v = unused.End; v > unused.Next; --v)
   {
     this->Free.push_back(v - 1);
   }
-  this->TakeBack(places);
+  this->Free.insert(this->Free.end(), places.Free.begin(), places.Free.end());
+  places.Free.clear();
 }
 
 std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const

@@ -79,7 +79,14 @@ struct alignas(64) Ring
 struct VertexPlaces
 {
   std::vector<int> Free;    ///< No vertices yet; taken from the back.
-  std::vector<int> Removed; ///< Not to be taken before all the edits are done.
+  std::vector<int> Removed; ///< Not to be taken before the edits of a pass are done.
+
+  /** Ends a pass: what it has removed may be taken. */
+  void TakeRemoved()
+  {
+    this->Free.insert(this->Free.end(), this->Removed.begin(), this->Removed.end());
+    this->Removed.clear();
+  }
 };
 
 /** Places that follow each other and have never been taken. */
@@ -105,7 +112,7 @@ public:
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
-  /** Not while places are given away, but for those put aside. */
+  /** As told by CountOthers() where places are aside. */
   int NumberOfVertices() const
   {
     return this->Size() - static_cast<int>(static_cast<std::int64_t>(this->Free.size()) + this->Aside);
@@ -129,27 +136,15 @@ public:
   void RemoveVertex(int v, VertexPlaces* places = nullptr);
 
   /**
-   * Gives n free places away; the mesh grows where it has too few. Between TakeFromAside and
-   * PutAside it does not: those that were put aside are all there are, and it may give fewer.
-   */
-  void Lend(VertexPlaces& places, std::size_t n);
-  /** Takes those back that have not been taken. */
-  void TakeBack(VertexPlaces& places);
-  /** Takes those of removed vertices, once nobody looks for these any more. */
-  void TakeRemoved(VertexPlaces& places);
-
-  /**
    * Room for so many more vertices, in places that follow the last ones and are aside. They take
    * no memory before they are used.
    */
   UnusedPlaces AddUnusedPlaces(int n);
-  /** Puts all free places aside, beside those that are, so that only their keeper uses them. */
-  void PutAside(VertexPlaces& places, UnusedPlaces& unused);
-  /** Takes those back: the only ones from now on, until they are put aside again. */
-  void TakeFromAside(VertexPlaces& places, const UnusedPlaces& unused);
+  /** Puts all free places aside, so that only their keeper uses them. */
+  void PutAside(VertexPlaces& places);
   /** Ends the keeping: these are anyone's. */
   void FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused);
-  /** Tells of vertices that others have added to, or removed from, what is not here. */
+  /** Tells of vertices that came from, or went to, places aside, or are on other ranks. */
   void CountOthers(int more) { this->Aside -= more; }
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
@@ -213,8 +208,6 @@ public:
 private:
   std::vector<int> Free;
   std::int64_t Aside = 0; ///< Places that are neither free nor a vertex's.
-  UnusedPlaces Unused;    ///< Of the keeper whose places have been taken back.
-  bool IsKept = false;    ///< They have: the mesh must not grow.
 };
 
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`. */

@@ -25,8 +25,6 @@ constexpr std::size_t ManyBricks = 1 << 15;
 constexpr float CellGrowth = 1.25f;
 /** Vertices that one thread sorts into layers at a time. */
 constexpr std::size_t InsertedBlock = 1 << 14;
-/** Vertices that are moved before threads could be woken for it. */
-constexpr std::size_t FewMoves = 1000;
 }
 
 void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
@@ -75,51 +73,6 @@ void VertexGrid::Lengthen(std::size_t n)
   LengthenZeroed(this->Next, n);
 }
 
-void VertexGrid::SortChains(const Vector& low, const Vector& high)
-{
-  int first[3];
-  int last[3];
-  const float lows[3] = { low.X, low.Y, low.Z };
-  const float highs[3] = { high.X, high.Y, high.Z };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    first[axis] = this->Along(lows[axis], axis) & ~Mask;
-    last[axis] = this->Along(highs[axis], axis);
-  }
-  std::vector<int> chain;
-  const auto sort = [&](int& head)
-  {
-    if (head < 0 || this->Next[head] < 0)
-    {
-      return;
-    }
-    chain.clear();
-    for (int v = head; v >= 0; v = this->Next[v])
-    {
-      chain.push_back(v);
-    }
-    std::sort(chain.begin(), chain.end());
-    head = chain.front();
-    for (std::size_t i = 0; i < chain.size(); ++i)
-    {
-      this->Next[chain[i]] = i + 1 < chain.size() ? chain[i + 1] : -1;
-    }
-  };
-  for (int z = first[2]; z <= last[2]; z += Mask + 1)
-  {
-    for (int y = first[1]; y <= last[1]; y += Mask + 1)
-    {
-      for (int x = first[0]; x <= last[0]; x += Mask + 1)
-      {
-        if (Brick* brick = this->Bricks[this->NumberOfBrick(x, y, z)].load())
-        {
-          std::for_each(brick->begin(), brick->end(), sort);
-        }
-      }
-    }
-  }
-}
-
 VertexGrid::Brick* VertexGrid::MakeBrick(std::size_t number)
 {
   const std::lock_guard<std::mutex> lock(this->Making);
@@ -160,10 +113,14 @@ int& VertexGrid::HeadOf(std::uint32_t cell)
 
 void VertexGrid::Link(int v, std::uint32_t cell)
 {
-  int& head = this->HeadOf(cell);
+  int* link = &this->HeadOf(cell);
+  while (*link >= 0 && *link < v)
+  {
+    link = &this->Next[*link];
+  }
   this->Cell[v] = cell;
-  this->Next[v] = head;
-  head = v;
+  this->Next[v] = *link;
+  *link = v;
 }
 
 void VertexGrid::Insert(int v, const Vector& position)
@@ -235,41 +192,6 @@ void VertexGrid::InsertAll(const LargeVector<Vector>& positions,
       }
     });
   linking.Do(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
-}
-
-void VertexGrid::MoveAll(
-  const std::vector<int>& vertices, const LargeVector<Vector>& positions, Executor& executor)
-{
-  if (vertices.size() < FewMoves)
-  {
-    for (int v : vertices)
-    {
-      this->Move(v, positions[v]);
-    }
-    return;
-  }
-  // First all leave their cells, then all enter: chains are those of one move after the other.
-  const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
-  const auto forLeaving = [&](std::size_t i, auto&& add)
-  {
-    const int v = vertices[i];
-    if (!this->IsInPlace(v, positions[v]))
-    {
-      add(this->LayerOf(this->Cell[v]), v);
-    }
-  };
-  const auto forEntering = [&](std::size_t i, auto&& add)
-  {
-    const int v = vertices[i];
-    if (!this->IsInPlace(v, positions[v]))
-    {
-      add(this->LayerOf(this->CellOf(positions[v])), v);
-    }
-  };
-  const LayeredWork leaving(executor, vertices.size(), layers, forLeaving);
-  const LayeredWork entering(executor, vertices.size(), layers, forEntering);
-  leaving.Do(executor, [this](int v) { this->Remove(v); });
-  entering.Do(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
 }
 
 void VertexGrid::Remove(int v)

@@ -20,7 +20,8 @@ namespace volumic
 {
 /**
  * Grid of cells with a chain of vertices in each: the one proximity structure that contacts, merges
- * and verification share. Finding all pairs within a radius is O(n).
+ * and verification share. Finding all pairs within a radius is O(n). Chains are in order of index,
+ * so that what is visited in which order does not depend on how the vertices have come there.
  *
  * Cells are kept in bricks of 8 x 8 x 8, which there are only where vertices have been: memory goes
  * with the surface, not with the box.
@@ -49,9 +50,6 @@ public:
   /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
   void InsertAll(const LargeVector<Vector>& positions, const std::function<bool(int v)>& isThere,
     Executor& executor);
-  /** Move() for each of them. */
-  void MoveAll(
-    const std::vector<int>& vertices, const LargeVector<Vector>& positions, Executor& executor);
   void Remove(int v);
   /** To be called after the vertex has moved. */
   void Move(int v, const Vector& position)
@@ -106,12 +104,6 @@ public:
     }
     this->VisitChains(firsts, visit);
   }
-
-  /**
-   * Sorts the chains of the cells that a box touches by index, so that what is visited in which
-   * order does not depend on how the vertices have come there.
-   */
-  void SortChains(const Vector& low, const Vector& high);
 
   /** Bricks that there are, for tests of what it costs. */
   std::size_t NumberOfBricks() const { return this->NumberMade; }

@@ -26,8 +26,6 @@ constexpr std::size_t Grain = 4096;
 constexpr int Seen = -2;
 /** The labels that LabelSmall gives lie above those of all others. */
 constexpr int FirstOwnLabel = 1 << 30;
-/** Seen, and of a component that is not small. */
-constexpr std::uint8_t OfLarge = 2;
 
 bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
@@ -96,37 +94,34 @@ void ComponentWatch::WatchSmallOnes(
     });
 }
 
-bool ComponentWatch::IsSmall(const SurfaceMesh& mesh, int v, const Box& within)
+bool ComponentWatch::IsSmall(SurfaceState& state, int v, const Box& within)
 {
+  const SurfaceMesh& mesh = state.Mesh;
   this->Stack.assign(1, v);
-  this->IsSeen[v] = 1;
+  state.Marks[v] |= IsSeen;
   bool isSmall = true;
-  for (std::size_t i = 0; i < this->Stack.size() && this->Stack.size() <= SmallSize; ++i)
+  for (std::size_t i = 0; i < this->Stack.size() && isSmall; ++i)
   {
     const Ring& ring = mesh.Rings[this->Stack[i]];
-    isSmall = isSmall && within.Contains(mesh.Position[this->Stack[i]]);
+    isSmall = within.Contains(mesh.Position[this->Stack[i]]);
     for (int k = 0; k < ring.Count && isSmall; ++k)
     {
       const int w = ring.Item[k];
-      if (this->IsSeen[w] == 0)
+      isSmall = !(state.Marks[w] & IsOfLarge) && within.Contains(mesh.Position[w]);
+      if (isSmall && !(state.Marks[w] & IsSeen))
       {
-        this->IsSeen[w] = 1;
+        state.Marks[w] |= IsSeen;
         this->Stack.push_back(w);
       }
-      else if (this->IsSeen[w] == OfLarge)
-      {
-        isSmall = false;
-      }
     }
-    if (!isSmall)
-    {
-      break;
-    }
+    isSmall = isSmall && this->Stack.size() <= SmallSize;
   }
-  isSmall = isSmall && this->Stack.size() <= SmallSize;
-  for (const int w : this->Stack)
+  if (!isSmall)
   {
-    this->IsSeen[w] = isSmall ? 1 : OfLarge;
+    for (const int w : this->Stack)
+    {
+      state.Marks[w] |= IsOfLarge;
+    }
   }
   this->AllSeen.insert(this->AllSeen.end(), this->Stack.begin(), this->Stack.end());
   return isSmall;
@@ -136,18 +131,17 @@ void ComponentWatch::LabelSmall(
   SurfaceState& state, const std::vector<int>& vertices, const Box& within)
 {
   this->Watched.clear();
-  this->IsSeen.resize(state.Mesh.Rings.size(), 0);
   for (const int v : vertices)
   {
-    if (!state.Mesh.IsAlive(v) || this->IsSeen[v] != 0 || !this->IsSmall(state.Mesh, v, within))
+    if (!state.Mesh.IsAlive(v) || (state.Marks[v] & IsSeen) || !this->IsSmall(state, v, within))
     {
       continue;
     }
     this->Watched.emplace_back();
     SmallComponent& small = this->Watched.back();
-    small.Label = FirstOwnLabel + static_cast<int>(this->Watched.size());
     small.Vertices = this->Stack;
     std::sort(small.Vertices.begin(), small.Vertices.end());
+    small.Label = FirstOwnLabel + small.Vertices.front();
     small.IsPositive = IsVolumePositive(state.Mesh, small.Vertices);
     for (const int w : small.Vertices)
     {
@@ -156,7 +150,7 @@ void ComponentWatch::LabelSmall(
   }
   for (const int v : this->AllSeen)
   {
-    this->IsSeen[v] = 0;
+    state.Marks[v] &= static_cast<std::uint8_t>(~(IsSeen | IsOfLarge));
   }
   this->AllSeen.clear();
 }
@@ -192,7 +186,7 @@ bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& sma
   return true;
 }
 
-bool ComponentWatch::DeleteDegenerate(SurfaceState& state)
+bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditShare* share)
 {
   bool deleted = false;
   for (SmallComponent& small : this->Watched)
@@ -216,9 +210,20 @@ bool ComponentWatch::DeleteDegenerate(SurfaceState& state)
         std::all_of(small.Vertices.begin(), small.Vertices.end(), isOnWrongSide)))
     {
       // The labels of the others stay as they are.
-      state.RemoveComponent(small.Vertices.front());
+      if (share)
+      {
+        const SurfaceState::RemovedComponent removed =
+          state.TakeComponentAway(small.Vertices.front(), &share->Places);
+        share->EulerCharacteristic -= removed.EulerCharacteristic;
+        ++share->Counts.Removed;
+        share->Counts.RemovedGenus += 1 - removed.EulerCharacteristic / 2;
+      }
+      else
+      {
+        state.RemoveComponent(small.Vertices.front());
+        --this->Components;
+      }
       small.Vertices.clear();
-      --this->Components;
       deleted = true;
     }
   }

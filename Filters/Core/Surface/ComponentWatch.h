@@ -5,7 +5,7 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Surface/ConnectedVertices.h"
-#include "Core/Surface/SurfaceState.h"
+#include "Core/Surface/SurfaceEditor.h"
 
 #include <cstdint>
 #include <vector>
@@ -35,9 +35,10 @@ public:
 
   /**
    * Deletes those of the small components that must go; every vertex must have its label.
+   * @param share of the visit, which keeps the books; null: the state does
    * @return whether anything was deleted.
    */
-  bool DeleteDegenerate(SurfaceState& state);
+  bool DeleteDegenerate(SurfaceState& state, EditShare* share = nullptr);
 
   /**
    * Deletes components that are inside out: a cavity must lie inside the others, any other one
@@ -64,13 +65,12 @@ private:
   void WatchSmallOnes(
     const SurfaceState& state, const std::vector<int>& sizes, Executor& executor);
   /** Whether a component is a small one; if so, its vertices are in Stack. Marks what it sees. */
-  bool IsSmall(const SurfaceMesh& mesh, int v, const Box& within);
+  bool IsSmall(SurfaceState& state, int v, const Box& within);
   /** Finds the vertices that the component has now, in Stack. @return false if it has none. */
   bool FindVertices(SurfaceState& state, const SmallComponent& small);
 
   std::vector<SmallComponent> Watched;
   std::vector<int> Stack;
-  LargeVector<std::uint8_t> IsSeen; ///< LabelSmall; clear between its calls.
   std::vector<int> AllSeen;
   ConnectedVertices Connected; ///< As last labelled.
   int Components = 0;

@@ -20,12 +20,8 @@ namespace
 constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
-/** Items of a list that one thread takes at a time. */
-constexpr std::size_t ListGrain = 4096;
-/** Vertices that one thread examines at a time: few where they are few, as each may take long. */
-constexpr std::size_t SmallestBlock = 16;
-constexpr std::size_t LargestBlock = 256;
-constexpr std::size_t BlocksWanted = 128;
+/** Vertices that one thread examines at a time, as each may take long. */
+constexpr std::size_t ExaminedBlock = 256;
 /** Room along the normals that needs no look for more along the line between the vertices. */
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
@@ -180,9 +176,8 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
 class FirstPair
 {
 public:
-  FirstPair(const SurfaceState& state, const LargeVector<std::uint8_t>& listed, int v, int w)
+  FirstPair(const SurfaceState& state, int v, int w)
     : State(state)
-    , Listed(listed)
     , V(std::min(v, w))
     , W(std::max(v, w))
   {
@@ -197,7 +192,7 @@ public:
         const int x = std::min(a, b);
         const int y = std::max(a, b);
         if ((x < this->V || (x == this->V && y < this->W)) &&
-          (this->Listed[x] || this->Listed[y]) && this->IsWithinReach(x, y) &&
+          ((this->State.Marks[x] | this->State.Marks[y]) & IsListed) && this->IsWithinReach(x, y) &&
           this->State.AreOpposed(x, y))
         {
           return false;
@@ -216,18 +211,16 @@ private:
   }
 
   const SurfaceState& State;
-  const LargeVector<std::uint8_t>& Listed;
   int V;
   int W;
 };
 
 /** Adds the faces that intersect. @return the room that the rest has for certain. */
-float TestStars(const SurfaceState& state, const LargeVector<std::uint8_t>& listed,
-  const StarFaces& first, const StarFaces& second,
+float TestStars(const SurfaceState& state, const StarFaces& first, const StarFaces& second,
   std::vector<Proximity::FacePair>& intersections, std::vector<int>& tight)
 {
   const int v = first.Centre;
-  const FirstPair pair(state, listed, v, second.Centre);
+  const FirstPair pair(state, v, second.Centre);
   const float someRoom = SomeRoom * state.Sizing.At(v);
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
   std::optional<FacesBeside> besideSecond; // Few need it.
@@ -272,14 +265,13 @@ float TestStars(const SurfaceState& state, const LargeVector<std::uint8_t>& list
 }
 }
 
-void Proximity::FindNear(
-  const SurfaceState& state, const Vector& p, float radius, int v, Block& block) const
+void Proximity::FindNear(const SurfaceState& state, const Vector& p, float radius, int v)
 {
-  std::vector<int>& visited = block.Visited;
+  std::vector<int>& visited = this->Visited;
   visited.clear();
   state.Grid.Visit(p, radius, [&](int w) { visited.push_back(w); });
   visited.resize((visited.size() + Lanes::Count - 1) / Lanes::Count * Lanes::Count, v);
-  block.Near.clear();
+  this->Near.clear();
   const LargeVector<Vector>& place = state.Mesh.Position;
   const VectorLanes from = AllLanes(p);
   const Lanes most(radius * radius);
@@ -296,13 +288,13 @@ void Proximity::FindNear(
       const int k = LowestBit(within);
       if (w[k] != v)
       {
-        block.Near.push_back({ v, w[k], distance[k] });
+        this->Near.push_back({ v, w[k], distance[k] });
       }
     }
   }
 }
 
-void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
+void Proximity::ExamineVertex(SurfaceState& state, int v)
 {
   const SurfaceMesh& mesh = state.Mesh;
   const Vector p = mesh.Position[v];
@@ -327,20 +319,20 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
     anything = true;
     slack =
       std::min(slack,
-        TestStars(state, this->Listed, star(), star(), block.Intersections, block.Tight));
+        TestStars(state, star(), star(), this->AllIntersections, this->Tight));
   }
-  this->FindNear(state, p, further, v, block);
-  for (std::size_t i = 0; i < block.Near.size(); i += Lanes::Count)
+  this->FindNear(state, p, further, v);
+  for (std::size_t i = 0; i < this->Near.size(); i += Lanes::Count)
   {
     const auto cone = [&](std::size_t k) -> const NormalCone&
-    { return state.Normal[block.Near[std::min(k, block.Near.size() - 1)].W]; };
+    { return state.Normal[this->Near[std::min(k, this->Near.size() - 1)].W]; };
     unsigned opposed = OpposedBits(
       state.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
-    opposed &= (1u << std::min<std::size_t>(block.Near.size() - i, Lanes::Count)) - 1;
+    opposed &= (1u << std::min<std::size_t>(this->Near.size() - i, Lanes::Count)) - 1;
     for (; opposed != 0; opposed &= opposed - 1)
     {
-      const int w = block.Near[i + LowestBit(opposed)].W;
-      const float squared = block.Near[i + LowestBit(opposed)].Squared;
+      const int w = this->Near[i + LowestBit(opposed)].W;
+      const float squared = this->Near[i + LowestBit(opposed)].Squared;
       if (squared > reach * reach)
       {
         slack = std::min(slack, std::sqrt(squared) - reach + least);
@@ -351,7 +343,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
       anything = true;
       if (squared < near * near && !mesh.AreNeighbours(v, w))
       {
-        block.Pairs.push_back({ v, w, squared });
+        this->AllPairs.push_back({ v, w, squared });
       }
       const StarFaces& first = star();
       const StarFaces second(mesh, w);
@@ -360,10 +352,10 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
       {
         slack = std::min(slack, room);
       }
-      else if (v < w || !this->Listed[w])
+      else if (v < w || !(state.Marks[w] & IsListed))
       {
         slack = std::min(
-          slack, TestStars(state, this->Listed, first, second, block.Intersections, block.Tight));
+          slack, TestStars(state, first, second, this->AllIntersections, this->Tight));
       }
       else
       {
@@ -375,79 +367,75 @@ void Proximity::ExamineVertex(SurfaceState& state, int v, Block& block) const
   state.Slack[v] = slack;
 }
 
-void Proximity::Examine(
+void Proximity::Examine(SurfaceState& state, const std::vector<int>& vertices)
+{
+  for (const int v : vertices)
+  {
+    state.Marks[v] |= IsListed;
+  }
+  // Pairs of vertices that are not examined anew stay.
+  this->AllPairs.erase(std::remove_if(this->AllPairs.begin(), this->AllPairs.end(),
+                         [&state](const ClosePair& pair)
+                         {
+                           return (state.Marks[pair.V] & IsListed) ||
+                             !state.Mesh.IsAlive(pair.V) || !state.Mesh.IsAlive(pair.W);
+                         }),
+    this->AllPairs.end());
+  this->AllIntersections.clear();
+  this->Tight.clear();
+  for (const int v : vertices)
+  {
+    if (state.Mesh.IsAlive(v))
+    {
+      this->ExamineVertex(state, v);
+    }
+  }
+  // A pair of faces is tested once, but all its corners must know that it has no room.
+  for (const int v : this->Tight)
+  {
+    state.Slack[v] = 0;
+  }
+  for (const int v : vertices)
+  {
+    state.Marks[v] &= static_cast<std::uint8_t>(~IsListed);
+  }
+}
+
+std::vector<Proximity::FacePair> Proximity::FindIntersections(
   SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
-  this->Listed.resize(state.Mesh.Rings.size(), 0);
-  const auto setListed = [&](std::uint8_t listed)
+  std::vector<Proximity> parts((vertices.size() + ExaminedBlock - 1) / ExaminedBlock);
+  const auto forAll = [&](auto&& work)
   {
-    executor.For(vertices.size(), ListGrain,
-      [&](std::size_t begin, std::size_t end)
+    ForBlocks(executor, vertices.size(), ExaminedBlock,
+      [&](std::size_t block, std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          this->Listed[vertices[i]] = listed;
+          work(parts[block], vertices[i]);
         }
       });
   };
-  setListed(1);
-  const std::size_t size =
-    std::clamp(vertices.size() / BlocksWanted, SmallestBlock, LargestBlock);
-  const std::size_t blocks = (vertices.size() + size - 1) / size;
-  if (this->Blocks.size() < blocks)
-  {
-    this->Blocks.resize(blocks);
-  }
-  ForBlocks(executor, vertices.size(), size,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
+  forAll([&state](Proximity&, int v) { state.Marks[v] |= IsListed; });
+  forAll(
+    [&state](Proximity& part, int v)
     {
-      this->Blocks[b].Pairs.clear();
-      this->Blocks[b].Intersections.clear();
-      this->Blocks[b].Tight.clear();
-      for (std::size_t i = begin; i < end; ++i)
+      if (state.Mesh.IsAlive(v))
       {
-        if (state.Mesh.IsAlive(vertices[i]))
-        {
-          this->ExamineVertex(state, vertices[i], this->Blocks[b]);
-        }
+        part.ExamineVertex(state, v);
+        part.AllPairs.clear();
       }
     });
-  this->CollectPairs(state, blocks, executor);
-  this->AllIntersections.clear();
-  for (std::size_t b = 0; b < blocks; ++b)
+  forAll([&state](Proximity&, int v) { state.Marks[v] &= static_cast<std::uint8_t>(~IsListed); });
+  std::vector<FacePair> found;
+  for (const Proximity& part : parts)
   {
-    const Block& block = this->Blocks[b];
-    this->AllIntersections.insert(
-      this->AllIntersections.end(), block.Intersections.begin(), block.Intersections.end());
-    // A pair of faces is tested once, but all its corners must know that it has no room.
-    for (int v : block.Tight)
+    found.insert(found.end(), part.AllIntersections.begin(), part.AllIntersections.end());
+    for (const int v : part.Tight)
     {
       state.Slack[v] = 0;
     }
   }
-  setListed(0);
-}
-
-void Proximity::CollectPairs(const SurfaceState& state, std::size_t blocks, Executor& executor)
-{
-  // Pairs of vertices that have not been examined anew stay.
-  std::vector<std::vector<ClosePair>> lists((this->AllPairs.size() + ListGrain - 1) / ListGrain);
-  ForBlocks(executor, this->AllPairs.size(), ListGrain,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      std::copy_if(this->AllPairs.begin() + static_cast<std::ptrdiff_t>(begin),
-        this->AllPairs.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(lists[b]),
-        [&](const ClosePair& pair)
-        {
-          return !this->Listed[pair.V] && state.Mesh.IsAlive(pair.V) &&
-            state.Mesh.IsAlive(pair.W);
-        });
-    });
-  for (std::size_t b = 0; b < blocks; ++b)
-  {
-    lists.emplace_back();
-    lists.back().swap(this->Blocks[b].Pairs);
-  }
-  Concatenate(executor, lists, this->AllPairs);
+  return found;
 }
 }

@@ -6,7 +6,7 @@
 #include "Core/Surface/SurfaceState.h"
 
 #include <array>
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -42,39 +42,34 @@ public:
    * room that their stars have: while neither of two stars has moved by half of its slack they
    * can't intersect.
    */
-  void Examine(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
+  void Examine(SurfaceState& state, const std::vector<int>& vertices);
 
   /**
    * Opposed pairs nearer than about lambda delta, grouped by V; a pair of two listed occurs twice.
    * Those of vertices that were not in the last list are kept from when they were.
    */
   const std::vector<ClosePair>& Pairs() const { return this->AllPairs; }
-  /** Forgets the pairs, before the vertices are renumbered. */
-  void Clear() { this->AllPairs.clear(); }
+  /** Pairs known from before. */
+  void SetPairs(std::vector<ClosePair> pairs) { this->AllPairs = std::move(pairs); }
+  std::vector<ClosePair> TakePairs() { return std::exchange(this->AllPairs, {}); }
 
   /** Pairs of faces that intersect. */
   const std::vector<FacePair>& Intersections() const { return this->AllIntersections; }
 
-private:
-  struct Block
-  {
-    std::vector<ClosePair> Pairs;
-    std::vector<FacePair> Intersections;
-    std::vector<int> Tight;   ///< Corners of faces without room.
-    std::vector<int> Visited; ///< Vertices in the cells about one.
-    std::vector<ClosePair> Near;
-  };
-  /** Those that are kept, then those of the blocks. */
-  void CollectPairs(const SurfaceState& state, std::size_t blocks, Executor& executor);
-  /** Fills Near with the pairs of a vertex within a radius. */
-  void FindNear(
-    const SurfaceState& state, const Vector& p, float radius, int v, Block& block) const;
-  void ExamineVertex(SurfaceState& state, int v, Block& block) const;
+  /** Those about the vertices of a list alone, on all threads; some may be named more than once. */
+  static std::vector<FacePair> FindIntersections(
+    SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
-  std::vector<Block> Blocks;
+private:
+  /** Fills Near with the pairs of a vertex within a radius. */
+  void FindNear(const SurfaceState& state, const Vector& p, float radius, int v);
+  void ExamineVertex(SurfaceState& state, int v);
+
   std::vector<ClosePair> AllPairs;
   std::vector<FacePair> AllIntersections;
-  LargeVector<std::uint8_t> Listed;
+  std::vector<int> Tight;   ///< Corners of faces without room.
+  std::vector<int> Visited; ///< Vertices in the cells about one.
+  std::vector<ClosePair> Near;
 };
 }
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/Remesher.h"
 
-#include "Core/Common/Select.h"
 #include "Core/Mesh/EdgeCollapse.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace volumic
 {
@@ -20,19 +20,13 @@ constexpr float LeastHeight = 0.02f;
 constexpr int StuckRollbacks = 6;
 /** Longest edge of a stuck vertex that is collapsed, of the shortest legal edge. */
 constexpr float StuckCollapse = 1.3f;
-
-// Places for new vertices that a cell gets at a time; what does not find one waits for a next round.
-/** A vertex with long edges seldom has more than three of them. */
-constexpr std::size_t PlacesPerSplit = 3;
-constexpr std::size_t PlacesForSplits = 16;
-/** Of a few cuts, three each. */
-constexpr std::size_t PlacesForCuts = 24;
 }
 
-std::vector<int> Remesher::Flagged(const std::vector<int>& vertices, RemeshFlag flag) const
+void Remesher::Find(const std::vector<int>& vertices, RemeshFlag flag)
 {
   const SurfaceState& s = this->State;
-  return SelectOf(this->Threads, vertices,
+  this->Items.clear();
+  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(this->Items),
     [&s, flag](int v) { return s.Mesh.IsAlive(v) && (s.RemeshFlags[v] & flag) != 0; });
 }
 
@@ -48,8 +42,7 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
     SquaredDistance(middle, s.Mesh.Position[across.B]) < least * least;
 }
 
-bool Remesher::SplitEdge(
-  SurfaceEditor& editor, int u, int v, std::vector<int>& added, int depth) const
+bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
 {
   SurfaceState& s = this->State;
   if (!s.Mesh.AreNeighbours(u, v))
@@ -61,7 +54,7 @@ bool Remesher::SplitEdge(
   {
     return false;
   }
-  Edit split = editor.Split(u, v);
+  Edit split = this->Editor.Split(u, v);
   if (!split && depth > 0)
   {
     // A vertex opposite to the edge has no room for another neighbour. Once an edge from it to one
@@ -69,16 +62,16 @@ bool Remesher::SplitEdge(
     for (int full : { across.A, across.B })
     {
       if (s.Mesh.Rings[full].Count == Ring::Capacity &&
-        !this->SplitEdge(editor, full, u, added, depth - 1))
+        !this->SplitEdge(full, u, added, depth - 1))
       {
-        this->SplitEdge(editor, full, v, added, depth - 1);
+        this->SplitEdge(full, v, added, depth - 1);
       }
     }
     if (!s.Mesh.AreNeighbours(u, v))
     {
       return true;
     }
-    split = editor.Split(u, v);
+    split = this->Editor.Split(u, v);
   }
   if (split)
   {
@@ -88,7 +81,7 @@ bool Remesher::SplitEdge(
   return split.IsDone;
 }
 
-void Remesher::SplitAt(SurfaceEditor& editor, int v, std::vector<int>& added) const
+void Remesher::SplitAt(int v, std::vector<int>& added)
 {
   SurfaceState& s = this->State;
   if (!s.Mesh.IsAlive(v) || !(s.RemeshFlags[v] & HasLongEdge))
@@ -102,7 +95,7 @@ void Remesher::SplitAt(SurfaceEditor& editor, int v, std::vector<int>& added) co
     const float longest = s.Sizing.LongestEdge(v, w);
     if (SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]) > longest * longest)
     {
-      blocked = !this->SplitEdge(editor, v, w, added, DeepestSplit) || blocked;
+      blocked = !this->SplitEdge(v, w, added, DeepestSplit) || blocked;
     }
   }
   if (!blocked)
@@ -111,44 +104,21 @@ void Remesher::SplitAt(SurfaceEditor& editor, int v, std::vector<int>& added) co
   }
 }
 
-float Remesher::LongestEdgeAt(const std::vector<int>& vertices) const
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  float longest = 0;
-  for (int v : vertices)
-  {
-    const Ring& ring = mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      longest =
-        std::max(longest, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
-    }
-  }
-  return std::sqrt(longest);
-}
-
 void Remesher::Split(std::vector<int>& vertices)
 {
-  SurfaceState& s = this->State;
-  EditCells::Pass pass;
-  pass.Items = this->Flagged(vertices, HasLongEdge);
-  const float longestBefore = s.LongestEdge;
-  s.LongestEdge =
-    std::max(longestBefore, this->LongestEdgeAt(this->Flagged(pass.Items, HasHugeEdge)));
-  pass.PlacesPerItem = PlacesPerSplit;
-  pass.PlacesPerCell = PlacesForSplits;
+  this->Find(vertices, HasLongEdge);
   // The list grows while it is walked: new vertices may have long edges of their own.
-  pass.Visit = [this](SurfaceEditor& editor, int v, EditCells::Lists& lists)
-  { this->SplitAt(editor, v, lists.Items); };
-  this->Cells.Run(pass);
-  if (this->Flagged(pass.Items, HasHugeEdge).empty())
+  const std::size_t given = this->Items.size();
+  for (std::size_t i = 0; i < this->Items.size(); ++i)
   {
-    s.LongestEdge = longestBefore;
+    this->SplitAt(this->Items[i], this->Items);
   }
-  vertices.insert(vertices.end(), this->Cells.Added().begin(), this->Cells.Added().end());
+  this->Editor.EndPass();
+  vertices.insert(vertices.end(),
+    this->Items.begin() + static_cast<std::ptrdiff_t>(given), this->Items.end());
 }
 
-void Remesher::CollapseAt(SurfaceEditor& editor, int v) const
+void Remesher::CollapseAt(int v)
 {
   const SurfaceState& s = this->State;
   for (int i = 0; i < s.Mesh.Rings[v].Count; ++i)
@@ -161,8 +131,8 @@ void Remesher::CollapseAt(SurfaceEditor& editor, int v) const
     }
     const int a = s.Mesh.Rings[v].Next(i);
     const int b = s.Mesh.Rings[v].Previous(i);
-    const bool removedA = s.Mesh.Rings[a].Count == 3 && editor.Remove(a).IsDone;
-    const bool removedB = s.Mesh.Rings[b].Count == 3 && editor.Remove(b).IsDone;
+    const bool removedA = s.Mesh.Rings[a].Count == 3 && this->Editor.Remove(a).IsDone;
+    const bool removedB = s.Mesh.Rings[b].Count == 3 && this->Editor.Remove(b).IsDone;
     if (removedA || removedB)
     {
       i = -1; // The ring has changed: look at it afresh.
@@ -171,14 +141,14 @@ void Remesher::CollapseAt(SurfaceEditor& editor, int v) const
     const EdgeCollapse collapse{ v, w };
     if (collapse.IsLegal(s.Mesh))
     {
-      if (editor.Collapse(v, w, EditTolerance::Smooth))
+      if (this->Editor.Collapse(v, w, EditTolerance::Smooth))
       {
         i = -1;
       }
       continue;
     }
     const int c = collapse.ThirdCommonNeighbour(s.Mesh);
-    if (c >= 0 && this->TopologyChanges && editor.Cut(v, w, c))
+    if (c >= 0 && this->TopologyChanges && this->Editor.Cut(v, w, c))
     {
       i = -1;
     }
@@ -187,21 +157,19 @@ void Remesher::CollapseAt(SurfaceEditor& editor, int v) const
 
 void Remesher::Collapse(const std::vector<int>& vertices)
 {
-  EditCells::Pass pass;
-  pass.Items = this->Flagged(vertices, HasShortEdge);
-  pass.PlacesPerCell = this->TopologyChanges ? PlacesForCuts : 0;
-  pass.Visit = [this](SurfaceEditor& editor, int v, EditCells::Lists&)
+  const SurfaceMesh& mesh = this->State.Mesh;
+  this->Find(vertices, HasShortEdge);
+  for (const int v : this->Items)
   {
-    const SurfaceMesh& mesh = this->State.Mesh;
-    if (mesh.IsAlive(v) && !(mesh.Rings[v].Count == 3 && editor.Remove(v)))
+    if (mesh.IsAlive(v) && !(mesh.Rings[v].Count == 3 && this->Editor.Remove(v)))
     {
-      this->CollapseAt(editor, v);
+      this->CollapseAt(v);
     }
-  };
-  this->Cells.Run(pass);
+  }
+  this->Editor.EndPass();
 }
 
-void Remesher::FlipAt(SurfaceEditor& editor, int v) const
+void Remesher::FlipAt(int v)
 {
   const SurfaceState& s = this->State;
   for (int i = 0; i < s.Mesh.Rings[v].Count; ++i)
@@ -216,7 +184,7 @@ void Remesher::FlipAt(SurfaceEditor& editor, int v) const
     const float sineB = Length(Cross(p - b, q - b));
     if (Dot(p - a, q - a) * sineB + Dot(p - b, q - b) * sineA <
         LeastCotangentSum * sineA * sineB &&
-      ring.Count > 3 && editor.Flip(v, w, EditTolerance::Smooth))
+      ring.Count > 3 && this->Editor.Flip(v, w, EditTolerance::Smooth))
     {
       --i;
     }
@@ -225,23 +193,22 @@ void Remesher::FlipAt(SurfaceEditor& editor, int v) const
 
 void Remesher::Flip(const std::vector<int>& vertices)
 {
-  EditCells::Pass pass;
-  pass.Items = this->Flagged(vertices, IsNotDelaunay);
-  pass.Visit = [this](SurfaceEditor& editor, int v, EditCells::Lists&)
+  this->Find(vertices, IsNotDelaunay);
+  for (const int v : this->Items)
   {
     if (this->State.Mesh.IsAlive(v))
     {
-      this->FlipAt(editor, v);
+      this->FlipAt(v);
     }
-  };
-  this->Cells.Run(pass);
+  }
+  this->Editor.EndPass();
 }
 
-void Remesher::UnstickAt(SurfaceEditor& editor, int v) const
+void Remesher::UnstickAt(int v)
 {
   SurfaceState& s = this->State;
   s.RollbackCount[v] = 0;
-  if (s.Mesh.Rings[v].Count == 3 && editor.Remove(v))
+  if (s.Mesh.Rings[v].Count == 3 && this->Editor.Remove(v))
   {
     return;
   }
@@ -262,13 +229,13 @@ void Remesher::UnstickAt(SurfaceEditor& editor, int v) const
   const Vector p = s.Mesh.Position[v];
   const float close = StuckCollapse * s.Sizing.ShortestEdge(v, nearest);
   if (SquaredDistance(p, s.Mesh.Position[nearest]) < close * close &&
-    editor.Collapse(v, nearest, EditTolerance::Loose))
+    this->Editor.Collapse(v, nearest, EditTolerance::Loose))
   {
     return;
   }
   for (float share : { 0.5f, 0.25f, 0.1f })
   {
-    if (editor.Move(v, p + (centre - p) * share, EditTolerance::Loose))
+    if (this->Editor.Move(v, p + (centre - p) * share, EditTolerance::Loose))
     {
       s.Velocity[v] = Vector();
       break;
@@ -279,16 +246,13 @@ void Remesher::UnstickAt(SurfaceEditor& editor, int v) const
 void Remesher::Unstick(const std::vector<int>& vertices)
 {
   const SurfaceState& s = this->State;
-  EditCells::Pass pass;
-  pass.Items = SelectOf(this->Threads, vertices,
-    [&s](int v) { return s.Mesh.IsAlive(v) && s.RollbackCount[v] >= StuckRollbacks; });
-  pass.Visit = [this](SurfaceEditor& editor, int v, EditCells::Lists&)
+  for (const int v : vertices)
   {
-    if (this->State.Mesh.IsAlive(v))
+    if (s.Mesh.IsAlive(v) && s.RollbackCount[v] >= StuckRollbacks)
     {
-      this->UnstickAt(editor, v);
+      this->UnstickAt(v);
     }
-  };
-  this->Cells.Run(pass);
+  }
+  this->Editor.EndPass();
 }
 }

@@ -5,8 +5,8 @@
 
 #include "Core/Image/Field.h"
 #include "Core/Mesh/EdgeFlip.h"
-#include "Core/Surface/EditCells.h"
 #include "Core/Surface/Proximity.h"
+#include "Core/Surface/SurfaceEditor.h"
 
 #include <vector>
 
@@ -15,17 +15,19 @@ namespace volumic
 /**
  * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts, the
  * paper's changes of topology, with the rules of Documentation/differences.md (Constraints,
- * Changes of topology). Each operation is a pass of EditCells over the vertices that it concerns:
- * on all threads, in an order that does not depend on them.
+ * Changes of topology). Each operation is a pass over the vertices that it concerns, in their order.
  */
 class Remesher
 {
 public:
-  /** `field` null: no image evidence is asked for. */
-  Remesher(SurfaceState& state, const Field* field, bool topologyChanges, Executor& threads)
+  /**
+   * @param field null: no image evidence is asked for
+   * @param share of the visit; null: nobody else edits
+   */
+  Remesher(
+    SurfaceState& state, const Field* field, bool topologyChanges, EditShare* share = nullptr)
     : State(state)
-    , Threads(threads)
-    , Cells(state, threads)
+    , Editor(state, share)
     , TheField(field)
     , TopologyChanges(topologyChanges)
   {
@@ -51,31 +53,29 @@ public:
   void Unstick(const std::vector<int>& vertices);
 
   /** Changed vertices of all edits since the last call, in order; some may be named often. */
-  std::vector<int> TakeChanged() { return this->Cells.TakeChanged(); }
-  const std::vector<int>& Changed() const { return this->Cells.Changed(); }
+  std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
+  const std::vector<int>& Changed() const { return this->Editor.Changed(); }
 
 private:
-  // Called side by side: they must change nothing but the surface, by the editor.
-  bool SplitEdge(SurfaceEditor& editor, int u, int v, std::vector<int>& added, int depth) const;
+  bool SplitEdge(int u, int v, std::vector<int>& added, int depth);
   /** Whether what lies opposite to an edge is so near to its middle that a split would. */
   bool MakesNeedles(int u, int v, const EdgeFlip& across) const;
-  void SplitAt(SurfaceEditor& editor, int v, std::vector<int>& added) const;
+  void SplitAt(int v, std::vector<int>& added);
   bool IsMergeWanted(int u, int v) const;
-  bool FlipBetween(SurfaceEditor& editor, int u, int v) const;
-  void MergeOrFlip(SurfaceEditor& editor, int u, int v, std::vector<int>& strip) const;
-  void CollapseAt(SurfaceEditor& editor, int v) const;
-  void FlipAt(SurfaceEditor& editor, int v) const;
-  void UnstickAt(SurfaceEditor& editor, int v) const;
+  bool FlipBetween(int u, int v);
+  void MergeOrFlip(int u, int v, std::vector<int>& strip);
+  void CollapseAt(int v);
+  void FlipAt(int v);
+  void UnstickAt(int v);
 
-  /** The vertices that are alive and have the flag. */
-  std::vector<int> Flagged(const std::vector<int>& vertices, RemeshFlag flag) const;
-  float LongestEdgeAt(const std::vector<int>& vertices) const;
+  /** Fills Items with the vertices that are alive and have the flag. */
+  void Find(const std::vector<int>& vertices, RemeshFlag flag);
 
   SurfaceState& State;
-  Executor& Threads;
-  EditCells Cells;
+  SurfaceEditor Editor;
   const Field* TheField;
   bool TopologyChanges;
+  std::vector<int> Items; ///< Of a pass.
 };
 }
 

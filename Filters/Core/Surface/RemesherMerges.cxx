@@ -3,12 +3,10 @@
 
 // The merges of Remesher, and the flips that close folds.
 
-#include "Core/Common/Blocks.h"
-#include "Core/Common/Select.h"
 #include "Core/Surface/Remesher.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstddef>
 #include <tuple>
 
 namespace volumic
@@ -19,10 +17,6 @@ namespace
 constexpr float FacingCosine = -0.3f;
 /** Least cosine between a star's normal and the line to the other one: it lies ahead or behind. */
 constexpr float AheadCosine = 0.3f;
-/** Of a merge: its bridge edges are split, as many as two rims have vertices. */
-constexpr std::size_t PlacesForMerges = 64;
-/** Pairs that one thread sorts at a time. */
-constexpr std::size_t SortedBlock = 2048;
 
 /** Nearest first, then by index. */
 struct NearPair
@@ -76,7 +70,7 @@ bool Remesher::IsMergeWanted(int u, int v) const
              this->TheField->ValueAt(s.Mesh.Position[v])) > 0;
 }
 
-bool Remesher::FlipBetween(SurfaceEditor& editor, int u, int v) const
+bool Remesher::FlipBetween(int u, int v)
 {
   const SurfaceState& s = this->State;
   const Ring& ring = s.Mesh.Rings[u];
@@ -100,79 +94,62 @@ bool Remesher::FlipBetween(SurfaceEditor& editor, int u, int v) const
         return false;
       }
     }
-    return editor.Flip(a, b, EditTolerance::Loose).IsDone;
+    return this->Editor.Flip(a, b, EditTolerance::Loose).IsDone;
   }
   return false;
 }
 
-void Remesher::MergeOrFlip(SurfaceEditor& editor, int u, int v, std::vector<int>& strip) const
+void Remesher::MergeOrFlip(int u, int v, std::vector<int>& strip)
 {
   SurfaceState& s = this->State;
   if (!s.Mesh.IsAlive(u) || !s.Mesh.IsAlive(v) || s.Mesh.AreNeighbours(u, v) ||
-    this->FlipBetween(editor, u, v) || !this->TopologyChanges || !this->IsMergeWanted(u, v))
+    this->FlipBetween(u, v) || !this->TopologyChanges || !this->IsMergeWanted(u, v))
   {
     return;
   }
-  const Edit merge = editor.Merge(u, v);
+  const Edit merge = this->Editor.Merge(u, v);
   if (!merge)
   {
     return;
   }
   // Bridge edges may be longer than eq. (1) allows, on which verification relies.
   std::vector<int> split(merge.Changed.begin(), merge.Changed.end());
-  strip = split;
+  strip.insert(strip.end(), split.begin(), split.end());
   for (int w : split)
   {
     s.RemeshFlags[w] |= HasLongEdge;
   }
   for (std::size_t i = 0; i < split.size(); ++i)
   {
-    this->SplitAt(editor, split[i], split);
+    this->SplitAt(split[i], split);
   }
 }
 
 void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
 {
   const SurfaceState& s = this->State;
-  std::vector<int> near;
-  Select(
-    this->Threads, pairs.size(), near,
-    [&](std::size_t i)
-    {
-      const Proximity::ClosePair& pair = pairs[i];
-      const float clearance = s.Sizing.Clearance(pair.V, pair.W);
-      return s.Mesh.IsAlive(pair.V) && s.Mesh.IsAlive(pair.W) &&
-        SquaredDistance(s.Mesh.Position[pair.V], s.Mesh.Position[pair.W]) < clearance * clearance;
-    },
-    [](std::size_t i) { return static_cast<int>(i); });
-  std::vector<NearPair> sorted(near.size());
-  this->Threads.For(near.size(), SortedBlock,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Proximity::ClosePair& pair = pairs[near[i]];
-        sorted[i] = { SquaredDistance(s.Mesh.Position[pair.V], s.Mesh.Position[pair.W]),
-          std::min(pair.V, pair.W), std::max(pair.V, pair.W) };
-      }
-    });
-  SortInBlocks(this->Threads, sorted, SortedBlock);
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-
-  EditCells::Pass pass;
-  pass.Items.resize(sorted.size());
-  std::iota(pass.Items.begin(), pass.Items.end(), 0);
-  pass.VertexOf = [&sorted](int item) { return sorted[item].V; };
-  pass.MarginInDelta = EditCells::MergeMargin;
-  pass.PlacesPerCell = this->TopologyChanges ? PlacesForMerges : 0;
-  pass.Visit = [this, &sorted](SurfaceEditor& editor, int item, EditCells::Lists& lists)
+  std::vector<NearPair> near;
+  for (const Proximity::ClosePair& pair : pairs)
   {
-    std::vector<int> strip;
-    this->MergeOrFlip(editor, sorted[item].V, sorted[item].W, strip);
-    lists.Kept.insert(lists.Kept.end(), strip.begin(), strip.end());
-  };
-  this->Cells.Run(pass);
-  std::vector<int> strips = this->Cells.Kept();
+    if (!s.Mesh.IsAlive(pair.V) || !s.Mesh.IsAlive(pair.W))
+    {
+      continue;
+    }
+    const float clearance = s.Sizing.Clearance(pair.V, pair.W);
+    const float squared = SquaredDistance(s.Mesh.Position[pair.V], s.Mesh.Position[pair.W]);
+    if (squared < clearance * clearance)
+    {
+      near.push_back({ squared, std::min(pair.V, pair.W), std::max(pair.V, pair.W) });
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  std::vector<int> strips;
+  for (const NearPair& pair : near)
+  {
+    this->MergeOrFlip(pair.V, pair.W, strips);
+  }
+  this->Editor.EndPass();
   this->Split(strips); // What could not be split at once.
 }
 }

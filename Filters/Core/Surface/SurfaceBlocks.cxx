@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace volumic
 {
@@ -14,7 +15,7 @@ namespace
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexBlock = 8192;
 /** Places for new vertices that a block has at least, and for how many of its own one more. */
-constexpr int FewPlaces = 4096;
+constexpr int FewPlaces = 512;
 constexpr int VerticesPerPlace = 2;
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
@@ -41,7 +42,7 @@ SurfaceBlocks::Frame SurfaceBlocks::FrameOf(const std::array<double, 3>& extent,
   Frame frame;
   for (int axis = 0; axis < 3; ++axis)
   {
-    frame.Size[axis] = std::max(1, static_cast<int>(std::lround(extent[axis] / side)));
+    frame.Size[axis] = std::max(1, static_cast<int>(extent[axis] / side));
     frame.Side[axis] = static_cast<float>(extent[axis] / frame.Size[axis]);
   }
   return frame;
@@ -51,7 +52,7 @@ SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& 
   : State(state)
   , TheFrame(frame)
 {
-  state.Mesh.PutAside(this->Others.Places, this->Others.Unused); // What is free is for nobody.
+  state.Mesh.PutAside(this->Others); // What is free is for nobody.
   this->Collect(executor);
   this->FindOrder();
 }
@@ -147,29 +148,32 @@ void SurfaceBlocks::Collect(Executor& executor)
   const std::array<int, 3>& size = this->TheFrame.Size;
   const std::size_t count =
     static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2];
-  this->Vertices.resize(count);
-  this->Places.resize(count);
+  this->All.resize(count);
   for (std::size_t v = 0; v < n; ++v)
   {
     if (mesh.IsAlive(static_cast<int>(v)))
     {
-      this->Vertices[this->State.Block[v]].push_back(static_cast<int>(v));
+      this->All[this->State.Block[v]].Vertices.push_back(static_cast<int>(v));
     }
   }
 }
 
 void SurfaceBlocks::FindOrder()
 {
+  std::vector<int> order;
   for (const int z : EvenFirst(this->TheFrame.Size[2]))
   {
     for (const int y : EvenFirst(this->TheFrame.Size[1]))
     {
       for (const int x : EvenFirst(this->TheFrame.Size[0]))
       {
-        this->Visits.push_back(this->BlockOf({ x, y, z }));
+        order.push_back(this->BlockOf({ x, y, z }));
       }
     }
   }
+  // Slab by slab, which touches memory less often than a colour after the other.
+  this->Visits = std::make_unique<VisitSchedule>(
+    std::move(order), [this](int block) { return this->NeighboursOf(block); });
   for (int block = 0; block < this->NumberOfBlocks(); ++block)
   {
     // Along z first, as in the order of visits.
@@ -180,8 +184,8 @@ void SurfaceBlocks::FindOrder()
 
 int SurfaceBlocks::MissingPlaces(int block) const
 {
-  const OwnPlaces& own = this->Places[block];
-  std::vector<int> vertices = this->Vertices[block];
+  const OfBlock& own = this->All[block];
+  std::vector<int> vertices = own.Vertices;
   this->Clean(block, vertices);
   const int wanted =
     vertices.empty() ? 0 : FewPlaces + static_cast<int>(vertices.size()) / VerticesPerPlace;
@@ -205,7 +209,7 @@ void SurfaceBlocks::AddPlaces(const std::vector<int>& counts)
   {
     if (counts[block] > 0)
     {
-      OwnPlaces& own = this->Places[block];
+      OfBlock& own = this->All[block];
       for (int v = own.Unused.End; v > own.Unused.Next; --v)
       {
         own.Places.Free.push_back(v - 1); // Few are left; they stay aside.
@@ -214,31 +218,6 @@ void SurfaceBlocks::AddPlaces(const std::vector<int>& counts)
       next += counts[block];
     }
   }
-}
-
-void SurfaceBlocks::MakeCanonical(int block)
-{
-  // What the visits before have left depends on their order: chains of the grid, and the length
-  // of the longest edge.
-  SurfaceState& s = this->State;
-  const float halo = HaloInDelta * s.Sizing.Largest();
-  const Box box = this->BoxOf(block).Grown(halo);
-  s.Grid.SortChains(box.Low, box.High);
-  float squared = 0;
-  s.Grid.VisitBox(box.Low, box.High,
-    [&](int v)
-    {
-      if (s.RemeshFlags[v] & HasHugeEdge)
-      {
-        const Ring& ring = s.Mesh.Rings[v];
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          squared = std::max(
-            squared, SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[ring.Item[i]]));
-        }
-      }
-    });
-  s.LongestEdge = std::sqrt(squared);
 }
 
 void SurfaceBlocks::Clean(int block, std::vector<int>& vertices) const
@@ -251,30 +230,37 @@ void SurfaceBlocks::Clean(int block, std::vector<int>& vertices) const
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
-const std::vector<int>& SurfaceBlocks::Open(int block)
+BlockVisit SurfaceBlocks::Open(int block)
 {
-  this->Opened = block;
-  SurfaceMesh& mesh = this->State.Mesh;
-  mesh.PutAside(this->Others.Places, this->Others.Unused); // Removed between two visits.
-  mesh.TakeFromAside(this->Places[block].Places, this->Places[block].Unused);
-  this->MakeCanonical(block);
-  std::vector<int>& vertices = this->Vertices[block];
-  this->Clean(block, vertices);
-  this->OldOnes = static_cast<std::ptrdiff_t>(vertices.size());
-  return vertices;
+  OfBlock& own = this->All[block];
+  BlockVisit visit;
+  visit.Block = block;
+  visit.Vertices.swap(own.Vertices);
+  this->Clean(block, visit.Vertices);
+  visit.OldOnes = static_cast<std::ptrdiff_t>(visit.Vertices.size());
+  visit.Share.Places.Free.swap(own.Places.Free);
+  visit.Share.Unused = own.Unused;
+  visit.PlacesBefore = visit.Share.NumberOfPlaces();
+  visit.Pairs.swap(own.Pairs);
+  const Box box = this->BoxOf(block);
+  const float delta = this->State.Sizing.Smallest();
+  visit.Moving = box.Grown(MovingInDelta * delta);
+  visit.Share.Region = box.Grown(EditedInDelta * delta);
+  visit.Written = box.Grown(WrittenInDelta * delta);
+  return visit;
 }
 
 std::vector<double> SurfaceBlocks::Sums(const std::function<bool(int block)>& isWanted,
   const std::function<double(int v)>& ofVertex, Executor& executor) const
 {
-  std::vector<double> sums(this->Vertices.size(), 0.);
-  ForBlocks(executor, this->Vertices.size(), 1,
+  std::vector<double> sums(this->All.size(), 0.);
+  ForBlocks(executor, this->All.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
       const int block = static_cast<int>(b);
       if (isWanted(block))
       {
-        std::vector<int> vertices = this->Vertices[b];
+        std::vector<int> vertices = this->All[b].Vertices;
         this->Clean(block, vertices);
         for (const int v : vertices)
         {
@@ -285,53 +271,77 @@ std::vector<double> SurfaceBlocks::Sums(const std::function<bool(int block)>& is
   return sums;
 }
 
-void SurfaceBlocks::AddNew(const std::vector<int>& vertices)
+void SurfaceBlocks::AddNew(BlockVisit& visit, const std::vector<int>& vertices) const
 {
-  std::vector<int>& all = this->Vertices[this->Opened];
-  const auto endOfOld = all.begin() + this->OldOnes;
-  std::vector<int> added(endOfOld, all.end());
+  std::vector<int>& all = visit.Vertices;
+  const auto oldOnes = visit.OldOnes;
+  const std::size_t before = all.size();
   for (const int v : vertices)
   {
     if (this->State.Mesh.IsAlive(v) && this->State.Block[v] == NoBlock)
     {
-      this->State.Block[v] = this->Opened;
-      if (!std::binary_search(all.begin(), endOfOld, v)) // Else in the place of an old one.
+      this->State.Block[v] = visit.Block;
+      if (!std::binary_search(all.begin(), all.begin() + oldOnes, v)) // Else in an old one's place.
       {
-        added.push_back(v);
+        all.push_back(v);
       }
     }
   }
-  std::sort(added.begin(), added.end());
-  added.erase(std::unique(added.begin(), added.end()), added.end());
-  all.erase(endOfOld, all.end());
-  all.insert(all.end(), added.begin(), added.end());
+  if (all.size() > before)
+  {
+    std::sort(all.begin() + oldOnes, all.end());
+    all.erase(std::unique(all.begin() + oldOnes, all.end()), all.end());
+  }
 }
 
-void SurfaceBlocks::Close()
+void SurfaceBlocks::Close(BlockVisit&& visit)
 {
-  const SurfaceMesh& mesh = this->State.Mesh;
+  SurfaceState& s = this->State;
+  visit.Share.Places.TakeRemoved();
   std::vector<int> stay;
-  for (const int v : this->Vertices[this->Opened])
+  std::vector<int> gone;
+  for (const int v : visit.Vertices)
   {
-    if (mesh.IsAlive(v) && this->State.Block[v] == this->Opened)
+    if (s.Mesh.IsAlive(v) && s.Block[v] == visit.Block)
     {
-      const int block = this->BlockAt(mesh.Position[v]);
-      this->State.Block[v] = block;
-      (block == this->Opened ? stay : this->Vertices[block]).push_back(v);
+      s.Block[v] = this->BlockAt(s.Mesh.Position[v]);
+      (s.Block[v] == visit.Block ? stay : gone).push_back(v);
     }
   }
-  this->Vertices[this->Opened].swap(stay);
-  OwnPlaces& own = this->Places[this->Opened];
-  this->State.Mesh.PutAside(own.Places, own.Unused);
-  this->State.LongestEdge = 0;
-  this->Opened = NoBlock;
+  // Whoever has a vertex now, or has it still, does not know of the pairs that were found here.
+  visit.Pairs.erase(std::remove_if(visit.Pairs.begin(), visit.Pairs.end(),
+                      [&](const Proximity::ClosePair& pair)
+                      {
+                        const bool isOther =
+                          s.Mesh.IsAlive(pair.V) && s.Block[pair.V] != visit.Block;
+                        if (isOther)
+                        {
+                          s.Drift[pair.V] = SurfaceState::NotExamined;
+                        }
+                        return isOther || !s.Mesh.IsAlive(pair.V);
+                      }),
+    visit.Pairs.end());
+  OfBlock& own = this->All[visit.Block];
+  own.Places.Free.swap(visit.Share.Places.Free);
+  own.Unused = visit.Share.Unused;
+  own.Pairs.swap(visit.Pairs);
+  const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
+  const std::lock_guard<std::mutex> lock(this->Closing);
+  own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
+  for (const int v : gone)
+  {
+    this->All[s.Block[v]].Vertices.push_back(v);
+  }
+  s.Mesh.CountOthers(visit.PlacesBefore - places);
+  s.EulerCharacteristic += visit.Share.EulerCharacteristic;
 }
 
 void SurfaceBlocks::ForgetVertices()
 {
-  for (std::vector<int>& vertices : this->Vertices)
+  for (OfBlock& block : this->All)
   {
-    vertices = std::vector<int>();
+    block.Vertices = std::vector<int>();
+    block.Pairs = std::vector<Proximity::ClosePair>();
   }
 }
 
@@ -348,23 +358,23 @@ void SurfaceBlocks::AddOthers(const std::vector<int>& vertices)
 {
   for (const int v : vertices)
   {
-    this->Vertices[this->State.Block[v]].push_back(v);
+    this->All[this->State.Block[v]].Vertices.push_back(v);
   }
 }
 
 SurfaceBlocks::~SurfaceBlocks()
 {
-  for (OwnPlaces& own : this->Places)
+  for (OfBlock& block : this->All)
   {
-    this->State.Mesh.FreeFromAside(own.Places, own.Unused);
+    this->State.Mesh.FreeFromAside(block.Places, block.Unused);
   }
-  this->State.Mesh.FreeFromAside(this->Others.Places, this->Others.Unused);
+  this->State.Mesh.FreeFromAside(this->Others, UnusedPlaces());
 }
 
 void SurfaceBlocks::Prefetch(int block) const
 {
   // They follow each other but for a few that came later, whose places are anywhere.
-  const std::vector<int>& vertices = this->Vertices[block];
+  const std::vector<int>& vertices = this->All[block].Vertices;
   const std::size_t few = vertices.size() / 32;
   if (vertices.size() > 2 * few)
   {
@@ -379,9 +389,8 @@ void SurfaceBlocks::Prefetch(int block) const
 
 bool SurfaceBlocks::HasActive(int block) const
 {
-  const std::vector<int>& vertices = this->Vertices[block];
+  const std::vector<int>& vertices = this->All[block].Vertices;
   return std::any_of(vertices.begin(), vertices.end(),
     [&](int v) { return this->State.Block[v] == block && this->State.Active[v] != 0; });
 }
-
 }

@@ -4,15 +4,37 @@
 #define volumicSurfaceBlocks_h
 
 #include "Core/Common/Box.h"
+#include "Core/Common/VisitSchedule.h"
+#include "Core/Surface/Proximity.h"
+#include "Core/Surface/SurfaceEditor.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace volumic
 {
+/**
+ * A visit of a block, while it is open: what of the surface it may change, and what it keeps for
+ * itself so that visits of blocks that do not touch can be made at the same time.
+ */
+struct BlockVisit
+{
+  int Block = NoBlock;
+  std::vector<int> Vertices; ///< That lie in the block, by index; then those that the visit made.
+  Box Moving;                ///< Vertices that lie in it may move; EditShare::Region is for edits.
+  Box Written;               ///< Beyond it nothing is changed.
+  EditShare Share;
+  std::vector<Proximity::ClosePair> Pairs; ///< Known from the visit before.
+
+  std::ptrdiff_t OldOnes = 0; ///< Of the vertices, those that there were when it was opened.
+  int PlacesBefore = 0;       ///< As many as the share had then.
+};
+
 /**
  * The vertices of a surface by cubes of space, the blocks, so that it can be worked on block by
  * block. The vertices of a block follow each other in memory (SurfaceMesh::Reorder along a curve
@@ -21,9 +43,18 @@ namespace volumic
  *
  * What a visit does depends on the vertices in the block and about it only, as they are then, and
  * not on what is done elsewhere meanwhile. So blocks that do not touch may be visited in any order,
- * or at the same time on several ranks; those that touch are visited in the order of eight colours
- * (along each axis those of even place before those of odd place). Order() goes slab by slab, which
- * touches memory less often: 0, 2, 1, 4, 3, ... along each axis; ByColour() all of a colour first.
+ * or at the same time; those that touch are visited in the order of eight colours (along each axis
+ * those of even place before those of odd place). That holds however many iterations a visit makes:
+ *
+ * - a vertex moves only while it lies within MovingInDelta of the block, and edits begin at stars
+ *   within EditedInDelta; what is refused for that is left for the neighbour's visit;
+ * - an edge is at most 5 delta long: HugeEdge times the longest legal one, 4 delta, and what both
+ *   ends move in an iteration, after which they keep still until it is split;
+ * - so positions, rings and shapes are written within WrittenInDelta of the block: an edit's region
+ *   and an edge;
+ * - what is examined moved, or is a neighbour of what did (9.5 delta); it looks for vertices within
+ *   the reach of 3.2 delta, and reads their stars: all within HaloInDelta.
+ * Blocks are as wide as both together, with room for the cells of the grid.
  */
 class SurfaceBlocks
 {
@@ -32,19 +63,18 @@ public:
   struct Frame
   {
     Vector Low; ///< Where the first one begins: the corner of the image.
-    /** Of a block, workspace; more than twice the halo where there are ranks. */
-    std::array<float, 3> Side = { 1.f, 1.f, 1.f };
+    std::array<float, 3> Side = { 1.f, 1.f, 1.f }; ///< Of a block, workspace.
     std::array<int, 3> Size = { 1, 1, 1 };
   };
-  /** Of an image, workspace, in as many blocks as bring their sides nearest to one. */
+  /** Of an image, workspace, in as many blocks as there is room for. @param side the least */
   static Frame FrameOf(const std::array<double, 3>& extent, double side);
 
-  /**
-   * How far about a block a visit may read, and how far it may write, in delta. Edits follow each
-   * other outward over five iterations: 14 delta have been seen.
-   */
-  static constexpr float HaloInDelta = 24.f;
-  static constexpr float WrittenInDelta = 20.f;
+  // All in delta.
+  static constexpr float SideInDelta = 32.f;
+  static constexpr float MovingInDelta = 4.f;
+  static constexpr float EditedInDelta = 4.6f;
+  static constexpr float WrittenInDelta = 10.f;
+  static constexpr float HaloInDelta = 18.f;
   static constexpr int Colours = 8;
 
   SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor);
@@ -52,18 +82,21 @@ public:
   SurfaceBlocks(const SurfaceBlocks&) = delete;
   SurfaceBlocks& operator=(const SurfaceBlocks&) = delete;
 
-  /** In the order of their visits; some have no vertices. */
-  const std::vector<int>& Order() const { return this->Visits; }
+  /** The order of their visits, and what waits for what; some have no vertices. */
+  const VisitSchedule& Schedule() const { return *this->Visits; }
   /** The same blocks by colour, those of a colour in order of their number. */
   const std::array<std::vector<int>, Colours>& ByColour() const { return this->OfColour; }
-  int NumberOfBlocks() const { return static_cast<int>(this->Visits.size()); }
+  int NumberOfBlocks() const { return static_cast<int>(this->All.size()); }
 
-  /** Begins a visit. @return the vertices that lie in the block, in order of index. */
-  const std::vector<int>& Open(int block);
+  /** Begins a visit. Others may be open that do not touch it. */
+  BlockVisit Open(int block);
   /** Of the vertices of a list, those that are new are the open block's from now on. */
-  void AddNew(const std::vector<int>& vertices);
-  /** Ends the visit: vertices that have left the block are others' from now on. */
-  void Close();
+  void AddNew(BlockVisit& visit, const std::vector<int>& vertices) const;
+  /**
+   * Ends it: vertices that have left the block are others' from now on, and the state's number of
+   * vertices and chi are those after the visit.
+   */
+  void Close(BlockVisit&& visit);
 
   /** Asks for what most of a block's vertices know, before a visit. */
   void Prefetch(int block) const;
@@ -99,7 +132,7 @@ public:
     }
   }
   /** The vertices of a block, and some that no longer are, or are there twice. */
-  const std::vector<int>& ListOf(int block) const { return this->Vertices[block]; }
+  const std::vector<int>& ListOf(int block) const { return this->All[block].Vertices; }
   /** Of all blocks; their places stay. */
   void ForgetVertices();
   /** New vertices, not of a visit: their blocks have them from now on. */
@@ -116,10 +149,12 @@ public:
     const std::function<double(int v)>& ofVertex, Executor& executor) const;
 
 private:
-  struct OwnPlaces
+  struct OfBlock
   {
-    VertexPlaces Places;
+    std::vector<int> Vertices; ///< Some are others' by now, or no more.
+    VertexPlaces Places;       ///< For new vertices.
     UnusedPlaces Unused;
+    std::vector<Proximity::ClosePair> Pairs; ///< Of its vertices, from its last visit.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
   std::array<int, 3> PlaceOf(int block) const;
@@ -128,17 +163,14 @@ private:
   void Clean(int block, std::vector<int>& vertices) const;
   void Collect(Executor& executor);
   void FindOrder();
-  void MakeCanonical(int block);
 
   SurfaceState& State;
   Frame TheFrame;
-  std::vector<std::vector<int>> Vertices; ///< Of each block; some are others' by now, or no more.
-  std::vector<OwnPlaces> Places;          ///< Of each block, for new vertices.
-  OwnPlaces Others;                       ///< Free before, for nobody.
-  std::vector<int> Visits;
+  std::vector<OfBlock> All;
+  VertexPlaces Others; ///< Free before, for nobody.
+  std::unique_ptr<VisitSchedule> Visits;
   std::array<std::vector<int>, Colours> OfColour;
-  int Opened = NoBlock;
-  std::ptrdiff_t OldOnes = 0; ///< Of its vertices, those that it had when it was opened: the first.
+  std::mutex Closing; ///< Held while a visit hands over what others have, too.
 };
 }
 

@@ -8,6 +8,7 @@
 #include "Core/Mesh/VertexRemoval.h"
 #include "Core/Surface/FaceShape.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace volumic
@@ -29,6 +30,16 @@ Vector FaceNormal(const SurfaceMesh& mesh, int a, int b, int c)
   return Normalized(
     Cross(mesh.Position[b] - mesh.Position[a], mesh.Position[c] - mesh.Position[a]));
 }
+}
+
+bool EditShare::HasPlaces(std::size_t n)
+{
+  std::vector<int>& free = this->Places.Free;
+  while (free.size() < n && this->Unused.Count() > 0)
+  {
+    free.push_back(this->Unused.Next++);
+  }
+  return free.size() >= n;
 }
 
 void SurfaceEditor::Touch(int v)
@@ -58,31 +69,11 @@ std::vector<int> SurfaceEditor::TakeChanged()
   return std::exchange(this->Log, {});
 }
 
-bool SurfaceEditor::MayEdit(std::initializer_list<int> vertices)
+bool SurfaceEditor::MayEdit(std::initializer_list<int> vertices) const
 {
-  if (!this->Share)
-  {
-    return true;
-  }
-  for (int v : vertices)
-  {
-    if (!this->Share->Region.Contains(this->State.Mesh.Position[v]))
-    {
-      this->Share->WasOutOfRegion = true;
-      return false;
-    }
-  }
-  return true;
-}
-
-bool SurfaceEditor::HasPlaces(std::size_t n)
-{
-  const bool has = !this->Share || this->Share->Places.Free.size() >= n;
-  if (!has)
-  {
-    this->Share->LackedPlaces = true;
-  }
-  return has;
+  return !this->Share ||
+    std::all_of(vertices.begin(), vertices.end(),
+      [this](int v) { return this->Share->Region.Contains(this->State.Mesh.Position[v]); });
 }
 
 void SurfaceEditor::AddToEulerCharacteristic(int change)
@@ -103,7 +94,10 @@ Edit SurfaceEditor::Split(int u, int v)
     split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Places());
   s.AddVertex(m, u);
   s.Velocity[m] = (s.Velocity[u] + s.Velocity[v]) * 0.5f;
-  s.PreviousPosition[m] = (s.PreviousPosition[u] + s.PreviousPosition[v]) * 0.5f;
+  // What is not being moved has an old one.
+  const auto before = [&s](int w)
+  { return s.Marks[w] & IsWorking ? s.PreviousPosition[w] : s.Mesh.Position[w]; };
+  s.PreviousPosition[m] = (before(u) + before(v)) * 0.5f;
   s.NearOthers[m] = s.NearOthers[u] | s.NearOthers[v];
   s.FieldValue[m] = 0.5f * (s.FieldValue[u] + s.FieldValue[v]);
   ++this->Counts().Splits;

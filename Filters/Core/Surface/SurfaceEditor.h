@@ -36,15 +36,23 @@ struct Edit
   explicit operator bool() const { return this->IsDone; }
 };
 
-/** What an editor has to itself where others are at work beside it, see EditCells. */
+/** What an editor has to itself where others are at work elsewhere: see SurfaceBlocks. */
 struct EditShare
 {
   Box Region;          ///< The vertices whose stars are edited lie in it; others are refused.
   VertexPlaces Places; ///< For new vertices; edits that find too few are refused.
+  UnusedPlaces Unused; ///< More of them.
   EditCounts Counts;
-  int EulerCharacteristic = 0;   ///< What its edits have added to that of the surface.
-  bool WasOutOfRegion = false; ///< Something was refused for the region's sake; set, never cleared.
-  bool LackedPlaces = false;     ///< The same for places.
+  int EulerCharacteristic = 0; ///< What its edits have added to that of the surface.
+
+  /** Places that no vertex has; what they become fewer by are vertices more. */
+  int NumberOfPlaces() const
+  {
+    return static_cast<int>(this->Places.Free.size() + this->Places.Removed.size()) +
+      this->Unused.Count();
+  }
+  /** Whether there are n in Places, where they come from Unused as long as there are any. */
+  bool HasPlaces(std::size_t n);
 };
 
 /**
@@ -62,6 +70,15 @@ public:
     : State(state)
     , Share(share)
   {
+  }
+
+  /** The places of vertices removed so far may be taken by new ones from now on. */
+  void EndPass()
+  {
+    if (this->Share)
+    {
+      this->Share->Places.TakeRemoved();
+    }
   }
 
   /** At the midpoint; always possible unless a valence is at its limit. */
@@ -84,6 +101,12 @@ public:
   /** Cut along u, v, w; both sides are drawn apart. */
   Edit Cut(int u, int v, int w);
 
+  /** Of the surface, or what the edits of the visit have added to it. */
+  int EulerCharacteristic() const
+  {
+    return this->Share ? this->Share->EulerCharacteristic : this->State.EulerCharacteristic;
+  }
+
   /** Changed vertices of all edits since TakeChanged(), in order; some may be named often. */
   const std::vector<int>& Changed() const { return this->Log; }
   std::vector<int> TakeChanged();
@@ -98,8 +121,8 @@ private:
   void TouchStar(int v);
   Edit Done(std::size_t firstChange, int vertex = -1) const;
   /** Whether the stars of these vertices may be edited. */
-  bool MayEdit(std::initializer_list<int> vertices);
-  bool HasPlaces(std::size_t n);
+  bool MayEdit(std::initializer_list<int> vertices) const;
+  bool HasPlaces(std::size_t n) { return !this->Share || this->Share->HasPlaces(n); }
   VertexPlaces* Places() { return this->Share ? &this->Share->Places : nullptr; }
   EditCounts& Counts() { return this->Share ? this->Share->Counts : this->State.Counts; }
   void AddToEulerCharacteristic(int change);

@@ -3,11 +3,9 @@
 #ifndef volumicSurfacePolish_h
 #define volumicSurfacePolish_h
 
-#include "Core/Common/Monitor.h"
 #include "Core/Image/Field.h"
-#include "Core/Surface/EditCells.h"
+#include "Core/Surface/SurfaceEditor.h"
 
-#include <utility>
 #include <vector>
 
 namespace volumic
@@ -22,48 +20,41 @@ namespace volumic
  *
  * Every edit is one of SurfaceEditor's, verified, so the mesh stays manifold and free of
  * intersections; one is made only where the worst of the faces concerned gets better, so it ends.
- * What is tried at a star: StarImprovement. Edits are made by passes of EditCells: the same for any
- * executor.
+ * What is tried at a star: StarImprovement.
  */
 class SurfacePolish
 {
 public:
-  /** `snapTo` (may be null): vertices that slide are led back onto its isopotential. */
-  SurfacePolish(SurfaceState& state, const Field* snapTo, bool topologyChanges, Executor& executor,
-    Checkpoint goOn = NeverStop)
+  /**
+   * @param snapTo (may be null): vertices that slide are led back onto its isopotential
+   * @param share of the visit; null: nobody else edits
+   */
+  SurfacePolish(
+    SurfaceState& state, const Field* snapTo, bool topologyChanges, EditShare* share = nullptr)
     : State(state)
-    , Cells(state, executor)
-    , Threads(executor)
+    , Editor(state, share)
     , SnapTo(snapTo)
     , TopologyChanges(topologyChanges)
-    , Goes(std::move(goOn))
   {
   }
 
-  /** Stops after an edit, if asked to. Normals must be up to date. */
-  void Run();
-  /** The same for the stars of a list, those of an open block (SurfaceBlocks). */
+  /** Of the stars of a list, and of those that cuts make. Normals must be up to date. */
   void Run(const std::vector<int>& vertices);
 
   /** Changed vertices of all its edits, in order; some may be named often. */
-  std::vector<int> TakeChanged() { return this->Cells.TakeChanged(); }
+  std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
 
 private:
-  std::vector<int> AliveOnes() const; ///< Of all, or of the list and what is new.
+  std::vector<int> AliveOnes() const; ///< Of the list and what is new.
   void SeparateAll();
-  void ImproveAll(float good); ///< Those of the stars whose worst scores less than `good`.
-  bool IsToStop();             ///< Asked now and then.
+  /** Those of the stars whose worst scores less than `good`. @return the cuts made */
+  int ImproveAll(float good, bool mayCut);
 
   SurfaceState& State;
-  EditCells Cells;
-  Executor& Threads;
-  const std::vector<int>* Within = nullptr; ///< Whose stars are looked at; null: all.
+  SurfaceEditor Editor;
+  const std::vector<int>* Within = nullptr; ///< Whose stars are looked at.
   const Field* SnapTo;
   bool TopologyChanges;
-  Checkpoint Goes;
-  double Done = 0.; ///< Share of the work.
-  bool Stopped = false;
-  bool MayCut = false;
 };
 }
 

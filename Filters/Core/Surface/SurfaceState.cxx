@@ -27,7 +27,6 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->Properties.Reset(this->Mesh.Rings.size(), executor);
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
-  this->LongestEdge = 0;
   this->Grid.Reset(low, high, this->Sizing.LargestReach());
   this->Grid.InsertAll(
     this->Mesh.Position, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
@@ -58,27 +57,10 @@ UnusedPlaces SurfaceState::AddUnusedPlaces(int n)
   return places;
 }
 
-void SurfaceState::Lend(VertexPlaces& places, std::size_t n)
-{
-  const std::size_t before = this->Mesh.Rings.size();
-  this->Mesh.Lend(places, n);
-  if (this->Mesh.Rings.size() == before)
-  {
-    return;
-  }
-  this->Properties.Resize(this->Mesh.Rings.size());
-  this->Grid.Resize(this->Mesh.Rings.size());
-  for (std::size_t v = before; v < this->Mesh.Rings.size(); ++v)
-  {
-    this->Active[v] = 0; // Until there is a vertex.
-  }
-}
-
 void SurfaceState::Remake(std::size_t n, int vertices, const Vector& low, const Vector& high)
 {
   this->Mesh.Remake(n, vertices);
   this->Properties.Remake(n);
-  this->LongestEdge = 0;
   this->Grid.Reset(low, high, this->Sizing.LargestReach());
   this->Grid.Lengthen(n);
 }
@@ -278,38 +260,42 @@ void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& execu
     });
 }
 
-int SurfaceState::RemoveComponent(int v)
+SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexPlaces* places)
 {
-  this->Stack.assign(1, v);
   // The ring of a removed vertex is kept aside as it is emptied; -1 in Component marks visits.
-  int vertices = 0;
+  std::vector<int> stack(1, v);
   std::int64_t ends = 0;
   this->Component[v] = -1;
-  for (std::size_t i = 0; i < this->Stack.size(); ++i)
+  for (std::size_t i = 0; i < stack.size(); ++i)
   {
-    const Ring ring = this->Mesh.Rings[this->Stack[i]];
+    const Ring ring = this->Mesh.Rings[stack[i]];
     ends += ring.Count;
-    ++vertices;
     for (int k = 0; k < ring.Count; ++k)
     {
       const int w = ring.Item[k];
       if (this->Component[w] != -1)
       {
         this->Component[w] = -1;
-        this->Stack.push_back(w);
+        stack.push_back(w);
       }
     }
   }
-  for (int w : this->Stack)
+  for (const int w : stack)
   {
     this->RemoveVertex(w);
-    this->Mesh.RemoveVertex(w);
+    this->Mesh.RemoveVertex(w, places);
   }
   // V - E + F with 2 E = 3 F, which is the sum of the valences.
-  const int characteristic = vertices - static_cast<int>(ends / 6);
-  this->EulerCharacteristic -= characteristic;
+  const int vertices = static_cast<int>(stack.size());
+  return { vertices, vertices - static_cast<int>(ends / 6) };
+}
+
+int SurfaceState::RemoveComponent(int v)
+{
+  const RemovedComponent removed = this->TakeComponentAway(v, nullptr);
+  this->EulerCharacteristic -= removed.EulerCharacteristic;
   ++this->Counts.Removed;
-  this->Counts.RemovedGenus += 1 - characteristic / 2;
-  return vertices;
+  this->Counts.RemovedGenus += 1 - removed.EulerCharacteristic / 2;
+  return removed.Vertices;
 }
 }

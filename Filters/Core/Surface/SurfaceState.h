@@ -27,6 +27,17 @@ struct EditCounts
   int Removed = 0; ///< Components deleted.
   int RemovedGenus = 0; ///< Sum of their genera.
 
+  EditCounts operator-(const EditCounts& less) const
+  {
+    EditCounts counts = less;
+    for (int EditCounts::*count : { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits,
+           &EditCounts::Collapses, &EditCounts::Flips, &EditCounts::Removed,
+           &EditCounts::RemovedGenus })
+    {
+      counts.*count = this->*count - less.*count;
+    }
+    return counts;
+  }
   EditCounts& operator+=(const EditCounts& more)
   {
     this->Merges += more.Merges;
@@ -47,8 +58,9 @@ struct EditCounts
 constexpr float LeastCotangentSum = -0.05f;
 
 /**
- * Longest edge, of the longest legal one, that there is but for a moment, after long edges could not
- * be split: an edge's ends may each be displaced by .5 delta, bridge edges have 1.6 times its length.
+ * Longest edge, of the longest legal one, that there is but for a moment: bridge edges have 1.6 times
+ * its length before they are split. Where a longer one could not be split its ends keep still until
+ * it is, so that what a visit reads and writes is bounded (SurfaceBlocks).
  */
 constexpr float HugeEdge = 1.6f;
 
@@ -63,6 +75,17 @@ enum RemeshFlag : std::uint8_t
 
 /** In the place of a block: of a vertex that is new. */
 constexpr int NoBlock = -1;
+
+/** What the steps of a visit note about a vertex for each other; no bit is set between visits. */
+enum VertexMark : std::uint8_t
+{
+  IsWorking = 1,  ///< SurfaceIteration: it may have moved, or a neighbour has.
+  IsListed = 2,   ///< Proximity: it is being examined.
+  HasMoved = 4,   ///< Dynamics: visibly.
+  IsMoving = 32,  ///< Dynamics: it is about to.
+  IsSeen = 8,     ///< ComponentWatch.
+  IsOfLarge = 16  ///< ComponentWatch: seen, and of a component that is not small.
+};
 
 /**
  * The live surface: mesh, grid of its vertices, and what each of these knows. Its vertex properties
@@ -79,9 +102,7 @@ public:
   SizingField Sizing;
   ImageMargin Margin; ///< Of the level: no vertex is moved further out.
   int EulerCharacteristic = 0; ///< Kept by the edits; tests hold it against a count.
-  EditCounts Counts;
-  /** No edge is longer than HugeEdge or this, which Remesher::Split sets where it must. */
-  float LongestEdge = 0;
+  EditCounts Counts;           ///< Of edits that no visit (EditShare) keeps for itself.
 
   // Motion: Dynamics. An edit gives a vertex the mean of those that it comes of.
   VertexProperty<Vector> Velocity{ this->Properties, Vector() };
@@ -113,12 +134,14 @@ public:
 
   // Proximity.
   /** Way its star has gone since it was last examined; NotExamined makes it be. */
-  VertexProperty<float> Drift{ this->Properties, 0.f, NotExamined };
+  VertexProperty<float> Drift{ this->Properties, NotExamined, NotExamined };
   VertexProperty<float> Slack{ this->Properties, 0.f, 0.f }; ///< Room it had then, see Proximity.
   /** Little of that would be used up in an iteration like the last. */
   VertexProperty<std::uint8_t> IsSlow{ this->Properties, 1, 0 };
   /** Something that is not the smooth surface about it lies within reach. */
   VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
+
+  VertexProperty<std::uint8_t> Marks{ this->Properties, 0, 0 }; ///< Bits of VertexMark.
 
   VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.
   /** Where the surface is worked on block by block: SurfaceBlocks. */
@@ -134,8 +157,6 @@ public:
   void Prefetch(int first, int last) const;
   /** SurfaceMesh::AddUnusedPlaces, with room for what their vertices will know. */
   UnusedPlaces AddUnusedPlaces(int n);
-  /** Gives n free places away, with room for what their vertices will know. */
-  void Lend(VertexPlaces& places, std::size_t n);
   /**
    * Forgets all vertices and lays the grid; there is room for n, without memory, of which so many
    * are said to be vertices (some are on other ranks).
@@ -180,7 +201,18 @@ public:
   void UpdateShape(const std::vector<int>& vertices, Executor& executor);
   void UpdateShape(int v);
 
-  /** Deletes the whole component of a vertex. @return the number of vertices removed. */
+  /** What removing a component has changed. */
+  struct RemovedComponent
+  {
+    int Vertices = 0;
+    int EulerCharacteristic = 0;
+  };
+  /**
+   * Deletes the whole component of a vertex; the caller keeps the books.
+   * @param places where the indices go; null: to the mesh's own
+   */
+  RemovedComponent TakeComponentAway(int v, VertexPlaces* places);
+  /** The same where nothing else is at work: counts and chi are kept. @return the vertices removed. */
   int RemoveComponent(int v);
 
   /**
@@ -194,8 +226,6 @@ public:
 
 private:
   std::vector<int> ReadConnectivity(MessageReader& message);
-
-  std::vector<int> Stack;
 };
 }
 

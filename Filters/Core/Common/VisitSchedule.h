@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicVisitSchedule_h
+#define volumicVisitSchedule_h
+
+#include "Core/Common/Executor.h"
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Items that are visited once each, where some touch: those that do are visited one after the other,
+ * in a fixed order, all others at the same time. What comes of it is what one thread alone would
+ * make, visiting them in that order.
+ *
+ * Nothing waits for more than what it touches: a thread takes the first item, in the order, all of
+ * whose earlier neighbours have been visited.
+ */
+class VisitSchedule
+{
+public:
+  /**
+   * @param order      all items, from 0, in the order of their visits
+   * @param neighbours of an item: those that it touches, without itself; it touches them, too
+   */
+  VisitSchedule(
+    std::vector<int> order, const std::function<std::vector<int>(int item)>& neighbours);
+
+  /** The items in their order. */
+  const std::vector<int>& Order() const { return this->Items; }
+
+  /**
+   * Calls visit(item, place in the order) for all, on the threads of an executor, and returns when
+   * all are done. An exception of a visit ends it; others that are under way are finished first.
+   * @param goOn asked now and then with how many are done, by the calling thread, while none is
+   *             under way; false ends it
+   * @return whether all have been visited
+   */
+  bool Run(Executor& executor, const std::function<void(int item, std::size_t place)>& visit,
+    const std::function<bool(std::size_t done)>& goOn) const;
+
+private:
+  class Progress;
+
+  std::vector<int> Items;
+  std::vector<int> Place;    ///< Of an item in the order.
+  std::vector<int> Earlier;  ///< Of an item: how many of those it touches come before it.
+  std::vector<std::vector<int>> Later; ///< Of an item: those that it touches and that come after.
+};
+}
+
+#endif

@@ -1,0 +1,424 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How a surface is worked on: in visits of blocks, see SurfaceBlocks, and in sums over blocks.
+
+#include "Core/Common/Blocks.h"
+#include "Core/Common/ScratchMemory.h"
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Mesh/SurfaceMeasures.h"
+#include "Core/Surface/SurfacePolish.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+/** Iterations in a block before the next one is visited: those between two looks at the volume. */
+constexpr int SweptIterations = RestCriterion::Interval;
+/** Sweeps of the regularisation, and passes in each block. */
+constexpr int RegularisingSweeps = 3;
+constexpr int SweptPasses = 4;
+/** Way in a pass, in delta, under which a vertex is left where it is. */
+constexpr float SmallestMove = 0.015f;
+/** Sweeps between two looks for components that are inside out. */
+constexpr int InsideOutSweeps = 2;
+
+void Add(HistoryRow& to, const HistoryRow& row)
+{
+  to.ActiveVertices += row.ActiveVertices;
+  to.TimeStep = std::max(to.TimeStep, row.TimeStep);
+  for (std::size_t i = 0; i < to.Phases.size(); ++i)
+  {
+    to.Phases[i].Seconds += row.Phases[i].Seconds;
+  }
+}
+
+void Add(HistoryRow& to, const EditCounts& counts)
+{
+  to.Merges += counts.Merges;
+  to.Cuts += counts.Cuts;
+  to.Splits += counts.Splits;
+  to.Collapses += counts.Collapses;
+  to.Flips += counts.Flips;
+  to.Deletions += counts.Removed;
+  to.DeletedGenus += counts.RemovedGenus;
+}
+}
+
+SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
+{
+  const LevelImage& image = this->TheField->Image();
+  std::array<double, 3> extent;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    extent[axis] = image.Size[axis] * image.Step[axis];
+  }
+  return SurfaceBlocks::FrameOf(
+    extent, SurfaceBlocks::SideInDelta * this->State.Sizing.Largest());
+}
+
+void SurfaceEvolution::Implementation::MakeBlocks()
+{
+  this->Blocks.reset(); // Its places are anyone's again.
+  this->Blocks =
+    std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
+}
+
+void SurfaceEvolution::Implementation::AddPlaces()
+{
+  if (this->OnRanks)
+  {
+    this->OnRanks->AddPlaces();
+    return;
+  }
+  std::vector<int> counts(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()));
+  ForBlocks(this->Threads, counts.size(), 1,
+    [&](std::size_t block, std::size_t, std::size_t)
+    { counts[block] = this->Blocks->MissingPlaces(static_cast<int>(block)); });
+  this->Blocks->AddPlaces(counts);
+}
+
+SurfaceIteration& SurfaceEvolution::Implementation::TakeIteration()
+{
+  const std::lock_guard<std::mutex> lock(this->Handing);
+  if (this->Idle.empty())
+  {
+    this->Iterations.push_back(std::make_unique<SurfaceIteration>(this->State));
+    this->Idle.push_back(this->Iterations.back().get());
+  }
+  SurfaceIteration* iteration = this->Idle.back();
+  this->Idle.pop_back();
+  return *iteration;
+}
+
+void SurfaceEvolution::Implementation::VisitBlock(int block, const BlockVisits& visits)
+{
+  if (visits.OnlyActive && !this->Blocks->HasActive(block))
+  {
+    return;
+  }
+  if (HasMemoryLimit())
+  {
+    this->Blocks->Prefetch(block);
+  }
+  SurfaceIteration& iteration = this->TakeIteration();
+  BlockVisit visit = this->Blocks->Open(block);
+  visits.Visit(visit, iteration);
+  const EditCounts counts = visit.Share.Counts;
+  this->Blocks->Close(std::move(visit));
+  const std::lock_guard<std::mutex> lock(this->Handing);
+  this->State.Counts += counts;
+  this->Unchecked += counts.Cuts + (iteration.HasDeleted() ? 1 : 0);
+  this->Idle.push_back(&iteration);
+}
+
+void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
+{
+  this->State.Counts = EditCounts();
+  this->AddPlaces();
+  const auto count = static_cast<std::size_t>(this->Blocks->NumberOfBlocks());
+  this->Visit.Blocks = static_cast<int>(count);
+  const auto goOn = [&](std::size_t done)
+  {
+    const double share = static_cast<double>(done) / static_cast<double>(count);
+    this->Visit.Block = static_cast<int>(done);
+    this->Visit.Iterations = visits.Iterations * share;
+    return !visits.IsAsked ||
+      this->GoOn(visits.Doing, visits.From + share * (visits.To - visits.From));
+  };
+  if (this->OnRanks)
+  {
+    this->VisitBlocksOnRanks(visits, goOn);
+  }
+  else
+  {
+    this->Blocks->Schedule().Run(
+      this->Threads, [&](int block, std::size_t) { this->VisitBlock(block, visits); }, goOn);
+  }
+  this->Visit.Block = 0;
+  this->Visit.Iterations = 0.;
+  this->Threads.EndPhase("Visits");
+}
+
+double SurfaceEvolution::Implementation::KineticEnergy(const SurfaceIteration& iteration) const
+{
+  const SurfaceState& s = this->State;
+  double sum = 0;
+  for (const int v : iteration.ActiveVertices())
+  {
+    const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
+    sum += 0.5 * speed * speed;
+  }
+  return sum;
+}
+
+void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
+  SurfaceIteration& iteration, const Dynamics& dynamics, std::vector<SweptRow>& rows)
+{
+  const Field* evidence = this->Options.IsopotentialWeight > 0 ? this->TheField.get() : nullptr;
+  Remesher remesher(this->State, evidence, this->Options.TopologyChanges, &visit.Share);
+  iteration.BeginVisit(visit);
+  std::vector<SweptRow> own(rows.size());
+  for (std::size_t i = 0; i < own.size(); ++i)
+  {
+    const int places = visit.Share.NumberOfPlaces();
+    const int characteristic = visit.Share.EulerCharacteristic;
+    const EditCounts counts = visit.Share.Counts;
+    iteration.Run(own[i].Row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
+    this->Blocks->AddNew(visit, iteration.WorkingVertices());
+    rows[i].KineticEnergy[static_cast<std::size_t>(visit.Block)] = this->KineticEnergy(iteration);
+    own[i].Counts = visit.Share.Counts - counts;
+    own[i].Vertices = places - visit.Share.NumberOfPlaces();
+    own[i].EulerCharacteristic = visit.Share.EulerCharacteristic - characteristic;
+  }
+  iteration.EndVisit();
+  const std::lock_guard<std::mutex> lock(this->Handing);
+  for (std::size_t i = 0; i < own.size(); ++i)
+  {
+    Add(rows[i].Row, own[i].Row);
+    Add(rows[i].Row, own[i].Counts);
+    rows[i].Vertices += own[i].Vertices;
+    rows[i].EulerCharacteristic += own[i].EulerCharacteristic;
+  }
+}
+
+double SurfaceEvolution::Implementation::SumOfBlocksOf(
+  const std::function<double(int v)>& ofVertex) const
+{
+  const auto isOwn = [this](int block) { return !this->OnRanks || this->OnRanks->IsOwn(block); };
+  const std::vector<double> sums = this->Blocks->Sums(isOwn, ofVertex, this->Threads);
+  return this->OnRanks ? this->OnRanks->AddUp(sums) : std::accumulate(sums.begin(), sums.end(), 0.);
+}
+
+double SurfaceEvolution::Implementation::Area()
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  return this->SumOfBlocksOf([&mesh](int v) { return AreaShare(mesh, v); });
+}
+
+double SurfaceEvolution::Implementation::Volume()
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const Vector origin = this->Blocks->GetFrame().Low;
+  return this->SumOfBlocksOf(
+    [&mesh, origin](int v)
+    {
+      SignedVolume share(origin);
+      share.Add(mesh, v);
+      return share.Value();
+    });
+}
+
+void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
+{
+  SurfaceState& s = this->State;
+  const int iterations =
+    std::min(SweptIterations, this->Options.MaximumNumberOfIterations - this->LastIterations);
+  std::vector<SweptRow> rows(static_cast<std::size_t>(iterations));
+  for (SweptRow& row : rows)
+  {
+    row.KineticEnergy.assign(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 0.);
+  }
+  this->BeginRow(rows.front().Row);
+  const int vertices = s.Mesh.NumberOfVertices();
+  const int characteristic = s.EulerCharacteristic;
+  ++this->Visit.Sweep;
+  BlockVisits visits;
+  visits.Iterations = iterations;
+  visits.Visit = [&](BlockVisit& visit, SurfaceIteration& iteration)
+  { this->VisitToEvolve(visit, iteration, dynamics, rows); };
+  this->VisitBlocks(visits);
+  this->AddUpRows(rows);
+
+  const bool hasChanged =
+    s.Counts.Merges + s.Counts.Cuts + s.Counts.Removed > 0 || this->Visit.Sweep == 1;
+  s.Counts = EditCounts();
+  const int before = s.Mesh.NumberOfVertices();
+  const int characteristicBefore = s.EulerCharacteristic;
+  if (this->IsOnAnyRank(hasChanged))
+  {
+    this->LabelComponents();
+  }
+  if (this->Visit.Sweep % InsideOutSweeps == 0 && this->IsOnAnyRank(this->Unchecked > 0))
+  {
+    this->DeleteThoseInsideOut();
+  }
+  Add(rows.back().Row, s.Counts);
+  rows.back().Vertices += s.Mesh.NumberOfVertices() - before;
+  rows.back().EulerCharacteristic += s.EulerCharacteristic - characteristicBefore;
+  this->Threads.EndPhase("Components");
+  this->KeepSweptRows(rows, vertices, characteristic);
+}
+
+void SurfaceEvolution::Implementation::KeepSweptRows(
+  std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic)
+{
+  // As if all blocks had been in the same iteration: what has changed in each, added up. The
+  // threads' seconds are shared out as they were spent.
+  const double meanEdge = this->MeanEdgeLength();
+  const double seconds = this->Lap();
+  double spent = 0.;
+  this->Visit.Active = rows.back().Row.ActiveVertices;
+  for (const SweptRow& swept : rows)
+  {
+    for (const PhaseTime& phase : swept.Row.Phases)
+    {
+      spent += phase.Seconds;
+    }
+  }
+  for (SweptRow& swept : rows)
+  {
+    HistoryRow& row = swept.Row;
+    vertices += swept.Vertices;
+    eulerCharacteristic += swept.EulerCharacteristic;
+    row.Iteration = static_cast<int>(this->Rows.size()) + 1;
+    row.Level = this->Level;
+    row.Vertices = row.IterationVertices = vertices;
+    row.EulerCharacteristic = row.IterationEulerCharacteristic = eulerCharacteristic;
+    row.Components = row.IterationComponents = this->Watch.NumberOfComponents();
+    row.MeanEdgeLength = row.IterationMeanEdgeLength = meanEdge;
+    row.KineticEnergy =
+      std::accumulate(swept.KineticEnergy.begin(), swept.KineticEnergy.end(), 0.) /
+      std::max(vertices, 1);
+    row.Seconds = seconds / static_cast<double>(rows.size());
+    for (PhaseTime& phase : row.Phases)
+    {
+      phase.Seconds *= spent > 0. ? seconds / spent : 0.;
+    }
+    this->KeepRow(row);
+  }
+}
+
+void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
+  const Dynamics& dynamics, int iterations, Monitor::Activity doing, double from, double to)
+{
+  BlockVisits visits;
+  visits.OnlyActive = true;
+  visits.Doing = doing;
+  visits.From = from;
+  visits.To = to;
+  visits.Visit = [&](BlockVisit& visit, SurfaceIteration& iteration)
+  {
+    SurfaceState& s = this->State;
+    Remesher remesher(s, this->TheField.get(), false, &visit.Share);
+    iteration.BeginVisit(visit);
+    for (int i = 0; i < iterations; ++i)
+    {
+      for (const int v : visit.Vertices)
+      {
+        s.Disturbed[v] = 0;
+      }
+      HistoryRow row;
+      iteration.Run(row, dynamics, remesher, mode);
+      this->Blocks->AddNew(visit, iteration.WorkingVertices());
+      if (mode == SurfaceIteration::Mode::Regularise)
+      {
+        this->KeepActiveIfMoving(iteration); // Also beyond the block, for the visits to come.
+      }
+    }
+    for (const int v : visit.Vertices)
+    {
+      s.Velocity[v] = Vector();
+    }
+    iteration.EndVisit();
+  };
+  this->VisitBlocks(visits);
+  this->SinceEvolved.Cuts += this->State.Counts.Cuts;
+  this->SinceEvolved.Removed += this->State.Counts.Removed;
+}
+
+void SurfaceEvolution::Implementation::KeepActiveIfMoving(const SurfaceIteration& iteration)
+{
+  // What went some way in the last pass stays active, with its neighbours, and what was edited.
+  SurfaceState& s = this->State;
+  const auto moves = [&s](int v)
+  {
+    const float least = SmallestMove * s.Sizing.At(v);
+    return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
+  };
+  const std::vector<int>& last = iteration.ActiveVertices();
+  for (const int v : last)
+  {
+    s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves(v));
+  }
+  for (const int v : last)
+  {
+    if (moves(v))
+    {
+      const Ring& ring = s.Mesh.Rings[v];
+      std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.Active[w] = 1; });
+    }
+  }
+}
+
+void SurfaceEvolution::Implementation::RunPasses(const Dynamics& dynamics)
+{
+  for (int sweep = 0; sweep < RegularisingSweeps && !this->Stopped; ++sweep)
+  {
+    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, SweptPasses,
+      Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
+      PassesShare * (sweep + 1) / RegularisingSweeps);
+  }
+}
+
+void SurfaceEvolution::Implementation::Polish(const std::function<bool(int v)>& isWanted)
+{
+  SurfaceState& s = this->State;
+  if (this->Stopped)
+  {
+    return;
+  }
+  BlockVisits visits;
+  visits.OnlyActive = false;
+  visits.Doing = Monitor::Activity::Regularising;
+  visits.From = PassesShare;
+  visits.Visit = [&](BlockVisit& visit, SurfaceIteration&)
+  {
+    std::vector<int> wanted;
+    std::copy_if(
+      visit.Vertices.begin(), visit.Vertices.end(), std::back_inserter(wanted), isWanted);
+    SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
+      this->Options.TopologyChanges, &visit.Share);
+    polish.Run(wanted);
+    std::vector<int> changed = polish.TakeChanged();
+    this->Blocks->AddNew(visit, changed);
+    SurfaceIteration::UpdateChanged(s, std::move(changed));
+  };
+  this->VisitBlocks(visits);
+  const bool hasCut = this->IsOnAnyRank(s.Counts.Cuts > 0);
+  this->SinceEvolved.Cuts += s.Counts.Cuts;
+  s.Counts = EditCounts();
+  if (hasCut)
+  {
+    this->LabelComponents();
+    this->DeleteDegenerate();
+    this->SinceEvolved.Removed += this->IsFirstRank() ? s.Counts.Removed : 0;
+  }
+}
+
+void SurfaceEvolution::Implementation::SplitLongEdges()
+{
+  // Verification relies on it that no edge is longer than the constraints allow.
+  BlockVisits visits;
+  visits.OnlyActive = false;
+  visits.IsAsked = false;
+  visits.Visit = [this](BlockVisit& visit, SurfaceIteration&)
+  {
+    Remesher remesher(this->State, nullptr, false, &visit.Share);
+    std::vector<int> vertices = visit.Vertices;
+    remesher.Split(vertices);
+    this->Blocks->AddNew(visit, vertices);
+    SurfaceIteration::UpdateChanged(this->State, remesher.TakeChanged());
+  };
+  this->VisitBlocks(visits);
+  this->Threads.EndPhase("Long edges");
+}
+}
