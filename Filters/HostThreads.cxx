@@ -204,6 +204,12 @@ void HostThreads::Share(
   guarded.Rethrow();
 }
 
+bool HostThreads::MakeVisits(
+  const VisitSchedule& schedule, const std::function<void(int, std::size_t)>& visit)
+{
+  return this->Instead && this->Instead->MakeVisits(schedule, visit);
+}
+
 void HostThreads::EndPhase(const char* name)
 {
   if (this->Instead)

@@ -45,6 +45,8 @@ public:
    */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
+  bool MakeVisits(const VisitSchedule& schedule,
+    const std::function<void(int item, std::size_t place)>& visit) override;
   void EndPhase(const char* name) override;
 
 private:

@@ -18,9 +18,16 @@ SurfaceSnapshots::SurfaceSnapshots(int interval, const Workspace& space)
 
 void SurfaceSnapshots::TakeIfDue(
   const SurfaceEvolution& evolution, int level, double unit, int iteration,
-  SegmentationResults& results, Executor& threads) const
+  SegmentationResults& results, Executor& threads)
 {
-  if (this->Interval == 0 || iteration % this->Interval != 0)
+  if (this->Interval == 0)
+  {
+    return;
+  }
+  // Iterations come in sweeps: the end of that in which one is due.
+  const bool isDue = iteration == 0 || iteration / this->Interval > this->Last / this->Interval;
+  this->Last = iteration;
+  if (!isDue)
   {
     return;
   }

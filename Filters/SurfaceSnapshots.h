@@ -17,7 +17,8 @@ class SurfaceSnapshots
 {
 public:
   /**
-   * @param interval iterations from one to the next; 0: none is kept
+   * @param interval iterations from one to the next, each at the end of the sweep in which it is
+   *                 due; 0: none is kept
    * @param space    must outlive the object
    */
   SurfaceSnapshots(int interval, const Workspace& space);
@@ -29,10 +30,11 @@ public:
    * @param iteration of this level, 0 at its start
    */
   void TakeIfDue(const SurfaceEvolution& evolution, int level, double unit, int iteration,
-    SegmentationResults& results, Executor& threads) const;
+    SegmentationResults& results, Executor& threads);
 
 private:
   int Interval;
+  int Last = 0; ///< Iteration that was looked at, of the level.
   const Workspace& Space;
 };
 }

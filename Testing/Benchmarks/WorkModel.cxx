@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <queue>
+#include <utility>
 
 namespace volumic
 {
@@ -69,6 +70,47 @@ double ScheduledSeconds(const std::vector<double>& chunks, int threads, double s
     last = std::max(last, end);
   }
   return last;
+}
+
+double ScheduledSeconds(const VisitSchedule& schedule, const std::vector<double>& visits,
+  int threads, double secondsOfVisit)
+{
+  const std::vector<int>& order = schedule.Order();
+  std::vector<int> placeOf(order.size());
+  std::vector<int> waits(order.size());
+  std::priority_queue<int, std::vector<int>, std::greater<int>> ready; // Places in the order.
+  for (std::size_t place = 0; place < order.size(); ++place)
+  {
+    placeOf[order[place]] = static_cast<int>(place);
+    waits[order[place]] = schedule.NumberOfEarlier(order[place]);
+    if (waits[order[place]] == 0)
+    {
+      ready.push(static_cast<int>(place));
+    }
+  }
+  using End = std::pair<double, int>; // Of a visit under way, and its item.
+  std::priority_queue<End, std::vector<End>, std::greater<End>> underWay;
+  double now = 0.0;
+  while (!ready.empty() || !underWay.empty())
+  {
+    while (!ready.empty() && static_cast<int>(underWay.size()) < threads)
+    {
+      const int item = order[ready.top()];
+      ready.pop();
+      underWay.push({ now + visits[item] + secondsOfVisit, item });
+    }
+    now = underWay.top().first;
+    const int done = underWay.top().second;
+    underWay.pop();
+    for (const int later : schedule.LaterThan(done))
+    {
+      if (--waits[later] == 0)
+      {
+        ready.push(placeOf[later]);
+      }
+    }
+  }
+  return now;
 }
 
 std::vector<double> JoinedChunks(
@@ -168,6 +210,35 @@ void WorkModel::For(
         this->Overhead.SecondsOfChunk);
   }
   this->Mark = Now(); // The reckoning does not count.
+}
+
+bool WorkModel::MakeVisits(
+  const VisitSchedule& schedule, const std::function<void(int, std::size_t)>& visit)
+{
+  this->Present.Serial += std::max(0.0, Now() - this->Mark - this->ClockSeconds);
+  std::vector<double> seconds(schedule.Order().size(), 0.0);
+  {
+    const Inside inside(this->IsInside);
+    double last = Now();
+    for (std::size_t place = 0; place < seconds.size(); ++place)
+    {
+      const int item = schedule.Order()[place];
+      visit(item, place);
+      const double now = Now();
+      seconds[item] = std::max(0.0, now - last - this->ClockSeconds);
+      this->Present.Parallel += seconds[item];
+      last = now;
+    }
+  }
+  this->Present.Calls += 1.0;
+  this->Present.Chunks += static_cast<double>(seconds.size());
+  for (std::size_t i = 0; i < ModelledThreads.size(); ++i)
+  {
+    this->Present.Scheduled[i] += this->Overhead.SecondsOfCall +
+      ScheduledSeconds(schedule, seconds, ModelledThreads[i], this->Overhead.SecondsOfChunk);
+  }
+  this->Mark = Now(); // The reckoning does not count.
+  return true;
 }
 
 void WorkModel::EndPhase(const char* name)

@@ -7,6 +7,7 @@
 #define volumicWorkModel_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/VisitSchedule.h"
 
 #include <array>
 #include <cstddef>
@@ -33,6 +34,10 @@ struct ThreadOverhead
     order (list scheduling), with the time of a chunk beside its work. */
 double ScheduledSeconds(
   const std::vector<double>& chunks, int threads, double secondsOfChunk = 0.0);
+
+/** The same for visits, of which a schedule tells what waits for what; seconds by item. */
+double ScheduledSeconds(const VisitSchedule& schedule, const std::vector<double>& visits,
+  int threads, double secondsOfVisit = 0.0);
 
 /** Chunks of `size` items made of finer ones of `fine` items each (the last one may have less). */
 std::vector<double> JoinedChunks(
@@ -75,6 +80,9 @@ public:
 
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) override;
+  /** In their order; each then begins when what it waits for is done and a thread is free. */
+  bool MakeVisits(const VisitSchedule& schedule,
+    const std::function<void(int item, std::size_t place)>& visit) override;
   void EndPhase(const char* name) override;
 
   /** In the order in which they ended first. */

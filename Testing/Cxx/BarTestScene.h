@@ -39,6 +39,39 @@ inline TestVolume CoarseBars()
   coarse.Image.Unit = std::sqrt(3.);
   return coarse;
 }
+
+/** A plate of such bars, 44 x 112 x 112 units wide, at voxels so many units apart. */
+inline TestVolume Plate(double unit)
+{
+  constexpr int Width = 44;
+  constexpr int Length = 112;
+  const auto count = [unit](int n) { return static_cast<int>(std::lround(n / unit)); };
+  TestVolume volume;
+  LevelImage& image = volume.Image;
+  image.Size = { count(Width), count(Length), count(Length) };
+  for (int k = 0; k < image.Size[2]; ++k)
+  {
+    for (int j = 0; j < image.Size[1]; ++j)
+    {
+      for (int i = 0; i < image.Size[0]; ++i)
+      {
+        const double x = i * unit;
+        const double y = j * unit;
+        const double z = k * unit;
+        const double outside = std::max({ std::abs(x - 0.5 * Width) - 0.5 * Width,
+          std::abs(y - 0.5 * Length) - 0.5 * Length, std::abs(z - 0.5 * Length) - 0.5 * Length });
+        const auto inside = [](double t) { return 24. + std::remainder(t - 24., 28.); };
+        const double bars = Bars(inside(x), inside(y), inside(z));
+        volume.Values.push_back(
+          static_cast<float>(Soft(std::max(bars, outside + 4.) / unit)));
+      }
+    }
+  }
+  image.Values = volume.Values.data();
+  image.Step = { unit, unit, unit };
+  image.Unit = unit;
+  return volume;
+}
 }
 
 #endif

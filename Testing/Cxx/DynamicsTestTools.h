@@ -58,18 +58,20 @@ struct Stage
   double Push(const std::vector<Proximity::ClosePair>& pairs = {})
   {
     const Field field(this->Volume.Image, this->Options, this->Threads);
-    Dynamics dynamics(field, this->Options, this->Threads);
-    dynamics.Accelerate(this->State, this->All, pairs);
-    dynamics.Displace(this->State, this->All);
-    return dynamics.TimeStep();
+    const Dynamics dynamics(field, this->Options, this->Threads);
+    Dynamics::Step step;
+    dynamics.Accelerate(this->State, this->All, pairs, step);
+    dynamics.Displace(this->State, this->All, step);
+    return step.Time;
   }
 
   /** A pass of smoothing: velocities only. */
   void Relax(bool snap, const std::vector<Proximity::ClosePair>& pairs = {})
   {
     const Field field(this->Volume.Image, this->Options, this->Threads);
-    Dynamics dynamics(field, this->Options, this->Threads);
-    dynamics.Relax(this->State, this->All, pairs, snap);
+    const Dynamics dynamics(field, this->Options, this->Threads);
+    Dynamics::Step step;
+    dynamics.Relax(this->State, this->All, pairs, snap, step);
   }
 
   Vector OutwardAt(int v) const

@@ -128,14 +128,15 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
   EXPECT_GE(questions(1, Activity::Starting), 1);
   EXPECT_GE(questions(0, Activity::Dividing), 1);
   EXPECT_GE(questions(0, Activity::Recovering), 7) << "objects and cavities, and the end";
-  EXPECT_EQ(questions(0, Activity::Iterating), 2 * evolution.Iterations()) << "within and after";
-  EXPECT_GE(questions(0, Activity::Regularising), 15) << "passes and polish";
+  EXPECT_GE(questions(0, Activity::Iterating), 2 * evolution.Iterations() / 5)
+    << "a visit, and after the sweep";
+  EXPECT_GE(questions(0, Activity::Regularising), 4) << "passes and polish";
 
   // Now stopped at each of these questions, but only at some of the many after iterations.
   for (const auto& [where, count] : silent.Questions)
   {
     const bool isIterating = where.second == Activity::Iterating;
-    for (int question = 1; question <= count; question += isIterating ? 47 : 1)
+    for (int question = 1; question <= count; question += isIterating ? 5 : 1)
     {
       SCOPED_TRACE("level " + std::to_string(where.first) + ", activity " +
         std::to_string(static_cast<int>(where.second)) + ", question " + std::to_string(question));

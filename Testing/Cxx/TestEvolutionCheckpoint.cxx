@@ -60,11 +60,10 @@ SurfaceOptions Options()
   return options;
 }
 
-SurfaceOptions InSweeps()
+SurfaceOptions InSmallBlocks()
 {
   SurfaceOptions options = Options();
-  options.Sweeps.MostVoxels = 1000;
-  options.Sweeps.BlockSide = 12.;
+  options.BlockSide = 12.;
   return options;
 }
 
@@ -160,7 +159,7 @@ TEST(EvolutionCheckpoint, GoesOnAsIfNothingHadHappened)
 
 TEST(EvolutionCheckpoint, GoesOnInSweepsAlike)
 {
-  ExpectSameByWayOfFiles(InSweeps(), Scene());
+  ExpectSameByWayOfFiles(InSmallBlocks(), Scene());
 }
 
 TEST(EvolutionCheckpoint, KeepsTheFreePlacesWhereALevelNeedsNoDivision)

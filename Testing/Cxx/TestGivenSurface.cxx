@@ -331,7 +331,7 @@ TEST(Remesher, SplitsLongEdgesBetweenFullRings)
     all.push_back(v);
   }
   state.UpdateShape(all, Threads);
-  Remesher(state, nullptr, false, Threads).Split(all);
+  Remesher(state, nullptr, false).Split(all);
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
   EXPECT_GT(state.Counts.Splits, 1);
   for (int v = 0; v < state.Mesh.Size(); ++v)

@@ -47,7 +47,7 @@ TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
   }
 }
 
-TEST(History, RowsTellTheStateAfterTheirIteration)
+TEST(History, RowsTellTheStateAfterTheirSweep)
 {
   const TestVolume volume = BallVolume(28, 7);
   const SurfaceEvolution* watched = nullptr;
@@ -59,9 +59,9 @@ TEST(History, RowsTellTheStateAfterTheirIteration)
       const SurfaceResult surface = watched->Result();
       const SurfaceFeatures features = ComputeFeatures(surface);
       const HistoryRow& row = watched->History().back();
-      SCOPED_TRACE("iteration " + std::to_string(looks));
-      EXPECT_EQ(row.Iteration, looks);
-      EXPECT_EQ(status.Iteration, looks);
+      SCOPED_TRACE("sweep " + std::to_string(looks));
+      EXPECT_EQ(row.Iteration, 5 * looks);
+      EXPECT_EQ(status.Iteration, 5 * looks);
       EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
       EXPECT_EQ(status.Vertices, row.Vertices);
       EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
@@ -69,14 +69,14 @@ TEST(History, RowsTellTheStateAfterTheirIteration)
       const std::vector<double> lengths = EdgeLengths(surface);
       const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.);
       EXPECT_NEAR(row.MeanEdgeLength, sum / static_cast<double>(lengths.size()), 1e-4);
-      EXPECT_GT(row.TimeStep, 0);
+      EXPECT_TRUE(row.TimeStep > 0 || row.ActiveVertices == 0);
       EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
     });
   SurfaceEvolution evolution(IsoHalf(), Threads, observer);
   watched = &evolution;
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  EXPECT_GT(looks, 20);
+  EXPECT_GT(looks, 5);
 }
 
 TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
@@ -174,13 +174,13 @@ TEST(History, ALevelRestsAsSoonAsItsVolumeDoes)
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const double delta = evolution.Result().Delta;
     // By the words of SurfaceOptions::ConvergenceTolerance.
-    std::size_t expected = 25;
-    for (; expected < volumes.size(); expected += 5)
+    std::size_t expected = 5; // Sweeps of five iterations.
+    for (; expected < volumes.size(); ++expected)
     {
       const double last = volumes[expected - 1];
       const double limit = std::max(delta * delta * delta, tolerance * last);
-      if (std::abs(last - volumes[expected - 11]) < limit &&
-        std::abs(last - volumes[expected - 21]) < limit)
+      if (std::abs(last - volumes[expected - 3]) < limit &&
+        std::abs(last - volumes[expected - 5]) < limit)
       {
         break;
       }

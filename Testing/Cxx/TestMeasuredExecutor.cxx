@@ -125,8 +125,8 @@ TEST(MeasuredExecutor, LetsTheHistoryTellWhatOneThreadDoesAlone)
   EXPECT_LE(sum.Seconds - sum.Serial, executor.SecondsInside() + 1e-9);
   const auto times = [&noting](const char* name)
   { return std::count(noting.Phases.begin(), noting.Phases.end(), name); };
-  EXPECT_GT(times("Forces"), 20);
-  EXPECT_EQ(times("Forces"), times("Proximity") - 1) << "and where the start is examined";
+  EXPECT_GT(times("Visits"), 5);
+  EXPECT_GT(times("Components"), 5);
   EXPECT_GT(times("Regularisation"), 0);
 }
 

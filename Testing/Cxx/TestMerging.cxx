@@ -34,7 +34,7 @@ struct Scene : Bench
       this->Volume = MakeVolume(33, image);
       this->TheField = std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
     }
-    this->Near.Examine(this->State, this->All(), this->Threads);
+    this->Near.Examine(this->State, this->All());
   }
 
   int Merges(bool topologyChanges = true)
@@ -43,7 +43,7 @@ struct Scene : Bench
   }
   int Merges(const std::vector<Proximity::ClosePair>& pairs, bool topologyChanges = true)
   {
-    Remesher(this->State, this->TheField.get(), topologyChanges, Threads).Merge(pairs);
+    Remesher(this->State, this->TheField.get(), topologyChanges).Merge(pairs);
     EXPECT_TRUE(this->IsSound());
     EXPECT_EQ(this->State.Counts.Merges * 2 + this->State.EulerCharacteristic, this->Chi);
     return this->State.Counts.Merges;

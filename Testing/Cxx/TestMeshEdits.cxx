@@ -218,30 +218,33 @@ TEST(SurfaceMesh, UsesThePlacesOfRemovedVerticesAgain)
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
 }
 
-TEST(SurfaceMesh, LendsItsFreePlacesFirst)
+TEST(SurfaceMesh, KeepsPlacesAsideForTheirKeeper)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
   const int size = mesh.Size();
   mesh.RemoveVertex(4);
   mesh.RemoveVertex(9);
   VertexPlaces places;
-  mesh.Lend(places, 3);
-  EXPECT_EQ(mesh.Size(), size + 1); // One more than there were.
+  mesh.PutAside(places);
+  EXPECT_EQ(mesh.NumberOfVertices(), size - 2);
+  const UnusedPlaces unused = mesh.AddUnusedPlaces(3);
+  EXPECT_EQ(unused.Next, size);
+  EXPECT_EQ(mesh.Size(), size + 3);
+  EXPECT_EQ(mesh.NumberOfVertices(), size - 2);
   EXPECT_EQ(mesh.AddVertex(Vector(), &places), 9);
   EXPECT_EQ(mesh.AddVertex(Vector(), &places), 4);
+  mesh.CountOthers(2);
+  EXPECT_EQ(mesh.NumberOfVertices(), size);
   mesh.RemoveVertex(9, &places);
-  EXPECT_EQ(mesh.AddVertex(Vector(), &places), size); // Not one that was removed meanwhile.
-  EXPECT_TRUE(places.Free.empty());
-  mesh.TakeRemoved(places);
+  EXPECT_TRUE(places.Free.empty()) << "not one that was removed meanwhile";
+  places.TakeRemoved();
   EXPECT_TRUE(places.Removed.empty());
-  EXPECT_EQ(mesh.AddVertex(Vector()), 9);
-  // What comes back is there again.
-  mesh.Lend(places, 2);
-  EXPECT_EQ(mesh.Size(), size + 3);
-  mesh.TakeBack(places);
-  EXPECT_EQ(mesh.AddVertex(Vector()), size + 1);
-  EXPECT_EQ(mesh.AddVertex(Vector()), size + 2);
-  EXPECT_EQ(mesh.Size(), size + 3);
+  EXPECT_EQ(mesh.AddVertex(Vector(), &places), 9);
+  // What comes back is anyone's.
+  mesh.FreeFromAside(places, unused);
+  EXPECT_EQ(mesh.FreePlaces().size(), 3u);
+  EXPECT_EQ(mesh.AddVertex(Vector()), size);
+  EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
 }
 
 TEST(SurfaceMeshInvalid, RefusesAnOpenSurface)

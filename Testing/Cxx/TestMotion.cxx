@@ -104,18 +104,19 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
     Stage stage(12.);
     stage.Options.MaximumStep = largest;
     const Field field(stage.Volume.Image, stage.Options, stage.Threads);
-    Dynamics dynamics(field, stage.Options, stage.Threads);
-    dynamics.Accelerate(stage.State, stage.All, {});
+    const Dynamics dynamics(field, stage.Options, stage.Threads);
+    Dynamics::Step step;
+    dynamics.Accelerate(stage.State, stage.All, {}, step);
     stage.State.Velocity[3] *= 100.f;
     stage.State.Velocity[4] *= 0.1f;
     const LargeVector<Vector> before = stage.State.Mesh.Position;
     stage.State.PreviousPosition.Fill(Vector()); // Of long ago.
-    dynamics.Displace(stage.State, stage.All);
+    dynamics.Displace(stage.State, stage.All, step);
     for (int v : stage.All)
     {
       const Vector way = stage.State.Mesh.Position[v] - before[v];
       const double speed = Length(stage.State.Velocity[v]);
-      EXPECT_NEAR(Length(way), std::min(speed * dynamics.TimeStep(), largest), 1e-5);
+      EXPECT_NEAR(Length(way), std::min(speed * static_cast<double>(step.Time), largest), 1e-5);
       EXPECT_GT(Dot(way, stage.State.Velocity[v]), 0);
       EXPECT_NEAR(stage.State.Displacement[v], Length(way), 1e-5);
       EXPECT_EQ(Length(stage.State.PreviousPosition[v] - before[v]), 0) << "to go back to";

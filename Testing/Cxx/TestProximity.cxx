@@ -145,7 +145,7 @@ TEST(Proximity, FindsNothingOnASmoothSphere)
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
-  proximity.Examine(state, all, Threads);
+  proximity.Examine(state, all);
   EXPECT_TRUE(proximity.Pairs().empty());
   EXPECT_TRUE(proximity.Intersections().empty());
   EXPECT_EQ(
@@ -161,7 +161,7 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
-  proximity.Examine(state, all, Threads);
+  proximity.Examine(state, all);
   std::set<std::pair<int, int>> expected;
   for (int v = 0; v < second; ++v)
   {
@@ -197,7 +197,7 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
     const std::vector<int> all = All(state);
     state.UpdateShape(all, Threads);
     Proximity proximity;
-    proximity.Examine(state, all, Threads);
+    proximity.Examine(state, all);
     const bool intersects = CountSelfIntersections(surface, 1) > 0;
     // The tolerance may find a touch where there is none by less than it; never the other way.
     if (intersects)
@@ -280,7 +280,7 @@ TEST(Proximity, ToldRoomIsThere)
     const std::vector<int> all = All(state);
     state.UpdateShape(all, Threads);
     Proximity proximity;
-    proximity.Examine(state, all, Threads);
+    proximity.Examine(state, all);
     if (!proximity.Intersections().empty())
     {
       continue;
@@ -346,7 +346,7 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
-  proximity.Examine(state, all, Threads);
+  proximity.Examine(state, all);
   const std::size_t pairs = proximity.Pairs().size();
   ASSERT_GT(pairs, 3u);
   for (const Proximity::ClosePair& pair : proximity.Pairs())
@@ -355,9 +355,9 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
     EXPECT_EQ(state.NearOthers[pair.W], 1);
     EXPECT_NE(pair.V < second, pair.W < second) << "never neighbours along the surface";
   }
-  proximity.Examine(state, { 0 }, Threads);
+  proximity.Examine(state, { 0 });
   EXPECT_EQ(proximity.Pairs().size(), pairs);
-  proximity.Examine(state, all, Threads);
+  proximity.Examine(state, all);
   EXPECT_EQ(proximity.Pairs().size(), pairs);
 }
 
@@ -374,7 +374,7 @@ TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
   state.UpdateShape(All(state), Threads);
   ASSERT_TRUE(state.AreOpposed(0, 2));
   Proximity proximity;
-  proximity.Examine(state, All(state), Threads);
+  proximity.Examine(state, All(state));
   EXPECT_TRUE(proximity.Pairs().empty());
   EXPECT_EQ(state.NearOthers[0], 1) << "though something else is near";
 }
@@ -393,7 +393,7 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
   state.UpdateShape(all, Threads);
   ASSERT_GT(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0);
   Proximity proximity;
-  proximity.Examine(state, all, Threads);
+  proximity.Examine(state, all);
   EXPECT_FALSE(proximity.Intersections().empty());
   for (const Proximity::FacePair& pair : proximity.Intersections())
   {

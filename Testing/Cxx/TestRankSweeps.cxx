@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A level in sweeps over blocks that belong to several ranks: the same bits as on one.
+// A level whose blocks belong to several ranks: the same bits as on one.
 #include "BarTestScene.h"
 #include "Core/Common/StandardThreads.h"
 #include "EvolutionTestTools.h"
@@ -17,44 +17,9 @@ using namespace volumic;
 
 namespace
 {
-constexpr int Width = 44;
-constexpr int Length = 112;
-
-/** The bars of BarTestScene.h in a plate, at voxels so many units apart. */
-TestVolume Plate(double unit)
-{
-  const auto count = [unit](int n) { return static_cast<int>(std::lround(n / unit)); };
-  TestVolume volume;
-  LevelImage& image = volume.Image;
-  image.Size = { count(Width), count(Length), count(Length) };
-  for (int k = 0; k < image.Size[2]; ++k)
-  {
-    for (int j = 0; j < image.Size[1]; ++j)
-    {
-      for (int i = 0; i < image.Size[0]; ++i)
-      {
-        const double x = i * unit;
-        const double y = j * unit;
-        const double z = k * unit;
-        const double outside = std::max({ std::abs(x - 0.5 * Width) - 0.5 * Width,
-          std::abs(y - 0.5 * Length) - 0.5 * Length, std::abs(z - 0.5 * Length) - 0.5 * Length });
-        const auto inside = [](double t) { return 24. + std::remainder(t - 24., 28.); };
-        const double bars = Bars(inside(x), inside(y), inside(z));
-        volume.Values.push_back(
-          static_cast<float>(Soft(std::max(bars, outside + 4.) / unit)));
-      }
-    }
-  }
-  image.Values = volume.Values.data();
-  image.Step = { unit, unit, unit };
-  image.Unit = unit;
-  return volume;
-}
-
-SurfaceOptions InBlocks()
+SurfaceOptions ForPlate()
 {
   SurfaceOptions options = IsoHalf();
-  options.Sweeps.BlockSide = 49.;
   options.MaximumNumberOfIterations = 40;
   return options;
 }
@@ -71,7 +36,7 @@ struct RunOnRanks
   {
     const TestVolume coarse = Plate(std::sqrt(3.));
     const TestVolume fine = Plate(1.);
-    options.Sweeps.MostVoxels =
+    options.MostVoxelsOfRank =
       static_cast<std::int64_t>(coarse.Image.Size[0]) * coarse.Image.Size[1] * coarse.Image.Size[2];
     ThreadRanks::Run(count,
       [&](Communicator& ranks)
@@ -158,7 +123,7 @@ TEST(RankSweeps, SumUpContactsInTheOrderOfOneRank)
 {
   // Without merges parts that meet stay in contact: velocities are sums over many close vertices,
   // in the order in which these are found.
-  SurfaceOptions options = InBlocks();
+  SurfaceOptions options = ForPlate();
   options.TopologyChanges = false;
   const RunOnRanks one(1, 1, options);
   EXPECT_GT(one.Surface.Points.size(), 20000u);
@@ -171,20 +136,20 @@ TEST(RankSweeps, SumUpContactsInTheOrderOfOneRank)
 
 TEST(RankSweeps, MakeTheSurfaceOfOneRank)
 {
-  const RunOnRanks one(1, 1, InBlocks());
+  const RunOnRanks one(1, 1, ForPlate());
   EXPECT_GT(one.Surface.Points.size(), 20000u);
   EXPECT_EQ(DescribeBrokenInvariant([&] { SurfaceMesh mesh; mesh.Append(one.Surface); return mesh; }()), "");
   for (const int count : { 2, 3, 4 })
   {
     SCOPED_TRACE(count);
-    ExpectSame(RunOnRanks(count, 1, InBlocks()), one);
+    ExpectSame(RunOnRanks(count, 1, ForPlate()), one);
   }
 }
 
 TEST(RankSweeps, RecoverWhatOneRankRecovers)
 {
   // The coarse level has hardly begun: most of the plate is lost, in the rows of all ranks.
-  SurfaceOptions options = InBlocks();
+  SurfaceOptions options = ForPlate();
   options.MaximumNumberOfIterations = 5;
   options.RecoverCavities = true;
   const RunOnRanks one(1, 1, options, true);

@@ -57,7 +57,7 @@ TEST(Remesher, SplitsUntilNoEdgeIsLongerThanTwoAndAHalfDelta)
   {
     Bench bench(Octahedron(edge));
     std::vector<int> all = bench.All();
-    Remesher(bench.State, nullptr, true, Threads).Split(all);
+    Remesher(bench.State, nullptr, true).Split(all);
     EXPECT_LE(bench.Longest(), 2.5f) << "from edges of " << edge;
     EXPECT_TRUE(bench.IsSound());
     EXPECT_EQ(bench.State.Counts.Splits, bench.State.Mesh.NumberOfVertices() - 6);
@@ -71,7 +71,7 @@ TEST(Remesher, DoesNotSplitLegalEdges)
 {
   Bench bench(Octahedron(2.49));
   std::vector<int> all = bench.All();
-  Remesher(bench.State, nullptr, true, Threads).Split(all);
+  Remesher(bench.State, nullptr, true).Split(all);
   EXPECT_EQ(bench.State.Counts.Splits, 0);
 }
 
@@ -85,7 +85,7 @@ TEST(Remesher, DoesNotSplitIntoNeedles)
     cap.Triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 0, 2, 3 }, { 2, 1, 3 } };
     Bench bench(cap);
     std::vector<int> all = bench.All();
-    Remesher(bench.State, nullptr, true, Threads).Split(all);
+    Remesher(bench.State, nullptr, true).Split(all);
     EXPECT_EQ(bench.State.Counts.Splits, height > 0.02 ? 1 : 0);
     EXPECT_EQ((bench.State.RemeshFlags[0] & HasLongEdge) != 0, height < 0.02) << "tried again";
   }
@@ -99,7 +99,7 @@ TEST(Remesher, CollapsesEdgesShorterThanDelta)
   bench.MoveTo(w, p + (bench.State.Mesh.Position[w] - p) * 0.4f);
   ASSERT_LT(bench.Shortest(), 1);
   const int before = bench.State.Mesh.NumberOfVertices();
-  Remesher(bench.State, nullptr, true, Threads).Collapse(bench.All());
+  Remesher(bench.State, nullptr, true).Collapse(bench.All());
   EXPECT_EQ(bench.State.Counts.Collapses, before - bench.State.Mesh.NumberOfVertices());
   EXPECT_EQ(bench.State.Counts.Collapses, 1);
   EXPECT_GE(bench.Shortest(), 1);
@@ -112,7 +112,7 @@ TEST(Remesher, LeavesEdgesOfDeltaAndMore)
   ASSERT_GT(bench.Shortest(), 1.f);
   ASSERT_LT(bench.Shortest(), 1.2f);
   bench.State.RemeshFlags.Fill(HasShortEdge);
-  Remesher(bench.State, nullptr, true, Threads).Collapse(bench.All());
+  Remesher(bench.State, nullptr, true).Collapse(bench.All());
   EXPECT_EQ(bench.State.Counts.Collapses, 0);
 }
 
@@ -123,7 +123,7 @@ TEST(Remesher, TakesAwayVerticesOfValenceThreeWithoutMovingOthers)
   const int m = SetIntoAFace(bench.State, 40);
   ASSERT_EQ(bench.State.Mesh.Rings[m].Count, 3);
   bench.UpdateShape();
-  Remesher(bench.State, nullptr, true, Threads).Collapse({ m });
+  Remesher(bench.State, nullptr, true).Collapse({ m });
   EXPECT_FALSE(bench.State.Mesh.IsAlive(m));
   EXPECT_EQ(bench.State.Mesh.NumberOfVertices(), static_cast<int>(before.size()));
   for (std::size_t v = 0; v < before.size(); ++v)
@@ -138,7 +138,7 @@ TEST(Remesher, CutsThroughATubeOfThreeUnlessTheTopologyMustStay)
   {
     Bench bench(MakeTorus({ 0, 0, 0 }, 5, 0.5, 18, 3));
     ASSERT_LT(bench.Shortest(), 1);
-    Remesher(bench.State, nullptr, topologyChanges, Threads).Collapse(bench.All());
+    Remesher(bench.State, nullptr, topologyChanges).Collapse(bench.All());
     if (topologyChanges)
     {
       EXPECT_GT(bench.State.Counts.Cuts, 0);
@@ -157,14 +157,14 @@ TEST(Remesher, FlipsWhatIsNotDelaunayAndNothingElse)
 {
   Bench bench(FineSphere());
   bench.State.RemeshFlags.Fill(IsNotDelaunay);
-  Remesher(bench.State, nullptr, true, Threads).Flip(bench.All());
+  Remesher(bench.State, nullptr, true).Flip(bench.All());
   EXPECT_EQ(bench.State.Counts.Flips, 0) << "all edges are the shorter ones";
   const int u = 40;
   const int v = bench.State.Mesh.Rings[u].Item[0];
   EdgeFlip::Of(bench.State.Mesh, u, v).Apply(bench.State.Mesh);
   ASSERT_FALSE(bench.State.Mesh.AreNeighbours(u, v));
   bench.UpdateShape();
-  Remesher(bench.State, nullptr, true, Threads).Flip(bench.All());
+  Remesher(bench.State, nullptr, true).Flip(bench.All());
   EXPECT_EQ(bench.State.Counts.Flips, 1);
   EXPECT_TRUE(bench.State.Mesh.AreNeighbours(u, v));
   EXPECT_TRUE(bench.IsSound());
@@ -179,7 +179,7 @@ TEST(Remesher, SmoothsWhatIsStuckButNotAtOnce)
     const Vector before = bench.State.Mesh.Position[40];
     bench.State.RollbackCount[40] = static_cast<std::uint8_t>(rollBacks);
     bench.State.Velocity[40] = Vector(1, 0, 0);
-    Remesher(bench.State, nullptr, true, Threads).Unstick(bench.All());
+    Remesher(bench.State, nullptr, true).Unstick(bench.All());
     const double way = Length(bench.State.Mesh.Position[40] - before);
     if (rollBacks < 6)
     {
@@ -203,7 +203,7 @@ TEST(Remesher, EditsActivateWhatTheyChange)
   const Vector p = bench.State.Mesh.Position[40];
   bench.MoveTo(w, p + (bench.State.Mesh.Position[w] - p) * 0.4f);
   bench.State.Active.Fill(0);
-  Remesher(bench.State, nullptr, true, Threads).Collapse(bench.All());
+  Remesher(bench.State, nullptr, true).Collapse(bench.All());
   const SurfaceState& s = bench.State;
   const int kept = s.Mesh.IsAlive(40) ? 40 : w;
   EXPECT_TRUE(s.Active[kept]);

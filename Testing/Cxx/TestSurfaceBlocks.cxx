@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 using namespace volumic;
@@ -60,13 +61,14 @@ SurfaceBlocks::Frame FrameAbout(const SurfaceMesh& mesh, float side)
 std::map<int, int> Visited(SurfaceBlocks& blocks)
 {
   std::map<int, int> visits;
-  for (const int block : blocks.Order())
+  for (const int block : blocks.Schedule().Order())
   {
-    for (const int v : blocks.Open(block))
+    BlockVisit visit = blocks.Open(block);
+    for (const int v : visit.Vertices)
     {
       ++visits[v];
     }
-    blocks.Close();
+    blocks.Close(std::move(visit));
   }
   return visits;
 }
@@ -75,17 +77,17 @@ std::map<int, int> Visited(SurfaceBlocks& blocks)
 int BlockWith(SurfaceBlocks& blocks, int v)
 {
   int found = -1;
-  for (const int block : blocks.Order())
+  for (const int block : blocks.Schedule().Order())
   {
-    const std::vector<int> vertices = blocks.Open(block);
-    for (const int w : vertices)
+    BlockVisit visit = blocks.Open(block);
+    for (const int w : visit.Vertices)
     {
       if (w == v)
       {
         found = found == -1 ? block : -2;
       }
     }
-    blocks.Close();
+    blocks.Close(std::move(visit));
   }
   return found;
 }
@@ -95,7 +97,7 @@ TEST(SurfaceBlocks, HaveEachVertexOnce)
 {
   LiveSurface state(MakeSphere({ 0, 0, 0 }, 20, 1.5));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 9.f), Thread);
-  EXPECT_EQ(blocks.Order().size(), 125u);
+  EXPECT_EQ(blocks.Schedule().Order().size(), 125u);
   const std::map<int, int> visits = Visited(blocks);
   EXPECT_EQ(static_cast<int>(visits.size()), state.Mesh.NumberOfVertices());
   for (const auto& [v, count] : visits)
@@ -108,13 +110,13 @@ TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
 {
   LiveSurface state(Balls(6));
   SurfaceBlocks row(state, FrameAbout(state.Mesh, 10.f), Thread);
-  EXPECT_EQ(row.Order(), (std::vector<int>{ 0, 2, 1, 4, 3, 5 }));
+  EXPECT_EQ(row.Schedule().Order(), (std::vector<int>{ 0, 2, 1, 4, 3, 5 }));
   LiveSurface cube(MakeSphere({ 0, 0, 0 }, 20, 1.5));
   SurfaceBlocks blocks(cube, FrameAbout(cube.Mesh, 9.f), Thread);
   std::vector<int> turn(125);
   for (int i = 0; i < 125; ++i)
   {
-    turn[blocks.Order()[i]] = i;
+    turn[blocks.Schedule().Order()[i]] = i;
   }
   const auto colour = [](int block)
   { return (block % 5 & 1) | (block / 5 % 5 & 1) << 1 | (block / 25 & 1) << 2; };
@@ -136,13 +138,13 @@ TEST(SurfaceBlocks, HandOverWhatLeavesThem)
 {
   LiveSurface state(Balls(4));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  blocks.Open(0);
+  BlockVisit first = blocks.Open(0);
   state.MoveTo(3, Vector(21, 0, 0));
-  blocks.Close();
+  blocks.Close(std::move(first));
   EXPECT_EQ(BlockWith(blocks, 3), 2);
-  blocks.Open(2);
+  BlockVisit last = blocks.Open(2);
   state.MoveTo(3, Vector(-40, 0, 0));
-  blocks.Close();
+  blocks.Close(std::move(last));
   EXPECT_EQ(BlockWith(blocks, 3), 0) << "what is beyond the first is the first's";
 }
 
@@ -150,30 +152,34 @@ TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  SurfaceEditor editor(state);
-  const std::vector<int>& vertices = blocks.Open(1);
-  const std::size_t before = vertices.size();
-  const int v = vertices.front();
-  const int size = state.Mesh.Size();
+  blocks.AddPlaces({ 0, 5, 0 });
+  const int before = state.Mesh.NumberOfVertices();
+  BlockVisit visit = blocks.Open(1);
+  visit.Share.Region = visit.Share.Region.Grown(1000.f);
+  SurfaceEditor editor(state, &visit.Share);
+  const std::size_t given = visit.Vertices.size();
+  const int v = visit.Vertices.front();
   const Edit split = editor.Split(v, state.Mesh.Rings[v].Item[0]);
   ASSERT_TRUE(split.IsDone);
-  blocks.AddNew({ v, split.Vertex, split.Vertex });
-  EXPECT_EQ(vertices.size(), before + 1);
-  EXPECT_EQ(vertices.back(), split.Vertex);
+  blocks.AddNew(visit, { v, split.Vertex, split.Vertex });
+  EXPECT_EQ(visit.Vertices.size(), given + 1);
+  EXPECT_EQ(visit.Vertices.back(), split.Vertex);
   // The place of an old one that is removed and used again is still in the list, once.
-  const int old = vertices[before / 2];
+  const int old = visit.Vertices[given / 2];
   const int beside = state.Mesh.Rings[old].Item[0];
   ASSERT_TRUE(editor.Collapse(old, beside, EditTolerance::Loose).IsDone);
   const int gone = state.Mesh.IsAlive(old) ? beside : old;
   const int kept = gone == old ? beside : old;
+  editor.EndPass();
   const Edit again = editor.Split(kept, state.Mesh.Rings[kept].Item[0]);
   ASSERT_TRUE(again.IsDone);
-  ASSERT_EQ(again.Vertex, gone);
-  blocks.AddNew({ gone });
-  EXPECT_EQ(std::count(vertices.begin(), vertices.end(), gone), 1);
-  blocks.Close();
+  ASSERT_EQ(again.Vertex, gone) << "taken again once the pass is over";
+  blocks.AddNew(visit, { gone });
+  EXPECT_EQ(std::count(visit.Vertices.begin(), visit.Vertices.end(), gone), 1);
+  blocks.Close(std::move(visit));
   EXPECT_EQ(BlockWith(blocks, gone), 1);
-  EXPECT_EQ(state.Mesh.Size(), size + 1);
+  EXPECT_EQ(BlockWith(blocks, split.Vertex), 1);
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), before + 1);
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
@@ -181,32 +187,22 @@ TEST(SurfaceBlocks, ForgetVerticesThatOthersHaveRemoved)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  const std::vector<int> first = blocks.Open(0);
-  blocks.Close();
-  // During a visit of another one; its place is taken by that one's new vertex.
-  blocks.Open(2);
-  SurfaceEditor editor(state);
-  const int v = first.front();
-  ASSERT_TRUE(editor.Collapse(v, state.Mesh.Rings[v].Item[0], EditTolerance::Loose).IsDone);
-  blocks.Close();
-  const std::vector<int>& last = blocks.Open(2);
-  const int place = [&]
-  {
-    for (const int w : first)
-    {
-      if (!state.Mesh.IsAlive(w))
-      {
-        return w;
-      }
-    }
-    return -1;
-  }();
-  ASSERT_GE(place, 0);
-  const int u = last.front();
+  BlockVisit first = blocks.Open(0);
+  const int v = first.Vertices.front();
+  blocks.Close(std::move(first));
+  // By a visit of another one; its place is taken by that one's new vertex.
+  BlockVisit other = blocks.Open(2);
+  other.Share.Region = other.Share.Region.Grown(1000.f);
+  SurfaceEditor editor(state, &other.Share);
+  const int w = state.Mesh.Rings[v].Item[0];
+  ASSERT_TRUE(editor.Collapse(v, w, EditTolerance::Loose).IsDone);
+  const int place = state.Mesh.IsAlive(v) ? w : v;
+  editor.EndPass();
+  const int u = other.Vertices.front();
   const Edit split = editor.Split(u, state.Mesh.Rings[u].Item[0]);
   ASSERT_EQ(split.Vertex, place);
-  blocks.AddNew({ place });
-  blocks.Close();
+  blocks.AddNew(other, { place });
+  blocks.Close(std::move(other));
   EXPECT_EQ(BlockWith(blocks, place), 2);
 }
 
@@ -214,25 +210,53 @@ TEST(SurfaceBlocks, KeepTheirPlacesForThemselves)
 {
   LiveSurface state(Balls(3));
   const int vertices = state.Mesh.NumberOfVertices();
-  int freed = 0;
+  const int size = state.Mesh.Size();
   {
     SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-    SurfaceEditor editor(state);
-    const int v = blocks.Open(1).front();
+    BlockVisit visit = blocks.Open(1);
+    visit.Share.Region = visit.Share.Region.Grown(1000.f);
+    SurfaceEditor editor(state, &visit.Share);
+    const int v = visit.Vertices.front();
+    EXPECT_FALSE(editor.Split(v, state.Mesh.Rings[v].Item[0])) << "it has no place for another";
     ASSERT_TRUE(editor.Collapse(v, state.Mesh.Rings[v].Item[0], EditTolerance::Loose).IsDone);
-    blocks.Close();
+    blocks.Close(std::move(visit));
     EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
     EXPECT_EQ(state.Mesh.FreePlaces().size(), 0u) << "nobody else's";
-    blocks.Open(0);
-    EXPECT_EQ(state.Mesh.FreePlaces().size(), 0u);
-    blocks.Close();
-    blocks.Open(1);
-    EXPECT_EQ(state.Mesh.FreePlaces().size(), 1u);
-    freed = static_cast<int>(state.Mesh.FreePlaces().size());
-    blocks.Close();
+    BlockVisit beside = blocks.Open(0);
+    EXPECT_EQ(beside.Share.NumberOfPlaces(), 0);
+    blocks.Close(std::move(beside));
+    BlockVisit again = blocks.Open(1);
+    EXPECT_EQ(again.Share.NumberOfPlaces(), 1);
+    blocks.Close(std::move(again));
+    blocks.AddPlaces({ 7, 0, 0 });
+    EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
   }
-  EXPECT_EQ(state.Mesh.FreePlaces().size(), static_cast<std::size_t>(freed)) << "given back";
+  EXPECT_EQ(state.Mesh.FreePlaces().size(), 8u) << "given back";
+  EXPECT_EQ(state.Mesh.Size(), size + 7);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
+}
+
+TEST(SurfaceBlocks, KeepThePairsOfTheirOwnVertices)
+{
+  LiveSurface state(Balls(3));
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
+  BlockVisit beside = blocks.Open(2);
+  const int others = beside.Vertices.front();
+  blocks.Close(std::move(beside));
+  BlockVisit visit = blocks.Open(1);
+  const int own = visit.Vertices[0];
+  const int leaves = visit.Vertices[1];
+  state.Drift.Fill(0.f);
+  visit.Pairs = { { own, others, 1.f }, { leaves, own, 2.f }, { others, own, 3.f } };
+  state.MoveTo(leaves, Vector(21, 0, 0));
+  blocks.Close(std::move(visit));
+  EXPECT_EQ(state.Drift[own], 0.f);
+  EXPECT_EQ(state.Drift[leaves], SurfaceState::NotExamined) << "who has it now does not know";
+  EXPECT_EQ(state.Drift[others], SurfaceState::NotExamined);
+  BlockVisit again = blocks.Open(1);
+  ASSERT_EQ(again.Pairs.size(), 1u);
+  EXPECT_EQ(again.Pairs[0].V, own);
+  blocks.Close(std::move(again));
 }
 
 TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
@@ -241,8 +265,22 @@ TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   state.Active.Fill(0);
   EXPECT_FALSE(blocks.HasActive(1));
-  state.Active[blocks.Open(1).front()] = 1;
-  blocks.Close();
+  BlockVisit visit = blocks.Open(1);
+  state.Active[visit.Vertices.front()] = 1;
+  blocks.Close(std::move(visit));
   EXPECT_TRUE(blocks.HasActive(1));
   EXPECT_FALSE(blocks.HasActive(0));
+}
+
+TEST(SurfaceBlocks, AreNeverNarrowerThanAsked)
+{
+  for (const double extent : { 5., 31., 63.9, 64., 100. })
+  {
+    const SurfaceBlocks::Frame frame = SurfaceBlocks::FrameOf({ extent, 40., 1000. }, 32.);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_TRUE(frame.Size[axis] == 1 || frame.Side[axis] >= 31.999f) << extent;
+      EXPECT_LT(frame.Side[axis], 64.f);
+    }
+  }
 }

@@ -80,12 +80,26 @@ TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
   s.Velocity[bench.W] = Vector(0, 3, 0);
   s.PreviousPosition[bench.V] = Vector(1, 2, 3);
   s.PreviousPosition[bench.W] = Vector(3, 2, 1);
+  s.Marks[bench.V] = s.Marks[bench.W] = IsWorking;
   const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
   const int m = bench.Editor.Split(bench.V, bench.W).Vertex;
   ASSERT_GE(m, 0);
   EXPECT_LT(Length(bench.At(m) - middle), 1e-6);
   EXPECT_LT(Length(s.Velocity[m] - Vector(0.5f, 1.5f, 0)), 1e-6);
   EXPECT_LT(Length(s.PreviousPosition[m] - Vector(2, 2, 2)), 1e-6) << "where a roll back leads it";
+}
+
+TEST(SurfaceEditor, SplitTakesNoOldPlaceOfWhatKeepsStill)
+{
+  Workbench bench(Coarse);
+  SurfaceState& s = bench.State;
+  s.PreviousPosition[bench.V] = Vector(1, 2, 3);
+  s.PreviousPosition[bench.W] = Vector(30, 20, 10); // Of a displacement long ago.
+  s.Marks[bench.V] = IsWorking;
+  const Vector middle = (Vector(1, 2, 3) + bench.At(bench.W)) * 0.5f;
+  const int m = bench.Editor.Split(bench.V, bench.W).Vertex;
+  ASSERT_GE(m, 0);
+  EXPECT_LT(Length(s.PreviousPosition[m] - middle), 1e-6);
 }
 
 TEST(SurfaceEditor, CollapseMakesNoLongEdges)

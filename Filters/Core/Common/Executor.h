@@ -11,6 +11,8 @@
 
 namespace volumic
 {
+class VisitSchedule;
+
 /**
  * A parallel for, so that the core needs no threading library of its own.
  *
@@ -28,6 +30,18 @@ public:
   /** `grain`: number of items under which a chunk is not worth a thread. */
   virtual void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) = 0;
+
+  /**
+   * Makes all visits of a schedule in its own way, for executors that keep books. @return whether
+   * it has; else they are made by For().
+   */
+  virtual bool MakeVisits(const VisitSchedule& schedule,
+    const std::function<void(int item, std::size_t place)>& visit)
+  {
+    static_cast<void>(schedule);
+    static_cast<void>(visit);
+    return false;
+  }
 
   /** Seconds of the clock within For() so far, where they are measured (MeasuredExecutor); else 0.
    */

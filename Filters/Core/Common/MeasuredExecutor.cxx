@@ -6,13 +6,12 @@
 
 namespace volumic
 {
-void MeasuredExecutor::For(
-  std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)
+template <typename Work>
+auto MeasuredExecutor::Measure(Work&& work)
 {
   if (this->IsInside)
   {
-    this->Measured.For(n, grain, body);
-    return;
+    return work();
   }
   /** Ends the measurement also where the body throws. */
   struct Measurement
@@ -32,6 +31,18 @@ void MeasuredExecutor::For(
     std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   };
   const Measurement measurement(*this);
-  this->Measured.For(n, grain, body);
+  return work();
+}
+
+void MeasuredExecutor::For(
+  std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)
+{
+  this->Measure([&] { this->Measured.For(n, grain, body); });
+}
+
+bool MeasuredExecutor::MakeVisits(
+  const VisitSchedule& schedule, const std::function<void(int, std::size_t)>& visit)
+{
+  return this->Measure([&] { return this->Measured.MakeVisits(schedule, visit); });
 }
 }

@@ -28,10 +28,15 @@ public:
   /** @see Executor. For one caller at a time. */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) override;
+  bool MakeVisits(const VisitSchedule& schedule,
+    const std::function<void(int item, std::size_t place)>& visit) override;
   double SecondsInside() const override { return this->Seconds; }
   void EndPhase(const char* name) override { this->Measured.EndPhase(name); }
 
 private:
+  template <typename Work>
+  auto Measure(Work&& work);
+
   Executor& Measured;
   double Seconds = 0.;
   bool IsInside = false; ///< Written by the caller while no body runs, read within bodies.

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/VisitSchedule.h"
 
-#include <chrono>
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <queue>
+#include <thread>
 #include <utility>
 
 namespace volumic
@@ -23,8 +24,9 @@ constexpr std::chrono::milliseconds Round(50);
 class VisitSchedule::Progress
 {
 public:
-  explicit Progress(const VisitSchedule& schedule)
+  Progress(const VisitSchedule& schedule, const std::function<bool(std::size_t done)>& goOn)
     : Schedule(schedule)
+    , GoOn(goOn)
     , Waits(schedule.Earlier)
   {
     for (const int item : schedule.Items)
@@ -37,24 +39,38 @@ public:
   }
 
   bool IsAllDone() const { return this->Done == this->Schedule.Items.size(); }
-  std::size_t NumberDone() const { return this->Done; }
+  bool IsStopped() const { return this->Stopped; }
 
-  void BeginRound() { this->End = std::chrono::steady_clock::now() + Round; }
+  void BeginRound()
+  {
+    this->End = std::chrono::steady_clock::now() + Round;
+    this->HasBegun = this->CallerWorks = false;
+  }
+  void EndRound()
+  {
+    if (!this->CallerWorks && !this->IsAllDone())
+    {
+      this->Stopped = !this->GoOn(this->Done);
+    }
+  }
 
   /** Takes visits until the round ends, or all are done, or one has failed. */
   void Work(const std::function<void(int, std::size_t)>& visit)
   {
+    const bool isCaller = std::this_thread::get_id() == this->Caller;
     std::unique_lock<std::mutex> lock(this->Mutex);
+    this->CallerWorks = this->CallerWorks || isCaller;
     while (true)
     {
       this->HasChanged.wait(
-        lock, [this] { return !this->Ready.empty() || this->UnderWay == 0 || this->HasFailed; });
-      if (this->Ready.empty() || this->HasFailed ||
-        (this->HasBegun && std::chrono::steady_clock::now() >= this->End))
+        lock, [this] { return !this->Ready.empty() || this->UnderWay == 0 || this->IsOver(); });
+      // A round makes one visit at least; it needs no end where the calling thread asks itself.
+      if (this->Ready.empty() || this->IsOver() ||
+        (this->HasBegun && !this->CallerWorks && std::chrono::steady_clock::now() >= this->End))
       {
         return;
       }
-      this->HasBegun = true; // A round makes one visit at least.
+      this->HasBegun = true;
       const std::size_t place = static_cast<std::size_t>(this->Ready.top());
       this->Ready.pop();
       ++this->UnderWay;
@@ -74,7 +90,7 @@ public:
       }
       lock.lock();
       --this->UnderWay;
-      ++this->Done;
+      const std::size_t done = ++this->Done;
       for (const int later : this->Schedule.Later[item])
       {
         if (--this->Waits[later] == 0)
@@ -83,13 +99,22 @@ public:
         }
       }
       this->HasChanged.notify_all();
+      if (isCaller && !this->IsOver())
+      {
+        lock.unlock();
+        const bool goesOn = this->GoOn(done);
+        lock.lock();
+        this->Stopped = this->Stopped || !goesOn;
+      }
     }
   }
 
-  void EndRound() { this->HasBegun = false; }
-
 private:
+  bool IsOver() const { return this->HasFailed || this->Stopped; }
+
   const VisitSchedule& Schedule;
+  const std::function<bool(std::size_t done)>& GoOn;
+  const std::thread::id Caller = std::this_thread::get_id();
   std::mutex Mutex; ///< Of all that follows, while threads work.
   std::condition_variable HasChanged;
   std::vector<int> Waits; ///< Of an item: how many of those before it are not done.
@@ -97,7 +122,9 @@ private:
   int UnderWay = 0;
   std::size_t Done = 0;
   bool HasBegun = false;
+  bool CallerWorks = false; ///< The calling thread is one of them, in this round.
   bool HasFailed = false;
+  bool Stopped = false;
   std::chrono::steady_clock::time_point End;
 };
 
@@ -132,9 +159,13 @@ bool VisitSchedule::Run(Executor& executor,
   const std::function<void(int item, std::size_t place)>& visit,
   const std::function<bool(std::size_t done)>& goOn) const
 {
-  Progress progress(*this);
+  if (executor.MakeVisits(*this, visit))
+  {
+    return goOn(this->Items.size());
+  }
+  Progress progress(*this, goOn);
   const std::size_t threads = std::min(MostThreads, this->Items.size());
-  while (!progress.IsAllDone())
+  while (!progress.IsAllDone() && !progress.IsStopped())
   {
     progress.BeginRound();
     executor.For(threads, 1,
@@ -146,11 +177,7 @@ bool VisitSchedule::Run(Executor& executor,
         }
       });
     progress.EndRound();
-    if (!goOn(progress.NumberDone()))
-    {
-      return false;
-    }
   }
-  return true;
+  return !progress.IsStopped();
 }
 }

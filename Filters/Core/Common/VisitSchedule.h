@@ -31,12 +31,15 @@ public:
 
   /** The items in their order. */
   const std::vector<int>& Order() const { return this->Items; }
+  /** Of an item: how many of those that it touches come before it, and those that come after. */
+  int NumberOfEarlier(int item) const { return this->Earlier[item]; }
+  const std::vector<int>& LaterThan(int item) const { return this->Later[item]; }
 
   /**
    * Calls visit(item, place in the order) for all, on the threads of an executor, and returns when
    * all are done. An exception of a visit ends it; others that are under way are finished first.
-   * @param goOn asked now and then with how many are done, by the calling thread, while none is
-   *             under way; false ends it
+   * @param goOn asked with how many are done, by the calling thread: after each visit that it makes,
+   *             or several times a second; false ends it
    * @return whether all have been visited
    */
   bool Run(Executor& executor, const std::function<void(int item, std::size_t place)>& visit,

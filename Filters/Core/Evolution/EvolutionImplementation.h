@@ -116,7 +116,8 @@ struct SurfaceEvolution::Implementation
   double Lap();
   void Enter(const LevelImage& image, int level);
   void Clear();
-  void Reset();
+  void Reset(); ///< All is forgotten but the mesh, whose vertices get their numbers along a curve.
+  void LayOut(); ///< The same with the numbers that they have.
   void Recover();
   void FindGridBox(const SurfaceMesh& mesh);
   void LayGrid();
@@ -154,7 +155,9 @@ struct SurfaceEvolution::Implementation
   void RunSweep(const Dynamics& dynamics);
   void VisitToEvolve(BlockVisit& visit, SurfaceIteration& iteration, const Dynamics& dynamics,
     std::vector<SweptRow>& rows);
-  void KeepSweptRows(std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic);
+  /** @param inside seconds of the sweep that were spent within For() of a MeasuredExecutor */
+  void KeepSweptRows(
+    std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic, double inside);
   /** Some iterations in each block that has active vertices. */
   void VisitAll(SurfaceIteration::Mode mode, const Dynamics& dynamics, int iterations,
     Monitor::Activity doing, double from, double to);

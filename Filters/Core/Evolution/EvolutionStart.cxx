@@ -57,6 +57,13 @@ void SurfaceEvolution::Implementation::Reset()
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   this->Threads.EndPhase("Order");
+  this->LayOut();
+}
+
+void SurfaceEvolution::Implementation::LayOut()
+{
+  SurfaceState& s = this->State;
+  this->Blocks.reset(); // Its places are anyone's again.
   this->LayGrid();
   this->MakeBlocks();
   this->Threads.EndPhase("Grid");

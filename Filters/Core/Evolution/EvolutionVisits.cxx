@@ -62,7 +62,7 @@ SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
     extent[axis] = image.Size[axis] * image.Step[axis];
   }
   return SurfaceBlocks::FrameOf(
-    extent, SurfaceBlocks::SideInDelta * this->State.Sizing.Largest());
+    extent, this->Options.BlockSide * this->State.Sizing.Largest());
 }
 
 void SurfaceEvolution::Implementation::MakeBlocks()
@@ -128,6 +128,7 @@ void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
   this->Visit.Blocks = static_cast<int>(count);
   const auto goOn = [&](std::size_t done)
   {
+    const std::lock_guard<std::mutex> lock(this->Handing);
     const double share = static_cast<double>(done) / static_cast<double>(count);
     this->Visit.Block = static_cast<int>(done);
     this->Visit.Iterations = visits.Iterations * share;
@@ -228,6 +229,7 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
     row.KineticEnergy.assign(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 0.);
   }
   this->BeginRow(rows.front().Row);
+  const double inside = this->Threads.SecondsInside();
   const int vertices = s.Mesh.NumberOfVertices();
   const int characteristic = s.EulerCharacteristic;
   ++this->Visit.Sweep;
@@ -255,16 +257,17 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
   rows.back().Vertices += s.Mesh.NumberOfVertices() - before;
   rows.back().EulerCharacteristic += s.EulerCharacteristic - characteristicBefore;
   this->Threads.EndPhase("Components");
-  this->KeepSweptRows(rows, vertices, characteristic);
+  this->KeepSweptRows(rows, vertices, characteristic, this->Threads.SecondsInside() - inside);
 }
 
 void SurfaceEvolution::Implementation::KeepSweptRows(
-  std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic)
+  std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic, double inside)
 {
   // As if all blocks had been in the same iteration: what has changed in each, added up. The
   // threads' seconds are shared out as they were spent.
   const double meanEdge = this->MeanEdgeLength();
   const double seconds = this->Lap();
+  const double serial = seconds > 0. ? std::max(1. - inside / seconds, 0.) : 0.;
   double spent = 0.;
   this->Visit.Active = rows.back().Row.ActiveVertices;
   for (const SweptRow& swept : rows)
@@ -288,10 +291,12 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
     row.KineticEnergy =
       std::accumulate(swept.KineticEnergy.begin(), swept.KineticEnergy.end(), 0.) /
       std::max(vertices, 1);
-    row.Seconds = seconds / static_cast<double>(rows.size());
+    row.Seconds = 0.;
     for (PhaseTime& phase : row.Phases)
     {
       phase.Seconds *= spent > 0. ? seconds / spent : 0.;
+      phase.Serial = serial * phase.Seconds;
+      row.Seconds += phase.Seconds;
     }
     this->KeepRow(row);
   }

@@ -216,7 +216,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     self.DivideOnce();
     goesOn = self.GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
   }
-  self.Reset();
+  self.LayOut();
   watch.Lap(Phase::Division);
   if (goesOn && self.GoOn(Monitor::Activity::Dividing, 1.))
   {

@@ -58,6 +58,11 @@ struct SurfaceOptions : FieldOptions
   double MaximumStep = 0.5; ///< Largest displacement of an iteration, in delta; at most 0.5.
   /** Of a level that one rank works on alone, where there are several: 406^3. No property. */
   std::int64_t MostVoxelsOfRank = std::int64_t(1) << 26;
+  /**
+   * Least side of the blocks that are visited (SurfaceBlocks), in delta. No property; of less than
+   * this tests make blocks on one thread only.
+   */
+  double BlockSide = 32.;
 };
 }
 

@@ -54,7 +54,8 @@ struct BlockVisit
  *   and an edge;
  * - what is examined moved, or is a neighbour of what did (9.5 delta); it looks for vertices within
  *   the reach of 3.2 delta, and reads their stars: all within HaloInDelta.
- * Blocks are as wide as both together, with room for the cells of the grid.
+ * Blocks are as wide as both together, with room for the cells of the grid: 32 delta
+ * (SurfaceOptions::BlockSide).
  */
 class SurfaceBlocks
 {
@@ -70,7 +71,6 @@ public:
   static Frame FrameOf(const std::array<double, 3>& extent, double side);
 
   // All in delta.
-  static constexpr float SideInDelta = 32.f;
   static constexpr float MovingInDelta = 4.f;
   static constexpr float EditedInDelta = 4.6f;
   static constexpr float WrittenInDelta = 10.f;
