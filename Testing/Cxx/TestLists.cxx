@@ -27,14 +27,6 @@ TEST(Select, KeepsTheOrderWhateverTheThreads)
   const auto isWanted = [](std::size_t i) { return i * i % 7 == 2; };
   const std::vector<int> found = SelectIndices(threads, n, isWanted);
   EXPECT_EQ(found, expected);
-  // Of a list, and in the place of what is there.
-  std::vector<int> tens = SelectOf(threads, found, [](int i) { return i % 10 == 0; });
-  ASSERT_GT(tens.size(), 100u);
-  EXPECT_EQ(tens[1] % 10, 0);
-  Select(
-    threads, 20, tens, [](std::size_t i) { return i > 17; },
-    [](std::size_t i) { return static_cast<int>(i) * 2; });
-  EXPECT_EQ(tens, (std::vector<int>{ 36, 38 }));
 }
 
 TEST(Select, FindsNothingInNothing)

@@ -11,13 +11,9 @@
 
 namespace volumic
 {
-/**
- * Fills a list with valueOf(i) for all i of [0, n) for which isWanted(i), in order; both are called
- * on any thread. The list's memory is used again.
- */
-template <typename Allocator, typename IsWanted, typename ValueOf>
-void Select(Executor& executor, std::size_t n, std::vector<int, Allocator>& selected,
-  IsWanted&& isWanted, ValueOf&& valueOf)
+/** The indices i below n for which isWanted(i), which is called on any thread, in order. */
+template <typename IsWanted>
+std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isWanted)
 {
   constexpr std::size_t size = 2048;
   std::vector<std::vector<int>> blocks((n + size - 1) / size);
@@ -30,31 +26,13 @@ void Select(Executor& executor, std::size_t n, std::vector<int, Allocator>& sele
       {
         if (isWanted(i))
         {
-          found[count++] = valueOf(i);
+          found[count++] = static_cast<int>(i);
         }
       }
       blocks[b].assign(found, found + count);
     });
+  std::vector<int> selected;
   Concatenate(executor, blocks, selected);
-}
-
-/** The indices below n that are wanted, in order. */
-template <typename IsWanted>
-std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isWanted)
-{
-  std::vector<int> selected;
-  Select(executor, n, selected, isWanted, [](std::size_t i) { return static_cast<int>(i); });
-  return selected;
-}
-
-/** Those of a list that are wanted, in order. */
-template <typename IsWanted>
-std::vector<int> SelectOf(Executor& executor, const std::vector<int>& list, IsWanted&& isWanted)
-{
-  std::vector<int> selected;
-  Select(
-    executor, list.size(), selected, [&](std::size_t i) { return isWanted(list[i]); },
-    [&list](std::size_t i) { return list[i]; });
   return selected;
 }
 }

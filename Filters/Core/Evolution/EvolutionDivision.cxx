@@ -5,6 +5,7 @@
 
 #include "Core/Common/Blocks.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Common/Select.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/Division.h"
 
@@ -222,15 +223,12 @@ void SurfaceEvolution::Implementation::LayGridOnRanks()
 
 std::vector<int> SurfaceEvolution::Implementation::OwnVertices() const
 {
-  std::vector<int> own;
-  for (int v = 0; v < this->State.Mesh.Size(); ++v)
-  {
-    if (this->State.Mesh.IsAlive(v) && (!this->OnRanks || this->OnRanks->IsOwnVertex(v)))
+  return SelectIndices(this->Threads, this->State.Mesh.Rings.size(),
+    [this](std::size_t i)
     {
-      own.push_back(v);
-    }
-  }
-  return own;
+      const int v = static_cast<int>(i);
+      return this->State.Mesh.IsAlive(v) && (!this->OnRanks || this->OnRanks->IsOwnVertex(v));
+    });
 }
 
 std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsOnRanks()

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace volumic
@@ -14,9 +15,13 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexBlock = 8192;
-/** Places for new vertices that a block has at least, and for how many of its own one more. */
-constexpr int FewPlaces = 512;
-constexpr int VerticesPerPlace = 2;
+/**
+ * Places for new vertices that a block gets at least, for how many of its own one more, and how many
+ * for each that its last visit took: a surface that grows takes more each time.
+ */
+constexpr int FewPlaces = 64;
+constexpr int VerticesPerPlace = 8;
+constexpr int PlacesPerTaken = 4;
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
 std::vector<int> EvenFirst(int count)
@@ -185,11 +190,20 @@ void SurfaceBlocks::FindOrder()
 int SurfaceBlocks::MissingPlaces(int block) const
 {
   const OfBlock& own = this->All[block];
+  const int has = own.Unused.Count() + static_cast<int>(own.Places.Free.size());
+  const auto wantedFor = [&own](const std::vector<int>& vertices)
+  {
+    return vertices.empty() ? 0
+                            : FewPlaces + static_cast<int>(vertices.size()) / VerticesPerPlace +
+        PlacesPerTaken * own.Taken;
+  };
+  if (has >= wantedFor(own.Vertices) / 2)
+  {
+    return 0; // Also for those of the list that it really has.
+  }
   std::vector<int> vertices = own.Vertices;
   this->Clean(block, vertices);
-  const int wanted =
-    vertices.empty() ? 0 : FewPlaces + static_cast<int>(vertices.size()) / VerticesPerPlace;
-  const int has = own.Unused.Count() + static_cast<int>(own.Places.Free.size());
+  const int wanted = wantedFor(vertices);
   return has < wanted / 2 ? wanted : 0;
 }
 
@@ -226,8 +240,16 @@ void SurfaceBlocks::Clean(int block, std::vector<int>& vertices) const
   const auto isOther = [this, block](int v)
   { return !this->State.Mesh.IsAlive(v) || this->State.Block[v] != block; };
   vertices.erase(std::remove_if(vertices.begin(), vertices.end(), isOther), vertices.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const auto isInOrder = [&vertices]
+  {
+    return std::adjacent_find(vertices.begin(), vertices.end(), std::greater_equal<int>()) ==
+      vertices.end();
+  };
+  if (!isInOrder()) // As they are where none has come from elsewhere.
+  {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  }
 }
 
 BlockVisit SurfaceBlocks::Open(int block)
@@ -321,11 +343,13 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
                         return isOther || !s.Mesh.IsAlive(pair.V);
                       }),
     visit.Pairs.end());
+  std::sort(stay.begin(), stay.end());
   OfBlock& own = this->All[visit.Block];
   own.Places.Free.swap(visit.Share.Places.Free);
   own.Unused = visit.Share.Unused;
   own.Pairs.swap(visit.Pairs);
   const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
+  own.Taken = std::max(0, visit.PlacesBefore - places);
   const std::lock_guard<std::mutex> lock(this->Closing);
   own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
   for (const int v : gone)

@@ -154,6 +154,7 @@ private:
     std::vector<int> Vertices; ///< Some are others' by now, or no more.
     VertexPlaces Places;       ///< For new vertices.
     UnusedPlaces Unused;
+    int Taken = 0; ///< Of the places, by its last visit.
     std::vector<Proximity::ClosePair> Pairs; ///< Of its vertices, from its last visit.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
