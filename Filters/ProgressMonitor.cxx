@@ -12,10 +12,14 @@ namespace volumic
 {
 namespace
 {
-/** Of a level that evolves block by block, how far its sweep is. */
+/** Blocks from which on a sweep may take so long that one wants to know how far it is. */
+constexpr int ManyBlocks = 500;
+
 std::string BlocksOf(const Monitor::Status& status)
 {
-  return status.Block > 0 ? Join(", block ", status.Block, " of ", status.Blocks) : "";
+  return status.Block > 0 && status.Blocks >= ManyBlocks
+    ? Join(", block ", status.Block, " of ", status.Blocks)
+    : "";
 }
 
 std::string TextOf(const Monitor::Status& status)
@@ -29,8 +33,7 @@ std::string TextOf(const Monitor::Status& status)
     case Monitor::Activity::Recovering:
       return "search for lost parts";
     case Monitor::Activity::Iterating:
-      return Join("iteration ", status.Iteration,
-        status.Sweep > 0 ? Join(", sweep ", status.Sweep) : "", BlocksOf(status));
+      return Join("iteration ", status.Iteration, BlocksOf(status));
     default:
       return "regularisation" + BlocksOf(status);
   }

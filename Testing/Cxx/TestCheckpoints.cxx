@@ -84,7 +84,7 @@ public:
   }
 
   /** Leaves a checkpoint of a run that was stopped. */
-  void StopARun(const Choice& choose = {}, const std::string& where = "Level 0, iteration 7") const
+  void StopARun(const Choice& choose = {}, const std::string& where = "Level 0, iteration 5") const
   {
     const auto filter = this->NewFilter(choose);
     const StopWhere stop(filter, where);
@@ -181,11 +181,11 @@ TEST_F(Checkpoints, GiveTheBitsOfARunThatWasNeverStopped)
 TEST_F(Checkpoints, AreLeftByARunThatHasGoneOn)
 {
   const Choice snapshots = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(10); };
-  this->StopARun(snapshots, "Level 1, iteration 3");
+  this->StopARun(snapshots, "Level 1, iteration 5");
   const auto again = this->NewFilter(snapshots);
   again->ResumeOn();
   {
-    const StopWhere stop(again, "Level 0, iteration 3");
+    const StopWhere stop(again, "Level 0, iteration 5");
     again->Update();
     EXPECT_EQ(again->GetResumedLevel(), 2);
     EXPECT_EQ(StopReason(again->GetOutput()), "cancelled");
@@ -197,7 +197,7 @@ TEST_F(Checkpoints, AreLeftByARunThatHasGoneOn)
   EXPECT_EQ(this->Folder.Names(), std::set<std::string>());
   EXPECT_EQ(again->GetResumedLevel(), 1);
   ExpectSameOutputs(again, this->Uninterrupted(snapshots));
-  this->StopARun(snapshots, "Level 1, iteration 3");
+  this->StopARun(snapshots, "Level 1, iteration 5");
   {
     const auto third = this->NewFilter(snapshots);
     third->ResumeOn();
@@ -324,7 +324,7 @@ TEST_F(Checkpoints, OfAnotherPyramidAreRefused)
     filter->SetIsoValue(50.0);
     filter->SetScratchDirectory(this->Folder.Path().c_str());
     filter->SetResume(!stops);
-    const StopWhere stop(filter, stops ? "Level 0, iteration 3" : "never");
+    const StopWhere stop(filter, stops ? "Level 0, iteration 5" : "never");
     const MessagesOf errors(filter);
     filter->Update();
     return errors.Get();
@@ -377,7 +377,7 @@ TEST_F(Checkpoints, AreNotSharedByTwoRuns)
       auto* state = static_cast<Meanwhile*>(client);
       auto* filter = static_cast<vtkDeformableSurface*>(caller);
       const std::string text = filter->GetProgressText() ? filter->GetProgressText() : "";
-      if (text.find("Level 0, iteration 2,") == std::string::npos || state->Runs > 0)
+      if (text.find("Level 0, iteration 5,") == std::string::npos || state->Runs > 0)
       {
         return;
       }
@@ -405,7 +405,7 @@ TEST_F(Checkpoints, AreNotSharedByTwoRuns)
 TEST_F(Checkpoints, OfARunThatHadComeFurtherStay)
 {
   this->StopARun();
-  this->StopARun({}, "Level 1, iteration 3"); // Without Resume.
+  this->StopARun({}, "Level 1, iteration 5"); // Without Resume.
   const auto filter = this->Resume();
   EXPECT_EQ(filter->GetResumedLevel(), 1);
   ExpectSameOutputs(filter, this->Uninterrupted());
@@ -493,7 +493,7 @@ TEST_F(Checkpoints, AreLeftByPreviewsAndLevelsThatAreShown)
   EXPECT_EQ(this->Folder.Names(), std::set<std::string>());
   filter->SetFinestLevel(-1);
   {
-    const StopWhere stop(filter, "Level -1, iteration 2");
+    const StopWhere stop(filter, "Level -1, iteration 5");
     filter->Update();
     ASSERT_TRUE(stop.HasStopped);
   }
@@ -512,7 +512,7 @@ TEST_F(Checkpoints, KeepTheSecondsOfTheLevelsThatWereTakenOver)
   std::vector<double> before;
   {
     const auto filter = this->NewFilter();
-    const StopWhere stop(filter, "Level 0, iteration 3");
+    const StopWhere stop(filter, "Level 0, iteration 5");
     filter->Update();
     vtkTable* history = filter->GetHistory();
     for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)

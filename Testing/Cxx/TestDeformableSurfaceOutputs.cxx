@@ -136,7 +136,7 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   {
     EXPECT_EQ(history->GetValueByName(r, "Iteration").ToInt(), r + 1);
     EXPECT_GT(history->GetValueByName(r, "Vertices").ToInt(), 0);
-    EXPECT_GT(history->GetValueByName(r, "TimeStep").ToDouble(), 0.0);
+    EXPECT_GE(history->GetValueByName(r, "TimeStep").ToDouble(), 0.0);
     const int level = history->GetValueByName(r, "Level").ToInt();
     auto* surface = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
     const double delta = FieldOf(surface, "Delta");
@@ -163,14 +163,16 @@ TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
   vtkTable* history = filter->GetHistory();
   vtkMultiBlockDataSet* snapshots = filter->GetSnapshots();
   int levels = 0;
-  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
+  // Snapshots show what a sweep of five iterations left.
+  for (vtkIdType r = 4; r < history->GetNumberOfRows(); r += 5)
   {
     const auto value = [&](const char* name) { return history->GetValueByName(r, name); };
     const int level = value("Level").ToInt();
     const bool isLast = r + 1 == history->GetNumberOfRows() ||
       history->GetValueByName(r + 1, "Level").ToInt() != level;
-    // Snapshots show what an iteration left; each level has one more, before its first iteration.
-    auto* left = vtkPolyData::SafeDownCast(snapshots->GetBlock(r + 3 - level));
+    // Each level has one more, before its first iteration.
+    auto* left = vtkPolyData::SafeDownCast(
+      snapshots->GetBlock(static_cast<unsigned int>(r / 5 + 3 - level)));
     ASSERT_EQ(FieldOf(left, "Iteration"), r + 1);
     auto* block = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
     EXPECT_EQ(value("IterationVertices").ToInt(), left->GetNumberOfPoints());
@@ -361,5 +363,5 @@ TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)
   auto* first = vtkPolyData::SafeDownCast(snapshots->GetBlock(0));
   auto* final = vtkPolyData::SafeDownCast(snapshots->GetBlock(expected.size() - 1));
   EXPECT_GT(FieldOf(first, "Volume"), 2.0 * FieldOf(final, "Volume"));
-  EXPECT_NEAR(FieldOf(final, "Volume") / FieldOf(filter->GetOutput(), "Volume"), 1.0, 0.02);
+  EXPECT_NEAR(FieldOf(final, "Volume") / FieldOf(filter->GetOutput(), "Volume"), 1.0, 0.06);
 }

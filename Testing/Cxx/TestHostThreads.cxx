@@ -180,7 +180,7 @@ TEST_F(HostThreadsInstead, DoesAllThatFiltersHaveToShare)
     counting = CountingExecutor();
     EXPECT_EQ(run(threads), points);
     EXPECT_GT(counting.Calls, 100);
-    for (const char* phase : { "Voxels", "Forces", "Division", "Output" })
+    for (const char* phase : { "Voxels", "Visits", "Division", "Output" })
     {
       EXPECT_GT(std::count(counting.Phases.begin(), counting.Phases.end(), phase), 0) << phase;
     }

@@ -30,7 +30,7 @@ STOP_THE_FIRST_RUN = window.WATCH_FILTERS + """
 def attend(proxy, algorithm):
     runs = []
     def progress(caller, event):
-        if len(runs) == 1 and "iteration 7," in (caller.GetProgressText() or ""):
+        if len(runs) == 1 and "iteration 5," in (caller.GetProgressText() or ""):
             caller.SetAbortExecute(1)
     def end(caller, event):
         surface = caller.GetOutputDataObject(0)

@@ -98,7 +98,7 @@ class ResumeSettingsTest(FolderTestCase):
         filter_ = self.new_filter()
 
         def stop(caller, _):
-            if (caller.GetProgressText() or "").startswith("Level 0, iteration 3"):
+            if (caller.GetProgressText() or "").startswith("Level 0, iteration 5"):
                 caller.SetAbortExecute(1)
 
         filter_.AddObserver("ProgressEvent", stop)

@@ -110,6 +110,10 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     {
       return StopReason::Cancelled;
     }
+    if (this->Visit.Active == 0 && s.Mesh.NumberOfVertices() > 0)
+    {
+      return StopReason::Converged; // Nothing would ever move again.
+    }
     if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
     {
       const double volume = this->Volume();

@@ -277,6 +277,7 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
       spent += phase.Seconds;
     }
   }
+  const double equal = seconds / static_cast<double>(rows.size());
   for (SweptRow& swept : rows)
   {
     HistoryRow& row = swept.Row;
@@ -291,7 +292,7 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
     row.KineticEnergy =
       std::accumulate(swept.KineticEnergy.begin(), swept.KineticEnergy.end(), 0.) /
       std::max(vertices, 1);
-    row.Seconds = 0.;
+    row.Seconds = spent > 0. ? 0. : equal;
     for (PhaseTime& phase : row.Phases)
     {
       phase.Seconds *= spent > 0. ? seconds / spent : 0.;
