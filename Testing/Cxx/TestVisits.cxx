@@ -3,6 +3,7 @@
 
 // Surfaces that are worked on in visits of blocks: whole runs of small scenes.
 #include "BarTestScene.h"
+#include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "EvolutionTestTools.h"
@@ -11,8 +12,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace volumic;
@@ -142,6 +147,146 @@ TEST(Visits, MakeTheSameBitsOnAnyThreads)
   {
     DelayedThreads executor(threads, static_cast<unsigned>(threads) * 91, 60, 16);
     EXPECT_EQ(hashOf(executor), alone) << threads << " threads";
+  }
+}
+
+namespace
+{
+/** A wild surface, many delta wide, that is visited in the middle of its blocks. */
+struct Wilderness
+{
+  TestVolume Volume = MakeVolume(110,
+    [](double x, double y, double z)
+    {
+      return 0.5 + std::sin(0.7 * x) * std::sin(0.6 * y) + std::cos(0.65 * z) -
+        0.02 * std::abs(x - 55.);
+    });
+  SurfaceOptions Options = IsoHalf();
+  SequentialExecutor Thread;
+  Field TheField{ this->Volume.Image, this->Options, this->Thread };
+  Dynamics Motion{ this->TheField, this->Options, this->Thread };
+  SurfaceState State;
+  std::unique_ptr<SurfaceBlocks> Blocks;
+
+  Wilderness()
+  {
+    // Spheres near each other, whose parts will merge, and are cut and split.
+    for (const double x : { 19., 34., 50., 66., 81. })
+    {
+      for (const double y : { 19., 34., 50., 66., 81. })
+      {
+        for (const double z : { 19., 34., 50., 66., 81. })
+        {
+          this->State.Mesh.Append(DividedIcosahedron({ x, y, z }, 6.8, 1.7));
+        }
+      }
+    }
+    this->State.Sizing = SizingField(1.f);
+    this->State.Margin = this->TheField.Margin();
+    this->State.Reset(Vector(-2, -2, -2), Vector(112, 112, 112));
+    std::vector<int> all(this->State.Mesh.Size());
+    std::iota(all.begin(), all.end(), 0);
+    this->State.UpdateShape(all, this->Thread);
+    this->Blocks = std::make_unique<SurfaceBlocks>(
+      this->State, SurfaceBlocks::FrameOf({ 110., 110., 110. }, 32.), this->Thread);
+    std::vector<int> places(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 2000);
+    this->Blocks->AddPlaces(places);
+  }
+
+  /** Visits the block in the middle, for many iterations. @return what the edits were */
+  EditCounts VisitMiddle(int iterations, Box& written)
+  {
+    BlockVisit visit = this->Blocks->Open(this->Blocks->BlockAt(Vector(55, 55, 55)));
+    written = visit.Written;
+    Remesher remesher(this->State, &this->TheField, true, &visit.Share);
+    SurfaceIteration iteration(this->State);
+    iteration.BeginVisit(visit);
+    for (int i = 0; i < iterations; ++i)
+    {
+      HistoryRow row;
+      iteration.Run(row, this->Motion, remesher, SurfaceIteration::Mode::Evolve);
+      this->Blocks->AddNew(visit, iteration.WorkingVertices());
+    }
+    iteration.EndVisit();
+    const EditCounts counts = visit.Share.Counts;
+    this->Blocks->Close(std::move(visit));
+    return counts;
+  }
+};
+}
+
+TEST(Visits, WriteNowhereElseHoweverManyIterationsTheyMake)
+{
+  Wilderness before;
+  Wilderness after;
+  Box written;
+  const EditCounts counts = after.VisitMiddle(25, written);
+  EXPECT_GT(counts.Merges, 10);
+  EXPECT_GT(counts.Splits, 100);
+  EXPECT_GT(counts.Collapses + counts.Cuts, 100);
+  int beyond = 0;
+  int moved = 0;
+  for (int v = 0; v < before.State.Mesh.Size(); ++v)
+  {
+    if (!before.State.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const Vector& p = before.State.Mesh.Position[v];
+    if (written.Contains(p))
+    {
+      moved += !after.State.Mesh.IsAlive(v) ||
+        SquaredDistance(p, after.State.Mesh.Position[v]) > 0.f;
+      continue;
+    }
+    ++beyond;
+    ASSERT_TRUE(after.State.Mesh.IsAlive(v));
+    ASSERT_EQ(SquaredDistance(p, after.State.Mesh.Position[v]), 0.f);
+    const Ring& ring = before.State.Mesh.Rings[v];
+    const Ring& now = after.State.Mesh.Rings[v];
+    ASSERT_EQ(now.Count, ring.Count);
+    ASSERT_TRUE(std::equal(ring.Item, ring.Item + ring.Count, now.Item));
+    ASSERT_EQ(after.State.Active[v], before.State.Active[v]);
+    ASSERT_EQ(after.State.RemeshFlags[v], before.State.RemeshFlags[v]);
+    ASSERT_EQ(after.State.Drift[v], before.State.Drift[v]);
+    ASSERT_EQ(after.State.Marks[v], 0);
+  }
+  EXPECT_GT(beyond, 5000);
+  EXPECT_GT(moved, 3000);
+  EXPECT_EQ(DescribeBrokenInvariant(after.State.Mesh), "");
+  EXPECT_EQ(CountSelfIntersections(after.State.Mesh.ToIndexed()), 0);
+}
+
+TEST(Visits, DependOnNothingFarAway)
+{
+  Wilderness one;
+  Wilderness other;
+  const Box read = one.Blocks->BoxOf(one.Blocks->BlockAt(Vector(55, 55, 55)))
+                     .Grown(SurfaceBlocks::HaloInDelta);
+  int changed = 0;
+  for (int v = 0; v < other.State.Mesh.Size(); ++v)
+  {
+    if (other.State.Mesh.IsAlive(v) && !read.Contains(other.State.Mesh.Position[v]))
+    {
+      other.State.MoveTo(v, other.State.Mesh.Position[v] * 1.01f);
+      other.State.Normal[v] = NormalCone();
+      other.State.Marks[v] = 255;
+      ++changed;
+    }
+  }
+  EXPECT_GT(changed, 1000);
+  Box written;
+  one.VisitMiddle(25, written);
+  other.VisitMiddle(25, written);
+  ASSERT_EQ(one.State.Mesh.Size(), other.State.Mesh.Size());
+  for (int v = 0; v < one.State.Mesh.Size(); ++v)
+  {
+    ASSERT_EQ(one.State.Mesh.IsAlive(v), other.State.Mesh.IsAlive(v));
+    if (one.State.Mesh.IsAlive(v) && read.Contains(one.State.Mesh.Position[v]))
+    {
+      ASSERT_EQ(SquaredDistance(one.State.Mesh.Position[v], other.State.Mesh.Position[v]), 0.f);
+      ASSERT_EQ(one.State.Active[v], other.State.Active[v]);
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include "Core/Evolution/Stopwatch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -235,6 +236,20 @@ void SurfaceIteration::SplitBeforeVerification(Remesher& remesher)
     this->AddUnmoved(v);
   }
   UpdateChanged(s, remesher.TakeChanged());
+  // What could not be split gets no longer: verification relies on edges that are legal.
+  std::vector<int> stars;
+  for (const int v : this->Active)
+  {
+    if (s.Mesh.IsAlive(v) && (s.RemeshFlags[v] & HasLongEdge))
+    {
+      this->RollBackVertex(v);
+      const Ring& ring = s.Mesh.Rings[v];
+      stars.push_back(v);
+      stars.insert(stars.end(), ring.Item, ring.Item + ring.Count);
+    }
+  }
+  SortUnique(stars);
+  this->UpdateShape(stars);
 }
 
 void SurfaceIteration::RestoreConstraints(Remesher& remesher)
@@ -317,6 +332,9 @@ void SurfaceIteration::Run(
   this->RestoreConstraints(remesher);
   watch.Lap(Phase::Remeshing);
   this->WatchComponents();
+  assert(std::all_of(this->Working.begin(), this->Working.end(),
+    [this, &s](int v)
+    { return !s.Mesh.IsAlive(v) || this->Visit->Written.Contains(s.Mesh.Position[v]); }));
   watch.Lap(Phase::Topology);
 }
 }
