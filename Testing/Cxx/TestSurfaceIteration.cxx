@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a visit of a block may move.
+// What a visit of a block may move, and how far.
 #include "Core/Evolution/SurfaceIteration.h"
-#include "Core/Mesh/SurfaceMeasures.h"
+#include "EvolutionTestTools.h"
+#include "MeshInvariants.h"
 #include "RemeshTestTools.h"
 
 #include <gtest/gtest.h>
@@ -127,4 +128,44 @@ TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
     EXPECT_FALSE(Has(active, ring.Item[i])) << i;
   }
   EXPECT_EQ(static_cast<int>(active.size()), s.Mesh.Size() / 3 - 1 - ring.Count);
+}
+
+TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
+{
+  // A ball that grows, where no vertex can be added.
+  const TestVolume volume = BallVolume(40, 16.);
+  const SurfaceOptions options = IsoHalf();
+  SequentialExecutor thread;
+  const Field field(volume.Image, options, thread);
+  const Dynamics dynamics(field, options, thread);
+  SurfaceState s;
+  s.Mesh.Append(DividedIcosahedron({ 20, 20, 20 }, 6., 1.5));
+  s.Sizing = SizingField(1);
+  s.Margin = field.Margin();
+  s.Reset(Vector(-2, -2, -2), Vector(42, 42, 42));
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.UpdateShape(v);
+  }
+  SurfaceBlocks blocks(s, SurfaceBlocks::FrameOf({ 40., 40., 40. }, 32.), thread);
+  BlockVisit visit = blocks.Open(0);
+  Remesher remesher(s, &field, true, &visit.Share);
+  SurfaceIteration iteration(s);
+  iteration.BeginVisit(visit);
+  double longest = 0.;
+  for (int i = 0; i < 40; ++i)
+  {
+    HistoryRow row;
+    iteration.Run(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
+    for (const double edge : EdgeLengths(s.Mesh.ToIndexed()))
+    {
+      longest = std::max(longest, edge);
+      ASSERT_LE(edge, 2.5001) << "iteration " << i;
+    }
+  }
+  iteration.EndVisit();
+  EXPECT_EQ(visit.Share.Counts.Splits, 0);
+  EXPECT_GT(longest, 2.4) << "it has grown as far as it may";
+  blocks.Close(std::move(visit));
+  EXPECT_EQ(DescribeBrokenInvariant(s.Mesh), "");
 }
