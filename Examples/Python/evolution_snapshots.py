@@ -130,7 +130,8 @@ def main():
     parser.add_argument("--iso", type=float, help="default: Otsu's threshold, a guess")
     parser.add_argument("--dark", action="store_true",
                         help="the object is darker than its surroundings")
-    parser.add_argument("--every", type=int, default=5, help="iterations from frame to frame")
+    parser.add_argument("--every", type=int, default=5,
+                        help="iterations from frame to frame, each at the end of a sweep of five")
     parser.add_argument("--finest-level", type=int, default=0, help="the level to end at")
     parser.add_argument("--width", type=int, default=640, help="of the pictures, pixels")
     parser.add_argument("--rate", type=int, default=12, help="frames per second")

@@ -27,7 +27,7 @@ inline SurfaceOptions IsoHalf()
   return options;
 }
 
-/** Calls back after every iteration. */
+/** Calls back after every sweep. */
 class Observer final : public Monitor
 {
 public:

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a visit of a block may move, and how far.
+#include "Core/Evolution/SurfaceIteration.h"
+#include "EvolutionTestTools.h"
+#include "MeshInvariants.h"
+#include "RemeshTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** Delta is 1. Three balls along x, one in each block of side 10. */
+struct BallsInBlocks
+{
+  SequentialExecutor Thread;
+  SurfaceState State;
+
+  BallsInBlocks()
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      this->State.Mesh.Append(DividedIcosahedron({ 5. + 10. * i, 0, 0 }, 4., 1.5));
+    }
+    this->State.Sizing = SizingField(1);
+    this->State.Reset(Vector(-30, -30, -30), Vector(60, 30, 30));
+    for (int v = 0; v < this->State.Mesh.Size(); ++v)
+    {
+      this->State.UpdateShape(v);
+    }
+  }
+
+  static SurfaceBlocks::Frame Frame()
+  {
+    SurfaceBlocks::Frame frame;
+    frame.Low = Vector(0, -20, -20);
+    frame.Side = { 10, 40, 40 };
+    frame.Size = { 3, 1, 1 };
+    return frame;
+  }
+};
+
+/** Those that the visit of a block would move. */
+std::vector<int> ActiveOnes(SurfaceState& state, SurfaceBlocks& blocks, int block)
+{
+  SurfaceIteration iteration(state);
+  BlockVisit visit = blocks.Open(block);
+  iteration.BeginVisit(visit);
+  std::vector<int> active = iteration.ActiveVertices();
+  iteration.EndVisit();
+  blocks.Close(std::move(visit));
+  return active;
+}
+
+bool Has(const std::vector<int>& vertices, int v)
+{
+  return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+}
+}
+
+TEST(SurfaceIteration, MovesTheActiveVerticesOfTheBlock)
+{
+  BallsInBlocks balls;
+  SurfaceBlocks blocks(balls.State, BallsInBlocks::Frame(), balls.Thread);
+  const int ofBall = balls.State.Mesh.Size() / 3;
+  balls.State.Active[ofBall + 5] = 0;
+  const std::vector<int> active = ActiveOnes(balls.State, blocks, 1);
+  EXPECT_EQ(static_cast<int>(active.size()), ofBall - 1);
+  EXPECT_FALSE(Has(active, ofBall + 5));
+  for (const int v : active)
+  {
+    EXPECT_EQ(balls.State.Block[v], 1);
+  }
+}
+
+TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
+{
+  BallsInBlocks balls;
+  SurfaceState& s = balls.State;
+  SurfaceBlocks blocks(s, BallsInBlocks::Frame(), balls.Thread);
+  const int ofBall = s.Mesh.Size() / 3;
+  const int near = ofBall;
+  const int far = ofBall + 1;
+  SurfaceIteration iteration(s);
+  BlockVisit visit = blocks.Open(1);
+  s.MoveTo(near, Vector(20 + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0));
+  s.MoveTo(far, Vector(20 + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0));
+  iteration.BeginVisit(visit);
+  EXPECT_TRUE(Has(iteration.ActiveVertices(), near));
+  EXPECT_FALSE(Has(iteration.ActiveVertices(), far));
+  iteration.EndVisit();
+  blocks.Close(std::move(visit));
+  EXPECT_EQ(s.Block[far], 2) << "it is the neighbour's, which moves it";
+}
+
+TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
+{
+  BallsInBlocks balls;
+  SurfaceState& s = balls.State;
+  SurfaceBlocks blocks(s, BallsInBlocks::Frame(), balls.Thread);
+  const int v = s.Mesh.Size() / 3;
+  const auto stretch = [&s, v](float factor)
+  {
+    const Vector centre(15, 0, 0);
+    s.MoveTo(v, centre + Normalized(s.Mesh.Position[v] - centre) * factor);
+    s.UpdateShape(v);
+    const Ring& ring = s.Mesh.Rings[v];
+    std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.UpdateShape(w); });
+  };
+  stretch(7.f); // Its edges are longer than 2.5 delta, but not than 1.6 times that.
+  ASSERT_TRUE(s.RemeshFlags[v] & HasLongEdge);
+  ASSERT_FALSE(s.RemeshFlags[v] & HasHugeEdge);
+  EXPECT_TRUE(Has(ActiveOnes(s, blocks, 1), v));
+  stretch(9.f);
+  const std::vector<int> active = ActiveOnes(s, blocks, 1);
+  EXPECT_TRUE(s.RemeshFlags[v] & HasHugeEdge);
+  EXPECT_FALSE(Has(active, v));
+  const Ring& ring = s.Mesh.Rings[v];
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    EXPECT_FALSE(Has(active, ring.Item[i])) << i;
+  }
+  EXPECT_EQ(static_cast<int>(active.size()), s.Mesh.Size() / 3 - 1 - ring.Count);
+}
+
+TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
+{
+  // A ball that grows, where no vertex can be added.
+  const TestVolume volume = BallVolume(40, 16.);
+  const SurfaceOptions options = IsoHalf();
+  SequentialExecutor thread;
+  const Field field(volume.Image, options, thread);
+  const Dynamics dynamics(field, options, thread);
+  SurfaceState s;
+  s.Mesh.Append(DividedIcosahedron({ 20, 20, 20 }, 6., 1.5));
+  s.Sizing = SizingField(1);
+  s.Margin = field.Margin();
+  s.Reset(Vector(-2, -2, -2), Vector(42, 42, 42));
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.UpdateShape(v);
+  }
+  SurfaceBlocks blocks(s, SurfaceBlocks::FrameOf({ 40., 40., 40. }, 32.), thread);
+  BlockVisit visit = blocks.Open(0);
+  Remesher remesher(s, &field, true, &visit.Share);
+  SurfaceIteration iteration(s);
+  iteration.BeginVisit(visit);
+  double longest = 0.;
+  for (int i = 0; i < 40; ++i)
+  {
+    HistoryRow row;
+    iteration.Run(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
+    for (const double edge : EdgeLengths(s.Mesh.ToIndexed()))
+    {
+      longest = std::max(longest, edge);
+      ASSERT_LE(edge, 2.5001) << "iteration " << i;
+    }
+  }
+  iteration.EndVisit();
+  EXPECT_EQ(visit.Share.Counts.Splits, 0);
+  EXPECT_GT(longest, 2.4) << "it has grown as far as it may";
+  blocks.Close(std::move(visit));
+  EXPECT_EQ(DescribeBrokenInvariant(s.Mesh), "");
+}
