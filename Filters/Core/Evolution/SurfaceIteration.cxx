@@ -237,19 +237,25 @@ void SurfaceIteration::SplitBeforeVerification(Remesher& remesher)
   }
   UpdateChanged(s, remesher.TakeChanged());
   // What could not be split gets no longer: verification relies on edges that are legal.
+  // Where one goes back, an edge to another one that has moved with it may become too long.
   std::vector<int> stars;
-  for (const int v : this->Active)
+  do
   {
-    if (s.Mesh.IsAlive(v) && (s.RemeshFlags[v] & HasLongEdge))
+    stars.clear();
+    for (const int v : this->Active)
     {
-      this->RollBackVertex(v);
-      const Ring& ring = s.Mesh.Rings[v];
-      stars.push_back(v);
-      stars.insert(stars.end(), ring.Item, ring.Item + ring.Count);
+      if (s.Mesh.IsAlive(v) && (s.RemeshFlags[v] & HasLongEdge) &&
+        SquaredDistance(s.Mesh.Position[v], s.PreviousPosition[v]) > 0.f)
+      {
+        this->RollBackVertex(v);
+        const Ring& ring = s.Mesh.Rings[v];
+        stars.push_back(v);
+        stars.insert(stars.end(), ring.Item, ring.Item + ring.Count);
+      }
     }
-  }
-  SortUnique(stars);
-  this->UpdateShape(stars);
+    SortUnique(stars);
+    this->UpdateShape(stars);
+  } while (!stars.empty());
 }
 
 void SurfaceIteration::RestoreConstraints(Remesher& remesher)
