@@ -47,7 +47,7 @@ ProgressMonitor::ProgressMonitor(Callback callback, int coarsest, int finest, co
 
 bool ProgressMonitor::Continue(const Status& status)
 {
-  this->AfterIteration(status);
+  this->AfterSweep(status);
   return this->GoOn(status);
 }
 

@@ -29,7 +29,7 @@ public:
   ProgressMonitor(Callback callback, int coarsest, int finest, const Deadline& limit = Deadline());
 
   /** May look at the surface. */
-  std::function<void(const Status&)> AfterIteration = [](const Status&) {};
+  std::function<void(const Status&)> AfterSweep = [](const Status&) {};
 
   bool Continue(const Status& status) override;
   bool GoOn(const Status& status) override;

@@ -59,7 +59,7 @@ struct SharedLevel
 };
 
 /**
- * At rank 0: the division to a level in sweeps, and the run there, on all ranks; they must be in
+ * At rank 0: the division to a level that all ranks share, and the run there, on all ranks; they must be in
  * HelpWithLevel(). @return false as SurfaceEvolution::Divide().
  */
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,

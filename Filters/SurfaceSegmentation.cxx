@@ -188,7 +188,7 @@ void SurfaceSegmentation::Run()
     this->Threads->EndPhase("Levels");
     this->Progress.emplace(
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
-    this->Progress->AfterIteration = [this](const Monitor::Status& status)
+    this->Progress->AfterSweep = [this](const Monitor::Status& status)
     {
       this->Snapshots.TakeIfDue(*this->Evolution, status.Level,
         this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found,

@@ -10,8 +10,8 @@
 namespace volumic
 {
 /**
- * Takes snapshots of the surface as it evolves: at the start of each level and after every so many
- * iterations.
+ * Takes snapshots of the surface as it evolves: at the start of each level and at the end of each
+ * sweep of iterations in which one is due.
  */
 class SurfaceSnapshots
 {

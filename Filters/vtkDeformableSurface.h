@@ -90,7 +90,10 @@
  * first row all since the run began); `SecondsAfter`: in the last row of a level, regularisation
  * and output. With these rows add up to the run. Always `IterationEulerCharacteristic` =
  * `EulerCharacteristic` of the row before (first row: 0) + `AddedEulerCharacteristic` + 2 (`Cuts` -
- * `Merges` - `Deletions` + `DeletedGenus`). With Profile, also what `Seconds` is made of:
+ * `Merges` - `Deletions` + `DeletedGenus`). Iterations are made in sweeps of five, block by block: a
+ * row adds up what all blocks did in the same iteration; `MeanEdgeLength` and `Components` are those
+ * at the end of its sweep, `TimeStep` the longest of all blocks, `Seconds` its share of the sweep's.
+ * With Profile, also what `Seconds` is made of:
  * `ForcesSeconds`, `ContactSeconds`, `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`,
  * `TopologySeconds`; and `DivisionSeconds`, not in `Seconds`: what happens between two iterations
  * (regularisation at the end of a level, in the level's last row), of which `RecoverySeconds` and
@@ -707,8 +710,8 @@ public:
 
   ///@{
   /**
-   * Keep the surface at the start of each level and after every so many iterations, in output 3, to
-   * see it evolve; 0, the default: off. Each costs the memory of a whole surface.
+   * Keep the surface at the start of each level and after every so many iterations, at the end of
+   * the sweep of five in which one is due, in output 3, to see it evolve; 0, the default: off. Each costs the memory of a whole surface.
    */
   virtual void SetSnapshotInterval(int value);
   virtual int GetSnapshotInterval();

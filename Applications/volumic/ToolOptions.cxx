@@ -124,7 +124,7 @@ const std::vector<ProgramOption>& OutputOptions()
       "folder"),
     Text("snapshots", "FILE.vtm|DIR", &ToolOptions::Snapshots,
       "write the surface on its way, every --snapshot-interval iterations (10 if that is not "
-      "given): as blocks, or as snapshot-0.vtp, ... in a folder"),
+      "given), at the end of a sweep of five: as blocks, or as snapshot-0.vtp, ... in a folder"),
     Text("report", "FILE.json", &ToolOptions::Report,
       "write components, genus, area, volume, seconds, ...; - for the standard output"),
     Text("write-volume", "FILE.vti", &ToolOptions::WrittenVolume,

@@ -42,7 +42,7 @@ public:
     int Level = 0;           ///< Level that is running; 0 is the finest.
     Activity Doing = Activity::Iterating;
     int Iteration = 0;       ///< Iterations done on this level.
-    int Sweep = 0;           ///< Of a level that evolves block by block, from 1; else 0.
+    int Sweep = 0;           ///< Of the level, from 1; 0 before the first.
     int Block = 0;           ///< Visits of blocks in this sweep, and
     int Blocks = 0;          ///< how many there are at most.
     int Vertices = 0;        ///< Vertices of the surface now.
@@ -54,7 +54,7 @@ public:
   virtual ~Monitor() = default;
 
   /**
-   * Asked after every iteration; the surface may be looked at. False asks to stop after it. The
+   * Asked after every sweep of five iterations; the surface may be looked at. False asks to stop after it. The
    * surface is then handed over as it is: closed, manifold and free of self-intersections.
    */
   virtual bool Continue(const Status&) { return true; }

@@ -40,7 +40,7 @@ public:
    * all are done. An exception of a visit ends it; others that are under way are finished first.
    * @param goOn asked with how many are done, by the calling thread: after each visit that it makes,
    *             or several times a second; false ends it
-   * @return whether all have been visited
+   * @return whether nothing asked to end it
    */
   bool Run(Executor& executor, const std::function<void(int item, std::size_t place)>& visit,
     const std::function<bool(std::size_t done)>& goOn) const;

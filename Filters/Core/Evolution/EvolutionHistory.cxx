@@ -10,10 +10,6 @@
 
 namespace volumic
 {
-namespace
-{
-}
-
 double SurfaceEvolution::Implementation::Lap()
 {
   const auto now = std::chrono::steady_clock::now();

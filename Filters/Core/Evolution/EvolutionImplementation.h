@@ -29,8 +29,8 @@ namespace volumic
 /**
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
- * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx does so block by
- * block, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
+ * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx makes the visits
+ * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
  * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation

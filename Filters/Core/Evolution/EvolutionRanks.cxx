@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Levels in sweeps whose blocks belong to several ranks: see RankBlocks. All ranks do the same
+// Levels whose blocks belong to several ranks: see RankBlocks. All ranks do the same
 // steps at the same time.
 
 #include "Core/Common/RankLists.h"
@@ -237,6 +237,7 @@ void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
   this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
   this->TakeComponents(true);
 }
+
 std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNearOnRanks(
   std::vector<std::int64_t> voxels)
 {

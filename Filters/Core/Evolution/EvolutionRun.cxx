@@ -62,7 +62,8 @@ bool SurfaceEvolution::Implementation::Ask(
   status.Level = this->Level;
   status.Doing = doing;
   status.Iteration = this->LastIterations;
-  status.Vertices = this->State.Mesh.NumberOfVertices();
+  status.Vertices =
+    this->Blocks ? this->Blocks->NumberOfVertices() : this->State.Mesh.NumberOfVertices();
   status.ActiveVertices = this->Visit.Active;
   status.Sweep = this->Visit.Sweep;
   status.Block = this->Visit.Block;

@@ -194,6 +194,7 @@ void SurfaceEvolution::Implementation::Recover()
     this->Append(cavities.Surface);
   }
 }
+
 void SurfaceEvolution::Implementation::Append(const IndexedSurface& surface)
 {
   if (this->OnRanks)

@@ -108,6 +108,7 @@ void SurfaceEvolution::Implementation::VisitBlock(int block, const BlockVisits& 
   if (HasMemoryLimit())
   {
     this->Blocks->Prefetch(block);
+    KeepMemoryLimit();
   }
   SurfaceIteration& iteration = this->TakeIteration();
   BlockVisit visit = this->Blocks->Open(block);
@@ -128,7 +129,6 @@ void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
   this->Visit.Blocks = static_cast<int>(count);
   const auto goOn = [&](std::size_t done)
   {
-    const std::lock_guard<std::mutex> lock(this->Handing);
     const double share = static_cast<double>(done) / static_cast<double>(count);
     this->Visit.Block = static_cast<int>(done);
     this->Visit.Iterations = visits.Iterations * share;

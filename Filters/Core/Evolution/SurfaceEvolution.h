@@ -67,7 +67,9 @@ struct PhaseTime
  *     + 2 (RegularisationCuts - RegularisationDeletions)
  *
  * (and, if a regularisation should ever delete a component with handles, twice their number).
- * SecondsBefore, Seconds and SecondsAfter of all rows follow each other without a gap.
+ * SecondsBefore, Seconds and SecondsAfter of all rows follow each other without a gap. Iterations are
+ * made in sweeps of five over the blocks (SurfaceBlocks): a row adds up what all blocks did in the
+ * same one; MeanEdgeLength and Components are those at the end of the sweep, TimeStep the longest.
  */
 struct HistoryRow
 {
@@ -76,7 +78,7 @@ struct HistoryRow
   int Vertices = 0;
   double KineticEnergy = 0.; ///< Mean over vertices of half the squared speed along the normal.
   double MeanEdgeLength = 0.;
-  double Seconds = 0.;  ///< Duration of this iteration.
+  double Seconds = 0.;  ///< Of those of its sweep, what was spent in this iteration.
   double TimeStep = 0.;
   int ActiveVertices = 0;
   int Merges = 0;
@@ -177,8 +179,8 @@ public:
 
   /**
    * From now on it is one of those on several ranks, which evolve one surface: all of them call
-   * Divide() to a level in sweeps, Run() and Result() there, at the same time, and Unite() where
-   * it is to go on from there. Rank 0 alone has a surface before, a result, and the surface when
+   * Divide() to a level that they share (AreShared), Run() and Result() there, at the same time,
+   * and Unite() where it is to go on from there. Rank 0 alone has a surface before, a result, and the surface when
    * they have united. It is the same bits as on one rank. Null: alone again.
    * @param needVoxels called on all of them at the same time: the level's voxels that this rank
    *        needs from now on. Before that, and elsewhere, they may be anything.

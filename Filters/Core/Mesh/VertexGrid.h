@@ -61,12 +61,6 @@ public:
       this->Link(v, cell);
     }
   }
-  /** Whether Move() has nothing to do. */
-  bool IsInPlace(int v, const Vector& position) const
-  {
-    return this->CellOf(position) == this->Cell[v];
-  }
-
   /** Calls visit(w) for a superset of the vertices within `radius` of a point. */
   template <typename Visitor>
   void Visit(const Vector& position, float radius, Visitor&& visit) const

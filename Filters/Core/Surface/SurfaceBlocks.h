@@ -87,6 +87,12 @@ public:
   /** The same blocks by colour, those of a colour in order of their number. */
   const std::array<std::vector<int>, Colours>& ByColour() const { return this->OfColour; }
   int NumberOfBlocks() const { return static_cast<int>(this->All.size()); }
+  /** Of the surface; those of visits that are open count when these end. */
+  int NumberOfVertices() const
+  {
+    const std::lock_guard<std::mutex> lock(this->Closing);
+    return this->State.Mesh.NumberOfVertices();
+  }
 
   /** Begins a visit. Others may be open that do not touch it. */
   BlockVisit Open(int block);
@@ -171,7 +177,7 @@ private:
   VertexPlaces Others; ///< Free before, for nobody.
   std::unique_ptr<VisitSchedule> Visits;
   std::array<std::vector<int>, Colours> OfColour;
-  std::mutex Closing; ///< Held while a visit hands over what others have, too.
+  mutable std::mutex Closing; ///< Held while a visit hands over what others have, too.
 };
 }
 

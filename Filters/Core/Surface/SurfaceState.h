@@ -115,7 +115,7 @@ public:
   // Rest: Dynamics, the roll back, and edits, by Activate().
   /** Forces act on it; 0: motionless. */
   VertexProperty<std::uint8_t> Active{ this->Properties, 1, 1 };
-  /** Active before the regularisation of a level in sweeps, or made by it: SurfaceEvolution. */
+  /** Active before the regularisation, or off the isopotential before a revision, or made by them. */
   VertexProperty<std::uint8_t> WasActive{ this->Properties, 1, 1 };
   /** Iterations since it has moved visibly. */
   VertexProperty<std::uint8_t> RestCount{ this->Properties, 0, 0 };
@@ -144,7 +144,7 @@ public:
   VertexProperty<std::uint8_t> Marks{ this->Properties, 0, 0 }; ///< Bits of VertexMark.
 
   VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.
-  /** Where the surface is worked on block by block: SurfaceBlocks. */
+  /** The block that it belongs to: SurfaceBlocks. */
   VertexProperty<int> Block{ this->Properties, NoBlock, NoBlock };
 
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
