@@ -169,13 +169,16 @@ struct LargeAllocator
 template <typename T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
-/** Makes it n values of bytes that are all zero, which take no memory before they are written. */
+/**
+ * Makes it n values of bytes that are all zero, which take no memory before they are written, with
+ * room for so many.
+ */
 template <typename T>
-void MakeZeroed(LargeVector<T>& values, std::size_t n)
+void MakeZeroed(LargeVector<T>& values, std::size_t n, std::size_t room = 0)
 {
   values = LargeVector<T>();
   const ZeroedAllocations zeroed;
-  values.reserve(n);
+  values.reserve(std::max(n, room));
   values.resize(n);
 }
 
@@ -187,8 +190,14 @@ void LengthenZeroed(LargeVector<T>& values, std::size_t n)
   {
     return;
   }
+  if (n <= values.capacity())
+  {
+    values.resize(n);
+    return;
+  }
+  // With room for more of it, so that little by little does not copy all each time.
   LargeVector<T> longer;
-  MakeZeroed(longer, n);
+  MakeZeroed(longer, n, n + n / 4);
   // Whole runs of zeros are not written: they may lie in memory that there is not.
   constexpr std::size_t run = 4096 / sizeof(T) > 0 ? 4096 / sizeof(T) : 1;
   for (std::size_t begin = 0; begin < values.size(); begin += run)
