@@ -4,11 +4,14 @@
 // The polygon file format: a text head tells of elements, and their properties; each property is a
 // number, or a list of numbers behind their count.
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 
 #include <cstdlib>
+#include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -18,6 +21,7 @@ namespace
 {
 struct Property
 {
+  std::string Name;
   int CountBytes = 0; ///< of a list; 0: there is one number
   int Bytes = 0;
 };
@@ -54,7 +58,10 @@ Head ReadHead(std::istream& file)
 {
   Head head;
   std::string line;
-  while (std::getline(file, line))
+  // VTK's reader has room for 4096 bytes, and takes zeros for the ends of lines.
+  constexpr std::size_t longest = 4000;
+  while (std::getline(file, line) && line.size() <= longest &&
+    line.find('\0') == std::string::npos)
   {
     std::istringstream words(line);
     std::string word;
@@ -72,10 +79,18 @@ Head ReadHead(std::istream& file)
     {
       head.Parts.emplace_back();
       head.Parts.back().Name = type;
-      words >> head.Parts.back().Count;
+      if (!(words >> head.Parts.back().Count) ||
+        head.Parts.back().Count > std::numeric_limits<int>::max())
+      {
+        throw Failure("its header is damaged: no number of elements '" + type + "'");
+      }
     }
-    else if (word == "property" && !head.Parts.empty())
+    else if (word == "property")
     {
+      if (head.Parts.empty())
+      {
+        throw Failure("its header is damaged: a property of no element");
+      }
       Property property;
       if (type == "list")
       {
@@ -83,6 +98,10 @@ Head ReadHead(std::istream& file)
         property.CountBytes = TypeBytes(word);
       }
       property.Bytes = TypeBytes(type);
+      if (!(words >> property.Name))
+      {
+        throw Failure("its header is damaged: a property has no name");
+      }
       head.Parts.back().Properties.push_back(property);
     }
   }
@@ -148,6 +167,42 @@ private:
   bool IsBig;
   bool IsShort = false;
 };
+
+/** @return the number of points. @throws Failure unless the head has what VTK's reader wants. */
+std::uint64_t CheckParts(const Head& head)
+{
+  static const std::set<std::string> formats = { "ascii", "binary_little_endian",
+    "binary_big_endian" };
+  if (formats.count(head.Format) == 0)
+  {
+    throw Failure("its header is damaged: the format '" + head.Format + "' is none");
+  }
+  std::uint64_t points = 0;
+  std::set<std::string> names;
+  for (const Elements& part : head.Parts)
+  {
+    std::set<std::string> numbers;
+    std::set<std::string> lists;
+    for (const Property& property : part.Properties)
+    {
+      (property.CountBytes > 0 ? lists : numbers).insert(property.Name);
+    }
+    const bool isRight = part.Name == "vertex"
+      ? numbers.count("x") + numbers.count("y") + numbers.count("z") == 3 && lists.empty()
+      : part.Name != "face" || lists.count("vertex_indices") + lists.count("vertex_index") == 1;
+    if (!isRight || part.Properties.empty() || !names.insert(part.Name).second)
+    {
+      throw Failure("its header is damaged: the properties of '" + part.Name +
+        "' are not those of a surface, or it is there twice");
+    }
+    points = part.Name == "vertex" ? part.Count : points;
+  }
+  if (points == 0)
+  {
+    throw Failure("has no points, or its header is damaged");
+  }
+  return points;
+}
 }
 
 void CheckPly(const std::string& name)
@@ -155,15 +210,7 @@ void CheckPly(const std::string& name)
   std::ifstream file(name, std::ios::binary);
   const Head head = ReadHead(file);
   Body body(file, head.Format);
-  std::uint64_t points = 0;
-  for (const Elements& part : head.Parts)
-  {
-    points = part.Name == "vertex" ? part.Count : points;
-  }
-  if (points == 0)
-  {
-    throw Failure("has no points, or its header is damaged");
-  }
+  const std::uint64_t points = CheckParts(head);
   for (const Elements& part : head.Parts)
   {
     for (std::uint64_t i = 0; !part.Properties.empty() && i < part.Count; ++i)
@@ -172,7 +219,7 @@ void CheckPly(const std::string& name)
       {
         const bool isList = property.CountBytes > 0;
         const std::uint64_t count = isList ? body.Count(property.CountBytes) : 1;
-        if (isList && part.Name == "face")
+        if (isList && part.Name == "face" && property.Name != "texcoord")
         {
           body.CheckCorners(count, property.Bytes, points);
         }

@@ -56,10 +56,9 @@ void NameFailure(const std::string& name, const Check& check)
   }
 }
 
-/** STL; one that has been cut off between two triangles looks whole to VTK's reader. */
+/** STL; VTK's reader takes memory for as many triangles as a header tells of, be the file cut off. */
 vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
 {
-  const vtkSmartPointer<vtkPolyData> mesh = ReadWith<vtkSTLReader>(name);
   BinaryFile file(name);
   const bool isText = file.Size() < 84 || file.Text(0, 5) == "solid";
   const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
@@ -68,7 +67,7 @@ vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
     throw Failure(name + ": the file is cut off: it has " + std::to_string(file.Size()) +
       " bytes, its header asks for " + std::to_string(84 + 50 * triangles));
   }
-  return mesh;
+  return ReadWith<vtkSTLReader>(name);
 }
 
 vtkSmartPointer<vtkPolyData> ReadPly(const std::string& name)
@@ -86,7 +85,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   }
   if (suffix == ".vtp")
   {
-    NameFailure(name, [&] { CheckNesting(name); });
+    NameFailure(name, [&] { CheckXmlInput(name); });
   }
   if (suffix == ".vtp")
   {

@@ -159,12 +159,13 @@ void VtkMessages::UpdateReader(
   this->Catch(
     [&]
     {
-      if (extent)
+      // After an error in the header some of VTK's readers go on, and crash.
+      reader->UpdateInformation();
+      if (this->Errors.empty() && extent)
       {
-        reader->UpdateInformation();
         reader->UpdateExtent(extent);
       }
-      else
+      else if (this->Errors.empty())
       {
         reader->Update();
       }

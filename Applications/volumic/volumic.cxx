@@ -9,6 +9,7 @@
 #include "SegmentLabels.h"
 #include "SegmentVolume.h"
 #include "SurfaceProperties.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
@@ -141,7 +142,8 @@ int RunAndTell(int argc, char* argv[], Ranks& ranks)
   }
   catch (const std::exception& error)
   {
-    words = PlainName(error.what()); // it may tell of what a damaged file holds
+    // It may tell of what a damaged file holds, be that a megabyte.
+    words = PlainName(Shortened(error.what(), 1500));
   }
   const bool isOfAll = ranks.HaveAgreed();
   if (ranks.IsFirst() || !isOfAll)
