@@ -3,6 +3,7 @@
 
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
+#include "FullDisk.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
 #include "Ranks.h"
@@ -87,6 +88,10 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
       break;
   }
   ranks.Together([&] { ApplyProperties(options, filters); });
+  if (filter->GetMemoryLimit() > 0)
+  {
+    TellOfFullDisk(filter->GetScratchDirectory());
+  }
   try
   {
     return options.Labels.empty() ? SegmentVolume(options, filters, ranks)
