@@ -104,7 +104,7 @@ struct TiffFile
   BinaryFile File;
   bool IsWide = false;    ///< BigTIFF
   std::uint64_t Left = 0; ///< bytes of directories and values that may be read yet
-  std::map<Part, std::uint64_t> Unpacked; ///< bytes that strips give, which pages may share
+  std::map<Part, std::uint64_t> Unpacked{}; ///< bytes that strips give, which pages may share
 
   int Wide(int narrow) const { return this->IsWide ? 2 * narrow : narrow; }
 

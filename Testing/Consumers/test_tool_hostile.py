@@ -239,8 +239,12 @@ class VtkTest(HostileTest):
                 (points.replace(b"float y", b"float") + faces, "has no name"),
                 (points.replace(b"float y", b"float w") + faces, "not those of a surface"),
                 (points + faces.replace(b"vertex_i", b"i"), "not those of a surface"),
-                (points + points + faces, "it is there twice"),
+                (points + faces + faces, "it is there twice"),
+                (points + faces.replace(b"int v", b"float v"), "not those of a surface"),
                 (points + faces + b"element other 0\n", "not those of a surface"),
+                (faces + points, "'face' comes before"),
+                (points + faces.replace(b"face", b"edge") + faces, "'edge' comes before"),
+                (points + b"prperty float w\n" + faces, "it has a line 'prperty'"),
                 (points.replace(b"3", b"") + faces, "no number of elements 'vertex'"),
                 (points.replace(b"3", b"-1") + faces, "no number of elements 'vertex'"),
                 (points + b"comment \0" + faces, "header does not end"),
@@ -251,6 +255,15 @@ class VtkTest(HostileTest):
                 process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
                                            self.path("a.ply"))
                 self.assertRegex(process.stderr, f"volumic: .*a.ply: .*{reason}")
+        few = points.replace(b"3", b"300") + faces
+        for old, corners in ((b"uchar int", b"\xff" + bytes(1020)), (b"uchar int", b"\3" + bytes(11)
+                             + b"\xff"), (b"uchar int", b"\1\xff\xff\xff\xff")):
+            for new in (b"char int", b"uchar char"):
+                self.write_bytes("a.ply", b"ply\nformat binary_little_endian 1.0\n"
+                                 + few.replace(old, new) + b"end_header\n" + bytes(3600) + corners)
+                process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
+                                           self.path("a.ply"))
+                self.assertEqual(process.returncode, 1, process.stderr)
         self.write_bytes("a.ply", b"ply\nformat packed 1.0\n" + points + faces + b"end_header\n")
         process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
                                    self.path("a.ply"))
