@@ -56,11 +56,20 @@ void NameFailure(const std::string& name, const Check& check)
   }
 }
 
+/** Whether VTK's reader takes an STL file for text: of its begin hardly anything is binary. */
+bool IsStlText(BinaryFile& file)
+{
+  const std::string head = file.Text(0, std::min<std::uint64_t>(file.Size(), 256));
+  const auto signs = std::count_if(head.begin(), head.end(),
+    [](char c) { return (c >= 0x20 && c <= 0x7F) || c == '\n' || c == '\r' || c == '\t'; });
+  return 20 * (head.size() - static_cast<std::size_t>(signs)) < head.size();
+}
+
 /** STL; VTK's reader takes memory for as many triangles as a header tells of, be the file cut off. */
 vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
 {
   BinaryFile file(name);
-  const bool isText = file.Size() < 84 || file.Text(0, 5) == "solid";
+  const bool isText = file.Size() < 84 || IsStlText(file);
   const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
   if (file.Size() < 84 + 50 * triangles)
   {

@@ -269,6 +269,20 @@ class VtkTest(HostileTest):
                                    self.path("a.ply"))
         self.assertIn("the format 'packed' is none", process.stderr)
 
+    def test_triangles(self):
+        """More than there are, whatever the first word is."""
+        ball_file = self.ball_file()
+        for word in (b"solid", b"binary"):
+            self.write_bytes("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31) + bytes(500))
+            process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
+                                       self.path("a.stl"))
+            self.assertRegex(process.stderr, "a.stl: the file is cut off: it has 584 bytes")
+        text = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+        self.write_bytes("b.stl", ("solid k\u00f6rper\n" + 4 * (text + "endfacet\n")
+                                   + "endsolid\n").encode())
+        process = self.run_limited(ball_file, self.path("x.stl"), "--seeds", self.path("b.stl"))
+        self.assertIn("Seed 0 lies outside the image", process.stderr)  # It has been read.
+
     @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
     def test_minc(self):
         def netcdf(name, dimensions, size):
