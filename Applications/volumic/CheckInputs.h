@@ -40,6 +40,9 @@ void CheckNetcdf(const std::string& name);
 void CheckXmlInput(std::istream& file);
 void CheckXmlInput(const std::string& name);
 
+/** Wavefront's .obj: the corners of faces are among the points, and so what comes with them. */
+void CheckObj(const std::string& name);
+
 /** A polygon file (.ply): all elements that its head tells of are there. */
 void CheckPly(const std::string& name);
 

@@ -114,6 +114,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   }
   if (suffix == ".obj")
   {
+    NameFailure(name, [&] { CheckObj(name); });
     return ReadWith<vtkOBJReader>(name);
   }
   throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");

@@ -283,6 +283,23 @@ class VtkTest(HostileTest):
         process = self.run_limited(ball_file, self.path("x.stl"), "--seeds", self.path("b.stl"))
         self.assertIn("Seed 0 lies outside the image", process.stderr)  # It has been read.
 
+    def test_corners(self):
+        """Of points, textures and normals that are not there."""
+        ball_file = self.ball_file()
+        start = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
+        for line, reason in (
+                (b"f 1 2 4", "corner '4', which is none of the 3 points"),
+                (b"f 1 2 -4", "corner '-4'"), (b"f 1 2 0", "corner '0'"), (b"f 1 2 x", "corner 'x'"),
+                (b"f 1/1 2/1 3/2", "corner '3/2'"), (b"f 1//1 2//1 3//-2", "corner '3//-2'"),
+                (b"f 1/ 2/ 3/", "corner '1/'"), (b"f 1/1/1/1 2 3", "corner '1/1/1/1'"),
+                (b"f 1 2 \\\n 4", "corner '4'"), (b"f 1//1 2/1 3", "corners of 3 kinds"), (b"f", "corners of 0 kinds"),
+                (b"# " + b"a" * 2000, "too long, or no text"), (b"#\0", "too long, or no text")):
+            self.write_bytes("a.obj", start + line + b"\n" + b"f 1/1/1 2/1/1 3/1/1\n")
+            process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
+                                       self.path("a.obj"))
+            with self.subTest(line[:20]):
+                self.assertRegex(process.stderr, f"a.obj: is damaged: line [67] .*{reason}")
+
     @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
     def test_minc(self):
         def netcdf(name, dimensions, size):

@@ -64,7 +64,7 @@ void ReadAll(const std::string& name)
     Try([&] { tool::ReadLabelNames(name); });
     return;
   }
-  if (Is(".ply") || Is(".stl") || Is(".vtp"))
+  if (Is(".ply") || Is(".stl") || Is(".vtp") || Is(".obj"))
   {
     Try([&] { tool::ReadSurface(name); });
     return;

@@ -13,7 +13,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkIOGeometry import vtkSTLWriter
+from vtkmodules.vtkIOGeometry import vtkOBJWriter, vtkSTLWriter
 from vtkmodules.vtkIOImage import (
     vtkBMPWriter, vtkMetaImageWriter, vtkPNGWriter, vtkPNMWriter, vtkTIFFWriter)
 from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
@@ -117,6 +117,7 @@ def written(folder):
             ("vtk", vtkStructuredPointsWriter(), image(VOXELS)),
             ("mha", vtkMetaImageWriter(), image(VOXELS)),
             ("ply", vtkPLYWriter(), sphere.GetOutput()), ("stl", vtkSTLWriter(), sphere.GetOutput()),
+            ("obj", vtkOBJWriter(), sphere.GetOutput()),
             ("vtp", vtkXMLPolyDataWriter(), sphere.GetOutput()))):
         os.makedirs(os.path.join(folder, suffix), exist_ok=True)
         writer.SetFileName(os.path.join(folder, suffix, f"written{k}.{suffix}"))
