@@ -12,6 +12,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkXMLParser.h>
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -19,7 +20,6 @@
 #include <istream>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tool
@@ -101,40 +101,40 @@ void GoBehindTag(std::istream& file, std::int64_t place)
   }
 }
 
-/** The two numbers that come next, as they are or in base64; zeros if none do. */
-std::pair<std::uint64_t, std::uint64_t> NextNumbers(
-  std::istream& file, const XmlMeter& meter, bool isRaw)
+/** The three numbers that come next, as they are or in base64; zeros if none do. */
+std::array<std::uint64_t, 3> NextNumbers(std::istream& file, const XmlMeter& meter, bool isRaw)
 {
   const auto bytes = static_cast<std::size_t>(meter.WordBytes);
   // Of base64 four signs are three bytes.
-  std::string word(isRaw ? 2 * bytes : (2 * bytes + 2) / 3 * 4, '\0');
-  file.read(word.data(), static_cast<std::streamsize>(word.size()));
-  if (!file)
+  std::string words(isRaw ? 3 * bytes : 4 * bytes, '\0');
+  file.read(words.data(), static_cast<std::streamsize>(words.size()));
+  static const std::string signs =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  if (!file || (!isRaw && words.find_first_not_of(signs) != std::string::npos))
   {
-    return { 0, 0 };
+    return { 0, 0, 0 };
   }
   if (!isRaw)
   {
-    static const std::string signs =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string decoded;
-    for (std::size_t at = 0; at < word.size(); at += 4)
+    for (std::size_t at = 0; at < words.size(); at += 4)
     {
       std::uint32_t bits = 0;
       for (std::size_t i = at; i < at + 4; ++i)
       {
-        bits = bits << 6 | (static_cast<std::uint32_t>(signs.find(word[i])) & 63u);
+        bits = bits << 6 | static_cast<std::uint32_t>(signs.find(words[i]));
       }
       decoded += { static_cast<char>(bits >> 16), static_cast<char>(bits >> 8),
         static_cast<char>(bits) };
     }
-    word = decoded;
+    words = decoded;
   }
-  return { NumberOf(word.substr(0, bytes), meter.IsBig),
-    NumberOf(word.substr(bytes, bytes), meter.IsBig) };
+  return { NumberOf(words.substr(0, bytes), meter.IsBig),
+    NumberOf(words.substr(bytes, bytes), meter.IsBig),
+    NumberOf(words.substr(2 * bytes, bytes), meter.IsBig) };
 }
 
-/** @throws Failure if an array has more blocks than the file has room for, or such of no size. */
+/** @throws Failure if an array has more blocks than the file has room for, or sizes that are none. */
 void CheckBlocks(std::istream& file, const XmlMeter& meter)
 {
   file.clear();
@@ -143,11 +143,12 @@ void CheckBlocks(std::istream& file, const XmlMeter& meter)
     static_cast<std::uint64_t>(file.tellg()) / static_cast<std::uint64_t>(meter.WordBytes);
   const auto check = [&](bool isRaw)
   {
-    const auto [blocks, size] = NextNumbers(file, meter, isRaw);
-    if (blocks > most || (blocks > 0 && size == 0))
+    // The last block may be smaller.
+    const auto [blocks, size, last] = NextNumbers(file, meter, isRaw);
+    if (blocks > most || last > size || (blocks > 0 ? size == 0 : last > 0))
     {
       throw Failure("it is damaged: an array is packed in " + std::to_string(blocks) +
-        " blocks of " + std::to_string(size) + " bytes");
+        " blocks of " + std::to_string(size) + " bytes, the last one of " + std::to_string(last));
     }
   };
   for (const std::int64_t place : meter.Inline)

@@ -221,14 +221,16 @@ class VtkTest(HostileTest):
                 b'"UInt32" compressor="vtkZLibDataCompressor"><ImageData WholeExtent="0 1 0 1 0 1" '
                 b'Origin="0 0 0" Spacing="1 1 1"><Piece Extent="0 1 0 1 0 1"><PointData Scalars="a">'
                 b'<DataArray type="UInt8" Name="a" format="%s"%s</PointData></Piece></ImageData>')
-        for blocks, size in ((0xFFFFFFF0, 8), (1 << 30, 8), (1, 0)):
-            words = struct.pack("<4I", blocks, size, 0, 16) + bytes(20)
+        for blocks, size, last in ((0xFFFFFFF0, 8, 0), (1 << 30, 8, 0), (1, 0, 0), (0, 0, 5),
+                                   (0, 8, 5), (1, 8, 9)):
+            words = struct.pack("<4I", blocks, size, last, 16) + bytes(20)
             inline = head % (b"binary", b">" + base64.b64encode(words) + b"</DataArray>")
             appended = head % (b"appended", b' offset="0"/>')
             for content in (
                     inline, appended + b'<AppendedData encoding="raw">_' + words,
                     appended + b'<AppendedData encoding="base64">_' + base64.b64encode(words)):
-                self.refused_bytes("a.vti", content, f"packed in {blocks} blocks of {size} bytes")
+                self.refused_bytes("a.vti", content, f"packed in {blocks} blocks of {size} "
+                                   f"bytes, the last one of {last}")
 
     def test_polygons(self):
         ball_file = self.ball_file()
@@ -282,6 +284,11 @@ class VtkTest(HostileTest):
                                    + "endsolid\n").encode())
         process = self.run_limited(ball_file, self.path("x.stl"), "--seeds", self.path("b.stl"))
         self.assertIn("Seed 0 lies outside the image", process.stderr)  # It has been read.
+
+    def test_series_without_a_name(self):
+        self.write_bytes("a.dcm", medical_files.dicom_slice(
+            ball()[0], 0, SPACING, ORIGIN, np.eye(3), series=""))
+        self.refused("a.dcm", "cannot be read")
 
     def test_corners(self):
         """Of points, textures and normals that are not there."""
