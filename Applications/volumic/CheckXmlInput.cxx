@@ -60,7 +60,7 @@ protected:
       this->Appended = static_cast<std::int64_t>(this->GetXMLByteIndex());
       this->IsRaw = is("encoding", "raw");
     }
-    else if (is("format", "appended"))
+    else if (!is("offset", "")) // whatever the format
     {
       this->Offsets.push_back(std::atoll(this->Attribute(attributes, "offset")));
     }
@@ -165,8 +165,11 @@ void CheckBlocks(std::istream& file, const XmlMeter& meter)
     for (const std::int64_t offset : meter.Offsets)
     {
       file.clear();
-      file.seekg(start + offset);
-      check(meter.IsRaw);
+      if (start >= 0 && offset >= 0 && offset < std::numeric_limits<std::int64_t>::max() - start)
+      {
+        file.seekg(start + offset);
+        check(meter.IsRaw);
+      }
     }
   }
 }

@@ -226,8 +226,9 @@ class VtkTest(HostileTest):
             words = struct.pack("<4I", blocks, size, last, 16) + bytes(20)
             inline = head % (b"binary", b">" + base64.b64encode(words) + b"</DataArray>")
             appended = head % (b"appended", b' offset="0"/>')
+            other = head % (b"any", b' offset="0"/><DataArray offset="9223372036854775807"/>')
             for content in (
-                    inline, appended + b'<AppendedData encoding="raw">_' + words,
+                    inline, other + b'<AppendedData encoding="raw">_' + words, appended + b'<AppendedData encoding="raw">_' + words,
                     appended + b'<AppendedData encoding="base64">_' + base64.b64encode(words)):
                 self.refused_bytes("a.vti", content, f"packed in {blocks} blocks of {size} "
                                    f"bytes, the last one of {last}")
