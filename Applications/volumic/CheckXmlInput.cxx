@@ -12,6 +12,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkXMLParser.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -110,10 +111,14 @@ std::array<std::uint64_t, 3> NextNumbers(std::istream& file, const XmlMeter& met
   file.read(words.data(), static_cast<std::streamsize>(words.size()));
   static const std::string signs =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  if (!file || (!isRaw && words.find_first_not_of(signs) != std::string::npos))
+  std::size_t there = static_cast<std::size_t>(file.gcount());
+  there = isRaw ? there : std::min(there, words.find_first_not_of(signs));
+  if (there * (isRaw ? 8 : 6) < bytes * 8)
   {
     return { 0, 0, 0 };
   }
+  const bool isWhole = there >= words.size(); // else the first number is all that is known
+  words.replace(there, std::string::npos, words.size() - std::min(there, words.size()), 'A');
   if (!isRaw)
   {
     std::string decoded;
@@ -129,9 +134,9 @@ std::array<std::uint64_t, 3> NextNumbers(std::istream& file, const XmlMeter& met
     }
     words = decoded;
   }
-  return { NumberOf(words.substr(0, bytes), meter.IsBig),
-    NumberOf(words.substr(bytes, bytes), meter.IsBig),
-    NumberOf(words.substr(2 * bytes, bytes), meter.IsBig) };
+  const auto number = [&](std::size_t which)
+  { return NumberOf(words.substr(which * bytes, bytes), meter.IsBig); };
+  return { number(0), isWhole ? number(1) : 1, isWhole ? number(2) : 0 };
 }
 
 /** @throws Failure if an array has more blocks than the file has room for, or sizes that are none. */

@@ -233,6 +233,10 @@ class VtkTest(HostileTest):
                 self.refused_bytes("a.vti", content, f"packed in {blocks} blocks of {size} "
                                    f"bytes, the last one of {last}")
 
+        cut = b'<AppendedData encoding="base64">_' + base64.b64encode(b"\xf0\xff\xff\xff") + b"A" * 99
+        self.refused_bytes("a.vti", head % (b"appended", b' offset="0"/>') + cut,
+                           "packed in 4294967280 blocks of 1 bytes")
+
     def test_polygons(self):
         ball_file = self.ball_file()
         points = b"element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
