@@ -105,7 +105,8 @@ class HeaderTest(HostileTest):
         head = head.replace(b"CompressedData = False", b"CompressedData = True")
         bomb = zlib.compress(bytes(200 << 20), 9)
         self.refused_bytes("a.mha", head + bomb, "more than the 20592 bytes")
-        for sizes in (b"0 0 0", b"26 22 0", b"26 22 18446744073709551615", b"65536 65536 4294967296"):
+        for sizes in (b"0 0 0", b"26 22 0", b"26 22 18446744073709551615",
+                      b"65536 65536 4294967296"):
             self.refused_bytes("b.mha", head.replace(b"26 22 18", sizes) + bomb, ".")
 
     def test_names_of_the_files_of_a_meta_image(self):
@@ -228,12 +229,14 @@ class VtkTest(HostileTest):
             appended = head % (b"appended", b' offset="0"/>')
             other = head % (b"any", b' offset="0"/><DataArray offset="9223372036854775807"/>')
             for content in (
-                    inline, other + b'<AppendedData encoding="raw">_' + words, appended + b'<AppendedData encoding="raw">_' + words,
+                    inline, other + b'<AppendedData encoding="raw">_' + words,
+                    appended + b'<AppendedData encoding="raw">_' + words,
                     appended + b'<AppendedData encoding="base64">_' + base64.b64encode(words)):
                 self.refused_bytes("a.vti", content, f"packed in {blocks} blocks of {size} "
                                    f"bytes, the last one of {last}")
 
-        cut = b'<AppendedData encoding="base64">_' + base64.b64encode(b"\xf0\xff\xff\xff") + b"A" * 99
+        cut = (b'<AppendedData encoding="base64">_' + base64.b64encode(b"\xf0\xff\xff\xff")
+               + b"A" * 99)
         self.refused_bytes("a.vti", head % (b"appended", b' offset="0"/>') + cut,
                            "packed in 4294967280 blocks of 1 bytes")
 
