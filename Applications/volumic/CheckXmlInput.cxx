@@ -139,7 +139,7 @@ std::array<std::uint64_t, 3> NextNumbers(std::istream& file, const XmlMeter& met
   return { number(0), isWhole ? number(1) : 1, isWhole ? number(2) : 0 };
 }
 
-/** @throws Failure if an array has more blocks than the file has room for, or sizes that are none. */
+/** @throws Failure if an array has more blocks than the file has room for, or impossible sizes. */
 void CheckBlocks(std::istream& file, const XmlMeter& meter)
 {
   file.clear();

@@ -283,7 +283,8 @@ class VtkTest(HostileTest):
         """More than there are, whatever the first word is."""
         ball_file = self.ball_file()
         for word in (b"solid", b"binary"):
-            self.write_bytes("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31) + bytes(500))
+            self.write_bytes("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31)
+                             + bytes(500))
             process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
                                        self.path("a.stl"))
             self.assertRegex(process.stderr, "a.stl: the file is cut off: it has 584 bytes")
@@ -304,10 +305,12 @@ class VtkTest(HostileTest):
         start = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
         for line, reason in (
                 (b"f 1 2 4", "corner '4', which is none of the 3 points"),
-                (b"f 1 2 -4", "corner '-4'"), (b"f 1 2 0", "corner '0'"), (b"f 1 2 x", "corner 'x'"),
+                (b"f 1 2 -4", "corner '-4'"), (b"f 1 2 0", "corner '0'"),
+                (b"f 1 2 x", "corner 'x'"),
                 (b"f 1/1 2/1 3/2", "corner '3/2'"), (b"f 1//1 2//1 3//-2", "corner '3//-2'"),
                 (b"f 1/ 2/ 3/", "corner '1/'"), (b"f 1/1/1/1 2 3", "corner '1/1/1/1'"),
-                (b"f 1 2 \\\n 4", "corner '4'"), (b"f 1//1 2/1 3", "corners of 3 kinds"), (b"f", "corners of 0 kinds"),
+                (b"f 1 2 \\\n 4", "corner '4'"), (b"f 1//1 2/1 3", "corners of 3 kinds"),
+                (b"f", "corners of 0 kinds"),
                 (b"# " + b"a" * 2000, "too long, or no text"), (b"#\0", "too long, or no text")):
             self.write_bytes("a.obj", start + line + b"\n" + b"f 1/1/1 2/1/1 3/1/1\n")
             process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",

@@ -3,7 +3,8 @@
 
 // One program for each format that `volumic` reads, by VOLUMIC_FUZZED_SUFFIX: libFuzzer makes up
 // files of it, and each must be read or refused by a Failure. Whatever else ends the program, or
-// takes too long or too much memory, is an error of the reader. How to run: Documentation/development.md.
+// takes too long or too much memory, is an error of the reader. How to run them is told in
+// Documentation/development.md.
 
 #include "LabelNames.h"
 #include "ReadStart.h"
@@ -29,7 +30,8 @@ const fs::path& Folder()
 {
   static const fs::path folder = []
   {
-    const fs::path parent = fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
+    const fs::path parent =
+      fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
     const fs::path own = parent / ("volumic-fuzz-" + std::to_string(getpid()));
     fs::create_directories(own / "volume");
     fs::create_directories(own / "scratch");
