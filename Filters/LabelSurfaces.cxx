@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelSurfaces.h"
 
+#include "SideBySide.h"
+
 #include <vtkPolyData.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <mutex>
 #include <numeric>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -21,9 +20,6 @@ namespace volumic
 {
 namespace
 {
-/** How often the calling thread tells progress while others work. */
-constexpr std::chrono::milliseconds Pause(50);
-
 /** With Gap: how often surfaces that touch those of neighbours are made again, further inside. */
 constexpr int MostRoundsApart = 5;
 
@@ -106,85 +102,6 @@ private:
   std::vector<std::size_t> UnderWay; ///< in the order in which they were begun
   std::size_t Finished = 0;
   std::size_t Expected = 0;
-};
-
-/** Work on items, each on one thread, while the calling one tells how it goes. */
-class SideBySide
-{
-public:
-  SideBySide(std::vector<std::size_t> items, std::function<void(std::size_t)> work)
-    : Items(std::move(items)), Work(std::move(work))
-  {
-  }
-
-  /** @param tell called on the calling thread now and then */
-  void Run(int numberOfThreads, const std::function<void()>& tell)
-  {
-    std::vector<std::thread> others;
-    try
-    {
-      for (int t = 0; t < numberOfThreads && others.size() < this->Items.size(); ++t)
-      {
-        ++this->Running;
-        others.emplace_back([this] { this->WorkOn(); });
-      }
-    }
-    catch (const std::system_error&)
-    {
-      --this->Running; // The system denies a thread: those that there are do the work.
-    }
-    if (others.empty())
-    {
-      ++this->Running;
-      this->WorkOn();
-    }
-    {
-      std::unique_lock<std::mutex> lock(this->Mutex);
-      while (!this->Finished.wait_for(lock, Pause, [this] { return this->Running == 0; }))
-      {
-        lock.unlock();
-        tell();
-        lock.lock();
-      }
-    }
-    for (std::thread& thread : others)
-    {
-      thread.join();
-    }
-    if (this->Exception)
-    {
-      std::rethrow_exception(this->Exception);
-    }
-  }
-
-private:
-  void WorkOn()
-  {
-    try
-    {
-      for (std::size_t next = this->Next++; next < this->Items.size(); next = this->Next++)
-      {
-        this->Work(this->Items[next]);
-      }
-    }
-    catch (...)
-    {
-      this->Next = this->Items.size();
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->Exception = this->Exception ? this->Exception : std::current_exception();
-    }
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    --this->Running;
-    this->Finished.notify_all();
-  }
-
-  std::vector<std::size_t> Items;
-  std::function<void(std::size_t)> Work;
-  std::atomic<std::size_t> Next{ 0 };
-  std::atomic<int> Running{ 0 };
-  std::mutex Mutex;
-  std::condition_variable Finished;
-  std::exception_ptr Exception;
 };
 
 /** About the work that an object is: the bricks that it is in. */
@@ -302,7 +219,15 @@ void Making::Do(const std::string& title, const Work& work)
       HostThreads one(1);
       doItem(item, 1, one);
     });
-  others.Run(this->Most, [this] { this->Tell(); });
+  try
+  {
+    others.Run(this->Most, [this] { this->Tell(); });
+  }
+  catch (...)
+  {
+    this->State.IsStopped = true; // Those that are under way are waited for.
+    throw;
+  }
 }
 
 void Making::AddClaims()

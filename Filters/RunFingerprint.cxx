@@ -255,7 +255,7 @@ void RunFingerprint::Write(CheckedWriter& file) const
 RunFingerprint RunFingerprint::Read(CheckedReader& file)
 {
   RunFingerprint fingerprint;
-  fingerprint.Entries.resize(file.Get<std::uint64_t>());
+  fingerprint.Entries.resize(file.GetCount(sizeof(std::uint64_t))); // Each text has its length.
   for (Entry& entry : fingerprint.Entries)
   {
     entry.Value = file.GetText();

@@ -244,13 +244,13 @@ std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
     this->CheckOthers();
     return std::nullopt;
   }
-  if (!this->TakeFolder())
-  {
-    Refuse("Resume: another run is at the checkpoint ", this->Folder,
-      ". Wait until it has ended, or end it.");
-  }
   try
   {
+    if (!this->TakeFolder())
+    {
+      Refuse("Resume: another run is at the checkpoint ", this->Folder,
+        ". Wait until it has ended, or end it.");
+    }
     CheckedReader file(StateIn(this->Folder));
     const StateHead head = ReadHead(file);
     std::vector<int> levels;
@@ -267,7 +267,8 @@ std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
   }
   catch (const FileError& error)
   {
-    Refuse("Resume: ", error.what(), ". Begin anew: switch Resume off, or remove that folder.");
+    Refuse("Resume: ", error.what(), ". Begin anew: switch Resume off, or remove that folder, or "
+      "choose another Scratch Directory.");
   }
 }
 

@@ -65,10 +65,7 @@ public:
   }
   void Read(void* bytes, std::size_t count)
   {
-    if (count > this->Content.size() - this->Place)
-    {
-      throw std::logic_error("A message of another process is shorter than expected.");
-    }
+    this->Need(count, 1);
     std::copy_n(this->Content.data() + this->Place, count, static_cast<char*>(bytes));
     this->Place += count;
   }
@@ -79,9 +76,18 @@ public:
     this->Read(&value, sizeof(T));
     return value;
   }
+  void Need(std::uint64_t count, std::size_t bytes) const
+  {
+    if (count > (this->Content.size() - this->Place) / bytes)
+    {
+      throw std::logic_error("A message of another process is shorter than expected.");
+    }
+  }
   std::string GetText()
   {
-    std::string text(this->Get<std::uint64_t>(), ' ');
+    const auto count = this->Get<std::uint64_t>();
+    this->Need(count, 1);
+    std::string text(count, ' ');
     this->Read(text.data(), text.size());
     return text;
   }
@@ -122,7 +128,13 @@ vtkSmartPointer<vtkAbstractArray> ReadArray(File& file)
     array->SetName(name.c_str());
   }
   array->SetNumberOfComponents(file.template Get<std::int32_t>());
-  array->SetNumberOfTuples(file.template Get<std::int64_t>());
+  const auto tuples = file.template Get<std::int64_t>();
+  // Each text has its length.
+  const std::size_t least = array->IsNumeric() ? static_cast<std::size_t>(array->GetDataTypeSize())
+                                               : sizeof(std::uint64_t);
+  file.Need(static_cast<std::uint64_t>(tuples),
+    std::max<std::size_t>(least, 1) * static_cast<std::size_t>(array->GetNumberOfComponents()));
+  array->SetNumberOfTuples(tuples);
   if (auto* texts = vtkStringArray::SafeDownCast(array))
   {
     for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)

@@ -5,7 +5,6 @@
 #include "ToolErrors.h"
 
 #include <filesystem>
-#include <limits>
 
 namespace tool
 {
@@ -68,32 +67,5 @@ std::uint64_t NumberOf(const std::string& bytes, bool isBig)
     number = number << 8 | static_cast<unsigned char>(bytes[isBig ? i : bytes.size() - 1 - i]);
   }
   return number;
-}
-
-std::uint64_t Times(std::uint64_t a, std::uint64_t b)
-{
-  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-  return a != 0 && b > most / a ? most : a * b;
-}
-
-void NeedBytes(std::uint64_t there, std::uint64_t needed)
-{
-  if (there < needed)
-  {
-    throw Failure("the file is cut off: it has " + std::to_string(there) +
-      " bytes of voxels, its header asks for " + std::to_string(needed) + "; copy it again");
-  }
-}
-
-void NeedJustBytes(std::uint64_t there, std::uint64_t needed)
-{
-  NeedBytes(there, needed);
-  if (there > needed)
-  {
-    throw Failure("the file is too long: it has " + std::to_string(there) +
-      " bytes of voxels, its header asks for " + std::to_string(needed) +
-      "; copy it again, or, if what is too much is its end, cut that off (truncate -s -" +
-      std::to_string(there - needed) + ")");
-  }
 }
 }

@@ -42,18 +42,6 @@ private:
 
 /** The unsigned number that these bytes are. */
 std::uint64_t NumberOf(const std::string& bytes, bool isBig);
-
-/** The product, or the largest number where that would be more: sizes of damaged headers. */
-std::uint64_t Times(std::uint64_t a, std::uint64_t b);
-
-/** @throws Failure if there are fewer bytes than needed. */
-void NeedBytes(std::uint64_t there, std::uint64_t needed);
-
-/**
- * The same, and if there are more: bytes that are one too many among or before the voxels move all
- * that follow.
- */
-void NeedJustBytes(std::uint64_t there, std::uint64_t needed);
 }
 
 #endif

@@ -5,8 +5,9 @@
 #include "ToolErrors.h"
 
 #ifdef VOLUMIC_HAS_BZIP2
-#include <algorithm>
 #include <bzlib.h>
+#include <string>
+#include <vector>
 #endif
 
 namespace tool
@@ -14,6 +15,8 @@ namespace tool
 #ifdef VOLUMIC_HAS_BZIP2
 namespace
 {
+constexpr std::size_t Piece = 1 << 18; ///< bytes at a time
+
 /** A bz_stream that is freed. */
 struct Bunzipper
 {
@@ -31,55 +34,61 @@ struct Bunzipper
   bz_stream Stream = {};
 };
 
-/** Unpack one stream: `taken` and `given` grow by its bytes. */
-void BunzipStream(
-  const std::string& packed, std::size_t& taken, std::string& unpacked, std::size_t& given)
+/** Unpack one stream, of whose packed bytes some may be left. @return how many bytes it gave. */
+std::uint64_t BunzipStream(
+  std::istream& packed, std::string& left, const UnpackedSink& sink, std::uint64_t most)
 {
   Bunzipper bunzipper;
   bz_stream& stream = bunzipper.Stream;
+  std::vector<char> output(Piece);
+  std::uint64_t done = 0;
   for (int status = BZ_OK; status != BZ_STREAM_END;)
   {
-    // Pieces, since the stream counts in unsigned int.
-    const std::size_t piece = 1U << 30;
-    const std::size_t in = std::min(packed.size() - taken, piece);
-    const std::size_t out = std::min(unpacked.size() - given, piece);
-    stream.next_in = const_cast<char*>(packed.data()) + taken;
-    stream.avail_in = static_cast<unsigned int>(in);
-    stream.next_out = unpacked.data() + given;
-    stream.avail_out = static_cast<unsigned int>(out);
-    status = BZ2_bzDecompress(&stream);
-    const bool isStuck = stream.avail_in == in && stream.avail_out == out;
-    taken += in - stream.avail_in;
-    given += out - stream.avail_out;
-    if (status == BZ_OK && isStuck)
+    if (left.empty())
     {
-      throw Failure(taken == packed.size()
-          ? "the packed data are cut off: they give " + std::to_string(given) + " of " +
-            std::to_string(unpacked.size()) + " bytes, without their end"
-          : "the packed data give more than the " + std::to_string(given) +
-            " bytes that the header tells of");
+      left.resize(Piece);
+      packed.read(left.data(), static_cast<std::streamsize>(left.size()));
+      left.resize(static_cast<std::size_t>(packed.gcount()));
     }
+    stream.next_in = left.data();
+    stream.avail_in = static_cast<unsigned int>(left.size());
+    stream.next_out = output.data();
+    stream.avail_out = static_cast<unsigned int>(output.size());
+    status = BZ2_bzDecompress(&stream);
+    const std::size_t got = output.size() - stream.avail_out;
     if (status != BZ_OK && status != BZ_STREAM_END)
     {
       throw Failure("the packed data are damaged");
     }
+    if (got > most - done)
+    {
+      throw Failure("the packed data give more than the " + std::to_string(most) +
+        " bytes that the header tells of");
+    }
+    if (status == BZ_OK && left.empty() && got == 0)
+    {
+      throw Failure("the packed data are cut off: they give " + std::to_string(done) + " of " +
+        std::to_string(most) + " bytes, without their end");
+    }
+    sink(output.data(), got);
+    done += got;
+    left.erase(0, left.size() - stream.avail_in);
   }
+  return done;
 }
 }
 
-std::string Bunzip(const std::string& packed, std::size_t count)
+void BunzipJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count)
 {
-  std::string unpacked(count, '\0');
-  std::size_t taken = 0;
-  std::size_t given = 0;
+  std::string left;
+  std::uint64_t done = 0;
   do
   {
-    BunzipStream(packed, taken, unpacked, given);
-  } while (given < count);
-  return unpacked;
+    done += BunzipStream(packed, left, sink, count - done);
+  } while (done < count);
 }
 #else
-std::string Bunzip(const std::string&, std::size_t)
+void BunzipJust(std::istream&, const UnpackedSink&, std::uint64_t)
 {
   throw Failure("the encoding bzip2 is not read: this program was built without libbz2");
 }

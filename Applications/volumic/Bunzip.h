@@ -3,17 +3,16 @@
 #ifndef volumicBunzip_h
 #define volumicBunzip_h
 
-#include <cstddef>
-#include <string>
+#include "Inflate.h"
 
 namespace tool
 {
 /**
- * What bzip2 data unpack to, which must be `count` bytes; several streams, one behind the other,
- * are one. @throws Failure, without a name, if they are damaged, cut off or of another size, or if
- * the program was built without libbz2.
+ * Unpack bzip2 data, which must give just so many bytes; several streams, one behind the other, are
+ * one. @throws Failure, without a name, if they are damaged, cut off or of another size, or if the
+ * program was built without libbz2.
  */
-std::string Bunzip(const std::string& packed, std::size_t count);
+void BunzipJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
 }
 
 #endif

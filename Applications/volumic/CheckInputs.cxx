@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CheckInputs.h"
 
-#include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "Inflate.h"
 #include "InputFiles.h"
+#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -13,9 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -118,27 +117,60 @@ void CheckMetaFiles(
   }
 }
 
-/** The files of "slice%03d.raw FIRST LAST [STEP]"; none if the pattern is another. */
-std::vector<std::string> FilesOfMetaPattern(const std::string& name, const std::string& words)
+/** How many slices a MetaImage has, which may be in as many files. */
+std::uint64_t SlicesOf(const std::string& name)
 {
-  static const std::regex pattern(R"((\S*)%(0?)(\d*)d(\S*) +(\d+) +(\d+)(?: +(\d+))?)");
-  std::smatch match;
-  std::vector<std::string> files;
-  if (!std::regex_match(words, match, pattern))
+  std::istringstream sizes(HeaderValue(name, "DimSize"));
+  std::uint64_t slices = 1;
+  for (std::uint64_t size = 0; sizes >> size;)
   {
-    return files;
+    slices = std::max<std::uint64_t>(size, 1);
   }
-  const auto number = [&](int part) { return std::strtol(match[part].str().c_str(), nullptr, 10); };
-  const long step = match[7].matched ? std::max(number(7), 1L) : 1;
-  const std::size_t most = 100000; // a damaged header's range may have no end
-  for (long i = number(5); i <= number(6) && files.size() < most; i += step)
+  return slices;
+}
+
+/**
+ * The files of "slice%03d.raw [FIRST [LAST [STEP]]]". MetaIO gives the first word to printf, whatever
+ * it is, and divides by the step. @throws Failure for what is no such pattern.
+ */
+std::vector<std::string> FilesOfMetaPattern(const std::string& name, const std::string& text)
+{
+  std::istringstream words(text);
+  std::string pattern;
+  words >> pattern;
+  std::vector<long> numbers;
+  for (std::string word; numbers.size() < 4 && words >> word;)
   {
-    std::string digits = std::to_string(i);
-    const auto width = static_cast<std::size_t>(number(3));
-    digits.insert(0, width - std::min(width, digits.size()), match[2].length() > 0 ? '0' : ' ');
-    files.push_back(
-      (std::filesystem::path(name).parent_path() / (match[1].str() + digits + match[4].str()))
-        .string());
+    numbers.push_back(ParseNumber<int>(word));
+  }
+  const std::uint64_t slices = SlicesOf(name);
+  const std::size_t begin = std::min(pattern.find('%'), pattern.size());
+  const std::size_t end =
+    std::min(pattern.find_first_not_of("0123456789", begin + 1), pattern.size());
+  const std::string width = pattern.substr(std::min(begin + 1, end), end - begin - 1);
+  const long most = 100000; // files; a damaged header may ask for any number
+  const long steps = static_cast<long>(std::min<std::uint64_t>(slices, most)) - 1;
+  const long first = numbers.empty() ? 1 : numbers[0];
+  const long last = numbers.size() > 1 ? numbers[1] : first + steps;
+  const long step = numbers.size() == 3 ? numbers[2]
+    : numbers.size() == 2               ? (last - first) / (steps + 1)
+                                        : 1;
+  if (end == pattern.size() || pattern.find_first_of("diu", end) != end || width.size() > 3 ||
+    pattern.find('%', end) != std::string::npos || numbers.size() > 3 || slices > most ||
+    first < 0 || step < 1 || first + steps * step > last)
+  {
+    throw Failure("its header is damaged: the ElementDataFile '" + text.substr(0, 80) +
+      "' gives no " + std::to_string(slices) + " files, as 'slice%03d.raw 1 100 1' gives 100");
+  }
+  std::vector<std::string> files;
+  for (long i = 0; i <= steps; ++i)
+  {
+    std::string digits = std::to_string(first + i * step);
+    const auto wanted = static_cast<std::size_t>(std::atoi(width.c_str()));
+    digits.insert(0, wanted - std::min(wanted, digits.size()), width[0] == '0' ? '0' : ' ');
+    files.push_back((std::filesystem::path(name).parent_path() /
+      (pattern.substr(0, begin) + digits + pattern.substr(end + 1)))
+                      .string());
   }
   return files;
 }
@@ -147,18 +179,13 @@ std::vector<std::string> FilesOfMetaPattern(const std::string& name, const std::
 void CheckMetaList(const std::string& name, std::uint64_t needed)
 {
   const std::vector<std::string> files = FilesOfVolume(name);
-  std::istringstream sizes(HeaderValue(name, "DimSize"));
-  std::uint64_t slices = 1;
-  for (std::uint64_t size = 0; sizes >> size;)
-  {
-    slices = std::max<std::uint64_t>(size, 1);
-  }
+  std::uint64_t slices = SlicesOf(name);
   const std::string words = HeaderValue(name, "ElementDataFile");
   if (words.find('3') != std::string::npos)
   {
     slices = 1; // "LIST 3D"
   }
-  if (files.size() < slices + 1) // the header is one of them
+  if (files.size() - 1 < slices) // the header is one of them
   {
     throw Failure("its header lists " + std::to_string(files.size() - 1) + " files for " +
       std::to_string(slices) + " slices");
@@ -173,7 +200,8 @@ void CheckMetaHeader(const std::string& name)
 {
   std::istringstream sizes(HeaderValue(name, "DimSize"));
   const std::vector<std::string> words{ std::istream_iterator<std::string>(sizes), {} };
-  if (HeaderValue(name, "NDims") != std::to_string(words.size()))
+  const std::size_t most = 10; // for which MetaIO has room
+  if (HeaderValue(name, "NDims") != std::to_string(words.size()) || words.size() > most)
   {
     throw Failure("its header is damaged: it has no NDims, or not as many sizes");
   }
@@ -209,9 +237,9 @@ bool CheckMeta(const std::string& name)
   }
   if (dataFile.find('%') != std::string::npos)
   {
-    const std::vector<std::string> files = FilesOfMetaPattern(name, dataFile);
-    CheckMetaFiles(files, isPacked ? 0 : needed, SkippedBytes(name));
-    return !isPacked && !files.empty();
+    CheckMetaFiles(
+      FilesOfMetaPattern(name, dataFile), isPacked ? 0 : needed, SkippedBytes(name));
+    return !isPacked;
   }
   if (dataFile.compare(0, 4, "LIST") == 0)
   {
@@ -236,7 +264,7 @@ bool CheckMeta(const std::string& name)
   }
   else if (isPacked)
   {
-    Inflate(file, needed, nullptr);
+    InflateJust(file, Nowhere, needed);
   }
   else
   {
@@ -249,33 +277,5 @@ bool CheckMeta(const std::string& name)
     NeedJustBytes(size - std::min(size, begin), needed);
   }
   return true;
-}
-
-void CheckNesting(std::istream& text)
-{
-  constexpr int deepest = 100;
-  constexpr auto end = std::numeric_limits<std::streamsize>::max();
-  int depth = 0;
-  std::string element;
-  while (text.ignore(end, '<') && std::getline(text, element, '>'))
-  {
-    if (element.compare(0, 12, "AppendedData") == 0)
-    {
-      return;
-    }
-    const char first = element.empty() ? '!' : element.front();
-    const bool isAlone = first == '?' || first == '!' || element.back() == '/';
-    depth += first == '/' ? -1 : isAlone ? 0 : 1;
-    if (depth > deepest)
-    {
-      throw Failure("it is damaged: elements within elements without end");
-    }
-  }
-}
-
-void CheckNesting(const std::string& name)
-{
-  std::ifstream file(name, std::ios::binary);
-  CheckNesting(file);
 }
 }

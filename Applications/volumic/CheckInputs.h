@@ -3,8 +3,11 @@
 #ifndef volumicCheckInputs_h
 #define volumicCheckInputs_h
 
+#include <cstdint>
 #include <iosfwd>
 #include <string>
+
+class vtkObject;
 
 namespace tool
 {
@@ -23,16 +26,22 @@ void CheckMetaHeader(const std::string& name);
 
 /**
  * NIfTI and Analyze: the type and the sizes of the voxels, the size of the data, and the checksum
- * of a packed file.
+ * of a packed file. @return the bytes of the file that holds the voxels, unpacked.
  */
-void CheckNifti(const std::string& name);
+std::uint64_t CheckNifti(const std::string& name);
 
 /** netCDF of the classic form, which MINC 1 is: the size of the data. Others are passed over. */
 void CheckNetcdf(const std::string& name);
 
-/** XML, up to appended data: elements within elements, which VTK's reader takes by recursion. */
-void CheckNesting(std::istream& text);
-void CheckNesting(const std::string& name);
+/**
+ * XML, up to appended data: elements within elements, which VTK's reader takes by recursion, and the
+ * blocks that arrays are packed in, for whose sizes it takes memory. Of a name all parts, as .pvti has.
+ */
+void CheckXmlInput(std::istream& file);
+void CheckXmlInput(const std::string& name);
+
+/** Wavefront's .obj: the corners of faces are among the points, and so what comes with them. */
+void CheckObj(const std::string& name);
 
 /** A polygon file (.ply): all elements that its head tells of are there. */
 void CheckPly(const std::string& name);
@@ -48,6 +57,13 @@ int CheckTiff(const std::string& name);
  * @return pages of a TIFF, else 1
  */
 int CheckPicture(const std::string& name);
+
+/**
+ * What VTK has chosen a reader for, by a few bytes that any file may have: of TGA all pixels must be
+ * there; PNM of other kinds, and the pictures of Radiance, are refused, as VTK's readers go on where
+ * those end.
+ */
+void CheckChosen(vtkObject* reader, const std::string& name);
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 // The classic netCDF format (its specification: NetCDF Classic Format, in netCDF's documentation).
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 
@@ -74,21 +75,34 @@ public:
     }
   }
 
-  /** @throws Failure if the data of the variable that begins here go on behind the file. */
-  void CheckVariable(const std::vector<std::uint64_t>& sizes)
+  /**
+   * @return whether the variable that begins here is the image.
+   * @throws Failure if its data go on behind the file, or VTK's reader has no room for it.
+   */
+  bool CheckVariable(const std::vector<std::uint64_t>& sizes)
   {
-    this->SkipName();
+    const std::uint64_t length = this->Count();
+    const bool isImage = length == 5 && this->File.Text(this->At, length) == "image";
+    this->Skip(length);
     std::uint64_t values = 1;
-    for (std::uint64_t left = this->Count(); left > 0; --left)
+    const std::uint64_t dimensions = this->Count();
+    for (std::uint64_t left = dimensions; left > 0; --left)
     {
       const std::uint64_t dimension = this->Count();
       values = Times(values, dimension < sizes.size() ? sizes[dimension] : 0);
+    }
+    const std::uint64_t most = 8;
+    if (dimensions > most || (isImage && (dimensions < 2 || values == 0)))
+    {
+      throw Failure("its header is damaged, or it is no volume: a variable has " +
+        std::to_string(dimensions) + " dimensions and " + std::to_string(values) + " values");
     }
     this->SkipAttributes();
     const std::uint64_t needed = Times(values, TypeBytes(this->Next(4)));
     this->Count(); // of bytes, which is too small a number for large variables
     const std::uint64_t start = this->Place();
     NeedBytes(this->File.Size() - std::min(this->File.Size(), start), needed);
+    return isImage;
   }
 
 private:
@@ -112,9 +126,15 @@ void CheckNetcdf(const std::string& name)
     sizes.push_back(header.Count());
   }
   header.SkipAttributes();
+  bool hasImage = false;
   for (std::uint64_t left = header.ListCount(); left > 0; --left)
   {
-    header.CheckVariable(sizes);
+    const bool isImage = header.CheckVariable(sizes);
+    hasImage = hasImage || isImage;
+  }
+  if (!hasImage)
+  {
+    throw Failure("it has no image: no MINC file, or damaged");
   }
 }
 }

@@ -3,6 +3,7 @@
 
 // NIfTI-1, which Analyze 7.5 begins like, and NIfTI-2, which has wider numbers at other places.
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "Inflate.h"
 #include "Texts.h"
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 
@@ -138,14 +140,23 @@ std::uint64_t BytesOf(const Header& header)
   }
   return bytes;
 }
+
+/**
+ * The bytes that a file unpacks to, if it is packed, or has.
+ * @throws Failure if it is damaged, or as soon as it gives more than `most`.
+ */
+std::uint64_t BytesWithin(const std::string& name, std::uint64_t most)
+{
+  std::ifstream packed(name, std::ios::binary);
+  return IsGzip(name) ? Inflate(packed, Nowhere, most) : BinaryFile(name).Size();
+}
 }
 
-void CheckNifti(const std::string& name)
+std::uint64_t CheckNifti(const std::string& name)
 {
   const std::string headerFile = NiftiPart(name, ".hdr");
   const std::string dataFile = NiftiPart(name, ".img");
-  std::uint64_t there = 0;
-  const Header header(GzipHead(headerFile, 540, there));
+  const Header header(HeadOf(headerFile, 540));
   const bool isOne = dataFile == headerFile;
   const std::string mark = header.Mark();
   if (isOne && mark != "n+1" && mark != "n+2")
@@ -161,8 +172,11 @@ void CheckNifti(const std::string& name)
   }
   if (!isOne)
   {
-    GzipHead(dataFile, 0, there);
+    BytesWithin(headerFile, LargestHeader);
   }
+  const bool isPacked = IsGzip(dataFile);
+  const std::uint64_t there = BytesWithin(dataFile, isPacked ? MostUnpacked(needed, start) : 0);
   NeedJustBytes(there - std::min(there, start), needed);
+  return there;
 }
 }

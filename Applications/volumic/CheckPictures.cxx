@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// PNG (W3C recommendation), BMP, PGM and PPM (Netpbm).
+// PNG (W3C recommendation), BMP, PGM and PPM (Netpbm), TGA (Truevision).
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 
+#include <vtkObject.h>
 #include <vtk_zlib.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 namespace tool
@@ -99,13 +102,64 @@ void CheckPnm(const std::string& name)
     at = end;
   }
   const std::uint64_t bytes = (head[1] == '5' ? 1 : 3) * (numbers[2] > 255 ? 2 : 1);
-  if (numbers[2] < 1 || numbers[2] > 65535 ||
+  if (numbers[0] < 1 || numbers[1] < 1 || numbers[2] < 1 || numbers[2] > 65535 ||
     std::string(" \t\r\n").find(head[at]) == std::string::npos)
   {
     throw Failure("its header is damaged, or it is no picture");
   }
   NeedJustBytes(file.Size() - at - 1, Times(Times(numbers[0], numbers[1]), bytes));
 }
+
+/** A header of 18 bytes, then pixels, or packets of them. */
+void CheckTga(const std::string& name)
+{
+  BinaryFile file(name);
+  const std::string head = file.Text(0, 18);
+  const std::uint64_t bytes = NumberOf(head.substr(16, 1), false) / 8;
+  const std::uint64_t width = NumberOf(head.substr(12, 2), false);
+  const std::uint64_t rows = NumberOf(head.substr(14, 2), false);
+  const std::uint64_t most = std::numeric_limits<std::int16_t>::max();
+  if ((bytes != 3 && bytes != 4) || width < 1 || rows < 1 || width > most || rows > most ||
+    head[0] != 0 || (head[2] != 2 && head[2] != 10))
+  {
+    throw Failure("its header is damaged, or it is no picture");
+  }
+  std::uint64_t left = width * rows;
+  std::uint64_t at = head.size();
+  if (head[2] == 2)
+  {
+    file.Need(at, left * bytes);
+    return;
+  }
+  // Packets: a pixel that is repeated, or so many pixels.
+  const std::string packed = file.Text(0, file.Size());
+  while (left > 0)
+  {
+    const std::uint64_t packet =
+      at < packed.size() ? static_cast<unsigned char>(packed[at]) : std::uint64_t(0);
+    const std::uint64_t count = packet % 128 + 1;
+    at += 1 + bytes * (packet < 128 ? count : 1);
+    if (count > left || at > packed.size())
+    {
+      throw Failure("the file is cut off or damaged: its packed pixels are not as many as its rows "
+                    "ask for");
+    }
+    left -= count;
+  }
+}
+}
+
+void CheckChosen(vtkObject* reader, const std::string& name)
+{
+  if (reader->IsA("vtkTGAReader"))
+  {
+    CheckTga(name);
+  }
+  const std::string mark = BinaryFile(name).Text(0, 2);
+  if (reader->IsA("vtkHDRReader") || (reader->IsA("vtkPNMReader") && mark != "P5" && mark != "P6"))
+  {
+    throw Failure("pictures of this kind are not read; PNG, TIFF, JPEG, BMP, PGM and PPM are");
+  }
 }
 
 int CheckPicture(const std::string& name)

@@ -4,11 +4,16 @@
 // The polygon file format: a text head tells of elements, and their properties; each property is a
 // number, or a list of numbers behind their count.
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -16,10 +21,18 @@ namespace tool
 {
 namespace
 {
+/** A type of numbers, and the largest of them; 0: of numbers that are not whole. */
+struct NumberType
+{
+  int Bytes = 0;
+  std::uint64_t Largest = 0;
+};
+
 struct Property
 {
-  int CountBytes = 0; ///< of a list; 0: there is one number
-  int Bytes = 0;
+  std::string Name;
+  NumberType Count; ///< of a list; of 0 bytes: there is one number
+  NumberType Value;
 };
 
 struct Elements
@@ -35,14 +48,20 @@ struct Head
   std::vector<Elements> Parts;
 };
 
-int TypeBytes(const std::string& type)
+NumberType TypeOf(const std::string& type)
 {
-  static const std::map<std::string, int> sizes = { { "char", 1 }, { "uchar", 1 }, { "int8", 1 },
-    { "uint8", 1 }, { "short", 2 }, { "ushort", 2 }, { "int16", 2 }, { "uint16", 2 }, { "int", 4 },
-    { "uint", 4 }, { "int32", 4 }, { "uint32", 4 }, { "float", 4 }, { "float32", 4 },
-    { "double", 8 }, { "float64", 8 } };
-  const auto found = sizes.find(type);
-  if (found == sizes.end())
+  static const NumberType int8 = { 1, 0x7F };
+  static const NumberType uint8 = { 1, 0xFF };
+  static const NumberType int16 = { 2, 0x7FFF };
+  static const NumberType uint16 = { 2, 0xFFFF };
+  static const NumberType int32 = { 4, 0x7FFFFFFF };
+  static const std::map<std::string, NumberType> types = { { "char", int8 }, { "uchar", uint8 },
+    { "int8", int8 }, { "uint8", uint8 }, { "short", int16 }, { "ushort", uint16 },
+    { "int16", int16 }, { "uint16", uint16 }, { "int", int32 }, { "uint", int32 },
+    { "int32", int32 }, { "uint32", int32 }, { "float", { 4, 0 } }, { "float32", { 4, 0 } },
+    { "double", { 8, 0 } }, { "float64", { 8, 0 } } };
+  const auto found = types.find(type);
+  if (found == types.end())
   {
     throw Failure("its header is damaged: '" + type + "' is no type");
   }
@@ -54,7 +73,10 @@ Head ReadHead(std::istream& file)
 {
   Head head;
   std::string line;
-  while (std::getline(file, line))
+  // VTK's reader has room for 4096 bytes, and takes zeros for the ends of lines.
+  constexpr std::size_t longest = 4000;
+  while (std::getline(file, line) && line.size() <= longest &&
+    line.find('\0') == std::string::npos)
   {
     std::istringstream words(line);
     std::string word;
@@ -72,18 +94,34 @@ Head ReadHead(std::istream& file)
     {
       head.Parts.emplace_back();
       head.Parts.back().Name = type;
-      words >> head.Parts.back().Count;
+      if (!(words >> head.Parts.back().Count) ||
+        head.Parts.back().Count > std::numeric_limits<int>::max())
+      {
+        throw Failure("its header is damaged: no number of elements '" + type + "'");
+      }
     }
-    else if (word == "property" && !head.Parts.empty())
+    else if (word == "property")
     {
+      if (head.Parts.empty())
+      {
+        throw Failure("its header is damaged: a property of no element");
+      }
       Property property;
       if (type == "list")
       {
         words >> word >> type;
-        property.CountBytes = TypeBytes(word);
+        property.Count = TypeOf(word);
       }
-      property.Bytes = TypeBytes(type);
+      property.Value = TypeOf(type);
+      if (!(words >> property.Name))
+      {
+        throw Failure("its header is damaged: a property has no name");
+      }
       head.Parts.back().Properties.push_back(property);
+    }
+    else if (word != "ply" && word != "comment" && word != "obj_info")
+    {
+      throw Failure("its header is damaged: it has a line '" + Shortened(word, 80) + "'");
     }
   }
   throw Failure("the file is cut off, or no polygon file: its header does not end");
@@ -112,12 +150,12 @@ public:
   }
 
   /** Go behind the corners of a polygon, which must be among the points. */
-  void CheckCorners(std::uint64_t count, int bytes, std::uint64_t points)
+  void CheckCorners(std::uint64_t count, const NumberType& type, std::uint64_t points)
   {
     for (std::uint64_t i = 0; this->File && i < count; ++i)
     {
-      const std::uint64_t corner = this->Count(bytes);
-      if (corner >= points && this->File)
+      const std::uint64_t corner = this->Count(type.Bytes);
+      if ((corner >= points || corner > type.Largest) && this->File)
       {
         throw Failure("is damaged: a polygon has point " + std::to_string(corner) + ", there are " +
           std::to_string(points));
@@ -148,6 +186,52 @@ private:
   bool IsBig;
   bool IsShort = false;
 };
+
+/** @return the number of points. @throws Failure unless the head has what VTK's reader wants. */
+std::uint64_t CheckParts(const Head& head)
+{
+  static const std::set<std::string> formats = { "ascii", "binary_little_endian",
+    "binary_big_endian" };
+  if (formats.count(head.Format) == 0)
+  {
+    throw Failure("its header is damaged: the format '" + head.Format + "' is none");
+  }
+  const auto points = std::find_if(head.Parts.begin(), head.Parts.end(),
+    [](const Elements& part) { return part.Name == "vertex" && part.Count > 0; });
+  if (points == head.Parts.end())
+  {
+    throw Failure("has no points, or its header is damaged");
+  }
+  std::set<std::string> names;
+  for (const Elements& part : head.Parts)
+  {
+    std::set<std::string> numbers;
+    std::set<std::string> lists;
+    for (const Property& property : part.Properties)
+    {
+      const bool isOfCorners = property.Count.Largest > 0 && property.Value.Largest > 0;
+      (property.Count.Bytes == 0 ? numbers : lists)
+        .insert(property.Count.Bytes == 0 || isOfCorners ? property.Name : "");
+    }
+    const bool isRight = part.Name == "vertex"
+      ? numbers.count("x") + numbers.count("y") + numbers.count("z") == 3 && lists.empty()
+      : part.Name != "face" || lists.count("vertex_indices") + lists.count("vertex_index") == 1;
+    // VTK's reader takes what comes before the polygons for points.
+    const bool isLate = part.Name == "vertex" ? names.empty() : names.count("vertex") > 0;
+    const bool isKnown = part.Name == "vertex" || part.Name == "face" || names.count("face") > 0;
+    if (!isLate || !isKnown)
+    {
+      throw Failure("its header is damaged, or it is no surface: '" + Shortened(part.Name, 80) +
+        "' comes before points or polygons");
+    }
+    if (!isRight || part.Properties.empty() || !names.insert(part.Name).second)
+    {
+      throw Failure("its header is damaged: the properties of '" + part.Name +
+        "' are not those of a surface, or it is there twice");
+    }
+  }
+  return points->Count;
+}
 }
 
 void CheckPly(const std::string& name)
@@ -155,30 +239,26 @@ void CheckPly(const std::string& name)
   std::ifstream file(name, std::ios::binary);
   const Head head = ReadHead(file);
   Body body(file, head.Format);
-  std::uint64_t points = 0;
-  for (const Elements& part : head.Parts)
-  {
-    points = part.Name == "vertex" ? part.Count : points;
-  }
-  if (points == 0)
-  {
-    throw Failure("has no points, or its header is damaged");
-  }
+  const std::uint64_t points = CheckParts(head);
   for (const Elements& part : head.Parts)
   {
     for (std::uint64_t i = 0; !part.Properties.empty() && i < part.Count; ++i)
     {
       for (const Property& property : part.Properties)
       {
-        const bool isList = property.CountBytes > 0;
-        const std::uint64_t count = isList ? body.Count(property.CountBytes) : 1;
-        if (isList && part.Name == "face")
+        const bool isList = property.Count.Bytes > 0;
+        const std::uint64_t count = isList ? body.Count(property.Count.Bytes) : 1;
+        if (isList && count > property.Count.Largest && body.IsComplete())
         {
-          body.CheckCorners(count, property.Bytes, points);
+          throw Failure("is damaged: a list has less than no values");
+        }
+        if (isList && part.Name == "face" && property.Name != "texcoord")
+        {
+          body.CheckCorners(count, property.Value, points);
         }
         else
         {
-          body.Skip(count, property.Bytes);
+          body.Skip(count, property.Value.Bytes);
         }
       }
       if (!body.IsComplete())

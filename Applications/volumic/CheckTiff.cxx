@@ -5,6 +5,7 @@
 // takes a chain of pages that ends early for a whole one; vtkTIFFReader takes all pages to be like
 // the first one, and gives other bytes than those of the file for some kinds of pixels.
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "Inflate.h"
 #include "ToolErrors.h"
@@ -101,7 +102,9 @@ struct Page
 struct TiffFile
 {
   BinaryFile File;
-  bool IsWide = false; ///< BigTIFF
+  bool IsWide = false;    ///< BigTIFF
+  std::uint64_t Left = 0; ///< bytes of directories and values that may be read yet
+  std::map<Part, std::uint64_t> Unpacked{}; ///< bytes that strips give, which pages may share
 
   int Wide(int narrow) const { return this->IsWide ? 2 * narrow : narrow; }
 
@@ -112,6 +115,7 @@ struct TiffFile
     const std::uint64_t first = place + (this->IsWide ? 8 : 2);
     const std::uint64_t entryBytes = this->IsWide ? 20 : 12;
     this->File.Need(first, Times(count, entryBytes));
+    this->Take(count * entryBytes);
     Page page;
     const std::uint64_t end = first + count * entryBytes;
     page.Next = this->File.Number(end, this->Wide(4));
@@ -124,6 +128,16 @@ struct TiffFile
   }
 
 private:
+  /** Pages that share their values could have them read again and again. */
+  void Take(std::uint64_t bytes)
+  {
+    if (bytes > this->Left)
+    {
+      throw Failure("the file is damaged: its pages have more values than it has bytes");
+    }
+    this->Left -= bytes;
+  }
+
   void ReadEntry(std::uint64_t entry, Page& page)
   {
     static const std::uint64_t typeBytes[] = { 0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8,
@@ -146,6 +160,7 @@ private:
     }
     if (type == 3 || type == 4 || type == 13 || type == 16 || type == 18)
     {
+      this->Take(size);
       const std::string text = this->File.Text(start, size);
       for (std::uint64_t at = 0; at < size; at += bytes)
       {
@@ -169,7 +184,7 @@ void CheckKind(const Page& page)
   const std::uint64_t most = std::numeric_limits<int>::max();
   const std::uint64_t samples = page.Number(Samples, 1);
   const std::uint64_t pixels = Times(page.Number(Width, 0), page.Number(Height, 0));
-  if (pixels == 0 || Times(pixels, 4 * samples) > most)
+  if (pixels == 0 || Times(pixels, Times(4, samples)) > most)
   {
     throw Failure("it has " + std::to_string(page.Number(Width, 0)) + " x " +
       std::to_string(page.Number(Height, 0)) + " pixels");
@@ -181,7 +196,8 @@ void CheckKind(const Page& page)
   const bool isDecoded = packing == 1 || packing == 5 || packing == 8 || packing == 32773;
   const bool isGrey = colours <= 1 && samples == 1;
   const bool isColour = colours == 2 && (samples == 3 || samples == 4);
-  const bool isMapped = colours == 3 && samples == 1 && page.List(ColourMap).size() == 3u << bits;
+  const bool isMapped =
+    colours == 3 && samples == 1 && bits <= 8 && page.List(ColourMap).size() == 3u << bits;
   // Of more than 8 bits only what is grey from black to white.
   const bool isWide = (bits == 16 || bits == 32) && isDecoded && isGrey && colours == 1;
   const bool isNarrow = bits == 8 && (isGrey || isColour || isMapped || colours > 3);
@@ -225,8 +241,13 @@ void CheckStrips(TiffFile& tiff, Page& page)
     if (packing == 8)
     {
       // Of the last strip some programs pack more rows than there are.
-      std::istringstream packed(tiff.File.Text(offsets[i], sizes[i]));
-      if (Inflate(packed, [](const char*, std::size_t) {}) < needed)
+      const Part strip{ offsets[i], offsets[i] + sizes[i] };
+      if (tiff.Unpacked.count(strip) == 0)
+      {
+        std::istringstream packed(tiff.File.Text(offsets[i], sizes[i]));
+        tiff.Unpacked[strip] = Inflate(packed, Nowhere, Times(rowBytes, rows));
+      }
+      if (tiff.Unpacked[strip] < needed)
       {
         throw Failure("a strip is packed from fewer bytes than its rows have");
       }
@@ -330,6 +351,7 @@ int CheckTiff(const std::string& name)
     return 0;
   }
   tiff.IsWide = version == 43;
+  tiff.Left = 2 * tiff.File.Size();
   std::vector<Part> parts = { { 0, tiff.IsWide ? 16u : 8u } };
   std::uint64_t place = tiff.IsWide ? tiff.File.Number(8, 8) : tiff.File.Number(4, 4);
   std::set<std::uint64_t> places;
@@ -337,9 +359,9 @@ int CheckTiff(const std::string& name)
   std::uint64_t largest = 0;
   while (place != 0)
   {
-    if (!places.insert(place).second)
+    if (!places.insert(place).second || places.size() > std::numeric_limits<std::uint16_t>::max())
     {
-      throw Failure("the file is damaged: its pages form a ring");
+      throw Failure("the file is damaged: its pages form a ring, or are more than libtiff counts");
     }
     try
     {
@@ -372,10 +394,6 @@ int CheckTiff(const std::string& name)
     }
   }
   CheckParts(tiff, std::move(parts), largest);
-  if (places.size() > std::numeric_limits<std::uint16_t>::max())
-  {
-    throw Failure(std::to_string(places.size()) + " pages; libtiff counts to 65535");
-  }
   return static_cast<int>(places.size());
 }
 }

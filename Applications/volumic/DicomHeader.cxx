@@ -169,11 +169,7 @@ void CheckDecimal(const std::string& text, const char* name)
   for (std::string part; std::getline(parts, part, '\\');)
   {
     part.erase(std::remove(part.begin(), part.end(), ' '), part.end());
-    try
-    {
-      ParseNumber<double>(part);
-    }
-    catch (const UsageError&)
+    if (!AsNumber<double>(part))
     {
       throw Failure(std::string("its header is damaged: ") + name + " '" + text + "'");
     }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Inflate.h"
 
-#include "BinaryFile.h"
 #include "ToolErrors.h"
 
 #include <vtk_zlib.h>
@@ -10,6 +9,8 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace tool
@@ -49,11 +50,21 @@ void Refill(std::istream& packed, std::vector<char>& input, z_stream& stream)
 }
 
 /** Whether a member of a gzip file begins here. */
-bool IsGzip(const z_stream& stream)
+bool IsMember(const z_stream& stream)
 {
   return stream.avail_in > 0 && stream.next_in[0] == 0x1f &&
     (stream.avail_in == 1 || stream.next_in[1] == 0x8b);
 }
+}
+
+UnpackedSink To(char* place, std::uint64_t before)
+{
+  return [place, before](const char* bytes, std::size_t count) mutable
+  {
+    const std::size_t skipped = static_cast<std::size_t>(std::min<std::uint64_t>(before, count));
+    before -= skipped;
+    place = std::copy_n(bytes + skipped, count - skipped, place);
+  };
 }
 
 std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint64_t most)
@@ -63,15 +74,14 @@ std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint6
   std::vector<char> input(Piece);
   std::vector<char> output(Piece);
   std::uint64_t done = 0;
-  const bool isAny = most == std::numeric_limits<std::uint64_t>::max();
   bool isAtEnd = false;
   while (!isAtEnd)
   {
     Refill(packed, input, stream);
     if (stream.avail_in == 0)
     {
-      throw Failure("the packed data are cut off: they give " + std::to_string(done) +
-        (isAny ? "" : " of " + std::to_string(most)) + " bytes");
+      throw Failure("the packed data are cut off: they give " + std::to_string(done) + " of " +
+        std::to_string(most) + " bytes");
     }
     stream.next_out = reinterpret_cast<Bytef*>(output.data());
     stream.avail_out = static_cast<uInt>(output.size());
@@ -89,72 +99,45 @@ std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint6
     sink(output.data(), got);
     done += got;
     isAtEnd = status == Z_STREAM_END;
-    if (isAtEnd && done < most)
+    if (isAtEnd)
     {
       // Several members, one behind the other, are one gzip file.
       Refill(packed, input, stream);
-      const bool isMember = isAny ? IsGzip(stream) : stream.avail_in > 0;
-      isAtEnd = !isMember || inflateReset(&stream) != Z_OK;
+      isAtEnd = !IsMember(stream) || inflateReset(&stream) != Z_OK;
     }
   }
   return done;
 }
 
-void Inflate(std::istream& packed, std::uint64_t count, char* bytes)
+void NeedUnpacked(std::uint64_t got, std::uint64_t needed)
 {
-  char* to = bytes;
-  const std::uint64_t done = Inflate(
-    packed,
-    [&to](const char* unpacked, std::size_t got)
-    { to = to ? std::copy_n(unpacked, got, to) : nullptr; },
-    count);
-  if (done < count)
+  if (got < needed)
   {
-    throw Failure("the packed data give " + std::to_string(done) + " bytes, " +
-      std::to_string(count) + " are needed");
+    throw Failure("the packed data give " + std::to_string(got) + " bytes, " +
+      std::to_string(needed) + " are needed");
   }
 }
 
-// Not by gzread, which takes a file that was cut off for a whole one in zlib 1.3.2.
-std::string GzipHead(const std::string& name, std::size_t count, std::uint64_t& total)
+void InflateJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count)
 {
-  std::ifstream packed(name, std::ios::binary);
-  if (!packed)
-  {
-    throw Failure("cannot be opened");
-  }
-  std::vector<char> input(Piece);
-  std::vector<char> output(Piece);
-  Inflater inflater;
-  z_stream& stream = inflater.Stream;
-  Refill(packed, input, stream);
-  if (!IsGzip(stream))
-  {
-    total = BinaryFile(name).Size();
-    return std::string(input.data(), std::min<std::size_t>(stream.avail_in, count));
-  }
-  std::string head;
-  total = 0;
-  int status = Z_OK;
-  while (status != Z_STREAM_END)
-  {
-    Refill(packed, input, stream);
-    stream.next_out = reinterpret_cast<Bytef*>(output.data());
-    stream.avail_out = static_cast<uInt>(output.size());
-    status = stream.avail_in == 0 ? Z_BUF_ERROR : inflate(&stream, Z_NO_FLUSH);
-    if (status != Z_OK && status != Z_STREAM_END)
-    {
-      throw Failure("the packed data are damaged or cut off");
-    }
-    const std::size_t got = output.size() - stream.avail_out;
-    head.append(output.data(), std::min(got, count - head.size()));
-    total += got;
-    if (status == Z_STREAM_END)
-    {
-      Refill(packed, input, stream);
-      status = IsGzip(stream) ? inflateReset(&stream) : Z_STREAM_END; // another member, or none
-    }
-  }
-  return head;
+  NeedUnpacked(Inflate(packed, sink, count), count);
+}
+
+bool IsGzip(const std::string& name)
+{
+  std::ifstream file(name, std::ios::binary);
+  return file.get() == 0x1f && file.get() == 0x8b;
+}
+
+std::string HeadOf(const std::string& name, std::size_t count)
+{
+  std::string bytes(count, '\0');
+  using Closing = int (*)(gzFile);
+  const std::unique_ptr<std::remove_pointer_t<gzFile>, Closing> file(
+    gzopen(name.c_str(), "rb"), gzclose);
+  const int there =
+    file ? gzread(file.get(), bytes.data(), static_cast<unsigned int>(count)) : 0;
+  bytes.resize(static_cast<std::size_t>(std::max(there, 0)));
+  return bytes;
 }
 }

@@ -7,31 +7,40 @@
 #include <cstdint>
 #include <functional>
 #include <istream>
-#include <limits>
 #include <string>
 
 namespace tool
 {
-/**
- * Unpack zlib or gzip data to their end, which alone tells whether they are what was packed: the
- * checksum stands there. The data must give `count` bytes; they go to `bytes`, or nowhere if that
- * is null. @throws Failure, without a name, if they are damaged, cut off or of another size.
- */
-void Inflate(std::istream& packed, std::uint64_t count, char* bytes);
-
 /** Takes unpacked bytes, in their order. */
 using UnpackedSink = std::function<void(const char* bytes, std::size_t count)>;
 
-/** The same, to where the sink puts them; by default as many as there are. @return how many. */
-std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink,
-  std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+/** Lets them go: only the checksum is wanted. */
+inline const UnpackedSink Nowhere = [](const char*, std::size_t) {};
+
+/** Puts them to a place, without those that come before. */
+UnpackedSink To(char* place, std::uint64_t before = 0);
+
+/**
+ * Unpack zlib or gzip data to their end, which alone tells whether they are what was packed: the
+ * checksum stands there. @return how many bytes there were.
+ * @throws Failure, without a name, if they are damaged or cut off, or as soon as they give more.
+ */
+std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint64_t most);
+
+/** The same of data that must give just so many bytes. @throws Failure if they don't. */
+void InflateJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
+
+/** @throws Failure unless packed data gave as many bytes as are needed. */
+void NeedUnpacked(std::uint64_t got, std::uint64_t needed);
+
+/** Whether a file begins as those of gzip do. */
+bool IsGzip(const std::string& name);
 
 /**
  * The first bytes that a gzip file unpacks to, or those of a file that is not packed; `count` at
- * most. The checksum of a packed file is looked at. @throws Failure if it is damaged or cut off.
- * @param total given how many bytes there are
+ * most. What follows them is not looked at.
  */
-std::string GzipHead(const std::string& name, std::size_t count, std::uint64_t& total);
+std::string HeadOf(const std::string& name, std::size_t count);
 }
 
 #endif

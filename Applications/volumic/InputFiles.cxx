@@ -3,14 +3,15 @@
 #include "InputFiles.h"
 
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "ReadVolume.h"
 #include "Texts.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
+#include <system_error>
 
 namespace tool
 {
@@ -21,7 +22,9 @@ namespace fs = std::filesystem;
 /** The lines of a text header, which comes before any voxels. */
 std::vector<std::string> HeaderLines(const std::string& name)
 {
-  std::string head(1 << 20, '\0');
+  std::error_code failed;
+  const std::uintmax_t size = fs::file_size(name, failed);
+  std::string head(failed ? 0 : std::min<std::uintmax_t>(size, LargestText), '\0');
   std::ifstream file(name, std::ios::binary);
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
@@ -89,13 +92,15 @@ void AddCompanions(const std::string& name, std::vector<std::string>& files)
   }
   else if (EndsWith(lower, ".pvti"))
   {
-    static const std::regex source("Source=\"([^\"]*)\"");
+    const std::string mark = "Source=\"";
     for (const std::string& line : HeaderLines(name))
     {
-      std::smatch match;
-      if (std::regex_search(line, match, source))
+      const std::size_t at = line.find(mark);
+      const std::size_t begin = at == std::string::npos ? line.size() : at + mark.size();
+      const std::size_t end = line.find('"', begin);
+      if (end != std::string::npos)
       {
-        files.push_back((folder / match[1].str()).string());
+        files.push_back((folder / line.substr(begin, end - begin)).string());
       }
     }
   }

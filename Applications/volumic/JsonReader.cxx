@@ -32,7 +32,8 @@ public:
 private:
   [[noreturn]] void Refuse(const std::string& reason) const
   {
-    const auto end = this->All.begin() + static_cast<std::ptrdiff_t>(this->At);
+    const auto end =
+      this->All.begin() + static_cast<std::ptrdiff_t>(std::min(this->At, this->All.size()));
     throw Failure("line " + std::to_string(1 + std::count(this->All.begin(), end, '\n')) +
       " is not as JSON has it: " + reason);
   }
@@ -152,15 +153,13 @@ JsonValue Parser::Word()
   }
   else if (word != "null")
   {
-    try
-    {
-      value.Form = JsonValue::Kind::Number;
-      value.Number = ParseNumber<double>(word);
-    }
-    catch (const UsageError&)
+    const std::optional<double> number = AsNumber<double>(word);
+    if (!number)
     {
       this->Refuse(word.empty() ? "a value is missing" : "'" + word.substr(0, 40) + "'");
     }
+    value.Form = JsonValue::Kind::Number;
+    value.Number = *number;
   }
   this->At = end;
   return value;

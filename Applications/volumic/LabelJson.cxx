@@ -22,14 +22,7 @@ std::optional<int> AsLabel(const JsonValue& value)
 {
   if (value.Form == Kind::Text)
   {
-    try
-    {
-      return ParseNumber<int>(value.Text);
-    }
-    catch (const UsageError&)
-    {
-      return std::nullopt;
-    }
+    return AsNumber<int>(value.Text);
   }
   const bool isLabel = value.Form == Kind::Number && value.Number == std::floor(value.Number) &&
     std::abs(value.Number) <= std::numeric_limits<int>::max();

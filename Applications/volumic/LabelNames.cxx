@@ -3,6 +3,7 @@
 #include "LabelNames.h"
 
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -20,15 +21,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <map>
 
 namespace tool
 {
 namespace
 {
 namespace fs = std::filesystem;
-
-/** More than any list of names has. */
-constexpr std::uint64_t LargestFile = 16 << 20;
 
 std::string ReadText(const std::string& name)
 {
@@ -37,7 +36,7 @@ std::string ReadText(const std::string& name)
     throw Failure("it is a folder");
   }
   BinaryFile file(name);
-  if (file.Size() > LargestFile)
+  if (file.Size() > LargestNames)
   {
     throw Failure("it is too large for a list of names of labels");
   }
@@ -257,20 +256,23 @@ LabelNames GetLabelNames(vtkImageData* image)
 LabelNames Merged(const LabelNames& names, const LabelNames& others)
 {
   LabelNames merged = names;
+  std::multimap<int, std::size_t> places; // of labels, which several layers may have
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    places.emplace(names[i].Label, i);
+  }
   for (const LabelName& other : others)
   {
-    bool isThere = false;
-    for (LabelName& name : merged)
+    const auto [first, last] = places.equal_range(other.Label);
+    for (auto place = first; place != last; ++place)
     {
-      if (name.Label == other.Label)
-      {
-        name.Name = other.Name.empty() ? name.Name : other.Name;
-        name.Color = other.Color ? other.Color : name.Color;
-        isThere = true;
-      }
+      LabelName& name = merged[place->second];
+      name.Name = other.Name.empty() ? name.Name : other.Name;
+      name.Color = other.Color ? other.Color : name.Color;
     }
-    if (!isThere)
+    if (first == last)
     {
+      places.emplace(other.Label, merged.size());
       merged.push_back(other);
     }
   }

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace tool
 {
@@ -27,30 +28,6 @@ struct Row
   throw Failure("line " + std::to_string(line) + ": " + reason);
 }
 
-std::optional<double> AsNumber(const std::string& word)
-{
-  try
-  {
-    return ParseNumber<double>(word);
-  }
-  catch (const UsageError&)
-  {
-    return std::nullopt;
-  }
-}
-
-std::optional<int> AsLabel(const std::string& word)
-{
-  try
-  {
-    return ParseNumber<int>(word);
-  }
-  catch (const UsageError&)
-  {
-    return std::nullopt;
-  }
-}
-
 /** Words between separators, or blanks if that is ' '; quotes hold together, two stand for one. */
 std::vector<std::string> SplitLine(const std::string& text, char separator, int line)
 {
@@ -58,6 +35,7 @@ std::vector<std::string> SplitLine(const std::string& text, char separator, int 
   std::string word;
   bool isQuoted = false;
   bool hasWord = false;
+  bool isBlank = true; // so far
   const auto end = [&]
   {
     if (separator != ' ' || hasWord)
@@ -66,16 +44,17 @@ std::vector<std::string> SplitLine(const std::string& text, char separator, int 
     }
     word.clear();
     hasWord = false;
+    isBlank = true;
   };
   for (std::size_t at = 0; at < text.size(); ++at)
   {
     const char c = text[at];
-    const bool begins = Trimmed(word).empty();
     if (c == '"' && isQuoted && at + 1 < text.size() && text[at + 1] == '"')
     {
       word += text[at++];
+      isBlank = false;
     }
-    else if (c == '"' && (isQuoted || begins))
+    else if (c == '"' && (isQuoted || isBlank))
     {
       isQuoted = !isQuoted;
       hasWord = true;
@@ -88,6 +67,7 @@ std::vector<std::string> SplitLine(const std::string& text, char separator, int 
     {
       word += c;
       hasWord = true;
+      isBlank = isBlank && (c == ' ' || c == '\t' || c == '\r' || c == '\n');
     }
   }
   if (isQuoted)
@@ -101,10 +81,10 @@ std::vector<std::string> SplitLine(const std::string& text, char separator, int 
 /** The lines that say something, with their numbers. */
 std::vector<std::pair<int, std::string>> LinesOf(std::string text)
 {
-  for (std::size_t at = text.find("\r\n"); at != std::string::npos; at = text.find("\r\n", at))
-  {
-    text.erase(at, 1);
-  }
+  // A line may end by \r\n, by \n or, as on old machines, by \r.
+  char before = '\0';
+  const auto isSecond = [&before](char c) { return std::exchange(before, c) == '\r' && c == '\n'; };
+  text.erase(std::remove_if(text.begin(), text.end(), isSecond), text.end());
   std::replace(text.begin(), text.end(), '\r', '\n');
   std::istringstream stream(text);
   std::vector<std::pair<int, std::string>> lines;
@@ -214,7 +194,7 @@ std::optional<Vector3> ColorOf(const Row& row, const int* columns)
   Vector3 color;
   for (int i = 0; i < 3; ++i)
   {
-    const std::optional<double> part = AsNumber(word(columns[i]));
+    const std::optional<double> part = AsNumber<double>(word(columns[i]));
     if (!part)
     {
       return ParseHexColor(word(columns[0]));
@@ -236,7 +216,7 @@ LabelNames NamesInColumns(const std::vector<Row>& rows, std::size_t first, const
       RefuseLine(row.Line, "it has fewer columns than the first one");
     }
     const std::string& label = row.Words[static_cast<std::size_t>(columns.Label)];
-    const std::optional<int> value = AsLabel(label);
+    const std::optional<int> value = AsNumber<int>(label);
     if (!value)
     {
       RefuseLine(row.Line, "'" + label.substr(0, 40) + "' is no label: a whole number is");
@@ -251,7 +231,7 @@ LabelNames NamesInColumns(const std::vector<Row>& rows, std::size_t first, const
 int NumbersAtEnd(const Row& row)
 {
   int count = 0;
-  for (std::size_t i = row.Words.size(); i > 2 && AsNumber(row.Words[i - 1]); --i)
+  for (std::size_t i = row.Words.size(); i > 2 && AsNumber<double>(row.Words[i - 1]); --i)
   {
     ++count;
   }
@@ -261,9 +241,9 @@ int NumbersAtEnd(const Row& row)
 /** "label red green blue alpha visible mesh name", as ITK-SNAP writes it. */
 bool IsOfItkSnap(const Row& row)
 {
-  return row.Words.size() == 8 && !AsNumber(row.Words[7]) &&
+  return row.Words.size() == 8 && !AsNumber<double>(row.Words[7]) &&
     std::all_of(row.Words.begin(), row.Words.end() - 1,
-      [](const std::string& word) { return AsNumber(word).has_value(); });
+      [](const std::string& word) { return AsNumber<double>(word).has_value(); });
 }
 
 /** Rows of a label, words of a name, and numbers. */
@@ -281,7 +261,7 @@ LabelNames NamesBetweenNumbers(const std::vector<Row>& rows)
   numbers = numbers >= 3 || (numbers == 1 && haveThreeWords) ? numbers : 0;
   for (const Row& row : rows)
   {
-    const std::optional<int> label = AsLabel(row.Words[0]);
+    const std::optional<int> label = AsNumber<int>(row.Words[0]);
     if (!label || row.Words.size() < 2)
     {
       RefuseLine(row.Line, "a label, which is a whole number, and a name are wanted");
@@ -295,7 +275,7 @@ LabelNames NamesBetweenNumbers(const std::vector<Row>& rows)
     }
     const int colors[] = { end, end + 1, end + 2 };
     name.Color = numbers >= 3 ? ColorOf(row, colors) : std::nullopt;
-    if (AsNumber(name.Name))
+    if (AsNumber<double>(name.Name))
     {
       RefuseLine(row.Line, "'" + name.Name + "' is a number, no name");
     }
@@ -321,7 +301,7 @@ LabelNames ParseLabelTable(const std::string& text)
   const auto begins = [&](std::size_t column)
   {
     return std::all_of(rows.begin(), rows.end(), [&](const Row& row)
-      { return row.Words.size() > column && AsLabel(row.Words[column]).has_value(); });
+      { return row.Words.size() > column && AsNumber<int>(row.Words[column]).has_value(); });
   };
   if (std::all_of(rows.begin(), rows.end(), IsOfItkSnap))
   {
@@ -332,7 +312,7 @@ LabelNames ParseLabelTable(const std::string& text)
     return NamesInColumns(rows, 0, columns);
   }
   const bool hasHead = std::none_of(rows[0].Words.begin(), rows[0].Words.end(),
-    [](const std::string& word) { return AsNumber(word).has_value(); });
+    [](const std::string& word) { return AsNumber<double>(word).has_value(); });
   if (hasHead)
   {
     return NamesInColumns(rows, 1, ColumnsOf(rows[0]));
@@ -347,7 +327,7 @@ LabelNames ParseLabelTable(const std::string& text)
   std::iota(std::begin(columns.Colors), std::end(columns.Colors), 2);
   for (const Row& row : rows)
   {
-    if (row.Words.size() > 1 && AsNumber(row.Words[static_cast<std::size_t>(columns.Name)]))
+    if (row.Words.size() > 1 && AsNumber<double>(row.Words[static_cast<std::size_t>(columns.Name)]))
     {
       RefuseLine(row.Line, "'" + row.Words[1] + "' is a number, no name");
     }

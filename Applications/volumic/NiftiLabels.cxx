@@ -5,43 +5,25 @@
 // in XML:
 //   <Label Key="1" Red="1" Green="0" Blue="0.5" Alpha="1"><![CDATA[spleen]]></Label>
 #include "BinaryFile.h"
+#include "ByteBudget.h"
+#include "Inflate.h"
 #include "LabelNames.h"
 #include "ParseNumbers.h"
-#include "ToolErrors.h"
-
-#include <vtk_zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
-#include <memory>
-#include <type_traits>
 
 namespace tool
 {
 namespace
 {
-/** More than any table has. */
-constexpr std::uint64_t LargestTable = 16 << 20;
-
-/** As GzipHead, but without a look at the rest of the file, which has been read. */
-std::string FirstBytes(const std::string& name, std::size_t count)
-{
-  std::string bytes(count, '\0');
-  using Closing = int (*)(gzFile);
-  const std::unique_ptr<std::remove_pointer_t<gzFile>, Closing> file(
-    gzopen(name.c_str(), "rb"), gzclose);
-  const int there =
-    file ? gzread(file.get(), bytes.data(), static_cast<unsigned int>(count)) : 0;
-  bytes.resize(static_cast<std::size_t>(std::max(there, 0)));
-  return bytes;
-}
-
 /** The bytes between the header of NIfTI-1 or -2 and the voxels. */
 std::string Extensions(const std::string& name)
 {
-  const std::string header = FirstBytes(name, 544);
+  const std::string header = HeadOf(name, 544);
   if (header.size() < 352)
   {
     return "";
@@ -65,7 +47,7 @@ std::string Extensions(const std::string& name)
   {
     voxels = NumberOf(header.substr(168, 8), isBig);
   }
-  return voxels <= size + 4 ? "" : FirstBytes(name, std::min(voxels, LargestTable));
+  return voxels <= size + 4 ? "" : HeadOf(name, std::min(voxels, LargestNames));
 }
 
 /** What stands for a text in XML. */
@@ -81,14 +63,15 @@ std::string TextOf(const std::string& content)
   }
   static const std::pair<const char*, const char*> entities[] = { { "&lt;", "<" }, { "&gt;", ">" },
     { "&quot;", "\"" }, { "&apos;", "'" }, { "&amp;", "&" } };
-  std::string text = content;
-  for (const auto& [entity, sign] : entities)
+  std::string text;
+  for (std::size_t next = 0; next < content.size();)
   {
-    for (std::size_t found = text.find(entity); found != std::string::npos;
-         found = text.find(entity, found + 1))
-    {
-      text.replace(found, std::strlen(entity), sign);
-    }
+    const auto found = std::find_if(std::begin(entities), std::end(entities),
+      [&](const auto& each)
+      { return content.compare(next, std::strlen(each.first), each.first) == 0; });
+    const bool isEntity = found != std::end(entities);
+    text += isEntity ? found->second : std::string(1, content[next]);
+    next += isEntity ? std::strlen(found->first) : 1;
   }
   return text;
 }
@@ -100,18 +83,8 @@ std::optional<double> AttributeOf(const std::string& element, const std::string&
   const std::size_t at = element.find(begin);
   const std::size_t start = at == std::string::npos ? element.size() : at + begin.size();
   const std::size_t end = element.find('"', start);
-  if (end == std::string::npos)
-  {
-    return std::nullopt;
-  }
-  try
-  {
-    return ParseNumber<double>(element.substr(start, end - start));
-  }
-  catch (const UsageError&)
-  {
-    return std::nullopt;
-  }
+  return end == std::string::npos ? std::nullopt
+                                  : AsNumber<double>(element.substr(start, end - start));
 }
 }
 
@@ -121,7 +94,9 @@ LabelNames NamesInNifti(const std::string& name)
   LabelNames names;
   const std::string begin = "<Label ";
   const std::string end = "</Label>";
-  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1))
+  // Behind each element the next one is looked for: no byte is looked at twice.
+  std::size_t behind = 0;
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, behind))
   {
     const std::size_t open = text.find('>', at);
     const std::size_t close = text.find(end, at);
@@ -129,6 +104,7 @@ LabelNames NamesInNifti(const std::string& name)
     {
       break;
     }
+    behind = close;
     const std::string element = text.substr(at, open - at);
     const std::optional<double> key = AttributeOf(element, "Key");
     if (!key || *key != std::floor(*key) || std::abs(*key) > std::numeric_limits<int>::max())

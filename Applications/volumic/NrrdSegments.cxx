@@ -9,8 +9,8 @@
 // Older files have a component per segment, and neither label nor layer.
 #include "LabelNames.h"
 #include "ParseNumbers.h"
-#include "ToolErrors.h"
 
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -24,14 +24,7 @@ using Pairs = std::map<std::string, std::string>;
 int NumberAt(const Pairs& pairs, const std::string& key, int otherwise)
 {
   const auto found = pairs.find(key);
-  try
-  {
-    return found == pairs.end() ? otherwise : ParseNumber<int>(found->second);
-  }
-  catch (const UsageError&)
-  {
-    return otherwise;
-  }
+  return found == pairs.end() ? otherwise : AsNumber<int>(found->second).value_or(otherwise);
 }
 
 std::optional<Vector3> ColorAt(const Pairs& pairs, const std::string& key)
@@ -69,20 +62,16 @@ LabelNames NamesOfSegments(const Pairs& pairs, int components)
     {
       continue;
     }
-    int number = 0;
-    try
-    {
-      number = ParseNumber<int>(start.substr(7, start.size() - 8));
-    }
-    catch (const UsageError&)
+    const std::optional<int> number = AsNumber<int>(start.substr(7, start.size() - 8));
+    if (!number || *number == std::numeric_limits<int>::max())
     {
       continue; // Segmentation_..., which is about all of them
     }
     const bool isOld = components > 1 && pairs.count(start + "Layer") == 0;
     LabelName name;
     name.Name = PlainName(Unmarked(text));
-    name.Label = NumberAt(pairs, start + "LabelValue", isOld ? 1 : number + 1);
-    name.Layer = NumberAt(pairs, start + "Layer", isOld ? number : 0);
+    name.Label = NumberAt(pairs, start + "LabelValue", isOld ? 1 : *number + 1);
+    name.Layer = NumberAt(pairs, start + "Layer", isOld ? *number : 0);
     name.Color = ColorAt(pairs, start + "Color");
     names.push_back(name);
   }

@@ -15,7 +15,7 @@
 namespace tool
 {
 template <class T>
-T ParseNumber(const std::string& text)
+std::optional<T> AsNumber(const std::string& text)
 {
   const char* first = text.data();
   const char* last = first + text.size();
@@ -25,13 +25,24 @@ T ParseNumber(const std::string& text)
   }
   T value{};
   const auto result = std::from_chars(first, last, value);
-  if (first == last || result.ptr != last || result.ec != std::errc{} ||
-    !std::isfinite(static_cast<double>(value)))
+  const bool isOne = first != last && result.ptr == last && result.ec == std::errc{} &&
+    std::isfinite(static_cast<double>(value));
+  return isOne ? std::optional<T>(value) : std::nullopt;
+}
+
+template std::optional<int> AsNumber<int>(const std::string& text);
+template std::optional<double> AsNumber<double>(const std::string& text);
+
+template <class T>
+T ParseNumber(const std::string& text)
+{
+  const std::optional<T> value = AsNumber<T>(text);
+  if (!value)
   {
     throw UsageError(
       "'" + text + "' is not a" + (std::is_same<T, int>::value ? " whole number" : " number"));
   }
-  return value;
+  return *value;
 }
 
 template int ParseNumber<int>(const std::string& text);

@@ -3,6 +3,7 @@
 #ifndef volumicParseNumbers_h
 #define volumicParseNumbers_h
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace tool
  */
 template <class T>
 T ParseNumber(const std::string& text);
+
+/** The same; nothing instead of an exception, for files that have thousands of other words. */
+template <class T>
+std::optional<T> AsNumber(const std::string& text);
 
 /**
  * The MiB that a text such as 2G, 1500M or 1.5GiB stands for, rounded up: K, M, G and T are powers

@@ -3,6 +3,7 @@
 #include "RawSlabs.h"
 
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "Inflate.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
@@ -87,27 +88,16 @@ std::unique_ptr<NamelessFile> Unpack(const std::string& name, std::uint64_t star
   {
     throw Failure("its data file " + name + " cannot be opened");
   }
+  NeedPackedBytes(SizeOfData(name), MostOfZlib, count);
   auto file = std::make_unique<NamelessFile>(directory);
-  const auto append = [&](const char* bytes, std::size_t got) { file->Append(bytes, got); };
-  const std::uint64_t got =
-    count == 0 ? Inflate(packed, append) : Inflate(packed, append, count);
-  if (got < count)
-  {
-    throw Failure("the packed data give " + std::to_string(got) + " bytes, " +
-      std::to_string(count) + " are needed");
-  }
+  InflateJust(
+    packed, [&](const char* bytes, std::size_t got) { file->Append(bytes, got); }, count);
   return file;
 }
 
 std::uint64_t RawSlabs::Bytes() const
 {
-  const auto width = static_cast<std::uint64_t>(vtkDataArray::GetDataTypeSize(this->Type));
-  std::uint64_t bytes = Times(width, static_cast<std::uint64_t>(this->Components));
-  for (const int size : this->Size)
-  {
-    bytes = Times(bytes, static_cast<std::uint64_t>(size));
-  }
-  return bytes;
+  return BytesOfVoxels(this->Type, this->Components, this->Size);
 }
 
 vtkSmartPointer<vtkDataArray> RawSlabs::Read(int first, int count)

@@ -34,11 +34,11 @@ private:
 
 /**
  * What a file holds packed by zlib or gzip, behind its first `start` bytes.
- * @param count that it must give; 0: any number
+ * @param count of bytes that it must give; no more are written
  * @throws Failure if it is damaged, cut off or of another size.
  */
 std::unique_ptr<NamelessFile> Unpack(const std::string& name, std::uint64_t start,
-  const std::string& directory, std::uint64_t count = 0);
+  const std::string& directory, std::uint64_t count);
 
 /** The bytes of a data file. @throws Failure that names it if it cannot be opened. */
 std::uint64_t SizeOfData(const std::string& name);

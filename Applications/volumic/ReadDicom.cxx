@@ -7,6 +7,7 @@
 #include "ReadVolume.h"
 
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "DicomHeader.h"
 #include "ParseNumbers.h"
 #include "SlabReader.h"
@@ -30,7 +31,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <regex>
 #include <utility>
 
 namespace tool
@@ -377,11 +377,15 @@ bool IsDicom(const std::string& file)
 
 bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices)
 {
-  const auto isLike = [](const std::string& name)
+  const auto withoutNumbers = [](const std::string& name)
   {
-    const std::string path = std::filesystem::path(name).filename().string();
-    static const std::regex numbers("[0-9]+");
-    return std::regex_replace(path, numbers, "0");
+    std::string path = std::filesystem::path(name).filename().string();
+    std::replace_if(
+      path.begin(), path.end(), [](char c) { return c >= '0' && c <= '9'; }, '0');
+    path.erase(std::unique(path.begin(), path.end(),
+                 [](char a, char b) { return a == '0' && b == '0'; }),
+      path.end());
+    return path;
   };
   const std::string suffix = SuffixOf(file);
   if (slices.empty() || suffix == ".dcm" || suffix == ".dicom" || suffix == ".ima")
@@ -393,11 +397,12 @@ bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices
   const std::string head = bytes.Text(0, std::min<std::uint64_t>(bytes.Size(), 136));
   const bool isPreamble = head.find_first_not_of('\0') == std::string::npos;
   const bool isMarked = head.size() == 136 && head.compare(132, 4, "\2\0\0\0", 4) == 0;
+  const std::string like = withoutNumbers(file);
   return isMarked ||
     std::any_of(slices.begin(), slices.end(),
       [&](const std::string& slice)
       {
-        return isLike(slice) == isLike(file) || (isPreamble && SuffixOf(slice) == suffix);
+        return withoutNumbers(slice) == like || (isPreamble && SuffixOf(slice) == suffix);
       });
 }
 

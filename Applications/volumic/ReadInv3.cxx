@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVolume.h"
 
-#include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ParseNumbers.h"
 #include "TarFile.h"
@@ -24,8 +24,6 @@ namespace tool
 {
 namespace
 {
-constexpr std::uint64_t LargestPlist = 1 << 20;
-
 using Element = vtkSmartPointer<vtkXMLDataElement>;
 
 /** What the project says of its volume. */
@@ -96,7 +94,7 @@ int TypeOf(const std::string& name)
 Description Describe(const std::string& plist)
 {
   std::istringstream text(plist);
-  CheckNesting(text);
+  CheckXmlInput(text);
   Element root;
   VtkMessages ignored; // What is wrong is said in one line below.
   ignored.Catch([&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });
@@ -150,7 +148,7 @@ Description ReadDescription(const std::string& name)
 {
   TarFile archive(name);
   GoTo(archive, "main.plist");
-  if (archive.Size() > LargestPlist)
+  if (archive.Size() > LargestText)
   {
     throw Failure("main.plist is too large to be the description of a project");
   }
@@ -173,11 +171,7 @@ vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
   const Description description = ReadDescription(name);
   auto values =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(description.Type));
-  std::uint64_t expected = static_cast<std::uint64_t>(values->GetDataTypeSize());
-  for (const int size : description.Size)
-  {
-    expected = Times(expected, static_cast<std::uint64_t>(size));
-  }
+  const std::uint64_t expected = BytesOfVoxels(description.Type, 1, description.Size);
   TarFile archive(name);
   GoTo(archive, description.File);
   if (archive.Size() != expected)

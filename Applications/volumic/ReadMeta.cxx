@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVolume.h"
 
-#include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "InputFiles.h"
 #include "RawSlabs.h"

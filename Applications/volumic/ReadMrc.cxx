@@ -5,6 +5,7 @@
 #include "ReadVolume.h"
 
 #include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "RawSlabs.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"

@@ -3,6 +3,7 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
+#include "Inflate.h"
 #include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
@@ -17,6 +18,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -65,13 +67,14 @@ bool Place(vtkNIFTIImageReader* reader, const double* spacing, VolumePlacement& 
   return false;
 }
 
-void Check(const std::string& name)
+/** @return the bytes of the file that holds the voxels, unpacked. */
+std::uint64_t Check(const std::string& name)
 {
   if (!vtkNew<vtkNIFTIImageReader>()->CanReadFile(name.c_str()))
   {
     throw Failure("not a NIfTI or Analyze file");
   }
-  CheckNifti(name);
+  return CheckNifti(name);
 }
 }
 
@@ -98,7 +101,7 @@ vtkSmartPointer<vtkImageData> ReadNifti(const std::string& name)
 
 std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDirectory& scratch)
 {
-  Check(name);
+  const std::uint64_t bytes = Check(name);
   const std::string lower = Lower(name);
   if (EndsWith(lower, ".img") || EndsWith(lower, ".img.gz"))
   {
@@ -106,7 +109,7 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDire
   }
   // Packed, it would be unpacked from its begin for each slab.
   const std::shared_ptr<NamelessFile> unpacked =
-    EndsWith(lower, ".gz") ? Unpack(name, 0, scratch) : nullptr;
+    IsGzip(name) ? Unpack(name, 0, scratch, bytes) : nullptr;
   const std::string file = unpacked ? unpacked->Path() : name;
   const auto make = [file, unpacked]
   {

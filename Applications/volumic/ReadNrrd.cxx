@@ -7,6 +7,7 @@
 
 #include "BinaryFile.h"
 #include "Bunzip.h"
+#include "ByteBudget.h"
 #include "Inflate.h"
 #include "LabelNames.h"
 #include "ParseNumbers.h"
@@ -22,8 +23,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -36,13 +37,11 @@ namespace
 {
 using Fields = std::map<std::string, std::string>;
 
-/** What a file holds behind its first `start` bytes, so many of them at most. */
-std::string ReadBytes(const std::string& name, std::uint64_t start = 0,
-  std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
+/** As much as a header may have. */
+std::string FirstText(const std::string& name)
 {
   BinaryFile file(name);
-  start = std::min(start, file.Size());
-  return file.Text(start, std::min(most, file.Size() - start));
+  return file.Text(0, std::min(LargestText, file.Size()));
 }
 
 /** The field of this name, one of two of some. @throws Failure for what is no field of NRRD. */
@@ -138,68 +137,66 @@ int TypeOf(const std::string& name)
   return found->second;
 }
 
-/** What the packed data give, which is to be `count` bytes. */
-std::string Unzipped(const std::string& data, std::size_t count)
+/** Numbers in a text. */
+void DecodeText(std::istream& data, vtkDataArray* values)
 {
-  std::istringstream packed(data);
-  std::string unpacked(count, '\0');
-  Inflate(packed, count, unpacked.data());
-  return unpacked;
-}
-
-void SkipLines(std::string& data, int count)
-{
-  for (; count > 0; --count)
+  double value = 0.0;
+  const int components = values->GetNumberOfComponents();
+  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
   {
-    const std::size_t end = data.find('\n');
-    data.erase(0, end == std::string::npos ? data.size() : end + 1);
+    if (!(data >> value))
+    {
+      throw Failure("fewer values than the sizes ask for");
+    }
+    values->SetComponent(i / components, static_cast<int>(i % components), value);
+  }
+  std::string more;
+  if (data >> more)
+  {
+    throw Failure("more values than the sizes ask for");
   }
 }
 
-/** Fill the array with the encoded values. */
-void Decode(std::string data, const Fields& fields, vtkDataArray* values)
+/** Fill the array with the encoded values, which begin here in their file. */
+void Decode(std::istream& data, std::uint64_t end, const Fields& fields, vtkDataArray* values)
 {
-  const std::size_t size =
-    static_cast<std::size_t>(values->GetNumberOfValues()) * values->GetDataTypeSize();
+  constexpr auto longest = std::numeric_limits<std::streamsize>::max();
+  for (int left = ParseNumber<int>(Field(fields, "line skip", "0")); left > 0 && data; --left)
+  {
+    data.ignore(longest, '\n');
+  }
+  const std::uint64_t size = static_cast<std::uint64_t>(values->GetNumberOfValues()) *
+    static_cast<std::uint64_t>(values->GetDataTypeSize());
+  char* const voxels = static_cast<char*>(values->GetVoidPointer(0));
+  // -1: the voxels are the last bytes.
   const int skip = ParseNumber<int>(Field(fields, "byte skip", "0"));
-  SkipLines(data, ParseNumber<int>(Field(fields, "line skip", "0")));
+  const std::uint64_t before = static_cast<std::uint64_t>(std::max(skip, 0));
   const std::string encoding = Lower(Field(fields, "encoding", "raw"));
   if (encoding == "text" || encoding == "txt" || encoding == "ascii")
   {
-    std::istringstream stream(data);
-    double value = 0.0;
-    const int components = values->GetNumberOfComponents();
-    for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
-    {
-      if (!(stream >> value))
-      {
-        throw Failure("fewer values than the sizes ask for");
-      }
-      values->SetComponent(i / components, static_cast<int>(i % components), value);
-    }
-    std::string more;
-    if (stream >> more)
-    {
-      throw Failure("more values than the sizes ask for");
-    }
+    DecodeText(data, values);
     return;
   }
   if (encoding == "gzip" || encoding == "gz")
   {
-    data = Unzipped(data, size + std::max(skip, 0));
+    InflateJust(data, To(voxels, before), MostUnpacked(size, before));
   }
   else if (encoding == "bzip2" || encoding == "bz2")
   {
-    data = Bunzip(data, size + std::max(skip, 0));
+    BunzipJust(data, To(voxels, before), MostUnpacked(size, before));
   }
-  else if (encoding != "raw")
+  else if (encoding == "raw")
+  {
+    const std::uint64_t at = data.good() ? static_cast<std::uint64_t>(data.tellg()) : end;
+    const std::uint64_t start = skip >= 0 ? at + before : end - std::min(size, end);
+    NeedJustBytes(end - std::min(end, start), size);
+    data.seekg(static_cast<std::streamoff>(start));
+    data.read(voxels, static_cast<std::streamsize>(size));
+  }
+  else
   {
     throw Failure("the encoding '" + encoding + "' is not read: raw, gzip, bzip2 and text are");
   }
-  const std::size_t start =
-    skip >= 0 ? static_cast<std::size_t>(skip) : data.size() - std::min(size, data.size());
-  NeedJustBytes(data.size() - std::min(data.size(), start), size);
-  std::memcpy(values->GetVoidPointer(0), data.data() + start, size);
   ToNativeOrder(values, Lower(Field(fields, "endian", "little")) == "big");
 }
 
@@ -270,9 +267,6 @@ std::string WorldAxesOf(const std::string& space)
   return found == axes.end() ? "" : found->second;
 }
 
-/** The most bytes that a header has. */
-constexpr std::uint64_t HeaderBytes = 1 << 20;
-
 /** What a header tells. */
 struct Header
 {
@@ -290,12 +284,7 @@ struct Header
 /** Bytes of all voxels. */
 std::uint64_t BytesOf(const Header& header)
 {
-  std::uint64_t bytes = static_cast<std::uint64_t>(vtkDataArray::GetDataTypeSize(header.Type));
-  for (const int count : { header.Components, header.Size[0], header.Size[1], header.Size[2] })
-  {
-    bytes = Times(bytes, static_cast<std::uint64_t>(count));
-  }
-  return bytes;
+  return BytesOfVoxels(header.Type, header.Components, header.Size);
 }
 
 /**
@@ -305,15 +294,12 @@ std::uint64_t BytesOf(const Header& header)
 void CheckLength(const Header& header)
 {
   const std::string encoding = Lower(Field(header.All, "encoding", "raw"));
-  const std::uint64_t times = encoding == "raw" ? 1
-    : encoding == "gzip" || encoding == "gz"    ? 1100
-    : encoding == "bzip2" || encoding == "bz2"  ? 2000000
-                                                : 8;
+  const std::uint64_t most = encoding == "raw" ? 1
+    : encoding == "gzip" || encoding == "gz"   ? MostOfZlib
+    : encoding == "bzip2" || encoding == "bz2" ? MostOfBzip2
+                                               : 8;
   const std::uint64_t there = SizeOfData(header.DataFile);
-  if (Times(there, times) < BytesOf(header))
-  {
-    NeedBytes(there - std::min(there, header.DataStart), BytesOf(header));
-  }
+  NeedPackedBytes(there - std::min(there, header.DataStart), most, BytesOf(header));
 }
 
 /** Whether each voxel has several numbers, one behind the other, as the layers of segmentations. */
@@ -331,7 +317,7 @@ Header ReadHeader(const std::string& name)
 {
   Header header;
   std::size_t start = 0;
-  header.All = ParseHeader(ReadBytes(name, 0, HeaderBytes), start, header.Pairs);
+  header.All = ParseHeader(FirstText(name), start, header.Pairs);
   try
   {
     std::array<int, 3>& size = header.Size;
@@ -386,7 +372,10 @@ vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
     const std::array<int, 3>& size = header.Size;
     values->SetNumberOfComponents(header.Components);
     values->SetNumberOfTuples(static_cast<vtkIdType>(size[0]) * size[1] * size[2]);
-    Decode(ReadBytes(header.DataFile, header.DataStart), header.All, values);
+    const std::uint64_t end = SizeOfData(header.DataFile);
+    std::ifstream data(header.DataFile, std::ios::binary);
+    data.seekg(static_cast<std::streamoff>(header.DataStart));
+    Decode(data, end, header.All, values);
     vtkSmartPointer<vtkImageData> image = MakeImage(size, values, header.Placement);
     if (!header.WorldAxes.empty())
     {
@@ -416,6 +405,7 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirec
   {
     return nullptr;
   }
+  CheckLength(header);
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Size = header.Size;
   slabs->Type = header.Type;
@@ -428,7 +418,7 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirec
   if (isPacked)
   {
     slabs->Unpacked = Unpack(header.DataFile, start, scratch,
-      slabs->Bytes() + static_cast<std::uint64_t>(std::max(skip, 0)));
+      MostUnpacked(slabs->Bytes(), static_cast<std::uint64_t>(std::max(skip, 0))));
     slabs->File = slabs->Unpacked->Path();
     start = 0;
   }

@@ -22,7 +22,6 @@
 #include <cctype>
 #include <filesystem>
 #include <memory>
-#include <regex>
 #include <set>
 
 namespace tool
@@ -79,32 +78,40 @@ bool IsBefore(const std::string& a, const std::string& b)
   return isEndOfA == (j == b.size()) ? a < b : isEndOfA;
 }
 
-/** The regular expression of a pattern with '*' and '%d'. */
-std::regex ExpressionOf(const std::string& pattern)
+/** The length of "%d", "%03d" and the like, if one begins here; 0 else. */
+std::size_t NumberMark(const std::string& pattern, std::size_t at)
 {
-  static const std::regex number("^%0?[0-9]*[diu]");
-  std::string expression;
+  const std::size_t end = pattern[at] == '%' ? pattern.find_first_not_of("0123456789", at + 1)
+                                             : std::string::npos;
+  const bool isMark = end != std::string::npos &&
+    (pattern[end] == 'd' || pattern[end] == 'i' || pattern[end] == 'u');
+  return isMark ? end + 1 - at : 0;
+}
+
+/**
+ * Whether a name is as a pattern with '*' and '%d' has it. A pattern may come out of a file: the
+ * time is that of its length times the name's, whatever it is.
+ */
+bool Matches(const std::string& name, const std::string& pattern)
+{
+  // Where in the name one may be by now: behind so many of its characters.
+  std::vector<bool> reached(name.size() + 1, false);
+  reached[0] = true;
   for (std::size_t at = 0; at < pattern.size(); ++at)
   {
-    std::smatch match;
-    const std::string rest = pattern.substr(at);
-    if (std::regex_search(rest, match, number))
+    const std::size_t mark = NumberMark(pattern, at);
+    std::vector<bool> next(name.size() + 1, false);
+    next[0] = pattern[at] == '*' && reached[0];
+    for (std::size_t i = 0; i < name.size(); ++i)
     {
-      expression += "[0-9]+";
-      at += static_cast<std::size_t>(match.length()) - 1;
+      next[i + 1] = pattern[at] == '*' ? reached[i + 1] || next[i]
+        : mark > 0                     ? IsDigit(name[i]) && (reached[i] || next[i])
+                                       : name[i] == pattern[at] && reached[i];
     }
-    else if (pattern[at] == '*')
-    {
-      expression += ".*";
-    }
-    else
-    {
-      const std::string special = "\\^$.|?+()[]{}";
-      expression += special.find(pattern[at]) == std::string::npos ? "" : "\\";
-      expression += pattern[at];
-    }
+    reached.swap(next);
+    at += mark > 0 ? mark - 1 : 0;
   }
-  return std::regex(expression);
+  return reached.back();
 }
 
 vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
@@ -144,6 +151,20 @@ void FindDamaged(const std::vector<std::string>& files)
   }
 }
 
+/** What the check throws names the file. */
+template <class Check>
+void NameFailure(const std::string& file, const Check& check)
+{
+  try
+  {
+    check();
+  }
+  catch (const Failure& failure)
+  {
+    throw Failure(file + ": " + failure.what());
+  }
+}
+
 /** @throws Failure unless they are pictures of one kind and size. */
 void CheckPictures(const std::vector<std::string>& files)
 {
@@ -164,17 +185,14 @@ void CheckPictures(const std::vector<std::string>& files)
   std::array<int, 4> size = { 0, 0, 0, 0 };
   for (const std::string& file : files)
   {
-    try
-    {
-      if (const int pages = CheckPicture(file); pages > 1)
+    NameFailure(file,
+      [&]
       {
-        throw Failure(std::to_string(pages) + " pages; give it by its name, it is a volume");
-      }
-    }
-    catch (const Failure& failure)
-    {
-      throw Failure(file + ": " + failure.what());
-    }
+        if (const int pages = CheckPicture(file); pages > 1)
+        {
+          throw Failure(std::to_string(pages) + " pages; give it by its name, it is a volume");
+        }
+      });
     vtkSmartPointer<vtkImageReader2> reader;
     VtkMessages ignored; // Some of those that are asked complain of what they don't know.
     ignored.Catch(
@@ -183,6 +201,7 @@ void CheckPictures(const std::vector<std::string>& files)
     {
       throw Failure(file + ": not a picture that VTK's readers know");
     }
+    NameFailure(file, [&] { CheckChosen(reader, file); });
     VtkMessages messages;
     messages.ListenTo(reader);
     reader->SetFileName(file.c_str());
@@ -275,12 +294,14 @@ std::vector<std::string> MatchFiles(const std::string& pattern)
 {
   const std::filesystem::path path(pattern);
   const std::string folder = path.parent_path().empty() ? "." : path.parent_path().string();
-  const std::regex expression = ExpressionOf(path.filename().string());
-  std::vector<std::string> files = FilesOf(folder);
+  const std::string wanted = path.filename().string();
+  const std::size_t longest = 4096; // of what the system takes for a path
+  std::vector<std::string> files =
+    wanted.size() > longest ? std::vector<std::string>() : FilesOf(folder);
   files.erase(
     std::remove_if(files.begin(), files.end(),
       [&](const std::string& file)
-      { return !std::regex_match(std::filesystem::path(file).filename().string(), expression); }),
+      { return !Matches(std::filesystem::path(file).filename().string(), wanted); }),
     files.end());
   return files;
 }

@@ -56,19 +56,27 @@ void NameFailure(const std::string& name, const Check& check)
   }
 }
 
-/** STL; one that has been cut off between two triangles looks whole to VTK's reader. */
+/** Whether VTK's reader takes an STL file for text: of its begin hardly anything is binary. */
+bool IsStlText(BinaryFile& file)
+{
+  const std::string head = file.Text(0, std::min<std::uint64_t>(file.Size(), 256));
+  const auto signs = std::count_if(head.begin(), head.end(),
+    [](char c) { return (c >= 0x20 && c <= 0x7F) || c == '\n' || c == '\r' || c == '\t'; });
+  return 20 * (head.size() - static_cast<std::size_t>(signs)) < head.size();
+}
+
+/** STL; VTK's reader takes memory for as many triangles as a header tells of, be the file cut off. */
 vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
 {
-  const vtkSmartPointer<vtkPolyData> mesh = ReadWith<vtkSTLReader>(name);
   BinaryFile file(name);
-  const bool isText = file.Size() < 84 || file.Text(0, 5) == "solid";
+  const bool isText = file.Size() < 84 || IsStlText(file);
   const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
   if (file.Size() < 84 + 50 * triangles)
   {
     throw Failure(name + ": the file is cut off: it has " + std::to_string(file.Size()) +
       " bytes, its header asks for " + std::to_string(84 + 50 * triangles));
   }
-  return mesh;
+  return ReadWith<vtkSTLReader>(name);
 }
 
 vtkSmartPointer<vtkPolyData> ReadPly(const std::string& name)
@@ -86,7 +94,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   }
   if (suffix == ".vtp")
   {
-    NameFailure(name, [&] { CheckNesting(name); });
+    NameFailure(name, [&] { CheckXmlInput(name); });
   }
   if (suffix == ".vtp")
   {
@@ -106,6 +114,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   }
   if (suffix == ".obj")
   {
+    NameFailure(name, [&] { CheckObj(name); });
     return ReadWith<vtkOBJReader>(name);
   }
   throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");

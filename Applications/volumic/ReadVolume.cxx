@@ -36,6 +36,7 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace tool
@@ -47,7 +48,7 @@ using Image = vtkSmartPointer<vtkImageData>;
 template <class Reader>
 Image ReadXml(const std::string& name)
 {
-  CheckNesting(name);
+  CheckXmlInput(name);
   return ReadIfItsFormat<Reader>(name);
 }
 
@@ -123,6 +124,7 @@ Image ReadByContent(const std::string& name)
   {
     throw Failure(name + ": not a format that VTK's readers know");
   }
+  CheckChosen(reader, name);
   if (reader->IsA("vtkNIFTIImageReader"))
   {
     return ReadNifti(name);
@@ -182,7 +184,7 @@ std::unique_ptr<SlabReader> OpenSlices(const std::pair<std::vector<std::string>,
 template <class Reader>
 vtkSmartPointer<vtkAlgorithm> OpenXml(const std::string& name, const std::string& array)
 {
-  CheckNesting(name);
+  CheckXmlInput(name);
   const vtkSmartPointer<Reader> reader = NewReader<Reader>(name);
   VtkMessages messages;
   messages.ListenTo(reader);
@@ -269,6 +271,10 @@ auto NameFailures(const std::string& name, const Work& work) -> decltype(work())
   catch (const std::bad_alloc&)
   {
     throw Failure(name + ": not enough memory to read it; crop it, or resample it to fewer voxels");
+  }
+  catch (const std::length_error&)
+  {
+    throw Failure(name + ": its header is damaged: it asks for more than any memory has");
   }
   catch (const UsageError& error)
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TarFile.h"
 
+#include "ByteBudget.h"
 #include "ToolErrors.h"
 
 #include <vtk_zlib.h>
@@ -15,11 +16,14 @@ namespace tool
 namespace
 {
 constexpr std::uint64_t BlockSize = 512;
-constexpr std::uint64_t LongestText = 1 << 20; ///< of a long name or a table of attributes
 using Block = std::array<char, BlockSize>;
 
 std::uint64_t FilledUp(std::uint64_t size)
 {
+  if (size > std::uint64_t(1) << 62)
+  {
+    throw Failure("the archive is damaged: a size is no number");
+  }
   return (size + BlockSize - 1) / BlockSize * BlockSize;
 }
 
@@ -151,7 +155,7 @@ void TarFile::Skip(std::uint64_t count)
 
 std::string TarFile::ReadText()
 {
-  if (this->MemberSize > LongestText)
+  if (this->MemberSize > LargestText)
   {
     throw Failure("the archive is damaged: a name is too long");
   }

@@ -8,6 +8,25 @@
 
 namespace tool
 {
+std::string Shortened(const std::string& text, std::size_t most)
+{
+  if (text.size() <= most)
+  {
+    return text;
+  }
+  const auto isWithin = [&text](std::size_t at)
+  { return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80; };
+  std::size_t end = most / 2;
+  std::size_t begin = text.size() - most / 2;
+  for (; end > 0 && isWithin(end); --end)
+  {
+  }
+  for (; isWithin(begin); ++begin)
+  {
+  }
+  return text.substr(0, end) + " ... " + text.substr(begin);
+}
+
 std::string Lower(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(),

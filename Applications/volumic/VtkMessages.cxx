@@ -13,6 +13,7 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace tool
 {
@@ -156,19 +157,27 @@ void VtkMessages::UpdateReader(
   vtkAlgorithm* reader, const std::string& name, bool trusted, const int* extent)
 {
   this->ListenTo(reader);
-  this->Catch(
-    [&]
+  const auto update = [&]
+  {
+    // After an error in the header some of VTK's readers go on, and crash.
+    reader->UpdateInformation();
+    if (this->Errors.empty() && extent)
     {
-      if (extent)
-      {
-        reader->UpdateInformation();
-        reader->UpdateExtent(extent);
-      }
-      else
-      {
-        reader->Update();
-      }
-    });
+      reader->UpdateExtent(extent);
+    }
+    else if (this->Errors.empty())
+    {
+      reader->Update();
+    }
+  };
+  try
+  {
+    this->Catch(update);
+  }
+  catch (const std::logic_error& error)
+  {
+    this->Errors.emplace_back(error.what()); // Of the standard library: a text or an array is none.
+  }
   if (trusted)
   {
     // What a reader warns of are data that it lacked and made up.

@@ -11,6 +11,9 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
 
 namespace tool
 {
@@ -56,7 +59,13 @@ ReaderSlabs::ReaderSlabs(const std::string& name, const Factory& make) : Name(na
   const int* extent = reader->GetDataExtent();
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Size[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
+    const std::int64_t size = std::int64_t(extent[2 * axis + 1]) - extent[2 * axis] + 1;
+    if (size < 1 || size > std::numeric_limits<int>::max())
+    {
+      throw Failure(name + ": its header is damaged: " + std::to_string(size) +
+        " voxels along axis " + std::to_string(axis + 1));
+    }
+    this->Size[axis] = static_cast<int>(size);
   }
   this->Type = reader->GetDataScalarType();
   this->Components = reader->GetNumberOfScalarComponents();

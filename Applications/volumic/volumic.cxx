@@ -3,12 +3,14 @@
 
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
+#include "FullDisk.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
 #include "Ranks.h"
 #include "SegmentLabels.h"
 #include "SegmentVolume.h"
 #include "SurfaceProperties.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
@@ -86,6 +88,10 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
       break;
   }
   ranks.Together([&] { ApplyProperties(options, filters); });
+  if (filter->GetMemoryLimit() > 0)
+  {
+    TellOfFullDisk(filter->GetScratchDirectory());
+  }
   try
   {
     return options.Labels.empty() ? SegmentVolume(options, filters, ranks)
@@ -141,7 +147,8 @@ int RunAndTell(int argc, char* argv[], Ranks& ranks)
   }
   catch (const std::exception& error)
   {
-    words = PlainName(error.what()); // it may tell of what a damaged file holds
+    // It may tell of what a damaged file holds, be that a megabyte.
+    words = PlainName(Shortened(error.what(), 1500));
   }
   const bool isOfAll = ranks.HaveAgreed();
   if (ranks.IsFirst() || !isOfAll)

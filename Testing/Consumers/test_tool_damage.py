@@ -123,8 +123,8 @@ class FilesTest(DamageTest):
         content = medical_files.nifti(noisy_ball(), SPACING)
         self.cut("a.nii", content, "cut off: it has [0-9]+ bytes of voxels")
         packed = gzip.compress(content)
-        self.cut("a.nii.gz", packed, "damaged or cut off", rests=(0.5, -10, -1))
-        self.flipped("a.nii.gz", packed, "damaged or cut off|not a NIfTI", 400)
+        self.cut("a.nii.gz", packed, "packed data are cut off", rests=(0.5, -10, -1))
+        self.flipped("a.nii.gz", packed, "packed data|not a NIfTI", 400)
         for kind, order in ((999, "<"), (0, "<"), (1536, "<"), (999, ">")):
             with self.subTest(kind, order=order):
                 header = bytearray(content)
@@ -143,7 +143,7 @@ class FilesTest(DamageTest):
         self.write_bytes("a.img.gz", data)
         self.write_bytes("a.hdr", content[:348])
         self.accepted_file("a.img.gz", data)
-        self.refused_file("a.img.gz", data[:-1], "damaged or cut off")
+        self.refused_file("a.img.gz", data[:-1], "packed data are cut off")
         struct.pack_into("<h", content, 70, 999)
         self.write_bytes("a.hdr", content[:348])
         self.refused_file("a.img.gz", data, "the data type 999 is none of")

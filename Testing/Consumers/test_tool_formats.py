@@ -184,7 +184,7 @@ class VolumesTest(ToolTestCase):
         said = self.run_tool(self.path("a.xyz"), self.path("a.stl"), status=1).stderr
         self.assertEqual(len(said.splitlines()), 1, "readers that were asked complain: " + said)
         header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
-        self.refused("damaged", self.write_bytes("a.nrrd", header + b"\nnothing"),
+        self.refused("damaged", self.write_bytes("a.nrrd", header + b"\nnothing but this text"),
                      self.path("a.stl"))
         sheared = np.array([[1, 0.5, 0], [0, 1, 0], [0, 0, 1]])
         header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, sheared, "raw", "little")

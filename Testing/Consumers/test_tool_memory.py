@@ -96,6 +96,14 @@ class MemoryTest(ToolTestCase):
         self.check(self.path("*.png"), "--spacing", "1,1,2")
         self.check(self.write(vtkTIFFWriter(), "pages.tif", make_image(voxels)))
 
+    def test_a_disk_that_has_not_kept_the_room_that_it_promised(self):
+        volume = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(large_ball()))
+        environment = {**os.environ, "LD_PRELOAD": os.environ["VOLUMIC_NO_ROOM"]}
+        process = self.run_tool(volume, self.path("x.stl"), "--memory", LIMIT, "--scratch",
+                                self.folder_of_scratch(), "--iso", 100, status=1, env=environment)
+        self.assertRegex(process.stderr, "volumic: the scratch directory .*scratch can't keep what "
+                         "was put there: its disk is full, or fails.*--scratch")
+
     def test_what_is_read_as_a_whole_is_told(self):
         file = self.write(vtkStructuredPointsWriter(), "a.vtk", make_image(large_ball()))
         self.assertRegex(self.check(file), r"a\.vtk: volumes of this kind \(\.vtk\) are read as a "

@@ -222,6 +222,24 @@ class RefusalTest(ResumeTestCase):
         other = self.write(vtkXMLImageDataWriter(), "other.vti", image)
         self.refused("is of another volume: not the same voxels", *self.resume(other, "a"))
 
+    @unittest.skipUnless(os.geteuid() == 0, "only root can give files to others")
+    def test_what_others_have_left_is_not_read(self):
+        """The scratch directory may be one that all may write to."""
+        volume = self.waves_file()
+        self.kill_at_level(1, self.resume(volume, "killed"))
+        folder = os.path.join(self.scratch, os.listdir(self.scratch)[0])
+        for path, reason in ((os.path.join(folder, "state"), "state is no file of yours"),
+                             (folder, "is no folder of yours")):
+            os.chown(path, 12345, 12345)
+            self.refused(f"Resume: .*{reason}. Begin anew", *self.resume(volume, "killed"))
+            os.chown(path, 0, 0)
+        os.chown(os.path.join(folder, "state"), 12345, 12345)
+        os.mkdir(os.path.join(self.scratch, "volumic-" + 16 * "a"))
+        os.mkfifo(os.path.join(self.scratch, "volumic-" + 16 * "a", "state"))
+        run = self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--resume",
+                            "--scratch", self.scratch)
+        self.assertIn("there is no checkpoint to resume from: the run begins anew", run.stderr)
+
     def test_a_folder_that_is_not_there_is_told_before_the_work(self):
         self.refused("Scratch Directory .*none cannot be used", self.ball_file(),
                      self.path("a.vtp"), "--iso", ISO, "--scratch", self.path("none"))

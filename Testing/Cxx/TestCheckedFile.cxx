@@ -15,6 +15,11 @@
 #include <string>
 #include <vector>
 
+#ifndef _WIN32
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
 using namespace volumic;
 
 namespace
@@ -136,6 +141,69 @@ TEST(CheckedFile, DoesNotBelieveWhatIsDamaged)
   SetBytes(name, bytes);
   ExpectSome(name);
 }
+
+TEST(CheckedFile, TakesNoMemoryForMoreThanItHas)
+{
+  const TemporaryFolder folder;
+  const std::string name = folder.File("some");
+  // Their sums are right: who made them knows the format.
+  for (const std::uint64_t count : { ~std::uint64_t(0), std::uint64_t(1) << 60,
+         std::uint64_t(1) << 40, std::uint64_t(100) })
+  {
+    CheckedWriter file(name);
+    file.Put(count);
+    file.Put(1.0);
+    file.Commit();
+    const std::string expected = name + " is damaged";
+    const auto expectRefused = [&](const auto& read)
+    {
+      try
+      {
+        CheckedReader reader(name);
+        read(reader);
+        ADD_FAILURE() << count << " was believed";
+      }
+      catch (const FileError& error)
+      {
+        EXPECT_EQ(std::string(error.what()), expected) << count;
+      }
+    };
+    expectRefused([](CheckedReader& reader) { reader.GetText(); });
+    expectRefused([](CheckedReader& reader) { reader.GetCount(8); });
+    expectRefused(
+      [](CheckedReader& reader)
+      {
+        std::vector<double> list;
+        reader.GetList(list);
+      });
+  }
+}
+
+#ifndef _WIN32
+TEST(CheckedFile, IsNoneOfAnotherUserNorALinkNorAPipe)
+{
+  const TemporaryFolder folder;
+  WriteSome(folder.File("some"));
+  ASSERT_EQ(symlink(folder.File("some").c_str(), folder.File("link").c_str()), 0);
+  ASSERT_EQ(mkfifo(folder.File("pipe").c_str(), 0600), 0);
+  EXPECT_THROW(CheckedReader(folder.File("link")), FileError);
+  EXPECT_THROW(CheckedReader(folder.File("pipe")), FileError) << "it would be waited for";
+  if (geteuid() != 0)
+  {
+    GTEST_SKIP() << "only root can give a file to another user";
+  }
+  ASSERT_EQ(chown(folder.File("some").c_str(), 12345, 12345), 0);
+  try
+  {
+    CheckedReader file(folder.File("some"));
+    ADD_FAILURE();
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_EQ(std::string(error.what()), folder.File("some") + " is no file of yours");
+  }
+}
+#endif
 
 TEST(CheckedFile, TellsWhichFileAndWhy)
 {

@@ -19,6 +19,7 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -200,6 +201,33 @@ TEST_F(LabelsToSurfacesErrors, NamesThatAreNotAsManyAsLabels)
   image->GetFieldData()->AddArray(colors);
   image->Modified();
   this->ExpectError({ "'LabelColors' has 1 components", "3" });
+}
+
+TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileSurfacesAreMadeSideBySide)
+{
+  // Enough of them, and large enough, that progress is told while threads work.
+  this->Filter->SetInputData(LabelImageOf(64, 64, 64,
+    [](int i, int j, int k)
+    {
+      const bool isInside = i % 16 > 2 && j % 16 > 2 && k % 16 > 2;
+      return isInside ? 1. + i / 16 + 4 * (j / 16) + 16 * (k / 16) : 0.;
+    }));
+  bool hasThrown = false;
+  const ProgressHook hook(this->Filter,
+    [&hasThrown](vtkAlgorithm*, const std::string& text, double)
+    {
+      if (!hasThrown && text.find(" of 64, ") != std::string::npos)
+      {
+        hasThrown = true;
+        throw std::bad_alloc();
+      }
+    });
+  MessagesOf errors(this->Filter);
+  this->Filter->Update();
+  EXPECT_TRUE(hasThrown);
+  EXPECT_TRUE(errors.Has("the memory does not suffice for the surfaces")) << errors.Get();
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
+  EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
 }
 
 TEST_F(LabelsToSurfacesErrors, LabelsTooSmallForTrianglesAreNamedAndTheOthersMade)

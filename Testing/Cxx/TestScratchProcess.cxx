@@ -9,8 +9,11 @@
 
 #include <csignal>
 #include <functional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
@@ -89,6 +92,43 @@ TEST_F(ScratchProcess, FilesMayHaveALimitOfTheSystem)
   EXPECT_NE(message.find("ulimit -f"), std::string::npos) << message;
   EXPECT_EQ(fits, "");
   EXPECT_EQ(scratch.Statistics().Mapped, 0u);
+}
+
+TEST_F(ScratchProcess, WithoutAThreadThereIsNoLimitAndTheNextOneWorks)
+{
+#if defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "ThreadSanitizer wants no threads in the child";
+#endif
+  const int status = StatusOf(
+    [&]
+    {
+      // A stack that no address space has room for: a limit of threads would not hold for root.
+      pthread_attr_t huge;
+      pthread_attr_init(&huge);
+      pthread_attr_setstacksize(&huge, std::size_t(1) << 46);
+      pthread_attr_t usual;
+      pthread_getattr_default_np(&usual);
+      if (pthread_setattr_default_np(&huge) != 0)
+      {
+        return false;
+      }
+      std::string message;
+      try
+      {
+        const ScratchMemory scratch(Allowing(144 * MiB, this->Directory.Path));
+      }
+      catch (const std::runtime_error& error)
+      {
+        message = error.what();
+      }
+      pthread_setattr_default_np(&usual);
+      const bool hasNone = !HasMemoryLimit();
+      const ScratchMemory scratch(Allowing(144 * MiB, this->Directory.Path));
+      const LargeVector<char> values(8 * MiB, 'x');
+      return message.find("needs a thread of its own") != std::string::npos && hasNone &&
+        IsInFile(values.data());
+    });
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 TEST_F(ScratchProcess, MoreThanTheDiskHasIsRefusedAndNothingRemains)

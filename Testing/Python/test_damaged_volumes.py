@@ -107,8 +107,8 @@ class FilesTest(DamagedTest):
         content = medical_files.nifti(VOXELS, SPACING)
         self.cut("a.nii", content, "the file is cut off")
         packed = gzip.compress(content)
-        self.cut("a.nii.gz", packed, "damaged or cut off", rests=(0.5, -10, -1))
-        self.flipped("a.nii.gz", packed, "damaged or cut off|not a NIfTI", 400)
+        self.cut("a.nii.gz", packed, "packed data are cut off", rests=(0.5, -10, -1))
+        self.flipped("a.nii.gz", packed, "packed data|not a NIfTI", 400)
         for kind in (999, 0, 1536):
             header = bytearray(content)
             struct.pack_into("<h", header, 70, kind)

@@ -15,6 +15,7 @@
 #include <io.h>
 #else
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -61,6 +62,28 @@ std::FILE* Create(const std::string& name)
 #else
   const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   return file >= 0 ? fdopen(file, "wb") : nullptr;
+#endif
+}
+
+/** A file of this user's, or null: others may have put theirs, a link or a pipe in its place. */
+std::FILE* Open(const std::string& name)
+{
+#ifdef _WIN32
+  return std::fopen(name.c_str(), "rb");
+#else
+  const int file = open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  struct stat facts
+  {
+  };
+  if (file < 0 || fstat(file, &facts) != 0 || !S_ISREG(facts.st_mode) ||
+    facts.st_uid != geteuid())
+  {
+    const int reason = file < 0 ? errno : EPERM;
+    close(file);
+    errno = reason;
+    return nullptr;
+  }
+  return fdopen(file, "rb");
 #endif
 }
 }
@@ -160,12 +183,16 @@ void CheckedWriter::Commit()
 }
 
 CheckedReader::CheckedReader(const std::string& name)
-  : Name(name), File(std::fopen(name.c_str(), "rb"))
+  : Name(name), File(Open(name))
 {
   if (!this->File)
   {
-    this->Refuse(Join("cannot be read (", ReasonOf(errno), ")"));
+    this->Refuse(
+      errno == EPERM ? "is no file of yours" : Join("cannot be read (", ReasonOf(errno), ")"));
   }
+  std::fseek(this->File, 0, SEEK_END);
+  this->Left = static_cast<std::uint64_t>(std::ftell(this->File));
+  std::rewind(this->File);
   std::setvbuf(this->File, nullptr, _IONBF, 0);
 }
 
@@ -189,6 +216,7 @@ void CheckedReader::ReadBlock()
   {
     this->Refuse("is damaged");
   }
+  this->Left -= std::min(this->Left, sizeof(head) + head.Count);
   this->Block.resize(head.Count);
   this->Taken = 0;
   const bool isWhole =
@@ -218,9 +246,24 @@ void CheckedReader::Read(void* bytes, std::size_t count)
   }
 }
 
+void CheckedReader::Need(std::uint64_t count, std::size_t bytes) const
+{
+  if (count > (this->Left + this->Block.size() - this->Taken) / std::max<std::size_t>(bytes, 1))
+  {
+    this->Refuse("is damaged");
+  }
+}
+
+std::size_t CheckedReader::GetCount(std::size_t bytes)
+{
+  const auto count = this->Get<std::uint64_t>();
+  this->Need(count, bytes);
+  return static_cast<std::size_t>(count);
+}
+
 std::string CheckedReader::GetText()
 {
-  std::string text(this->Get<std::uint64_t>(), ' ');
+  std::string text(this->GetCount(1), ' ');
   this->Read(text.data(), text.size());
   return text;
 }

@@ -64,7 +64,11 @@ private:
   std::uint64_t Hash = 0; ///< Of all blocks so far.
 };
 
-/** Reads what CheckedWriter wrote, in the same order. All throw FileError. */
+/**
+ * Reads what CheckedWriter wrote, in the same order. All throw FileError. The file must be this
+ * user's: in a folder that others may write to it may be anybody's. No memory is taken for more than
+ * the file has.
+ */
 class CheckedReader
 {
 public:
@@ -82,14 +86,19 @@ public:
     this->Read(&value, sizeof(T));
     return value;
   }
+  /** How many things follow, each of so many bytes or more. */
+  std::size_t GetCount(std::size_t bytes);
   std::string GetText();
   template <typename T, typename Allocator>
   void GetList(std::vector<T, Allocator>& list)
   {
     static_assert(std::is_trivially_copyable_v<T>);
-    list.resize(this->Get<std::uint64_t>());
+    list.resize(this->GetCount(sizeof(T)));
     this->Read(list.data(), list.size() * sizeof(T));
   }
+
+  /** Refuses it unless so many values of so many bytes may follow. */
+  void Need(std::uint64_t count, std::size_t bytes) const;
 
   /** The content is not what its reader expects, though it is undamaged. */
   [[noreturn]] void Refuse(const std::string& reason) const;
@@ -100,7 +109,8 @@ private:
   std::string Name;
   std::FILE* File;
   std::vector<unsigned char> Block;
-  std::size_t Taken = 0; ///< Of the block.
+  std::size_t Taken = 0;  ///< Of the block.
+  std::uint64_t Left = 0; ///< Bytes of the file that have not been read.
   std::uint64_t Hash = 0;
 };
 

@@ -44,7 +44,9 @@ std::size_t FreeRoom(const std::string& directory);
 
 /**
  * Zeros, in a file without a name: it is gone with the mapping, or the process. Its room on the
- * disk is taken beforehand, so that writing to the memory cannot fail.
+ * disk is taken beforehand, so that writing to the memory cannot fail. Where the file system takes
+ * the room in name only, as some do that compress or are of a network, a disk that is full ends the
+ * process by SIGBUS, which the program `volumic` tells in words.
  * @throws ScratchFull where there is no room; std::runtime_error where the system refuses.
  */
 void* MapScratchFile(const std::string& directory, std::size_t bytes);

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <condition_variable>
 #include <iterator>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 
 namespace volumic
@@ -79,13 +81,15 @@ void ScratchStore::Add(ScratchLimit& limit)
       Mebibytes(least), " MiB at least; 0 is no limit.");
   }
   this->Headroom.Leave(held);
-  this->Limits.push_back(&limit);
-  limit.Statistics.Mapped = limit.Statistics.MostMapped = this->Mapped;
-  this->NumberOfLimits = this->Limits.size();
+  // What may fail comes first: a limit that could not be set must not be known of.
+  this->Limits.reserve(this->Limits.size() + 1);
   if (!this->Governing)
   {
     this->Start();
   }
+  this->Limits.push_back(&limit);
+  limit.Statistics.Mapped = limit.Statistics.MostMapped = this->Mapped;
+  this->NumberOfLimits = this->Limits.size();
 }
 
 void ScratchStore::Remove(ScratchLimit& limit)
@@ -308,7 +312,16 @@ ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter, std::size_t 
 void ScratchStore::Start()
 {
   auto governor = std::make_unique<Governor>();
-  governor->Thread = std::thread([this, g = governor.get()] { this->Govern(*g); });
+  try
+  {
+    governor->Thread = std::thread([this, g = governor.get()] { this->Govern(*g); });
+  }
+  catch (const std::system_error& error)
+  {
+    throw std::runtime_error(Join("Memory Limit needs a thread of its own, and the system denies "
+      "one (", error.code().message(), "). Let the process have more threads (ulimit -u), or set "
+      "Memory Limit to 0, which is no limit."));
+  }
   this->Governing = std::move(governor);
 }
 
