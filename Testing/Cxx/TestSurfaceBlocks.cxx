@@ -183,14 +183,14 @@ TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
-TEST(SurfaceBlocks, ForgetVerticesThatOthersHaveRemoved)
+TEST(SurfaceBlocks, GetThePlacesOfTheirVerticesThatOthersHaveRemoved)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
+  const int vertices = state.Mesh.NumberOfVertices();
   BlockVisit first = blocks.Open(0);
   const int v = first.Vertices.front();
   blocks.Close(std::move(first));
-  // By a visit of another one; its place is taken by that one's new vertex.
   BlockVisit other = blocks.Open(2);
   other.Share.Region = other.Share.Region.Grown(1000.f);
   SurfaceEditor editor(state, &other.Share);
@@ -199,11 +199,20 @@ TEST(SurfaceBlocks, ForgetVerticesThatOthersHaveRemoved)
   const int place = state.Mesh.IsAlive(v) ? w : v;
   editor.EndPass();
   const int u = other.Vertices.front();
-  const Edit split = editor.Split(u, state.Mesh.Rings[u].Item[0]);
-  ASSERT_EQ(split.Vertex, place);
-  blocks.AddNew(other, { place });
+  EXPECT_FALSE(editor.Split(u, state.Mesh.Rings[u].Item[0])) << "not for one that is far away";
   blocks.Close(std::move(other));
-  EXPECT_EQ(BlockWith(blocks, place), 2);
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
+  EXPECT_EQ(BlockWith(blocks, place), -1);
+  BlockVisit again = blocks.Open(0);
+  EXPECT_EQ(again.Share.Places.Free, std::vector<int>{ place });
+  SurfaceEditor own(state, &again.Share);
+  again.Share.Region = again.Share.Region.Grown(1000.f);
+  const int t = again.Vertices.front();
+  EXPECT_EQ(own.Split(t, state.Mesh.Rings[t].Item[0]).Vertex, place);
+  blocks.AddNew(again, { place });
+  blocks.Close(std::move(again));
+  EXPECT_EQ(BlockWith(blocks, place), 0);
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices);
 }
 
 TEST(SurfaceBlocks, KeepTheirPlacesForThemselves)
@@ -234,66 +243,6 @@ TEST(SurfaceBlocks, KeepTheirPlacesForThemselves)
   EXPECT_EQ(state.Mesh.FreePlaces().size(), 8u) << "given back";
   EXPECT_EQ(state.Mesh.Size(), size + 7);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
-}
-
-TEST(SurfaceBlocks, KeepThePairsOfTheirOwnVertices)
-{
-  LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  BlockVisit beside = blocks.Open(2);
-  const int others = beside.Vertices.front();
-  blocks.Close(std::move(beside));
-  BlockVisit visit = blocks.Open(1);
-  const int own = visit.Vertices[0];
-  const int leaves = visit.Vertices[1];
-  state.Drift.Fill(0.f);
-  visit.Pairs = { { own, others, 1.f }, { leaves, own, 2.f }, { others, own, 3.f } };
-  state.MoveTo(leaves, Vector(21, 0, 0));
-  blocks.Close(std::move(visit));
-  EXPECT_EQ(state.Drift[own], 0.f);
-  EXPECT_EQ(state.Drift[leaves], SurfaceState::NotExamined) << "who has it now does not know";
-  EXPECT_EQ(state.Drift[others], SurfaceState::NotExamined);
-  BlockVisit again = blocks.Open(1);
-  ASSERT_EQ(again.Pairs.size(), 1u);
-  EXPECT_EQ(again.Pairs[0].V, own);
-  blocks.Close(std::move(again));
-}
-
-TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
-{
-  LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  blocks.AddPlaces({ 0, 50, 0 });
-  BlockVisit visit = blocks.Open(1);
-  SurfaceEditor editor(state, &visit.Share);
-  const float end = blocks.BoxOf(1).High.X;
-  int beyond = 0;
-  int within = 0;
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    if (!state.Mesh.IsAlive(v))
-    {
-      continue;
-    }
-    const float x = state.Mesh.Position[v].X;
-    if (x > end + 1.05f * SurfaceBlocks::EditedInDelta)
-    {
-      const int w = state.Mesh.Rings[v].Item[0];
-      EXPECT_FALSE(editor.Split(v, w).IsDone);
-      EXPECT_FALSE(editor.Collapse(v, w, EditTolerance::Loose).IsDone);
-      EXPECT_FALSE(editor.Flip(v, w, EditTolerance::Loose).IsDone);
-      EXPECT_FALSE(editor.Move(v, state.Mesh.Position[v], EditTolerance::Loose).IsDone);
-      ++beyond;
-    }
-    else if (x > end && x < end + 0.95f * SurfaceBlocks::EditedInDelta && within < 20)
-    {
-      EXPECT_TRUE(editor.Split(v, state.Mesh.Rings[v].Item[0]).IsDone);
-      ++within;
-    }
-  }
-  EXPECT_GT(beyond, 10);
-  EXPECT_GT(within, 5);
-  blocks.Close(std::move(visit));
 }
 
 TEST(SurfaceBlocks, KnowWhetherAnythingMoves)

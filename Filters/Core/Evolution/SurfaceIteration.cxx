@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <utility>
 #include <vector>
 
 namespace volumic
@@ -34,12 +33,12 @@ void SurfaceIteration::BeginVisit(BlockVisit& visit)
   this->Visit = &visit;
   this->Deleted = false;
   this->Working.clear();
-  this->Near.SetPairs(std::move(visit.Pairs));
+  this->Near.Clear();
   this->CollectActive();
-  // What others have edited or moved since, and what has come from them.
+  // What others have edited or moved since, and what has contacts: which, no visit remembers.
   this->Suspects.clear();
   std::copy_if(this->Active.begin(), this->Active.end(), std::back_inserter(this->Suspects),
-    [this](int v) { return this->IsSuspect(v); });
+    [this, &s](int v) { return s.NearOthers[v] != 0 || this->IsSuspect(v); });
   for (const int v : this->Suspects)
   {
     s.Drift[v] = 0;
@@ -55,7 +54,6 @@ void SurfaceIteration::EndVisit()
   {
     this->State.Marks[v] = 0;
   }
-  this->Visit->Pairs = this->Near.TakePairs();
   this->Visit = nullptr;
 }
 
@@ -217,7 +215,7 @@ void SurfaceIteration::RollBack()
     SortUnique(examined);
     this->UpdateShape(examined);
     this->Recheck.Examine(s, examined);
-    this->Recheck.TakePairs();
+    this->Recheck.Clear();
     intersections = &this->Recheck.Intersections();
   }
 }

@@ -63,7 +63,6 @@ public:
    * must have a shape that is up to date.
    */
   void BeginVisit(BlockVisit& visit);
-  /** Its pairs are the visit's again. */
   void EndVisit();
 
   /**

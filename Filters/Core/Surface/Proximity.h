@@ -6,7 +6,6 @@
 #include "Core/Surface/SurfaceState.h"
 
 #include <array>
-#include <utility>
 #include <vector>
 
 namespace volumic
@@ -49,9 +48,8 @@ public:
    * Those of vertices that were not in the last list are kept from when they were.
    */
   const std::vector<ClosePair>& Pairs() const { return this->AllPairs; }
-  /** Pairs known from before. */
-  void SetPairs(std::vector<ClosePair> pairs) { this->AllPairs = std::move(pairs); }
-  std::vector<ClosePair> TakePairs() { return std::exchange(this->AllPairs, {}); }
+  /** Forgets the pairs. */
+  void Clear() { this->AllPairs.clear(); }
 
   /** Pairs of faces that intersect. */
   const std::vector<FacePair>& Intersections() const { return this->AllIntersections; }

@@ -241,6 +241,11 @@ void RankBlocks::Exchange()
       MessageReader reader(received[rank]);
       for (const int v : reader.TakeVector<int>())
       {
+        const int block = this->State.Block[v];
+        if (this->State.Mesh.IsAlive(v) && block != NoBlock && this->IsOwn(block))
+        {
+          this->Blocks.GiveBack(block, v);
+        }
         this->State.Forget(v);
       }
       // What has left the halo would not be told of any more.

@@ -260,10 +260,12 @@ BlockVisit SurfaceBlocks::Open(int block)
   visit.Vertices.swap(own.Vertices);
   this->Clean(block, visit.Vertices);
   visit.OldOnes = static_cast<std::ptrdiff_t>(visit.Vertices.size());
+  visit.Share.Block = block;
   visit.Share.Places.Free.swap(own.Places.Free);
+  // Some have come back from visits of others: the smallest is taken first, whoever came when.
+  std::sort(visit.Share.Places.Free.begin(), visit.Share.Places.Free.end(), std::greater<int>());
   visit.Share.Unused = own.Unused;
   visit.PlacesBefore = visit.Share.NumberOfPlaces();
-  visit.Pairs.swap(own.Pairs);
   const Box box = this->BoxOf(block);
   const float delta = this->State.Sizing.Smallest();
   visit.Moving = box.Grown(MovingInDelta * delta);
@@ -319,7 +321,7 @@ void SurfaceBlocks::AddNew(BlockVisit& visit, const std::vector<int>& vertices) 
 void SurfaceBlocks::Close(BlockVisit&& visit)
 {
   SurfaceState& s = this->State;
-  visit.Share.Places.TakeRemoved();
+  visit.Share.EndPass(s);
   std::vector<int> stay;
   std::vector<int> gone;
   for (const int v : visit.Vertices)
@@ -330,24 +332,10 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
       (s.Block[v] == visit.Block ? stay : gone).push_back(v);
     }
   }
-  // Whoever has a vertex now, or has it still, does not know of the pairs that were found here.
-  visit.Pairs.erase(std::remove_if(visit.Pairs.begin(), visit.Pairs.end(),
-                      [&](const Proximity::ClosePair& pair)
-                      {
-                        const bool isOther =
-                          s.Mesh.IsAlive(pair.V) && s.Block[pair.V] != visit.Block;
-                        if (isOther)
-                        {
-                          s.Drift[pair.V] = SurfaceState::NotExamined;
-                        }
-                        return isOther || !s.Mesh.IsAlive(pair.V);
-                      }),
-    visit.Pairs.end());
   std::sort(stay.begin(), stay.end());
   OfBlock& own = this->All[visit.Block];
   own.Places.Free.swap(visit.Share.Places.Free);
   own.Unused = visit.Share.Unused;
-  own.Pairs.swap(visit.Pairs);
   const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
   own.Taken = std::max(0, visit.PlacesBefore - places);
   const std::lock_guard<std::mutex> lock(this->Closing);
@@ -356,7 +344,12 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
   {
     this->All[s.Block[v]].Vertices.push_back(v);
   }
-  s.Mesh.CountOthers(visit.PlacesBefore - places);
+  for (const int v : visit.Share.Others)
+  {
+    this->GiveBack(s.Block[v], v);
+  }
+  s.Mesh.CountOthers(
+    visit.PlacesBefore - places - static_cast<int>(visit.Share.Others.size()));
   s.EulerCharacteristic += visit.Share.EulerCharacteristic;
 }
 
@@ -365,7 +358,6 @@ void SurfaceBlocks::ForgetVertices()
   for (OfBlock& block : this->All)
   {
     block.Vertices = std::vector<int>();
-    block.Pairs = std::vector<Proximity::ClosePair>();
   }
 }
 

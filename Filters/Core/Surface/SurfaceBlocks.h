@@ -5,7 +5,6 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/VisitSchedule.h"
-#include "Core/Surface/Proximity.h"
 #include "Core/Surface/SurfaceEditor.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -29,7 +28,6 @@ struct BlockVisit
   Box Moving;                ///< Vertices that lie in it may move; EditShare::Region is for edits.
   Box Written;               ///< Beyond it nothing is changed.
   EditShare Share;
-  std::vector<Proximity::ClosePair> Pairs; ///< Known from the visit before.
 
   std::ptrdiff_t OldOnes = 0; ///< Of the vertices, those that there were when it was opened.
   int PlacesBefore = 0;       ///< As many as the share had then.
@@ -143,6 +141,8 @@ public:
   void ForgetVertices();
   /** New vertices, not of a visit: their blocks have them from now on. */
   void Take(const std::vector<int>& vertices);
+  /** The place of a vertex of a block that another one's visit has removed. */
+  void GiveBack(int block, int place) { this->All[block].Places.Free.push_back(place); }
   /** Vertices that have come from elsewhere, with their block. */
   void AddOthers(const std::vector<int>& vertices);
   const Frame& GetFrame() const { return this->TheFrame; }
@@ -161,7 +161,6 @@ private:
     VertexPlaces Places;       ///< For new vertices.
     UnusedPlaces Unused;
     int Taken = 0; ///< Of the places, by its last visit.
-    std::vector<Proximity::ClosePair> Pairs; ///< Of its vertices, from its last visit.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
   std::array<int, 3> PlaceOf(int block) const;

@@ -32,6 +32,16 @@ Vector FaceNormal(const SurfaceMesh& mesh, int a, int b, int c)
 }
 }
 
+void EditShare::EndPass(const SurfaceState& state)
+{
+  for (const int v : this->Places.Removed)
+  {
+    const int block = state.Block[v];
+    (block == this->Block || block == NoBlock ? this->Places.Free : this->Others).push_back(v);
+  }
+  this->Places.Removed.clear();
+}
+
 bool EditShare::HasPlaces(std::size_t n)
 {
   std::vector<int>& free = this->Places.Free;

@@ -39,20 +39,26 @@ struct Edit
 /** What an editor has to itself where others are at work elsewhere: see SurfaceBlocks. */
 struct EditShare
 {
+  int Block = NoBlock; ///< Whose it is.
   Box Region;          ///< The vertices whose stars are edited lie in it; others are refused.
   VertexPlaces Places; ///< For new vertices; edits that find too few are refused.
   UnusedPlaces Unused; ///< More of them.
+  /** Of removed vertices of other blocks, whose they stay: what is far away takes none of them. */
+  std::vector<int> Others;
   EditCounts Counts;
   int EulerCharacteristic = 0; ///< What its edits have added to that of the surface.
 
   /** Places that no vertex has; what they become fewer by are vertices more. */
   int NumberOfPlaces() const
   {
-    return static_cast<int>(this->Places.Free.size() + this->Places.Removed.size()) +
+    return static_cast<int>(
+             this->Places.Free.size() + this->Places.Removed.size() + this->Others.size()) +
       this->Unused.Count();
   }
   /** Whether there are n in Places, where they come from Unused as long as there are any. */
   bool HasPlaces(std::size_t n);
+  /** The places of vertices of its block that have been removed may be taken from now on. */
+  void EndPass(const SurfaceState& state);
 };
 
 /**
@@ -77,7 +83,7 @@ public:
   {
     if (this->Share)
     {
-      this->Share->Places.TakeRemoved();
+      this->Share->EndPass(this->State);
     }
   }
 
