@@ -227,7 +227,7 @@ class Scaling(unittest.TestCase):
         self.assertEqual(total["Phase"], "all")
         names = [row["Phase"] for row in phases]
         self.assertEqual(len(set(names)), len(names))
-        for name in ("Pyramid", "Voxels", "Forces", "Proximity", "Collapses", "Division", "Output"):
+        for name in ("Pyramid", "Voxels", "Visits", "Components", "Division", "Output"):
             self.assertIn(name, names)
         threads = (1, 2, 4, 8, 16, 32, 64)
         for column in ["Serial", "Parallel", "Calls"] + [f"Seconds{p}" for p in threads]:

@@ -277,7 +277,8 @@ class DeformableSurfaceTest(unittest.TestCase):
         self.check_valid(surface)
         self.assertEqual(testing.field(surface, "StopReason"), "cancelled")
         self.assertGreater(testing.fetch(filter_, HISTORY).GetNumberOfRows(), 0)
-        self.assertLess(testing.fetch(filter_, HISTORY).GetNumberOfRows(), 11)
+        # A sweep of five iterations reports once at least.
+        self.assertLessEqual(testing.fetch(filter_, HISTORY).GetNumberOfRows(), 50)
         # ParaView keeps it, also for the filters after it, and does not start again by itself.
         self.assertEqual(testing.fetch(simple.Elevation(filter_)).GetNumberOfPoints(),
                          surface.GetNumberOfPoints())

@@ -44,11 +44,11 @@ public:
   void BeginRound()
   {
     this->End = std::chrono::steady_clock::now() + Round;
-    this->HasBegun = this->CallerWorks = false;
+    this->HasBegun = this->CallerWorks = this->HasAsked = false;
   }
   void EndRound()
   {
-    if (!this->CallerWorks && !this->IsAllDone())
+    if (!this->HasAsked) // Others have made all the visits.
     {
       this->Stopped = !this->GoOn(this->Done);
     }
@@ -101,6 +101,7 @@ public:
       this->HasChanged.notify_all();
       if (isCaller && !this->IsOver())
       {
+        this->HasAsked = true;
         lock.unlock();
         const bool goesOn = this->GoOn(done);
         lock.lock();
@@ -123,6 +124,7 @@ private:
   std::size_t Done = 0;
   bool HasBegun = false;
   bool CallerWorks = false; ///< The calling thread is one of them, in this round.
+  bool HasAsked = false;    ///< It has been asked whether to go on, in this round.
   bool HasFailed = false;
   bool Stopped = false;
   std::chrono::steady_clock::time_point End;
