@@ -24,8 +24,8 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* Prefix = "volumic-";
-/** Begins each state; to be changed with the format. */
-constexpr const char* Format = "Volumic checkpoint 1";
+/** Begins each state; to be changed with the format, or with the bits of what a run makes of it. */
+constexpr const char* Format = "Volumic checkpoint 2";
 
 std::string StateIn(const fs::path& folder)
 {

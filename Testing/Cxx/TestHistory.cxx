@@ -79,6 +79,18 @@ TEST(History, RowsTellTheStateAfterTheirSweep)
   EXPECT_GT(looks, 5);
 }
 
+TEST(History, ALevelEndsWithTheSweepAfterWhichNothingMoves)
+{
+  const TestVolume volume = BallVolume(28, 7);
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  const std::vector<HistoryRow>& rows = evolution.History();
+  ASSERT_GT(rows.size(), 10u);
+  EXPECT_EQ(rows.back().ActiveVertices, 0);
+  EXPECT_GT(rows[rows.size() - 6].ActiveVertices, 0) << "at the end of the sweep before";
+}
+
 TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
 {
   const TestVolume volume = BallVolume(32, 10);

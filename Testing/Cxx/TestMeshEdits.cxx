@@ -237,8 +237,7 @@ TEST(SurfaceMesh, KeepsPlacesAsideForTheirKeeper)
   EXPECT_EQ(mesh.NumberOfVertices(), size);
   mesh.RemoveVertex(9, &places);
   EXPECT_TRUE(places.Free.empty()) << "not one that was removed meanwhile";
-  places.TakeRemoved();
-  EXPECT_TRUE(places.Removed.empty());
+  places.Free.swap(places.Removed);
   EXPECT_EQ(mesh.AddVertex(Vector(), &places), 9);
   // What comes back is anyone's.
   mesh.FreeFromAside(places, unused);

@@ -319,6 +319,32 @@ TEST(VisitSchedule, WaitsForNoMoreThanWhatItTouches)
   EXPECT_EQ(others, n - 2);
 }
 
+TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
+{
+  // The calling thread comes when all is done.
+  struct LateCaller final : Executor
+  {
+    void For(std::size_t n, std::size_t,
+      const std::function<void(std::size_t, std::size_t)>& body) override
+    {
+      std::thread other([&] { body(0, 1); });
+      other.join();
+      body(1, n);
+    }
+  } late;
+  int questions = 0;
+  const auto goOn = [&](std::size_t done)
+  {
+    EXPECT_EQ(done, 9u);
+    ++questions;
+    return true;
+  };
+  std::atomic<int> visits{ 0 };
+  EXPECT_TRUE(Apart(9).Run(late, [&](int, std::size_t) { ++visits; }, goOn));
+  EXPECT_EQ(visits, 9);
+  EXPECT_EQ(questions, 1);
+}
+
 TEST(VisitSchedule, HandsOnWhatAVisitThrows)
 {
   // Each is before the next one, or none touches another: others wait, or are at work, or both.

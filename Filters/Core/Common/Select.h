@@ -6,6 +6,7 @@
 #include "Core/Common/Blocks.h"
 #include "Core/Common/Executor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -34,6 +35,13 @@ std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isW
   std::vector<int> selected;
   Concatenate(executor, blocks, selected);
   return selected;
+}
+
+/** Leaves each item once, in order. */
+inline void SortUnique(std::vector<int>& items)
+{
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 }
 

@@ -3,17 +3,24 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Common/Blocks.h"
 #include "Core/Evolution/Stopwatch.h"
+#include "Core/Surface/SurfacePolish.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <utility>
 
 namespace volumic
 {
 namespace
 {
+/** Sweeps of the regularisation, and passes in each block. */
+constexpr int RegularisingSweeps = 3;
+constexpr int SweptPasses = 4;
+/** Way in a pass, in delta, under which a vertex is left where it is. */
+constexpr float SmallestMove = 0.015f;
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexGrain = 2048;
 /** Iterations after which the estimate of a level's progress is 1 - 1/e of its way. */
@@ -165,6 +172,75 @@ void SurfaceEvolution::Implementation::FitMeanEdge(const Dynamics& dynamics)
     s.Velocity.Fill(Vector());
     this->VisitAll(
       SurfaceIteration::Mode::Regularise, dynamics, 1, Monitor::Activity::Regularising, 0., 0.);
+  }
+}
+
+void SurfaceEvolution::Implementation::KeepActiveIfMoving(const SurfaceIteration& iteration)
+{
+  // What went some way in the last pass stays active, with its neighbours, and what was edited.
+  SurfaceState& s = this->State;
+  const auto moves = [&s](int v)
+  {
+    const float least = SmallestMove * s.Sizing.At(v);
+    return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
+  };
+  const std::vector<int>& last = iteration.ActiveVertices();
+  for (const int v : last)
+  {
+    s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves(v));
+  }
+  for (const int v : last)
+  {
+    if (moves(v))
+    {
+      const Ring& ring = s.Mesh.Rings[v];
+      std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.Active[w] = 1; });
+    }
+  }
+}
+
+void SurfaceEvolution::Implementation::RunPasses(const Dynamics& dynamics)
+{
+  for (int sweep = 0; sweep < RegularisingSweeps && !this->Stopped; ++sweep)
+  {
+    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, SweptPasses,
+      Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
+      PassesShare * (sweep + 1) / RegularisingSweeps);
+  }
+}
+
+void SurfaceEvolution::Implementation::Polish(const std::function<bool(int v)>& isWanted)
+{
+  SurfaceState& s = this->State;
+  if (this->Stopped)
+  {
+    return;
+  }
+  BlockVisits visits;
+  visits.OnlyActive = false;
+  visits.Doing = Monitor::Activity::Regularising;
+  visits.From = PassesShare;
+  visits.Visit = [&](BlockVisit& visit, SurfaceIteration&)
+  {
+    std::vector<int> wanted;
+    std::copy_if(
+      visit.Vertices.begin(), visit.Vertices.end(), std::back_inserter(wanted), isWanted);
+    SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
+      this->Options.TopologyChanges, &visit.Share);
+    polish.Run(wanted);
+    std::vector<int> changed = polish.TakeChanged();
+    this->Blocks->AddNew(visit, changed);
+    SurfaceIteration::UpdateChanged(s, std::move(changed));
+  };
+  this->VisitBlocks(visits);
+  const bool hasCut = this->IsOnAnyRank(s.Counts.Cuts > 0);
+  this->SinceEvolved.Cuts += s.Counts.Cuts;
+  s.Counts = EditCounts();
+  if (hasCut)
+  {
+    this->LabelComponents();
+    this->DeleteDegenerate();
+    this->SinceEvolved.Removed += this->IsFirstRank() ? s.Counts.Removed : 0;
   }
 }
 

@@ -20,8 +20,6 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexBlock = 8192;
-/** The same where their shape is found. */
-constexpr std::size_t ShapeBlock = 256;
 }
 
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
@@ -112,17 +110,7 @@ void SurfaceEvolution::Implementation::LayGrid()
   SurfaceState& s = this->State;
   this->FindGridBox(s.Mesh);
   s.Reset(this->GridLow, this->GridHigh, this->Threads);
-  ForBlocks(this->Threads, s.Mesh.Rings.size(), ShapeBlock,
-    [&s](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (s.Mesh.IsAlive(v))
-        {
-          s.UpdateShape(v);
-        }
-      }
-    });
+  s.UpdateShape(this->OwnVertices(), this->Threads);
 }
 
 void SurfaceEvolution::Implementation::ActivateAll()

@@ -7,11 +7,9 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/SurfaceMeasures.h"
-#include "Core/Surface/SurfacePolish.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -23,11 +21,6 @@ namespace
 {
 /** Iterations in a block before the next one is visited: those between two looks at the volume. */
 constexpr int SweptIterations = RestCriterion::Interval;
-/** Sweeps of the regularisation, and passes in each block. */
-constexpr int RegularisingSweeps = 3;
-constexpr int SweptPasses = 4;
-/** Way in a pass, in delta, under which a vertex is left where it is. */
-constexpr float SmallestMove = 0.015f;
 /** Sweeps between two looks for components that are inside out. */
 constexpr int InsideOutSweeps = 2;
 
@@ -117,7 +110,7 @@ void SurfaceEvolution::Implementation::VisitBlock(int block, const BlockVisits& 
   this->Blocks->Close(std::move(visit));
   const std::lock_guard<std::mutex> lock(this->Handing);
   this->State.Counts += counts;
-  this->Unchecked += counts.Cuts + (iteration.HasDeleted() ? 1 : 0);
+  this->Unchecked += counts.Cuts + counts.Removed;
   this->Idle.push_back(&iteration);
 }
 
@@ -341,75 +334,6 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
   this->SinceEvolved.Removed += this->State.Counts.Removed;
 }
 
-void SurfaceEvolution::Implementation::KeepActiveIfMoving(const SurfaceIteration& iteration)
-{
-  // What went some way in the last pass stays active, with its neighbours, and what was edited.
-  SurfaceState& s = this->State;
-  const auto moves = [&s](int v)
-  {
-    const float least = SmallestMove * s.Sizing.At(v);
-    return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
-  };
-  const std::vector<int>& last = iteration.ActiveVertices();
-  for (const int v : last)
-  {
-    s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves(v));
-  }
-  for (const int v : last)
-  {
-    if (moves(v))
-    {
-      const Ring& ring = s.Mesh.Rings[v];
-      std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.Active[w] = 1; });
-    }
-  }
-}
-
-void SurfaceEvolution::Implementation::RunPasses(const Dynamics& dynamics)
-{
-  for (int sweep = 0; sweep < RegularisingSweeps && !this->Stopped; ++sweep)
-  {
-    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, SweptPasses,
-      Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
-      PassesShare * (sweep + 1) / RegularisingSweeps);
-  }
-}
-
-void SurfaceEvolution::Implementation::Polish(const std::function<bool(int v)>& isWanted)
-{
-  SurfaceState& s = this->State;
-  if (this->Stopped)
-  {
-    return;
-  }
-  BlockVisits visits;
-  visits.OnlyActive = false;
-  visits.Doing = Monitor::Activity::Regularising;
-  visits.From = PassesShare;
-  visits.Visit = [&](BlockVisit& visit, SurfaceIteration&)
-  {
-    std::vector<int> wanted;
-    std::copy_if(
-      visit.Vertices.begin(), visit.Vertices.end(), std::back_inserter(wanted), isWanted);
-    SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
-      this->Options.TopologyChanges, &visit.Share);
-    polish.Run(wanted);
-    std::vector<int> changed = polish.TakeChanged();
-    this->Blocks->AddNew(visit, changed);
-    SurfaceIteration::UpdateChanged(s, std::move(changed));
-  };
-  this->VisitBlocks(visits);
-  const bool hasCut = this->IsOnAnyRank(s.Counts.Cuts > 0);
-  this->SinceEvolved.Cuts += s.Counts.Cuts;
-  s.Counts = EditCounts();
-  if (hasCut)
-  {
-    this->LabelComponents();
-    this->DeleteDegenerate();
-    this->SinceEvolved.Removed += this->IsFirstRank() ? s.Counts.Removed : 0;
-  }
-}
-
 void SurfaceEvolution::Implementation::SplitLongEdges()
 {
   // Verification relies on it that no edge is longer than the constraints allow.
@@ -425,6 +349,5 @@ void SurfaceEvolution::Implementation::SplitLongEdges()
     SurfaceIteration::UpdateChanged(this->State, remesher.TakeChanged());
   };
   this->VisitBlocks(visits);
-  this->Threads.EndPhase("Long edges");
 }
 }

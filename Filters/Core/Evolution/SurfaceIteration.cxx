@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceIteration.h"
 
+#include "Core/Common/Select.h"
 #include "Core/Evolution/Stopwatch.h"
 
 #include <algorithm>
@@ -19,19 +20,12 @@ namespace
 constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
 constexpr int SuspiciousCollapses = 40;
-
-void SortUnique(std::vector<int>& vertices)
-{
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-}
 }
 
 void SurfaceIteration::BeginVisit(BlockVisit& visit)
 {
   SurfaceState& s = this->State;
   this->Visit = &visit;
-  this->Deleted = false;
   this->Working.clear();
   this->Near.Clear();
   this->CollectActive();
@@ -99,17 +93,6 @@ void SurfaceIteration::AddUnmoved(int v)
     s.Marks[v] |= IsWorking;
     s.PreviousPosition[v] = s.Mesh.Position[v];
     this->Working.push_back(v);
-  }
-}
-
-void SurfaceIteration::UpdateShape(const std::vector<int>& vertices)
-{
-  for (const int v : vertices)
-  {
-    if (this->State.Mesh.IsAlive(v))
-    {
-      this->State.UpdateShape(v);
-    }
   }
 }
 
@@ -213,7 +196,7 @@ void SurfaceIteration::RollBack()
       examined.insert(examined.end(), ring.Item, ring.Item + ring.Count);
     }
     SortUnique(examined);
-    this->UpdateShape(examined);
+    s.UpdateShape(examined, OnThisThread());
     this->Recheck.Examine(s, examined);
     this->Recheck.Clear();
     intersections = &this->Recheck.Intersections();
@@ -252,7 +235,7 @@ void SurfaceIteration::SplitBeforeVerification(Remesher& remesher)
       }
     }
     SortUnique(stars);
-    this->UpdateShape(stars);
+    s.UpdateShape(stars, OnThisThread());
   } while (!stars.empty());
 }
 
@@ -288,7 +271,7 @@ void SurfaceIteration::WatchComponents()
     this->Watch.LabelSmall(this->State, this->Visit->Vertices, this->Visit->Written);
     this->Labelled = share.Counts;
   }
-  this->Deleted = this->Watch.DeleteDegenerate(this->State, &share) || this->Deleted;
+  this->Watch.DeleteDegenerate(this->State, &share);
 }
 
 void SurfaceIteration::Run(
@@ -312,7 +295,7 @@ void SurfaceIteration::Run(
 
   dynamics.Displace(s, this->Active, this->Step);
   this->CollectWorking();
-  this->UpdateShape(this->Working);
+  s.UpdateShape(this->Working, OnThisThread());
   watch.Lap(Phase::Contact);
 
   this->SplitBeforeVerification(remesher);

@@ -75,8 +75,6 @@ public:
   const std::vector<int>& ActiveVertices() const { return this->Active; }
   /** These and those beside them, and what the last iteration has made or changed. */
   const std::vector<int>& WorkingVertices() const { return this->Working; }
-  /** Whether the visit has deleted a component. */
-  bool HasDeleted() const { return this->Deleted; }
 
   /** After edits: shape of the vertices, and that their stars must be examined again. */
   static void UpdateChanged(SurfaceState& state, std::vector<int> changed);
@@ -92,7 +90,6 @@ private:
   void SplitBeforeVerification(Remesher& remesher);
   void RestoreConstraints(Remesher& remesher);
   void WatchComponents();
-  void UpdateShape(const std::vector<int>& vertices);
 
   SurfaceState& State;
   BlockVisit* Visit = nullptr; ///< See BeginVisit.
@@ -104,7 +101,6 @@ private:
   std::vector<int> Working;  ///< See CollectWorking; they have the mark IsWorking.
   std::vector<int> Suspects; ///< See CollectSuspects.
   EditCounts Labelled;       ///< Of the share, when components were labelled.
-  bool Deleted = false;
 };
 }
 

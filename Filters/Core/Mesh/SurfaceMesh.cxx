@@ -90,7 +90,6 @@ void SurfaceMesh::PutAside(VertexPlaces& places)
 
 void SurfaceMesh::FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused)
 {
-  places.TakeRemoved();
   this->Aside -= static_cast<std::int64_t>(places.Free.size()) + unused.Count();
   for (int v = unused.End; v > unused.Next; --v)
   {

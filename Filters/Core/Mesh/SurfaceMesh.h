@@ -80,13 +80,6 @@ struct VertexPlaces
 {
   std::vector<int> Free;    ///< No vertices yet; taken from the back.
   std::vector<int> Removed; ///< Not to be taken before the edits of a pass are done.
-
-  /** Ends a pass: what it has removed may be taken. */
-  void TakeRemoved()
-  {
-    this->Free.insert(this->Free.end(), this->Removed.begin(), this->Removed.end());
-    this->Removed.clear();
-  }
 };
 
 /** Places that follow each other and have never been taken. */

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfacePolish.h"
 
+#include "Core/Common/Select.h"
 #include "Core/Surface/StarImprovement.h"
 #include "Core/Surface/StarScore.h"
 
@@ -15,12 +16,6 @@ namespace
 {
 constexpr int Rounds = 8;
 constexpr int SeparatingRounds = 4;
-
-void SortUnique(std::vector<int>& vertices)
-{
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-}
 }
 
 std::vector<int> SurfacePolish::AliveOnes() const
