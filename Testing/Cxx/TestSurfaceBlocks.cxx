@@ -245,6 +245,43 @@ TEST(SurfaceBlocks, KeepTheirPlacesForThemselves)
   EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
 }
 
+TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
+{
+  LiveSurface state(Balls(3));
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
+  blocks.AddPlaces({ 0, 50, 0 });
+  BlockVisit visit = blocks.Open(1);
+  SurfaceEditor editor(state, &visit.Share);
+  const float end = blocks.BoxOf(1).High.X;
+  int beyond = 0;
+  int within = 0;
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    if (!state.Mesh.IsAlive(v))
+    {
+      continue;
+    }
+    const float x = state.Mesh.Position[v].X;
+    if (x > end + 1.05f * SurfaceBlocks::EditedInDelta)
+    {
+      const int w = state.Mesh.Rings[v].Item[0];
+      EXPECT_FALSE(editor.Split(v, w).IsDone);
+      EXPECT_FALSE(editor.Collapse(v, w, EditTolerance::Loose).IsDone);
+      EXPECT_FALSE(editor.Flip(v, w, EditTolerance::Loose).IsDone);
+      EXPECT_FALSE(editor.Move(v, state.Mesh.Position[v], EditTolerance::Loose).IsDone);
+      ++beyond;
+    }
+    else if (x > end && x < end + 0.95f * SurfaceBlocks::EditedInDelta && within < 20)
+    {
+      EXPECT_TRUE(editor.Split(v, state.Mesh.Rings[v].Item[0]).IsDone);
+      ++within;
+    }
+  }
+  EXPECT_GT(beyond, 10);
+  EXPECT_GT(within, 5);
+  blocks.Close(std::move(visit));
+}
+
 TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
 {
   LiveSurface state(Balls(3));

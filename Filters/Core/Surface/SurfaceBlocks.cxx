@@ -23,6 +23,16 @@ constexpr int FewPlaces = 64;
 constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 4;
 
+// See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
+constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
+/** As far as Proximity looks. */
+constexpr float Reach = 3.2f;
+static_assert(SurfaceBlocks::EditedInDelta + LongestEdge <= SurfaceBlocks::WrittenInDelta,
+  "an edit writes as far as the edges of the stars that it may begin at");
+static_assert(SurfaceBlocks::MovingInDelta + 0.5f + LongestEdge + Reach + LongestEdge <=
+    SurfaceBlocks::HaloInDelta,
+  "what is examined is moved or beside that, and stars within its reach are read");
+
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
 std::vector<int> EvenFirst(int count)
 {
