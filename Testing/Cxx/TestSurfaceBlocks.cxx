@@ -295,15 +295,24 @@ TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
   EXPECT_FALSE(blocks.HasActive(0));
 }
 
-TEST(SurfaceBlocks, AreNeverNarrowerThanAsked)
+TEST(SurfaceBlocks, AreAsWideAsAskedAndShareTheRestAtBothEnds)
 {
-  for (const double extent : { 5., 31., 63.9, 64., 100. })
+  SurfaceState state;
+  for (const double extent : { 5., 47., 48.5, 71., 72.5, 100. })
   {
-    const SurfaceBlocks::Frame frame = SurfaceBlocks::FrameOf({ extent, 40., 1000. }, 32.);
-    for (int axis = 0; axis < 3; ++axis)
+    const SurfaceBlocks::Frame frame = SurfaceBlocks::FrameOf({ extent, 5., 5. }, 24.);
+    const SurfaceBlocks blocks(state, frame, Thread);
+    const int last = blocks.NumberOfBlocks() - 1;
+    EXPECT_EQ(last > 0, extent > 48.) << extent;
+    for (int block = 1; block < last; ++block)
     {
-      EXPECT_TRUE(frame.Size[axis] == 1 || frame.Side[axis] >= 31.999f) << extent;
-      EXPECT_LT(frame.Side[axis], 64.f);
+      EXPECT_NEAR(blocks.BoxOf(block).High.X - blocks.BoxOf(block).Low.X, 24., 1e-4) << extent;
+    }
+    if (last > 0)
+    {
+      const double first = blocks.BoxOf(0).High.X;
+      EXPECT_NEAR(first, extent - blocks.BoxOf(last).Low.X, 1e-4) << extent;
+      EXPECT_TRUE(first >= 12. && first <= 24.) << extent << ": " << first;
     }
   }
 }

@@ -114,7 +114,7 @@ TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
     const Ring& ring = s.Mesh.Rings[v];
     std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.UpdateShape(w); });
   };
-  stretch(7.f); // Its edges are longer than 2.5 delta, but not than 1.6 times that.
+  stretch(6.3f); // Its edges are longer than 2.5 delta, but not than 1.4 times that.
   ASSERT_TRUE(s.RemeshFlags[v] & HasLongEdge);
   ASSERT_FALSE(s.RemeshFlags[v] & HasHugeEdge);
   EXPECT_TRUE(Has(ActiveOnes(s, blocks, 1), v));
@@ -147,7 +147,7 @@ TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
   {
     s.UpdateShape(v);
   }
-  SurfaceBlocks blocks(s, SurfaceBlocks::FrameOf({ 40., 40., 40. }, 32.), thread);
+  SurfaceBlocks blocks(s, SurfaceBlocks::FrameOf({ 40., 40., 40. }, SurfaceBlocks::SideInDelta), thread);
   BlockVisit visit = blocks.Open(0);
   Remesher remesher(s, &field, true, &visit.Share);
   SurfaceIteration iteration(s);

@@ -188,7 +188,7 @@ struct Wilderness
     std::iota(all.begin(), all.end(), 0);
     this->State.UpdateShape(all, this->Thread);
     this->Blocks = std::make_unique<SurfaceBlocks>(
-      this->State, SurfaceBlocks::FrameOf({ 110., 110., 110. }, 32.), this->Thread);
+      this->State, SurfaceBlocks::FrameOf({ 110., 110., 110. }, SurfaceBlocks::SideInDelta), this->Thread);
     std::vector<int> places(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 2000);
     this->Blocks->AddPlaces(places);
   }
@@ -252,7 +252,7 @@ TEST(Visits, WriteNowhereElseHoweverManyIterationsTheyMake)
     ASSERT_EQ(after.State.Marks[v], 0);
   }
   EXPECT_GT(beyond, 5000);
-  EXPECT_GT(moved, 3000);
+  EXPECT_GT(moved, 1000);
   EXPECT_EQ(DescribeBrokenInvariant(after.State.Mesh), "");
   EXPECT_EQ(CountSelfIntersections(after.State.Mesh.ToIndexed()), 0);
 }

@@ -54,8 +54,9 @@ SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
   {
     extent[axis] = image.Size[axis] * image.Step[axis];
   }
-  return SurfaceBlocks::FrameOf(
-    extent, this->Options.BlockSide * this->State.Sizing.Largest());
+  const double side =
+    this->Options.BlockSide > 0. ? this->Options.BlockSide : SurfaceBlocks::SideInDelta;
+  return SurfaceBlocks::FrameOf(extent, side * this->State.Sizing.Largest());
 }
 
 void SurfaceEvolution::Implementation::MakeBlocks()

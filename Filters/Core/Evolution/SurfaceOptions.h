@@ -59,10 +59,10 @@ struct SurfaceOptions : FieldOptions
   /** Of a level that one rank works on alone, where there are several: 406^3. No property. */
   std::int64_t MostVoxelsOfRank = std::int64_t(1) << 26;
   /**
-   * Least side of the blocks that are visited (SurfaceBlocks), in delta. No property; of less than
-   * this tests make blocks on one thread only.
+   * Side of the blocks that are visited, in delta; 0 = SurfaceBlocks::SideInDelta, the least that
+   * may be visited at the same time. No property: tests make others.
    */
-  double BlockSide = 32.;
+  double BlockSide = 0.;
 };
 }
 

@@ -26,8 +26,6 @@ constexpr std::size_t ExaminedBlock = 256;
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
 constexpr float ReachSlack = 0.1f;
-/** A slow vertex looks this much further, and needs no new look for longer. */
-constexpr float FurtherReach = 0.25f;
 /** Pairs are kept while their vertices use up their slack: look a little further. */
 constexpr float PairReach = SizingField::LambdaInDelta + ReachSlack;
 
@@ -300,7 +298,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v)
   const Vector p = mesh.Position[v];
   const float delta = state.Sizing.At(v);
   const float reach = state.Sizing.Reach(v);
-  const float further = reach + (state.IsSlow[v] ? FurtherReach * delta : 0.f);
+  const float further = reach + (state.IsSlow[v] ? FurtherReachInDelta * delta : 0.f);
   const float near = PairReach * delta;
   const float least = ReachSlack * delta;
   std::optional<StarFaces> own; // Few vertices need it, those that do need it often.

@@ -24,6 +24,9 @@ namespace volumic
 class Proximity
 {
 public:
+  /** By what a slow vertex looks further than its reach, and needs no new look for longer. */
+  static constexpr float FurtherReachInDelta = 0.25f;
+
   struct ClosePair
   {
     int V;

@@ -3,6 +3,7 @@
 #include "Core/Surface/SurfaceBlocks.h"
 
 #include "Core/Common/Blocks.h"
+#include "Core/Surface/Proximity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +26,21 @@ constexpr int PlacesPerTaken = 4;
 
 // See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
-/** As far as Proximity looks. */
-constexpr float Reach = 3.2f;
+static_assert(LongestBridgeEdge * SizingField::LongestEdgeInDelta <= LongestEdge &&
+    SizingField::DivisionFactor * SizingField::LongestEdgeInDelta <= LongestEdge,
+  "a merge, and a division that keeps an old edge, make none longer");
+/** As far as Proximity looks, about a vertex that is slow. */
+constexpr float Reach = SizingField::ReachInDelta + Proximity::FurtherReachInDelta;
 static_assert(SurfaceBlocks::EditedInDelta + LongestEdge <= SurfaceBlocks::WrittenInDelta,
   "an edit writes as far as the edges of the stars that it may begin at");
-static_assert(SurfaceBlocks::MovingInDelta + 0.5f + LongestEdge + Reach + LongestEdge <=
-    SurfaceBlocks::HaloInDelta,
-  "what is examined is moved or beside that, and stars within its reach are read");
+static_assert(SurfaceBlocks::MovingInDelta + 0.5f <= SurfaceBlocks::EditedInDelta,
+  "what has moved is written no further than what is edited");
+static_assert(SurfaceBlocks::WrittenInDelta + Reach + LongestEdge <= SurfaceBlocks::HaloInDelta,
+  "what is examined is written, and stars within its reach are read");
+static_assert(SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta +
+      SizingField::ReachInDelta <=
+    SurfaceBlocks::SideInDelta,
+  "what visits of one colour write and read has no cell of the grid in common");
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
 std::vector<int> EvenFirst(int count)
@@ -55,11 +64,15 @@ std::vector<int> EvenFirst(int count)
 SurfaceBlocks::Frame SurfaceBlocks::FrameOf(const std::array<double, 3>& extent, double side)
 {
   Frame frame;
+  float low[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    frame.Size[axis] = std::max(1, static_cast<int>(extent[axis] / side));
-    frame.Side[axis] = static_cast<float>(extent[axis] / frame.Size[axis]);
+    const int whole = static_cast<int>(extent[axis] / side);
+    frame.Size[axis] = whole < 2 ? 1 : whole + 1;
+    frame.Side[axis] = static_cast<float>(side);
+    low[axis] = static_cast<float>((extent[axis] - side * frame.Size[axis]) / 2);
   }
+  frame.Low = Vector(low[0], low[1], low[2]);
   return frame;
 }
 

@@ -46,14 +46,13 @@ struct BlockVisit
  *
  * - a vertex moves only while it lies within MovingInDelta of the block, and edits begin at stars
  *   within EditedInDelta; what is refused for that is left for the neighbour's visit;
- * - an edge is at most 5 delta long: HugeEdge times the longest legal one, 4 delta, and what both
- *   ends move in an iteration, after which they keep still until it is split;
+ * - an edge is at most 4.5 delta long: HugeEdge times the longest legal one, 3.5 delta, and what
+ *   both ends move in an iteration, after which they keep still until it is split;
  * - so positions, rings and shapes are written within WrittenInDelta of the block: an edit's region
  *   and an edge;
- * - what is examined moved, or is a neighbour of what did (9.5 delta); it looks for vertices within
- *   the reach of 3.2 delta, and reads their stars: all within HaloInDelta.
- * Blocks are as wide as both together, with room for the cells of the grid: 32 delta
- * (SurfaceOptions::BlockSide).
+ * - what is examined moved, was edited, or is a neighbour of what did or was (7.5 delta); it looks
+ *   for vertices within the reach of 2.05 delta, and reads their stars: all within HaloInDelta.
+ * Blocks are as wide as both together and a cell of the grid: SideInDelta.
  */
 class SurfaceBlocks
 {
@@ -61,18 +60,22 @@ public:
   /** Where the blocks lie; the outermost go on without end. */
   struct Frame
   {
-    Vector Low; ///< Where the first one begins: the corner of the image.
+    Vector Low; ///< Where the first one would begin were it as wide as the others.
     std::array<float, 3> Side = { 1.f, 1.f, 1.f }; ///< Of a block, workspace.
     std::array<int, 3> Size = { 1, 1, 1 };
   };
-  /** Of an image, workspace, in as many blocks as there is room for. @param side the least */
+  /**
+   * Of an image, workspace, one corner of which is the origin. Along each axis the outermost blocks
+   * share what whole ones leave; what is shorter than two of them is one block.
+   */
   static Frame FrameOf(const std::array<double, 3>& extent, double side);
 
   // All in delta.
-  static constexpr float MovingInDelta = 4.f;
-  static constexpr float EditedInDelta = 4.6f;
-  static constexpr float WrittenInDelta = 10.f;
-  static constexpr float HaloInDelta = 18.f;
+  static constexpr float MovingInDelta = 2.5f;
+  static constexpr float EditedInDelta = 3.f;
+  static constexpr float WrittenInDelta = 7.5f;
+  static constexpr float HaloInDelta = 14.2f;
+  static constexpr float SideInDelta = 24.f;
   static constexpr int Colours = 8;
 
   SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor);

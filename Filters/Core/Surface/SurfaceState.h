@@ -58,11 +58,15 @@ struct EditCounts
 constexpr float LeastCotangentSum = -0.05f;
 
 /**
- * Longest edge, of the longest legal one, that there is but for a moment: bridge edges have 1.6 times
- * its length before they are split. Where a longer one could not be split its ends keep still until
- * it is, so that what a visit reads and writes is bounded (SurfaceBlocks).
+ * An edge that is this many times as long as the longest legal one keeps its ends still until it is
+ * split, so that what a visit reads and writes is bounded (SurfaceBlocks).
  */
-constexpr float HugeEdge = 1.6f;
+constexpr float HugeEdge = 1.4f;
+/**
+ * Longest bridge edge of a merge, of the longest legal edge: between sharp rims they are long. The
+ * remesher splits them.
+ */
+constexpr float LongestBridgeEdge = 1.6f;
 
 /** What a vertex may need of the remesher. */
 enum RemeshFlag : std::uint8_t

@@ -17,12 +17,6 @@ namespace volumic
 {
 namespace
 {
-/**
- * Longest bridge edge of a merge, of the longest legal edge: between sharp rims they are long. The
- * remesher splits them at once.
- */
-constexpr float LongestBridgeEdge = 1.6f;
-
 /** How far each copy of a cut's corners goes towards the rest of its star, of the way there. */
 constexpr float DrawnApart = 0.25f;
 
