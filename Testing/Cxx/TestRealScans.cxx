@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The surface on real scans, at every level. What must always hold is asserted as it is; qualities
-// that are a matter of degree are asserted well below what is reached (see the README), so that a
-// failure means that something broke.
+// that are a matter of degree are asserted well below what is reached (Documentation/measured.md),
+// so that a failure means that something broke.
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
 #include "vtkDeformableSurface.h"

@@ -26,8 +26,9 @@ from read_volume import read_volume
 
 ROOT = os.path.normpath(os.path.join(EXAMPLES, "..", ".."))
 DOCUMENTS = ("README.md", *(f"Documentation/{name}.md"
-                            for name in ("tutorial", "differences", "reference", "paraview",
-                                         "python", "cluster", "architecture", "development")))
+                            for name in ("tutorial", "install", "paraview", "python", "cluster",
+                                         "reference", "measured", "limitations", "differences",
+                                         "architecture", "development")))
 
 
 def read(document):
@@ -46,6 +47,13 @@ def write(path, text):
 
 
 class LinksTest(unittest.TestCase):
+    def test_all_documents_are_looked_at_and_linked_from_the_readme(self):
+        there = {f"Documentation/{name}" for name in os.listdir(os.path.join(ROOT, "Documentation"))
+                 if name.endswith(".md")}
+        self.assertEqual(there | {"README.md"}, set(DOCUMENTS))
+        links = re.findall(r"\]\(([^)]+)\)", read("README.md"))
+        self.assertLessEqual(there, {link.partition("#")[0] for link in links})
+
     def pictures(self):
         """(document, path of a picture that it shows)."""
         for document in DOCUMENTS:
@@ -92,7 +100,9 @@ class LinksTest(unittest.TestCase):
                 self.assertTrue(os.path.exists(os.path.join(ROOT, path)), f"{document}: {path}")
 
     def test_scripts_that_are_named_exist(self):
-        for name in re.findall(r"^\| `(\w+\.py)", read("README.md"), flags=re.MULTILINE):
+        named = re.findall(r"^\| `(\w+\.py)", read("Documentation/python.md"), flags=re.MULTILINE)
+        self.assertGreater(len(named), 5)
+        for name in named:
             self.assertTrue(os.path.exists(os.path.join(EXAMPLES, name)), name)
 
     def test_tests_that_are_named_exist(self):
@@ -193,7 +203,8 @@ class CodeTest(unittest.TestCase):
     def test_options_of_the_build_are_told(self):
         known = re.findall(r"^option\((\w+)", read("CMake/VolumicOptions.cmake"),
                            flags=re.MULTILINE)
-        told = re.findall(r"^\| `([A-Z_]+)` \|", read("README.md"), flags=re.MULTILINE)
+        told = re.findall(r"^\| `([A-Z_]+)` \|", read("Documentation/install.md"),
+                          flags=re.MULTILINE)
         self.assertEqual(sorted(told), sorted(known))
 
 
