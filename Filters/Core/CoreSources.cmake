@@ -63,7 +63,6 @@ set(volumic_core_sources
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RankBlocks.cxx
-  Surface/RankComponents.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
@@ -72,6 +71,7 @@ set(volumic_core_sources
   Surface/StarScore.cxx
   Surface/StarShape.cxx
   Surface/SurfaceBlocks.cxx
+  Surface/SurfaceComponents.cxx
   Surface/SurfaceEditor.cxx
   Surface/SurfacePolish.cxx
   Surface/SurfaceState.cxx
@@ -184,7 +184,6 @@ set(volumic_core_headers
   Surface/NormalCone.h
   Surface/Proximity.h
   Surface/RankBlocks.h
-  Surface/RankComponents.h
   Surface/RankPart.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
@@ -194,6 +193,7 @@ set(volumic_core_headers
   Surface/StarScore.h
   Surface/StarShape.h
   Surface/SurfaceBlocks.h
+  Surface/SurfaceComponents.h
   Surface/SurfaceEditor.h
   Surface/SurfacePolish.h
   Surface/SurfaceState.h

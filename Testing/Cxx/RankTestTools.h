@@ -4,6 +4,7 @@
 #define volumicRankTestTools_h
 
 #include "Core/Surface/RankPart.h"
+#include "Core/Surface/SurfaceComponents.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <cmath>
@@ -15,6 +16,12 @@ namespace volumic
 {
 /** Which rank a vertex of a whole surface belongs to, given how many ranks there are. */
 using OwnerOf = std::function<int(int v, int ranks)>;
+
+/** Of a surface that one rank has all of. */
+inline SurfaceComponents OfAll()
+{
+  return SurfaceComponents({ OnThisRank(), [](int) { return true; } });
+}
 
 /** Ranks own cubes of space here and there, so that parts of one rank lie apart. */
 inline OwnerOf ByCubes(const SurfaceState& whole, float side)

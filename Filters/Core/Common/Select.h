@@ -38,7 +38,8 @@ std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isW
 }
 
 /** Leaves each item once, in order. */
-inline void SortUnique(std::vector<int>& items)
+template <typename T>
+void SortUnique(std::vector<T>& items)
 {
   std::sort(items.begin(), items.end());
   items.erase(std::unique(items.begin(), items.end()), items.end());

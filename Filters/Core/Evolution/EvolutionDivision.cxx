@@ -4,7 +4,7 @@
 // The way of a surface to the next level's edge lengths, on one rank or on all.
 
 #include "Core/Common/Blocks.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/RankLists.h"
 #include "Core/Common/Select.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/Division.h"
@@ -121,12 +121,9 @@ float SurfaceEvolution::Implementation::LongestEdge()
   {
     most = std::max(most, ofBlock);
   }
-  if (this->OnRanks)
+  for (const float ofRank : GatherValues(this->Sharers(), most))
   {
-    for (const float ofRank : GatherValues(*this->Ranks, most))
-    {
-      most = std::max(most, ofRank);
-    }
+    most = std::max(most, ofRank);
   }
   return std::sqrt(most);
 }
@@ -163,7 +160,7 @@ void SurfaceEvolution::Implementation::KeepEdgesAbout(
 void SurfaceEvolution::Implementation::DivideOnce()
 {
   SurfaceState& s = this->State;
-  this->Blocks.reset(); // Its places are anyone's again.
+  this->ForgetBlocks();
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   const int olds = s.Mesh.Size();
@@ -194,12 +191,24 @@ void SurfaceEvolution::Implementation::DivideOnce()
   }
 }
 
+bool SurfaceEvolution::Implementation::DivideWhole(int divisions)
+{
+  bool goesOn = true;
+  for (int i = 0; i < divisions && goesOn; ++i)
+  {
+    this->DivideOnce();
+    goesOn = this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
+  }
+  divisions > 0 ? this->LayOut() : this->Reset();
+  return goesOn;
+}
+
 bool SurfaceEvolution::Implementation::HasEdgeTooLong() const
 {
   return HasEdgeOver(this->State, 1.0001f, this->Threads);
 }
 
-void SurfaceEvolution::Implementation::LayGridOnRanks()
+void SurfaceEvolution::Implementation::LayGridOfPart()
 {
   SurfaceState& s = this->State;
   const std::size_t n = s.Mesh.Rings.size();
@@ -227,18 +236,18 @@ std::vector<int> SurfaceEvolution::Implementation::OwnVertices() const
     [this](std::size_t i)
     {
       const int v = static_cast<int>(i);
-      return this->State.Mesh.IsAlive(v) && (!this->OnRanks || this->OnRanks->IsOwnVertex(v));
+      return this->State.Mesh.IsAlive(v) && (!this->Parts || this->Parts->IsOwnVertex(v));
     });
 }
 
-std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsOnRanks()
+std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsInParts()
 {
   SurfaceState& s = this->State;
   const SizingField sizing = s.Sizing;
   s.Sizing = sizing.ForEdgesOf(this->LongestEdge());
-  this->LayGridOnRanks();
+  this->LayGridOfPart();
   const std::vector<int> own = this->OwnVertices();
-  std::vector<Proximity::FacePair> found =
+  const std::vector<Proximity::FacePair> found =
     Proximity::FindIntersections(s, own, this->Threads);
   for (const int v : own)
   {
@@ -247,19 +256,8 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
     s.NearOthers[v] = 1;
   }
   s.Sizing = sizing;
-  this->LayGridOnRanks();
-  if (this->OnRanks)
-  {
-    MessageWriter writer;
-    writer.AddArray(found);
-    found.clear();
-    for (const Message& message : this->Ranks->GatherOnAll(writer.Take()))
-    {
-      const auto ofRank = MessageReader(message).TakeVector<Proximity::FacePair>();
-      found.insert(found.end(), ofRank.begin(), ofRank.end());
-    }
-  }
-  return found;
+  this->LayGridOfPart();
+  return GatherListsOnAll(this->Sharers(), found);
 }
 
 void SurfaceEvolution::Implementation::SpreadMesh()
@@ -269,19 +267,20 @@ void SurfaceEvolution::Implementation::SpreadMesh()
   const SurfaceMesh whole = std::exchange(s.Mesh, SurfaceMesh());
   this->FindGridBox(whole);
   this->AgreeOnGridBox();
-  if (!this->OnRanks)
+  if (!this->IsInParts())
   {
     this->ShareBlocks(whole);
   }
-  this->OnRanks->ScatterMesh(whole, this->GridLow, this->GridHigh);
+  this->Parts->ScatterMesh(whole, this->GridLow, this->GridHigh);
 }
 
-bool SurfaceEvolution::Implementation::DivideOnRanks()
+void SurfaceEvolution::Implementation::DivideInParts()
 {
   SurfaceState& s = this->State;
+  this->ForgetBlocks();
   SurfaceMesh old;
   std::unique_ptr<KeptEdges> kept;
-  for (int round = 0;; ++round)
+  for (int round = 0; round <= KeepingRounds; ++round)
   {
     LargeVector<Triangle> faces;
     if (this->IsFirstRank())
@@ -299,14 +298,10 @@ bool SurfaceEvolution::Implementation::DivideOnRanks()
       faces = volumic::Divide(s.Mesh, round > 0 ? kept.get() : nullptr, this->Threads);
     }
     this->SpreadMesh();
-    const std::vector<Proximity::FacePair> found = this->FindIntersectionsOnRanks();
+    const std::vector<Proximity::FacePair> found = this->FindIntersectionsInParts();
     if (found.empty())
     {
-      break;
-    }
-    if (round == KeepingRounds)
-    {
-      Refuse("The surface of the level above intersects itself: this is an error of Volumic.");
+      return;
     }
     if (this->IsFirstRank())
     {
@@ -317,7 +312,65 @@ bool SurfaceEvolution::Implementation::DivideOnRanks()
       this->KeepEdgesAbout(found, faces, old, round, *kept);
     }
   }
+  this->RemeshInParts(old); // It intersects itself: not seen yet.
+}
+
+void SurfaceEvolution::Implementation::RemeshInParts(const SurfaceMesh& old)
+{
+  if (this->NeedVoxels)
+  {
+    const VoxelBox all = VoxelBox::Of(this->TheField->Image().Size);
+    this->NeedVoxels(this->IsFirstRank() ? all : VoxelBox());
+  }
+  this->Clear();
+  if (this->IsFirstRank())
+  {
+    this->TakeRemeshed(old.ToIndexed(this->Threads));
+  }
+  this->SpreadWhole();
+}
+
+void SurfaceEvolution::Implementation::SpreadWhole()
+{
+  this->ForgetBlocks();
+  if (this->IsFirstRank())
+  {
+    this->State.Mesh.Reorder(
+      SpaceFillingOrder(this->State.Mesh, this->State.Sizing.Smallest(), this->Threads),
+      this->Threads);
+  }
+  this->SpreadMesh();
+  this->LayGridOfPart();
+}
+
+bool SurfaceEvolution::Implementation::LayOutInParts(int divisions)
+{
+  // All but the last division are rank 0's, which has the whole.
+  bool goesOn = true;
+  for (int i = 0; i < divisions - 1 && goesOn; ++i)
+  {
+    if (this->IsFirstRank())
+    {
+      this->DivideOnce();
+    }
+    goesOn = !this->Ranks->IsAny(!this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions));
+  }
+  if (goesOn && divisions > 0)
+  {
+    this->DivideInParts();
+  }
+  else
+  {
+    this->SpreadWhole();
+  }
   this->Threads.EndPhase("Division");
-  return this->GoOn(Monitor::Activity::Dividing, 1.);
+  this->SplitLongEdges();
+  if (this->IsOnAnyRank(!this->Stopped && this->HasEdgeTooLong()))
+  {
+    this->Unite(); // Full rings all about it: not seen yet.
+    const SurfaceMesh old = this->State.Mesh;
+    this->RemeshInParts(old);
+  }
+  return goesOn;
 }
 }

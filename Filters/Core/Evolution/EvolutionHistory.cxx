@@ -28,7 +28,7 @@ void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
 {
   row.Vertices = this->State.Mesh.NumberOfVertices();
   row.EulerCharacteristic = this->State.EulerCharacteristic;
-  row.Components = this->Watch.NumberOfComponents();
+  row.Components = this->NumberOfComponents;
 }
 
 void SurfaceEvolution::Implementation::BeginRow(HistoryRow& row)

@@ -12,9 +12,8 @@
 #include "Core/Image/Field.h"
 #include "Core/Mesh/Division.h"
 #include "Core/Surface/RankBlocks.h"
-#include "Core/Surface/ComponentWatch.h"
-#include "Core/Surface/RankComponents.h"
 #include "Core/Surface/SurfaceBlocks.h"
+#include "Core/Surface/SurfaceComponents.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <chrono>
@@ -48,7 +47,7 @@ struct SurfaceEvolution::Implementation
   int LastIterations = 0;
   LostParts LastLost;
   LostBoundary Lost; ///< Of the parts that the last division found.
-  ComponentWatch Watch; ///< Of the whole surface.
+  int NumberOfComponents = 0; ///< When last labelled.
   int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
   std::vector<std::unique_ptr<SurfaceIteration>> Iterations; ///< Of visits, one for each thread.
   std::vector<SurfaceIteration*> Idle;                       ///< Of them, those in no visit.
@@ -63,11 +62,12 @@ struct SurfaceEvolution::Implementation
   Verdict LastVerdict;
   bool IsMending = false;   ///< Which is not stopped.
   bool IsShared = false;    ///< The level is worked on by all ranks.
-  std::unique_ptr<SurfaceBlocks> Blocks; ///< Once a level has begun.
-  Communicator* Ranks = nullptr;         ///< Null: alone.
+  Communicator* Ranks = &OnThisRank();
+  // Once a level has begun:
+  std::unique_ptr<SurfaceBlocks> Blocks;
+  std::unique_ptr<RankBlocks> Parts;             ///< Whose the blocks are; of one rank all.
+  std::unique_ptr<SurfaceComponents> Components; ///< Of the surface in these parts.
   std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
-  std::unique_ptr<RankBlocks> OnRanks;   ///< While the surface is in parts: EvolutionRanks.cxx.
-  std::unique_ptr<RankComponents> OfRanks; ///< Once there have been ranks.
   Vector GridLow, GridHigh;              ///< As the grid was laid last.
   struct
   {
@@ -121,7 +121,6 @@ struct SurfaceEvolution::Implementation
   void Recover();
   void FindGridBox(const SurfaceMesh& mesh);
   void LayGrid();
-  void Append(const IndexedSurface& surface);
   bool HasEdgeTooLong() const;
   int CountIntersecting();
   void Verify();
@@ -129,16 +128,22 @@ struct SurfaceEvolution::Implementation
   float LongestEdge(); ///< On all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
+  bool DivideWhole(int divisions); ///< @return whether nothing asked to stop
   void KeepEdgesAbout(const std::vector<Proximity::FacePair>& pairs,
     const LargeVector<Triangle>& faces, const SurfaceMesh& old, int round, KeptEdges& kept);
   SurfaceBlocks::Frame FrameOfLevel() const;
-  void MakeBlocks();
-  // On several ranks.
-  bool DivideOnRanks();
-  void SpreadMesh();
-  void LayGridOnRanks();
+  /** @param sharers whose they will be; one rank has all of them */
+  void MakeBlocks(Communicator& sharers = OnThisRank());
+  void ForgetBlocks(); ///< Their places are anyone's again.
   std::vector<int> OwnVertices() const;
-  std::vector<Proximity::FacePair> FindIntersectionsOnRanks();
+  // From a surface that is whole on rank 0 to one that is in parts, with so many divisions.
+  bool LayOutInParts(int divisions);
+  void DivideInParts();
+  void RemeshInParts(const SurfaceMesh& old);
+  void SpreadWhole();
+  void SpreadMesh();
+  void LayGridOfPart();
+  std::vector<Proximity::FacePair> FindIntersectionsInParts();
   /** @param isSound it has been made well: its edges need not be legal already */
   void Take(const IndexedSurface& surface, bool isSound);
   void TakeRemeshed(const IndexedSurface& surface);
@@ -148,7 +153,6 @@ struct SurfaceEvolution::Implementation
   void ActivateAll();
 
   // By visits: EvolutionVisits.cxx.
-  void AddPlaces();
   SurfaceIteration& TakeIteration();
   void VisitBlock(int block, const BlockVisits& visits);
   void VisitBlocks(const BlockVisits& visits);
@@ -170,10 +174,12 @@ struct SurfaceEvolution::Implementation
   double Volume();
 
   // On several ranks: EvolutionRanks.cxx.
-  bool AreRanks() const { return this->Ranks && this->Ranks->NumberOfRanks() > 1; }
+  /** Those that have parts of the surface as it is now: one while it is whole. */
+  Communicator& Sharers() const { return this->Parts ? this->Parts->Sharers() : OnThisRank(); }
+  bool IsInParts() const { return this->Parts && this->Parts->AreShared(); }
   void BeginVisits();
   void EndVisits();
-  bool IsFirstRank() const { return !this->AreRanks() || this->Ranks->Rank() == 0; }
+  bool IsFirstRank() const { return this->Ranks->Rank() == 0; }
   void ShareBlocks(const SurfaceMesh& mesh);
   void AgreeOnGridBox();
   VoxelBox OwnVoxels() const;
@@ -183,11 +189,10 @@ struct SurfaceEvolution::Implementation
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
-  std::vector<std::uint8_t> AreNearOnRanks(std::vector<std::int64_t> voxels);
+  std::vector<std::uint8_t> AreNear(std::vector<std::int64_t> voxels);
   void Unite();
   SurfaceResult ResultOnRanks() const;
-  RankComponents& ComponentsOfRanks();
-  void TakeComponents(bool areChecked);
+  void CountComponents();
   void LabelComponents();
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);

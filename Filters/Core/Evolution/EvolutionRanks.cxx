@@ -17,10 +17,8 @@ namespace volumic
 {
 void SurfaceEvolution::Implementation::ShareBlocks(const SurfaceMesh& mesh)
 {
-  this->Blocks =
-    std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
-  this->OnRanks = std::make_unique<RankBlocks>(this->State, *this->Blocks, *this->Ranks);
-  this->OnRanks->ChooseOwners(mesh);
+  this->MakeBlocks(*this->Ranks);
+  this->Parts->ChooseOwners(mesh);
   if (this->NeedVoxels)
   {
     this->NeedVoxels(this->OwnVoxels());
@@ -42,7 +40,7 @@ VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
   VoxelBox voxels;
   for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
   {
-    if (!this->OnRanks->IsOwn(block))
+    if (!this->Parts->IsOwn(block))
     {
       continue;
     }
@@ -66,22 +64,21 @@ VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
 
 void SurfaceEvolution::Implementation::BeginVisits()
 {
-  if (!this->IsShared || this->OnRanks)
+  if (!this->IsShared || this->IsInParts())
   {
     return; // It has come here in blocks.
   }
   this->State.Sizing = BroadcastValue(*this->Ranks, this->State.Sizing);
-  this->Blocks.reset();
   this->ShareBlocks(this->State.Mesh);
   this->AgreeOnGridBox();
-  this->OnRanks->Scatter(this->GridLow, this->GridHigh);
+  this->Parts->Scatter(this->GridLow, this->GridHigh);
 }
 
 void SurfaceEvolution::Implementation::EndVisits()
 {
-  if (!this->OnRanks) // Else the surface stays in parts until it is wanted as a whole.
+  if (!this->IsInParts()) // Else it stays so until it is wanted as a whole.
   {
-    this->Blocks.reset();
+    this->ForgetBlocks();
   }
 }
 
@@ -95,30 +92,30 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
     std::copy_if(ofColour.begin(), ofColour.end(), std::back_inserter(own),
       [&](int block)
       {
-        return this->OnRanks->IsOwn(block) && !this->Stopped &&
+        return this->Parts->IsOwn(block) && !this->Stopped &&
           !(visits.OnlyActive && !this->Blocks->HasActive(block));
       });
     for (const int block : own)
     {
-      this->OnRanks->BeginVisit(block);
+      this->Parts->BeginVisit(block);
     }
     ForBlocks(this->Threads, own.size(), 1,
       [&](std::size_t i, std::size_t, std::size_t) { this->VisitBlock(own[i], visits); });
     for (const int block : own)
     {
-      this->OnRanks->EndVisit(block);
+      this->Parts->EndVisit(block);
     }
     visited += ofColour.size();
-    this->OnRanks->Exchange();
+    this->Parts->Exchange();
     goOn(visited);
     this->AgreeOnStop();
   }
-  this->OnRanks->ShareCounts();
+  this->Parts->ShareCounts();
 }
 
 bool SurfaceEvolution::Implementation::IsOnAnyRank(bool isHere)
 {
-  return this->OnRanks ? this->Ranks->IsAny(isHere) : isHere;
+  return this->Sharers().IsAny(isHere);
 }
 
 void SurfaceEvolution::Implementation::AgreeOnStop()
@@ -128,10 +125,6 @@ void SurfaceEvolution::Implementation::AgreeOnStop()
 
 void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
 {
-  if (!this->OnRanks)
-  {
-    return;
-  }
   struct Sums
   {
     int Counts[8];
@@ -149,7 +142,7 @@ void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
       *counts[i] = 0;
     }
     own.TimeStep = row.TimeStep;
-    for (const Sums& ofRank : GatherValues(*this->Ranks, own))
+    for (const Sums& ofRank : GatherValues(this->Sharers(), own))
     {
       for (int i = 0; i < 8; ++i)
       {
@@ -164,92 +157,59 @@ void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
     };
     const Changes here{ swept.Vertices, swept.EulerCharacteristic };
     swept.Vertices = swept.EulerCharacteristic = 0;
-    for (const Changes& ofRank : GatherValues(*this->Ranks, here))
+    for (const Changes& ofRank : GatherValues(this->Sharers(), here))
     {
       swept.Vertices += ofRank.Vertices;
       swept.EulerCharacteristic += ofRank.EulerCharacteristic;
     }
-    this->OnRanks->Share(swept.KineticEnergy);
+    this->Parts->Share(swept.KineticEnergy);
   }
 }
 
 void SurfaceEvolution::Implementation::AddUpSinceEvolved()
 {
-  if (!this->OnRanks)
-  {
-    return;
-  }
   const EditCounts own = this->SinceEvolved;
   this->SinceEvolved = EditCounts();
-  for (const EditCounts& ofRank : GatherValues(*this->Ranks, own))
+  for (const EditCounts& ofRank : GatherValues(this->Sharers(), own))
   {
     this->SinceEvolved += ofRank;
   }
 }
 
-RankComponents& SurfaceEvolution::Implementation::ComponentsOfRanks()
+void SurfaceEvolution::Implementation::CountComponents()
 {
-  if (!this->OfRanks)
-  {
-    this->OfRanks = std::make_unique<RankComponents>(
-      RankPart{ *this->Ranks, [this](int v) { return this->OnRanks->IsOwnVertex(v); } });
-  }
-  return *this->OfRanks;
-}
-
-void SurfaceEvolution::Implementation::TakeComponents(bool areChecked)
-{
-  this->OnRanks->ShareCounts();
-  this->Watch.TakeNumber(this->OfRanks->NumberOfComponents());
-  this->Unchecked = areChecked ? 0 : this->Unchecked;
+  this->Parts->ShareCounts();
+  this->NumberOfComponents = this->Components->NumberOfComponents();
 }
 
 void SurfaceEvolution::Implementation::LabelComponents()
 {
-  if (!this->OnRanks)
-  {
-    this->Watch.Label(this->State, this->Threads);
-    return;
-  }
-  this->ComponentsOfRanks().Label(this->State, this->Threads);
-  this->TakeComponents(false);
+  this->Components->Label(this->State, this->Threads);
+  this->CountComponents();
 }
 
 void SurfaceEvolution::Implementation::DeleteDegenerate()
 {
-  if (!this->OnRanks)
-  {
-    this->Watch.DeleteDegenerate(this->State);
-    return;
-  }
-  this->ComponentsOfRanks().DeleteDegenerate(this->State);
-  this->TakeComponents(false);
+  this->Components->DeleteDegenerate(this->State);
+  this->CountComponents();
 }
 
 void SurfaceEvolution::Implementation::DeleteThoseInsideOut()
 {
-  if (!this->OnRanks)
-  {
-    this->Watch.DeleteInsideOut(this->State, this->Threads);
-    this->Unchecked = 0;
-    return;
-  }
-  this->ComponentsOfRanks().DeleteInsideOut(this->State, this->Threads);
-  this->TakeComponents(true);
+  this->Components->DeleteInsideOut(this->State, this->Threads);
+  this->CountComponents();
+  this->Unchecked = 0;
 }
 
-std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNearOnRanks(
+std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNear(
   std::vector<std::int64_t> voxels)
 {
-  if (!this->OnRanks)
-  {
-    return LostBoundary::AreNear(voxels, this->State, *this->TheField, this->Threads);
-  }
-  voxels = BroadcastList(*this->Ranks, voxels); // Rank 0 alone knows of what was lost.
+  Communicator& ranks = this->Sharers();
+  voxels = BroadcastList(ranks, voxels); // Rank 0 alone knows of what was lost.
   MessageWriter writer;
   writer.AddArray(LostBoundary::AreNear(voxels, this->State, *this->TheField, this->Threads));
-  std::vector<std::uint8_t> areNear(this->IsFirstRank() ? voxels.size() : 0, 0);
-  for (const Message& message : this->Ranks->Gather(writer.Take()))
+  std::vector<std::uint8_t> areNear(ranks.Rank() == 0 ? voxels.size() : 0, 0);
+  for (const Message& message : ranks.Gather(writer.Take()))
   {
     const auto ofRank = MessageReader(message).TakeVector<std::uint8_t>();
     for (std::size_t i = 0; i < areNear.size(); ++i)
@@ -262,10 +222,9 @@ std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNearOnRanks(
 
 void SurfaceEvolution::Implementation::Unite()
 {
-  if (this->OnRanks)
+  if (this->IsInParts())
   {
-    this->OnRanks->Gather();
-    this->OnRanks.reset();
+    this->Parts->Gather();
     this->MakeBlocks();
   }
 }

@@ -288,16 +288,8 @@ void SurfaceEvolution::Implementation::DeleteInsideOut()
 
 void SurfaceEvolution::Implementation::FindMissing()
 {
-  LostBoundary::Missing missing;
-  if (this->OnRanks)
-  {
-    const std::vector<std::uint8_t> areNear = this->AreNearOnRanks(this->Lost.Voxels());
-    missing = this->Lost.MissedBy(areNear, this->Area());
-  }
-  else
-  {
-    missing = this->Lost.MissedBy(this->State, *this->TheField, this->Threads);
-  }
+  const LostBoundary::Missing missing =
+    this->Lost.MissedBy(this->AreNear(this->Lost.Voxels()), this->Area());
   this->LastLost.Missing = missing.Parts;
   this->LastLost.MissingBoundary = missing.Share;
 }
@@ -374,6 +366,7 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->Unite(); // Its steps make the blocks anew.
     this->FitMeanEdge(dynamics);
     this->BeginVisits();
+    this->AgreeOnStop();
   }
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.

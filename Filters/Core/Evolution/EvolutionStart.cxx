@@ -28,7 +28,7 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
   {
     this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
   }
-  if (this->AreRanks())
+  if (this->Ranks->NumberOfRanks() > 1)
   {
     const Field::Measures measured = BroadcastValue(
       *this->Ranks, this->TheField ? this->TheField->Measured() : Field::Measures());
@@ -38,20 +38,20 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
   this->Level = level;
   this->LastIterations = 0;
   this->Visit = {};
-  this->IsShared = this->AreRanks() && AreShared(this->Options, image.Size);
+  this->IsShared = this->Ranks->NumberOfRanks() > 1 && AreShared(this->Options, image.Size);
   this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
 }
 
 void SurfaceEvolution::Implementation::Clear()
 {
-  this->Blocks.reset(); // With its places.
+  this->ForgetBlocks();
   this->State.Mesh.Clear();
 }
 
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
-  this->Blocks.reset(); // Its places are anyone's again.
+  this->ForgetBlocks();
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
   this->Threads.EndPhase("Order");
@@ -61,7 +61,7 @@ void SurfaceEvolution::Implementation::Reset()
 void SurfaceEvolution::Implementation::LayOut()
 {
   SurfaceState& s = this->State;
-  this->Blocks.reset(); // Its places are anyone's again.
+  this->ForgetBlocks();
   this->LayGrid();
   this->MakeBlocks();
   this->Threads.EndPhase("Grid");
@@ -71,7 +71,7 @@ void SurfaceEvolution::Implementation::LayOut()
     // Full rings all about it: not seen yet.
     this->TakeRemeshed(s.Mesh.ToIndexed(this->Threads));
   }
-  this->Watch.Label(s, this->Threads);
+  this->LabelComponents();
   this->Threads.EndPhase("Labels");
 }
 
@@ -141,10 +141,10 @@ void SurfaceEvolution::Implementation::Recover()
   const bool recovers = this->Options.RecoverLostParts;
   const double objectShare = recovers && this->Options.RecoverCavities ? 0.5 : 1.;
   std::unique_ptr<RankRows> part;
-  if (this->OnRanks)
+  if (this->IsInParts())
   {
     part = std::make_unique<RankRows>(
-      RankRows{ *this->Ranks, this->OnRanks->RowsOf(this->TheField->Image()) });
+      RankRows{ *this->Ranks, this->Parts->RowsOf(this->TheField->Image()) });
   }
   const auto find = [&](PartKind kind, double from, double to)
   {
@@ -175,29 +175,11 @@ void SurfaceEvolution::Implementation::Recover()
   }
   if (this->LastLost.Enclosed > 0)
   {
-    this->Append(objects.Surface);
+    this->Parts->Append(objects.Surface, this->Threads);
   }
   if (this->LastLost.EnclosedCavities > 0)
   {
-    this->Append(cavities.Surface);
-  }
-}
-
-void SurfaceEvolution::Implementation::Append(const IndexedSurface& surface)
-{
-  if (this->OnRanks)
-  {
-    this->OnRanks->Append(surface, this->Threads);
-    return;
-  }
-  SurfaceState& s = this->State;
-  const int first = s.Mesh.Append(surface, this->Threads);
-  if (this->Blocks)
-  {
-    std::vector<int> added(s.Mesh.Size() - first);
-    std::iota(added.begin(), added.end(), first);
-    s.AddAppended(added, this->Threads);
-    this->Blocks->Take(added);
+    this->Parts->Append(cavities.Surface, this->Threads);
   }
 }
 }

@@ -7,6 +7,7 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Surface/NewFaces.h"
 
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -24,18 +25,12 @@ std::string SurfaceEvolution::Verdict::Describe(int level) const
 
 int SurfaceEvolution::Implementation::CountIntersecting()
 {
-  int count = static_cast<int>(volumic::CountIntersecting(
-    this->State, [this](int v) { return !this->OnRanks || this->OnRanks->IsOwnVertex(v); },
+  const int count = static_cast<int>(volumic::CountIntersecting(
+    this->State, [this](int v) { return this->Parts->IsOwnVertex(v); },
     this->LongestEdge(), this->Threads));
   this->Threads.EndPhase("Last look");
-  if (this->OnRanks)
-  {
-    for (const int ofRank : GatherValues(*this->Ranks, std::exchange(count, 0)))
-    {
-      count += ofRank;
-    }
-  }
-  return count;
+  const std::vector<int> counts = GatherValues(this->Sharers(), count);
+  return std::accumulate(counts.begin(), counts.end(), 0);
 }
 
 void SurfaceEvolution::Implementation::Verify()
@@ -51,7 +46,7 @@ void SurfaceEvolution::Implementation::Verify()
   {
     return;
   }
-  this->Blocks.reset(); // Its places are anyone's again.
+  this->ForgetBlocks();
   const SurfaceMesh before = this->State.Mesh;
   const bool wasStopped = std::exchange(this->Stopped, false);
   this->IsMending = true;

@@ -59,25 +59,21 @@ SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
   return SurfaceBlocks::FrameOf(extent, side * this->State.Sizing.Largest());
 }
 
-void SurfaceEvolution::Implementation::MakeBlocks()
+void SurfaceEvolution::Implementation::MakeBlocks(Communicator& sharers)
 {
-  this->Blocks.reset(); // Its places are anyone's again.
+  this->ForgetBlocks();
   this->Blocks =
     std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
+  this->Parts = std::make_unique<RankBlocks>(this->State, *this->Blocks, sharers);
+  this->Components = std::make_unique<SurfaceComponents>(
+    RankPart{ sharers, [this](int v) { return this->Parts->IsOwnVertex(v); } });
 }
 
-void SurfaceEvolution::Implementation::AddPlaces()
+void SurfaceEvolution::Implementation::ForgetBlocks()
 {
-  if (this->OnRanks)
-  {
-    this->OnRanks->AddPlaces();
-    return;
-  }
-  std::vector<int> counts(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()));
-  ForBlocks(this->Threads, counts.size(), 1,
-    [&](std::size_t block, std::size_t, std::size_t)
-    { counts[block] = this->Blocks->MissingPlaces(static_cast<int>(block)); });
-  this->Blocks->AddPlaces(counts);
+  this->Components.reset();
+  this->Parts.reset();
+  this->Blocks.reset();
 }
 
 SurfaceIteration& SurfaceEvolution::Implementation::TakeIteration()
@@ -118,7 +114,7 @@ void SurfaceEvolution::Implementation::VisitBlock(int block, const BlockVisits& 
 void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
 {
   this->State.Counts = EditCounts();
-  this->AddPlaces();
+  this->Parts->AddPlaces(this->Threads);
   const auto count = static_cast<std::size_t>(this->Blocks->NumberOfBlocks());
   this->Visit.Blocks = static_cast<int>(count);
   const auto goOn = [&](std::size_t done)
@@ -129,7 +125,7 @@ void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
     return !visits.IsAsked ||
       this->GoOn(visits.Doing, visits.From + share * (visits.To - visits.From));
   };
-  if (this->OnRanks)
+  if (this->IsInParts())
   {
     this->VisitBlocksOnRanks(visits, goOn);
   }
@@ -188,9 +184,8 @@ void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
 double SurfaceEvolution::Implementation::SumOfBlocksOf(
   const std::function<double(int v)>& ofVertex) const
 {
-  const auto isOwn = [this](int block) { return !this->OnRanks || this->OnRanks->IsOwn(block); };
-  const std::vector<double> sums = this->Blocks->Sums(isOwn, ofVertex, this->Threads);
-  return this->OnRanks ? this->OnRanks->AddUp(sums) : std::accumulate(sums.begin(), sums.end(), 0.);
+  const auto isOwn = [this](int block) { return this->Parts->IsOwn(block); };
+  return this->Parts->AddUp(this->Blocks->Sums(isOwn, ofVertex, this->Threads));
 }
 
 double SurfaceEvolution::Implementation::Area()
@@ -281,7 +276,7 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
     row.Level = this->Level;
     row.Vertices = row.IterationVertices = vertices;
     row.EulerCharacteristic = row.IterationEulerCharacteristic = eulerCharacteristic;
-    row.Components = row.IterationComponents = this->Watch.NumberOfComponents();
+    row.Components = row.IterationComponents = this->NumberOfComponents;
     row.MeanEdgeLength = row.IterationMeanEdgeLength = meanEdge;
     row.KineticEnergy =
       std::accumulate(swept.KineticEnergy.begin(), swept.KineticEnergy.end(), 0.) /

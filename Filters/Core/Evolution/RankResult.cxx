@@ -148,7 +148,7 @@ SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks() const
   ResultPart own;
   own.Vertices = this->OwnVertices();
   const RemainingContacts contacts = FindRemainingContacts(
-    s, *this->TheField, this->Threads, [this](int v) { return this->OnRanks->IsOwnVertex(v); });
+    s, *this->TheField, this->Threads, [this](int v) { return this->Parts->IsOwnVertex(v); });
   const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
   for (const int v : own.Vertices)
   {

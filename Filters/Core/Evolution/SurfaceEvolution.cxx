@@ -146,7 +146,7 @@ void SurfaceEvolution::Revise(const LevelImage& image)
 void SurfaceEvolution::SetRanks(
   Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels)
 {
-  this->Self->Ranks = ranks;
+  this->Self->Ranks = ranks ? ranks : &OnThisRank();
   this->Self->NeedVoxels = std::move(needVoxels);
 }
 
@@ -171,7 +171,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   Implementation& self = *this->Self;
   Stopwatch watch(self.Preparing, self.Threads);
   self.GoOn(Monitor::Activity::Regularising, 1.);
-  self.Stopped = self.AreRanks() ? self.Ranks->IsAny(self.Stopped) : self.Stopped;
+  self.Stopped = self.Ranks->IsAny(self.Stopped);
   if (self.Stopped)
   {
     return false;
@@ -185,51 +185,30 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   int divisions = static_cast<int>(
     std::lround(std::log(coarse / self.State.Sizing.OfLevel()) /
       std::log(SizingField::DivisionFactor)));
-  if (self.AreRanks())
-  {
-    divisions = BroadcastValue(*self.Ranks, divisions);
-  }
-  if (divisions == 1 && self.IsShared)
-  {
-    bool goesOn = self.DivideOnRanks();
-    self.SplitLongEdges();
-    watch.Lap(Phase::Division);
-    goesOn = !self.IsOnAnyRank(!goesOn || self.Stopped);
-    if (goesOn)
-    {
-      self.Recover();
-    }
-    watch.Lap(Phase::Recovery);
-    self.GoOn(Monitor::Activity::Recovering, 1.);
-    self.AgreeOnStop();
-    return true;
-  }
-  if (!self.IsFirstRank())
+  divisions = BroadcastValue(*self.Ranks, divisions);
+  if (!self.IsShared && !self.IsFirstRank())
   {
     self.Clear();
     return true;
   }
   // After each of these steps the surface is one to hand over.
-  bool goesOn = true;
-  for (int i = 0; i < divisions && goesOn; ++i)
-  {
-    self.DivideOnce();
-    goesOn = self.GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
-  }
-  self.LayOut();
+  bool goesOn = self.IsShared ? self.LayOutInParts(divisions) : self.DivideWhole(divisions);
   watch.Lap(Phase::Division);
-  if (goesOn && self.GoOn(Monitor::Activity::Dividing, 1.))
+  goesOn = self.GoOn(Monitor::Activity::Dividing, 1.) && goesOn;
+  self.AgreeOnStop();
+  if (goesOn && !self.Stopped)
   {
     self.Recover();
   }
   watch.Lap(Phase::Recovery);
   self.GoOn(Monitor::Activity::Recovering, 1.);
+  self.AgreeOnStop();
   return true;
 }
 
 SurfaceResult SurfaceEvolution::Result() const
 {
-  if (this->Self->OnRanks)
+  if (this->Self->IsInParts())
   {
     return this->Self->ResultOnRanks();
   }

@@ -29,7 +29,7 @@ using PartialVolume = std::pair<int, ExactSum>;
 
 /** Of the faces whose smallest vertex is in a range, by label. */
 std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices* part, const std::vector<Vector>& origins, std::size_t begin,
+  const MarkedVertices& part, const std::vector<Vector>& origins, std::size_t begin,
   std::size_t end)
 {
   std::vector<PartialVolume> volumes;
@@ -38,7 +38,7 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
   mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
-      if (part && !part->Has(a))
+      if (!part.Has(a))
       {
         return;
       }
@@ -95,7 +95,7 @@ void AddCrossings(const SurfaceMesh& mesh, int v, int component,
 }
 
 std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices* part, const std::vector<Vector>& origins, Executor& executor)
+  const MarkedVertices& part, const std::vector<Vector>& origins, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<PartialVolume>> parts((n + CrossedBlock - 1) / CrossedBlock);
@@ -129,8 +129,7 @@ std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
 }
 
 std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices* part, const std::vector<int>& components,
-  const std::vector<ComponentRay>& rays, Executor& executor)
+  const MarkedVertices& part, const std::vector<ComponentRay>& rays, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<RayCrossing>> blocks((n + CrossedBlock - 1) / CrossedBlock);
@@ -139,9 +138,9 @@ std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVecto
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (part ? part->Has(v) : mesh.IsAlive(v))
+        if (part.Has(v))
         {
-          AddCrossings(mesh, v, components[labels[v]], rays, blocks[b]);
+          AddCrossings(mesh, v, labels[v], rays, blocks[b]);
         }
       }
       KeepOdd(blocks[b]);
@@ -196,21 +195,5 @@ std::vector<int> JudgeFromOutsideIn(
     }
   }
   return found;
-}
-
-std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<int>& roots, Executor& executor)
-{
-  std::vector<Vector> places;
-  for (const int root : roots)
-  {
-    places.push_back(mesh.Position[root]);
-  }
-  std::vector<int> components(roots.size());
-  std::iota(components.begin(), components.end(), 0);
-  const std::vector<ComponentRay> rays =
-    CastRays(roots, places, VolumesOfFaces(mesh, labels, nullptr, places, executor));
-  return JudgeFromOutsideIn(
-    rays, FindCrossings(mesh, labels, nullptr, components, rays, executor));
 }
 }

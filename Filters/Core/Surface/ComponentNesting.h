@@ -13,20 +13,10 @@
 
 namespace volumic
 {
-/**
- * The components that are inside out: a cavity must lie inside the others, any other one outside.
- * They are judged from outside in, as if what is inside out were not there. Rays along x: O(n +
- * pairs of ray and triangle that overlap).
- *
- * @param labels of the components, from 0, by vertex
- * @param roots  the smallest vertex of each
- * @return their roots, those within fewer others first. The same for any executor.
- */
-std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<int>& roots, Executor& executor);
-
-// What it is made of, for ranks that each have a part of the surface (RankComponents): the faces of
-// a part are those whose smallest vertex is marked. Null: all are.
+// Which components are inside out: a cavity must lie inside the others, any other one outside. They
+// are judged from outside in, as if what is inside out were not there. Rays along x: O(n + pairs of
+// ray and triangle that overlap). A surface may be in parts (SurfaceComponents): the faces of a part
+// are those whose smallest vertex is marked. Labels are those of all components, from 0.
 
 /** From the first vertex of a component along x. */
 struct ComponentRay
@@ -50,24 +40,23 @@ struct RayCrossing
 
 /** The sums of what SignedVolume::OfFace says of the part's faces. @param origins by label */
 std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices* part, const std::vector<Vector>& origins, Executor& executor);
+  const MarkedVertices& part, const std::vector<Vector>& origins, Executor& executor);
 
 /** A ray of each component, by Y. @param roots,places,volumes of each label */
 std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
   const std::vector<Vector>& places, const std::vector<ExactSum>& volumes);
 
-/**
- * The crossings of the part's faces with the rays of other components, sorted.
- * @param components the label, among all components, of each label of the part
- */
+/** The crossings of the part's faces with the rays of other components, sorted. */
 std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices* part, const std::vector<int>& components,
-  const std::vector<ComponentRay>& rays, Executor& executor);
+  const MarkedVertices& part, const std::vector<ComponentRay>& rays, Executor& executor);
 
 /** Of the crossings of several parts those that there are an odd number of, sorted, each once. */
 void KeepOdd(std::vector<RayCrossing>& crossings);
 
-/** @param crossings of all parts, odd. @return those of FindInsideOut */
+/**
+ * @param crossings of all parts, odd
+ * @return the roots of those that are inside out, those within fewer others first
+ */
 std::vector<int> JudgeFromOutsideIn(
   const std::vector<ComponentRay>& rays, const std::vector<RayCrossing>& crossings);
 }

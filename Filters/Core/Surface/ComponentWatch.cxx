@@ -3,7 +3,6 @@
 #include "Core/Surface/ComponentWatch.h"
 
 #include "Core/Mesh/SurfaceMeasures.h"
-#include "Core/Surface/ComponentNesting.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,11 +15,6 @@ namespace
 constexpr int TinySize = 24;
 /** Up to this many they have vanished. */
 constexpr int VanishedSize = 5;
-
-/** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexBlock = 4096;
-/** Vertices under which a chunk is not worth a thread. */
-constexpr std::size_t Grain = 4096;
 
 /** In the place of a label: of what DeleteDegenerate has seen. */
 constexpr int Seen = -2;
@@ -36,62 +30,6 @@ bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
   }
   return volume.Value() > 0;
 }
-}
-
-void ComponentWatch::Label(SurfaceState& state, Executor& executor)
-{
-  this->Connected.Label(state.Mesh, state.Component.AsVector(), executor);
-  this->Components = static_cast<int>(this->Connected.Roots().size());
-  this->WatchSmallOnes(state, this->Connected.Sizes(), executor);
-}
-
-void ComponentWatch::WatchSmallOnes(
-  const SurfaceState& state, const std::vector<int>& sizes, Executor& executor)
-{
-  this->Watched.clear();
-  std::vector<int> place(sizes.size(), -1); // Among those that are watched, by label.
-  for (std::size_t label = 0; label < sizes.size(); ++label)
-  {
-    if (sizes[label] <= SmallSize)
-    {
-      place[label] = static_cast<int>(this->Watched.size());
-      this->Watched.emplace_back();
-      this->Watched.back().Label = static_cast<int>(label);
-    }
-  }
-  if (this->Watched.empty())
-  {
-    return;
-  }
-  const std::size_t n = state.Mesh.Rings.size();
-  std::vector<std::vector<int>> watched((n + VertexBlock - 1) / VertexBlock);
-  ForBlocks(executor, n, VertexBlock,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        const int label = state.Component[v];
-        if (label >= 0 && place[label] >= 0)
-        {
-          watched[b].push_back(v);
-        }
-      }
-    });
-  for (const std::vector<int>& ofBlock : watched)
-  {
-    for (const int v : ofBlock)
-    {
-      this->Watched[place[state.Component[v]]].Vertices.push_back(v);
-    }
-  }
-  executor.For(this->Watched.size(), Grain / SmallSize,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        this->Watched[i].IsPositive = IsVolumePositive(state.Mesh, this->Watched[i].Vertices);
-      }
-    });
 }
 
 bool ComponentWatch::IsSmall(SurfaceState& state, int v, const Box& within)
@@ -221,28 +159,11 @@ bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditShare* share)
       else
       {
         state.RemoveComponent(small.Vertices.front());
-        --this->Components;
       }
       small.Vertices.clear();
       deleted = true;
     }
   }
   return deleted;
-}
-
-bool ComponentWatch::DeleteInsideOut(SurfaceState& state, Executor& executor)
-{
-  this->Label(state, executor);
-  const std::vector<int> insideOut =
-    FindInsideOut(state.Mesh, state.Component.AsVector(), this->Connected.Roots(), executor);
-  for (const int root : insideOut)
-  {
-    state.RemoveComponent(root);
-  }
-  if (!insideOut.empty())
-  {
-    this->Label(state, executor);
-  }
-  return !insideOut.empty();
 }
 }

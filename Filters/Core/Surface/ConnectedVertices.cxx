@@ -15,32 +15,14 @@ namespace
 /** Vertices that one thread joins at a time. */
 constexpr std::size_t JoinedBlock = 4096;
 
-/** Of a root, while the others of its set still bear its index; no index, not None. */
+/** Of a root, while the others of its set still bear its index; no index. */
 constexpr int MarkOfRoot(int label)
 {
   return -2 - label;
 }
 
-/** All of a surface: rings name nothing else. */
-struct WholeSurface
-{
-  const SurfaceMesh& Mesh;
-  bool Has(int v) const { return this->Mesh.IsAlive(v); }
-  static constexpr bool HasNeighbour(int) { return true; }
-  static void LabelNone(int& label) { label = ConnectedVertices::None; }
-};
-
-struct PartOfSurface
-{
-  const MarkedVertices& Vertices;
-  bool Has(int v) const { return this->Vertices.Has(v); }
-  bool HasNeighbour(int v) const { return this->Vertices.Has(v); }
-  static void LabelNone(int&) {}
-};
-
 /** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
-template <typename Part>
-void LabelOthers(const Part& part, LargeVector<int>& labels, int begin, int end,
+void LabelOthers(const MarkedVertices& part, LargeVector<int>& labels, int begin, int end,
   std::vector<std::atomic<int>>& sizes)
 {
   // Mostly neighbours follow each other: they are added up before the others are told.
@@ -83,21 +65,8 @@ enum class Side
 };
 }
 
-void ConnectedVertices::Label(
-  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
-{
-  this->LabelPart(mesh, WholeSurface{ mesh }, labels, executor);
-}
-
 void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& part,
   LargeVector<int>& labels, Executor& executor)
-{
-  this->LabelPart(mesh, PartOfSurface{ part }, labels, executor);
-}
-
-template <typename Part>
-void ConnectedVertices::LabelPart(
-  const SurfaceMesh& mesh, const Part& part, LargeVector<int>& labels, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   this->JoinVertices(mesh, part, executor);
@@ -108,13 +77,11 @@ void ConnectedVertices::LabelPart(
       std::size_t roots = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (!part.Has(v))
+        if (part.Has(v))
         {
-          Part::LabelNone(labels[v]);
-          continue;
+          labels[v] = this->Joined.FindRoot(v);
+          roots += labels[v] == v;
         }
-        labels[v] = this->Joined.FindRoot(v);
-        roots += labels[v] == v;
       }
       return roots;
     });
@@ -135,9 +102,8 @@ void ConnectedVertices::LabelPart(
   this->CountAndLabel(part, labels, n, executor);
 }
 
-template <typename Part>
 void ConnectedVertices::CountAndLabel(
-  const Part& part, LargeVector<int>& labels, std::size_t n, Executor& executor)
+  const MarkedVertices& part, LargeVector<int>& labels, std::size_t n, Executor& executor)
 {
   std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
   for (std::atomic<int>& size : sizes)
@@ -154,9 +120,8 @@ void ConnectedVertices::CountAndLabel(
   this->Numbers.assign(sizes.begin(), sizes.end());
 }
 
-template <typename Part>
 void ConnectedVertices::JoinVertices(
-  const SurfaceMesh& mesh, const Part& part, Executor& executor)
+  const SurfaceMesh& mesh, const MarkedVertices& part, Executor& executor)
 {
   // First within blocks, side by side, then across their borders.
   const std::size_t n = mesh.Rings.size();
@@ -181,7 +146,7 @@ void ConnectedVertices::JoinVertices(
           // Neighbours next to each other are neighbours themselves: on one side one is enough.
           const int w = ring.Item[i];
           const Side side = w >= v         ? Side::Later
-            : !part.HasNeighbour(w)        ? Side::Nowhere
+            : !part.Has(w)                 ? Side::Nowhere
             : w >= static_cast<int>(begin) ? Side::SameBlock
                                            : Side::BlockBefore;
           if (side == Side::BlockBefore && side != before)

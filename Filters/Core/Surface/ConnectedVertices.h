@@ -33,15 +33,11 @@ struct MarkedVertices
 class ConnectedVertices
 {
 public:
-  /** In the place of a label: where there is no vertex. */
-  static constexpr int None = -1;
-
   /**
-   * Labels the sets of a whole surface, from 0, in the order of their smallest vertices.
-   * @param labels by vertex, as many as there are; None where there is none
+   * Labels, from 0, in the order of their smallest vertices, the sets of some alive vertices and the
+   * edges between them.
+   * @param labels by vertex; those of others stay
    */
-  void Label(const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor);
-  /** The same for some alive vertices and the edges between them; the others' labels stay. */
   void Label(const SurfaceMesh& mesh, const MarkedVertices& part, LargeVector<int>& labels,
     Executor& executor);
 
@@ -51,13 +47,9 @@ public:
   const std::vector<int>& Sizes() const { return this->Numbers; }
 
 private:
-  template <typename Part>
-  void LabelPart(const SurfaceMesh& mesh, const Part& part, LargeVector<int>& labels,
-    Executor& executor);
-  template <typename Part>
-  void JoinVertices(const SurfaceMesh& mesh, const Part& part, Executor& executor);
-  template <typename Part>
-  void CountAndLabel(const Part& part, LargeVector<int>& labels, std::size_t n, Executor& executor);
+  void JoinVertices(const SurfaceMesh& mesh, const MarkedVertices& part, Executor& executor);
+  void CountAndLabel(
+    const MarkedVertices& part, LargeVector<int>& labels, std::size_t n, Executor& executor);
 
   DisjointSets Joined;
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.

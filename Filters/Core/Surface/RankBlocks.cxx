@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/RankBlocks.h"
 
+#include "Core/Common/Blocks.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -110,6 +112,7 @@ RankBlocks::RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator&
   , Ranks(ranks)
   , Touched(static_cast<std::size_t>(ranks.NumberOfRanks()))
 {
+  this->SetOwners(std::vector<int>(static_cast<std::size_t>(blocks.NumberOfBlocks()), 0));
 }
 
 std::vector<int> RankBlocks::ChooseOwners(
@@ -452,15 +455,15 @@ void RankBlocks::ShareCounts()
   s.EulerCharacteristic = this->KnownCharacteristic;
 }
 
-void RankBlocks::AddPlaces()
+void RankBlocks::AddPlaces(Executor& executor)
 {
   std::vector<int> counts(this->Owners.size(), 0);
-  for (std::size_t block = 0; block < counts.size(); ++block)
-  {
-    counts[block] = this->IsOwn(static_cast<int>(block))
-      ? this->Blocks.MissingPlaces(static_cast<int>(block))
-      : 0;
-  }
+  ForBlocks(executor, counts.size(), 1,
+    [&](std::size_t b, std::size_t, std::size_t)
+    {
+      const int block = static_cast<int>(b);
+      counts[b] = this->IsOwn(block) ? this->Blocks.MissingPlaces(block) : 0;
+    });
   MessageWriter writer;
   writer.AddArray(counts);
   const std::vector<Message> all = this->Ranks.GatherOnAll(writer.Take());

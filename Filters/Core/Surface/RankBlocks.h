@@ -18,8 +18,8 @@
 namespace volumic
 {
 /**
- * The blocks of a surface that evolves on several ranks: each belongs to one of them, which visits
- * it. A rank has the vertices of its own blocks and, as a halo, those near them, with the indices
+ * The blocks of a surface that evolves on one rank or several: each belongs to one of them, which
+ * visits it. A rank has the vertices of its own blocks and, as a halo, those near them, with the indices
  * that they have everywhere; the places of all others are there, but take no memory.
  *
  * The ranks visit their blocks of one colour, then tell each other what has become of the vertices
@@ -29,7 +29,12 @@ namespace volumic
 class RankBlocks
 {
 public:
+  /** All are of rank 0 until owners are chosen. */
   RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator& ranks);
+
+  /** Those that have a part of the surface; one alone has all of it. */
+  Communicator& Sharers() const { return this->Ranks; }
+  bool AreShared() const { return this->Ranks.NumberOfRanks() > 1; }
 
   /**
    * Which rank gets which block, so that each has as many vertices as is possible with boxes of
@@ -73,7 +78,7 @@ public:
   /** Between sweeps: how many vertices there are, and the Euler characteristic, of all. */
   void ShareCounts();
   /** SurfaceBlocks::AddPlaces, as the owners wish. */
-  void AddPlaces();
+  void AddPlaces(Executor& executor);
   /** Of each block the value that its owner has. */
   void Share(std::vector<double>& ofBlocks);
   /** Their sum, added in the order of the blocks. */

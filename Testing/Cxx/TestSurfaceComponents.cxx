@@ -4,7 +4,9 @@
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
+#include "Core/Surface/SurfaceComponents.h"
 #include "Core/Surface/SurfaceState.h"
+#include "RankTestTools.h"
 #include "RemeshTestTools.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +20,7 @@ using namespace volumic;
 namespace
 {
 const Box Everywhere{ Vector(-1e9f, -1e9f, -1e9f), Vector(1e9f, 1e9f, 1e9f) };
-}
 
-namespace
-{
 IndexedSurface Ball(const Point& centre, double radius, bool isCavity = false)
 {
   const IndexedSurface ball = DividedIcosahedron(centre, radius, 1.5);
@@ -40,29 +39,29 @@ void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
 }
 }
 
-TEST(ComponentWatch, CountsComponents)
+TEST(SurfaceComponents, CountsComponents)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 0, 0, 0 }, 5, true), Ball({ 30, 0, 0 }, 5) });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  watch.Label(state, executor);
-  EXPECT_EQ(watch.NumberOfComponents(), 3);
+  SurfaceComponents components = OfAll();
+  components.Label(state, executor);
+  EXPECT_EQ(components.NumberOfComponents(), 3);
 }
 
-TEST(ComponentWatch, KeepsCavitiesInsideAndIslandsInThem)
+TEST(SurfaceComponents, KeepsCavitiesInsideAndIslandsInThem)
 {
   SurfaceState state;
   Fill(state,
     { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10, true), Ball({ 1, 0, 0 }, 4),
       Ball({ 30, 0, 0 }, 5) });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  EXPECT_FALSE(watch.DeleteInsideOut(state, executor));
-  EXPECT_EQ(watch.NumberOfComponents(), 4);
+  SurfaceComponents components = OfAll();
+  EXPECT_FALSE(components.DeleteInsideOut(state, executor));
+  EXPECT_EQ(components.NumberOfComponents(), 4);
 }
 
-TEST(ComponentWatch, LabelsComponentsByTheirFirstVerticesInAnyBlocks)
+TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnyBlocks)
 {
   // Vertices of all components by turns, so that each lies in all blocks.
   SurfaceState state;
@@ -83,16 +82,16 @@ TEST(ComponentWatch, LabelsComponentsByTheirFirstVerticesInAnyBlocks)
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
   state.FieldValue.Fill(-1.f);
   StandardThreads threads(3);
-  ComponentWatch watch;
-  watch.Label(state, threads);
-  EXPECT_EQ(watch.NumberOfComponents(), 4);
+  SurfaceComponents components = OfAll();
+  components.Label(state, threads);
+  EXPECT_EQ(components.NumberOfComponents(), 4);
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     ASSERT_EQ(state.Component[v], v < 3 * size ? v % 3 : 3) << v;
   }
 }
 
-TEST(ComponentWatch, WatchesSmallComponentsInAllBlocks)
+TEST(SurfaceComponents, WatchesSmallComponentsInAllBlocks)
 {
   SurfaceState state;
   Fill(state,
@@ -101,13 +100,13 @@ TEST(ComponentWatch, WatchesSmallComponentsInAllBlocks)
   ASSERT_GT(state.Mesh.Size(), 2 * 16384);
   state.FieldValue.Fill(-1.f);
   StandardThreads threads(3);
-  ComponentWatch watch;
-  watch.Label(state, threads);
-  EXPECT_TRUE(watch.DeleteDegenerate(state)) << "both are on the wrong side";
-  EXPECT_EQ(watch.NumberOfComponents(), 1);
+  SurfaceComponents components = OfAll();
+  components.Label(state, threads);
+  EXPECT_TRUE(components.DeleteDegenerate(state)) << "both are on the wrong side";
+  EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
-TEST(ComponentWatch, KnowsACavityByItsWholeVolume)
+TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
 {
   // A ring that has what faces its first vertex, and alone has the other sign, in the last blocks.
   const IndexedSurface ring = MakeTorus({ 0, 0, 0 }, 10, 4, 500, 200);
@@ -129,35 +128,35 @@ TEST(ComponentWatch, KnowsACavityByItsWholeVolume)
     state.Mesh.Reorder(order);
     state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
     StandardThreads threads(3);
-    ComponentWatch watch;
-    EXPECT_EQ(watch.DeleteInsideOut(state, threads), isCavity);
+    SurfaceComponents components = OfAll();
+    EXPECT_EQ(components.DeleteInsideOut(state, threads), isCavity);
   }
 }
 
-TEST(ComponentWatch, DeletesACavityInTheOpen)
+TEST(SurfaceComponents, DeletesACavityInTheOpen)
 {
   SurfaceState state;
   const IndexedSurface ball = Ball({ 0, 0, 0 }, 10);
   Fill(state, { ball, Ball({ 20, 0, 0 }, 3, true), Ball({ -20, 3, 1 }, 3, true) });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
-  EXPECT_EQ(watch.NumberOfComponents(), 1);
+  SurfaceComponents components = OfAll();
+  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_EQ(components.NumberOfComponents(), 1);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(ball.Points.size()));
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
-TEST(ComponentWatch, DeletesAnIslandWithinTheObject)
+TEST(SurfaceComponents, DeletesAnIslandWithinTheObject)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 2, 1, 3 }, 4) });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
-  EXPECT_EQ(watch.NumberOfComponents(), 1);
+  SurfaceComponents components = OfAll();
+  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
-TEST(ComponentWatch, KeepsTheGoodThatLieInTheInverted)
+TEST(SurfaceComponents, KeepsTheGoodThatLieInTheInverted)
 {
   // From outside in: a ball inside out, in it a ball with a cavity in it. Only the first is wrong.
   SurfaceState state;
@@ -165,38 +164,38 @@ TEST(ComponentWatch, KeepsTheGoodThatLieInTheInverted)
   const IndexedSurface cavity = Ball({ 1, 1, 0 }, 4, true);
   Fill(state, { Ball({ 0, 0, 0 }, 15, true), good, cavity });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
-  EXPECT_EQ(watch.NumberOfComponents(), 2);
+  SurfaceComponents components = OfAll();
+  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_EQ(components.NumberOfComponents(), 2);
   EXPECT_EQ(state.Mesh.NumberOfVertices(),
     static_cast<int>(good.Points.size() + cavity.Points.size()));
-  EXPECT_FALSE(watch.DeleteInsideOut(state, executor)) << "nothing wrong is left";
+  EXPECT_FALSE(components.DeleteInsideOut(state, executor)) << "nothing wrong is left";
 }
 
-TEST(ComponentWatch, JudgesAfreshWhatLosesItsIsland)
+TEST(SurfaceComponents, JudgesAfreshWhatLosesItsIsland)
 {
   // In the object an island, which is wrong; in the island a cavity, which is then in the object.
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
                 Ball({ 0, 1, 0 }, 2, true) });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
-  EXPECT_EQ(watch.NumberOfComponents(), 2) << "the outermost and the larger cavity";
-  EXPECT_FALSE(watch.DeleteInsideOut(state, executor));
+  SurfaceComponents components = OfAll();
+  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_EQ(components.NumberOfComponents(), 2) << "the outermost and the larger cavity";
+  EXPECT_FALSE(components.DeleteInsideOut(state, executor));
 }
 
-TEST(ComponentWatch, DeletesTheOnlyComponentIfItIsInsideOut)
+TEST(SurfaceComponents, DeletesTheOnlyComponentIfItIsInsideOut)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 8, true) });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  EXPECT_TRUE(watch.DeleteInsideOut(state, executor));
+  SurfaceComponents components = OfAll();
+  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), 0);
 }
 
-TEST(ComponentWatch, LooksThroughEdgesAndCorners)
+TEST(SurfaceComponents, LooksThroughEdgesAndCorners)
 {
   // The rays of the inner components run exactly through corners and edges of the outer one.
   IndexedSurface octahedron;
@@ -214,31 +213,31 @@ TEST(ComponentWatch, LooksThroughEdgesAndCorners)
     SurfaceState state;
     Fill(state, { octahedron, cavity });
     SequentialExecutor executor;
-    ComponentWatch watch;
-    EXPECT_FALSE(watch.DeleteInsideOut(state, executor)) << shift;
-    EXPECT_EQ(watch.NumberOfComponents(), 2);
+    SurfaceComponents components = OfAll();
+    EXPECT_FALSE(components.DeleteInsideOut(state, executor)) << shift;
+    EXPECT_EQ(components.NumberOfComponents(), 2);
   }
 }
 
-TEST(ComponentWatch, DeletesSmallOnesAndKeepsCount)
+TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 30, 0, 0 }, 1) });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  watch.Label(state, executor);
-  ASSERT_EQ(watch.NumberOfComponents(), 2);
-  EXPECT_FALSE(watch.DeleteDegenerate(state)) << "no reason yet";
+  SurfaceComponents components = OfAll();
+  components.Label(state, executor);
+  ASSERT_EQ(components.NumberOfComponents(), 2);
+  EXPECT_FALSE(components.DeleteDegenerate(state)) << "no reason yet";
   // Wholly in the background, and tiny.
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
   }
-  const bool deleted = watch.DeleteDegenerate(state);
+  const bool deleted = components.DeleteDegenerate(state);
   EXPECT_TRUE(deleted);
-  EXPECT_EQ(watch.NumberOfComponents(), 1);
-  watch.Label(state, executor);
-  EXPECT_EQ(watch.NumberOfComponents(), 1) << "counted afresh";
+  EXPECT_EQ(components.NumberOfComponents(), 1);
+  components.Label(state, executor);
+  EXPECT_EQ(components.NumberOfComponents(), 1) << "counted afresh";
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
@@ -251,21 +250,21 @@ bool IsDeleted(double edge, double value, bool isCavity)
   const IndexedSurface ball = DividedIcosahedron({ 30, 0, 0 }, 2, edge);
   Fill(state, { Ball({ 0, 0, 0 }, 10), isCavity ? InsideOut(ball) : ball });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  watch.Label(state, executor);
+  SurfaceComponents components = OfAll();
+  components.Label(state, executor);
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
   }
-  const bool deleted = watch.DeleteDegenerate(state);
-  EXPECT_EQ(watch.NumberOfComponents(), deleted ? 1 : 2);
+  const bool deleted = components.DeleteDegenerate(state);
+  EXPECT_EQ(components.NumberOfComponents(), deleted ? 1 : 2);
   EXPECT_EQ(state.EulerCharacteristic, deleted ? 2 : 4);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
   return deleted;
 }
 }
 
-TEST(ComponentWatch, DeletesTinyOnesWhollyOnTheWrongSide)
+TEST(SurfaceComponents, DeletesTinyOnesWhollyOnTheWrongSide)
 {
   constexpr double tiny = 3;   // 12 vertices
   constexpr double larger = 2; // 32 vertices
@@ -277,7 +276,7 @@ TEST(ComponentWatch, DeletesTinyOnesWhollyOnTheWrongSide)
   EXPECT_FALSE(IsDeleted(larger, 1, true));
 }
 
-TEST(ComponentWatch, DeletesWhatHasHardlyAnyVertices)
+TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
 {
   SurfaceState state;
   IndexedSurface tetrahedron;
@@ -285,33 +284,13 @@ TEST(ComponentWatch, DeletesWhatHasHardlyAnyVertices)
   tetrahedron.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
   Fill(state, { Ball({ 0, 0, 0 }, 10), tetrahedron });
   SequentialExecutor executor;
-  ComponentWatch watch;
-  watch.Label(state, executor);
-  EXPECT_TRUE(watch.DeleteDegenerate(state));
-  EXPECT_EQ(watch.NumberOfComponents(), 1);
+  SurfaceComponents components = OfAll();
+  components.Label(state, executor);
+  EXPECT_TRUE(components.DeleteDegenerate(state));
+  EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
-TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
-{
-  SurfaceState state;
-  const IndexedSurface large = Ball({ 0, 0, 0 }, 10);
-  Fill(state, { large, Ball({ 30, 0, 0 }, 4) });
-  SequentialExecutor executor;
-  ComponentWatch watch;
-  watch.Label(state, executor);
-  for (const float size : { 0.2f, -0.2f })
-  {
-    for (int v = static_cast<int>(large.Points.size()); v < state.Mesh.Size(); ++v)
-    {
-      const Vector way = Normalized(state.Mesh.Position[v] - Vector(30, 0, 0));
-      state.MoveTo(v, Vector(30, 0, 0) + way * (size > 0 ? size : -0.4f));
-    }
-    EXPECT_EQ(watch.DeleteDegenerate(state), size < 0) << "its volume has changed sign";
-  }
-  EXPECT_EQ(watch.NumberOfComponents(), 1);
-}
-
-TEST(ComponentWatch, LabelsComponentsOfManyBlocks)
+TEST(SurfaceComponents, LabelsComponentsOfManyBlocks)
 {
   // Vertices are labelled in blocks side by side; these components lie across several.
   SurfaceState state;
@@ -321,13 +300,34 @@ TEST(ComponentWatch, LabelsComponentsOfManyBlocks)
   state.Sizing = SizingField(1);
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
   SequentialExecutor executor;
-  ComponentWatch watch;
-  watch.Label(state, executor);
-  EXPECT_EQ(watch.NumberOfComponents(), 2);
+  SurfaceComponents components = OfAll();
+  components.Label(state, executor);
+  EXPECT_EQ(components.NumberOfComponents(), 2);
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     ASSERT_EQ(state.Component[v], state.Mesh.Position[v].X < 15 ? 0 : 1);
   }
+}
+
+TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
+{
+  SurfaceState state;
+  const IndexedSurface large = Ball({ 0, 0, 0 }, 10);
+  Fill(state, { large, Ball({ 30, 0, 0 }, 4) });
+  std::vector<int> all(static_cast<std::size_t>(state.Mesh.Size()));
+  std::iota(all.begin(), all.end(), 0);
+  ComponentWatch watch;
+  watch.LabelSmall(state, all, Everywhere);
+  for (const float size : { 0.2f, -0.2f })
+  {
+    for (int v = static_cast<int>(large.Points.size()); v < state.Mesh.Size(); ++v)
+    {
+      const Vector way = Normalized(state.Mesh.Position[v] - Vector(30, 0, 0));
+      state.MoveTo(v, Vector(30, 0, 0) + way * (size > 0 ? size : -0.4f));
+    }
+    EXPECT_EQ(watch.DeleteDegenerate(state), size < 0) << "its volume has changed sign";
+  }
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(large.Points.size()));
 }
 
 TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)

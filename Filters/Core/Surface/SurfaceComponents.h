@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicRankComponents_h
-#define volumicRankComponents_h
+#ifndef volumicSurfaceComponents_h
+#define volumicSurfaceComponents_h
 
 #include "Core/Common/Executor.h"
 #include "Core/Surface/ConnectedVertices.h"
@@ -15,46 +15,52 @@
 namespace volumic
 {
 /**
- * What ComponentWatch does with the components of a whole surface, between two sweeps, where each
- * rank has a part of it (RankPart). All that is said of components is the same on all ranks, for
- * any number of them, and what ComponentWatch says.
+ * The components of a surface, of which each rank has a part (RankPart), or one has all: their
+ * labels, and which of them must go. All that is said of them is the same on all ranks, for any
+ * number of them, and for any executor.
  *
- * What a rank has of a component is labelled there; sizes, places and the vertices along borders go
- * to rank 0, which finds the components, and tells each rank those of its own. So messages go with
- * the borders and the number of components. Places that no vertex has are not written, and of
- * vertices of other ranks only those are looked at that are neighbours of own ones.
+ * Sets of own vertices that edges join are found by each rank; sizes, places and the vertices along
+ * borders go to rank 0, which joins them to components, and tells each rank those of its own. So
+ * messages go with the borders and the number of components. Places that no vertex has are not
+ * written, and of vertices of other ranks only those are looked at that are neighbours of own ones.
  *
  * Of what is deleted SurfaceState::Counts tell on all ranks. The number of vertices falls by what
  * was a rank's own, the Euler characteristic where the first vertex of a component was: the changes
  * of all ranks are those of the surface (RankBlocks::ShareCounts).
  */
-class RankComponents
+class SurfaceComponents
 {
 public:
-  explicit RankComponents(const RankPart& part)
+  explicit SurfaceComponents(const RankPart& part)
     : Part(part)
   {
   }
 
-  /** Labels, in SurfaceState::Component, the rank's own vertices. */
+  /**
+   * Labels, in SurfaceState::Component, the rank's own vertices: components from 0, in the order of
+   * their smallest vertices. What is asked for below is asked of these labels.
+   */
   void Label(SurfaceState& state, Executor& executor);
 
   /** When last labelled, less those deleted since. */
   int NumberOfComponents() const { return this->Components; }
 
   /**
-   * Deletes the small components that must go, as ComponentWatch::DeleteDegenerate right after
-   * Label(), which must have been called; other labels stay. @return whether anything was deleted.
+   * Deletes the small components that must go: ComponentWatch::DeleteDegenerate. Other labels stay.
+   * @return whether anything was deleted.
    */
   bool DeleteDegenerate(SurfaceState& state);
 
   /**
-   * Labels, and deletes the components that are inside out: ComponentWatch::DeleteInsideOut.
+   * Labels, and deletes the components that are inside out: a cavity must lie inside the others, any
+   * other one outside. Such a one may be born by a cut, of no size and without any intersection, and
+   * would grow without limit. They are judged from outside in, as if what is deleted had never been:
+   * what lies in one that is inside out need not be.
    * @return whether anything was deleted; labels are fresh then, too
    */
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);
 
-  /** The same as FindInsideOut, of what Label() has labelled. */
+  /** The smallest vertices of those that are inside out, of what Label() has labelled. */
   std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor);
 
 private:
@@ -92,19 +98,23 @@ private:
 
   void Mark(const SurfaceState& state, Executor& executor);
   MarkedVertices OwnOnes() const { return { this->Marks, Own }; }
-  void FindOwnSets(const SurfaceState& state, Executor& executor);
+  void FindOwnSets(SurfaceState& state, Executor& executor);
   std::vector<Name> NameBorders(const SurfaceState& state, Executor& executor) const;
   void FindWholes(const std::vector<Name>& names);
   std::vector<Message> JoinSets(const std::vector<Message>& ofRanks);
+  const Whole& WholeAt(const SurfaceState& state, int v) const
+  {
+    return this->Wholes[this->SetOf[state.Component[v]]];
+  }
   std::vector<int> LabelsOf(const std::vector<int>& roots) const;
   void Remove(SurfaceState& state, const std::vector<int>& roots);
 
   const RankPart Part;
   ConnectedVertices Connected;
   LargeVector<std::uint8_t> Marks; ///< By vertex: Own or 0.
-  LargeVector<int> Labels;         ///< By vertex that is own: the set.
   std::vector<OwnSet> Sets;
   std::vector<Whole> Wholes; ///< Of each set.
+  std::vector<int> SetOf;    ///< By label: an own set, or -1.
   std::vector<Whole> All;    ///< On rank 0: by label.
   int Components = 0;
 };

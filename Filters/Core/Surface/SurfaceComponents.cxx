@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Surface/RankComponents.h"
+#include "Core/Surface/SurfaceComponents.h"
 
 #include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
 #include "Core/Common/RankLists.h"
+#include "Core/Common/Select.h"
 #include "Core/Surface/ComponentNesting.h"
 #include "Core/Surface/ComponentWatch.h"
 
@@ -70,12 +71,15 @@ std::vector<int> FindDegenerate(std::vector<VertexRecord> records, const SizingF
   SurfaceState state;
   state.Sizing = sizing;
   Fill(state, records);
+  std::vector<int> all(records.size());
+  std::iota(all.begin(), all.end(), 0);
+  constexpr float far = 1e9f;
   ComponentWatch watch;
-  watch.Label(state, OnThisThread());
-  std::vector<int> roots;
-  for (int v = 0; v < state.Mesh.Size(); ++v)
+  watch.LabelSmall(state, all, { Vector(-far, -far, -far), Vector(far, far, far) });
+  std::vector<int> roots; // By component; they come in order.
+  for (const int v : all)
   {
-    if (state.Component[v] == static_cast<int>(roots.size()))
+    if (roots.empty() || state.Component[v] > state.Component[roots.back()])
     {
       roots.push_back(v);
     }
@@ -90,22 +94,14 @@ std::vector<int> FindDegenerate(std::vector<VertexRecord> records, const SizingF
   }
   return found;
 }
-
-template <typename T>
-void SortUnique(std::vector<T>& values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 }
 
-void RankComponents::Mark(const SurfaceState& state, Executor& executor)
+void SurfaceComponents::Mark(const SurfaceState& state, Executor& executor)
 {
   const std::size_t n = state.Mesh.Rings.size();
   if (this->Marks.size() < n)
   {
     MakeZeroed(this->Marks, n);
-    MakeZeroed(this->Labels, n);
   }
   ForBlocks(executor, this->Marks.size(), VertexBlock,
     [&](std::size_t, std::size_t begin, std::size_t end)
@@ -122,9 +118,9 @@ void RankComponents::Mark(const SurfaceState& state, Executor& executor)
     });
 }
 
-void RankComponents::FindOwnSets(const SurfaceState& state, Executor& executor)
+void SurfaceComponents::FindOwnSets(SurfaceState& state, Executor& executor)
 {
-  this->Connected.Label(state.Mesh, this->OwnOnes(), this->Labels, executor);
+  this->Connected.Label(state.Mesh, this->OwnOnes(), state.Component.AsVector(), executor);
   this->Sets.clear();
   for (std::size_t set = 0; set < this->Connected.Roots().size(); ++set)
   {
@@ -133,9 +129,13 @@ void RankComponents::FindOwnSets(const SurfaceState& state, Executor& executor)
   }
 }
 
-std::vector<RankComponents::Name> RankComponents::NameBorders(
+std::vector<SurfaceComponents::Name> SurfaceComponents::NameBorders(
   const SurfaceState& state, Executor& executor) const
 {
+  if (this->Part.Ranks.NumberOfRanks() == 1)
+  {
+    return {}; // There are none.
+  }
   const std::size_t n = state.Mesh.Rings.size();
   std::vector<std::vector<Name>> blocks((n + VertexBlock - 1) / VertexBlock);
   ForBlocks(executor, n, VertexBlock,
@@ -147,7 +147,7 @@ std::vector<RankComponents::Name> RankComponents::NameBorders(
         {
           continue;
         }
-        const int set = this->Labels[v];
+        const int set = state.Component[v]; // So far.
         const std::size_t before = blocks[b].size();
         const Ring& ring = state.Mesh.Rings[v];
         for (int i = 0; i < ring.Count; ++i)
@@ -169,7 +169,7 @@ std::vector<RankComponents::Name> RankComponents::NameBorders(
   return names;
 }
 
-std::vector<Message> RankComponents::JoinSets(const std::vector<Message>& ofRanks)
+std::vector<Message> SurfaceComponents::JoinSets(const std::vector<Message>& ofRanks)
 {
   std::vector<OwnSet> sets; // Of all ranks, one after the other.
   std::vector<Name> names;
@@ -199,12 +199,13 @@ std::vector<Message> RankComponents::JoinSets(const std::vector<Message>& ofRank
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
     [&sets](int a, int b) { return sets[a].Root < sets[b].Root; });
-  std::vector<int> labels(sets.size(), ConnectedVertices::None); // By the root of joined sets.
+  constexpr int none = -1;
+  std::vector<int> labels(sets.size(), none); // By the root of joined sets.
   this->All.clear();
   for (const int set : order)
   {
     int& label = labels[joined.Find(set)];
-    if (label == ConnectedVertices::None)
+    if (label == none)
     {
       label = static_cast<int>(this->All.size());
       this->All.push_back({ label, sets[set].Root, 0, sets[set].Place });
@@ -227,7 +228,7 @@ std::vector<Message> RankComponents::JoinSets(const std::vector<Message>& ofRank
   return answers;
 }
 
-void RankComponents::FindWholes(const std::vector<Name>& names)
+void SurfaceComponents::FindWholes(const std::vector<Name>& names)
 {
   Communicator& ranks = this->Part.Ranks;
   MessageWriter writer;
@@ -238,9 +239,14 @@ void RankComponents::FindWholes(const std::vector<Name>& names)
   MessageReader reader(answer);
   this->Components = reader.Take<int>();
   reader.TakeArray(this->Wholes);
+  this->SetOf.assign(static_cast<std::size_t>(this->Components), -1);
+  for (std::size_t set = 0; set < this->Wholes.size(); ++set)
+  {
+    this->SetOf[this->Wholes[set].Label] = static_cast<int>(set);
+  }
 }
 
-void RankComponents::Label(SurfaceState& state, Executor& executor)
+void SurfaceComponents::Label(SurfaceState& state, Executor& executor)
 {
   this->Mark(state, executor);
   this->FindOwnSets(state, executor);
@@ -252,13 +258,13 @@ void RankComponents::Label(SurfaceState& state, Executor& executor)
       {
         if (this->Marks[v] == Own)
         {
-          state.Component[v] = this->Wholes[this->Labels[v]].Label;
+          state.Component[v] = this->Wholes[state.Component[v]].Label;
         }
       }
     });
 }
 
-bool RankComponents::DeleteDegenerate(SurfaceState& state)
+bool SurfaceComponents::DeleteDegenerate(SurfaceState& state)
 {
   std::vector<VertexRecord> whole; // Of components that no other rank has a part of.
   std::vector<VertexRecord> parts;
@@ -268,7 +274,7 @@ bool RankComponents::DeleteDegenerate(SurfaceState& state)
     {
       continue;
     }
-    const int set = this->Labels[v];
+    const int set = this->SetOf[state.Component[v]];
     if (this->Wholes[set].Size <= ComponentWatch::SmallSize)
     {
       const bool isWhole = this->Wholes[set].Size == this->Sets[set].Size;
@@ -287,29 +293,30 @@ bool RankComponents::DeleteDegenerate(SurfaceState& state)
   return !found.empty();
 }
 
-std::vector<int> RankComponents::FindInsideOut(const SurfaceState& state, Executor& executor)
+std::vector<int> SurfaceComponents::FindInsideOut(const SurfaceState& state, Executor& executor)
 {
   // The volumes of all parts, by label, to rank 0, which casts the rays.
   Communicator& ranks = this->Part.Ranks;
-  std::vector<Vector> places;
-  std::vector<int> labels;
-  for (std::size_t set = 0; set < this->Sets.size(); ++set)
+  const LargeVector<int>& labels = state.Component.AsVector();
+  std::vector<Vector> places(this->SetOf.size());
+  for (const Whole& whole : this->Wholes)
   {
-    places.push_back(this->Wholes[set].Place);
-    labels.push_back(this->Wholes[set].Label);
+    places[whole.Label] = whole.Place;
   }
   struct Volume
   {
     int Label;
     ExactSum Sum;
   };
-  const MarkedVertices ownOnes = this->OwnOnes();
   const std::vector<ExactSum> sums =
-    VolumesOfFaces(state.Mesh, this->Labels, &ownOnes, places, executor);
+    VolumesOfFaces(state.Mesh, labels, this->OwnOnes(), places, executor);
   std::vector<Volume> own;
-  for (std::size_t set = 0; set < sums.size(); ++set)
+  for (int label = 0; label < this->Components; ++label)
   {
-    own.push_back({ labels[set], sums[set] });
+    if (this->SetOf[label] >= 0)
+    {
+      own.push_back({ label, sums[label] });
+    }
   }
   std::vector<int> roots;
   places.clear();
@@ -325,13 +332,13 @@ std::vector<int> RankComponents::FindInsideOut(const SurfaceState& state, Execut
   }
   const std::vector<ComponentRay> rays = BroadcastList(ranks, CastRays(roots, places, volumes));
   std::vector<RayCrossing> crossings = GatherLists(
-    ranks, FindCrossings(state.Mesh, this->Labels, &ownOnes, labels, rays, executor));
+    ranks, FindCrossings(state.Mesh, labels, this->OwnOnes(), rays, executor));
   KeepOdd(crossings);
   return BroadcastList(ranks,
     ranks.Rank() == 0 ? JudgeFromOutsideIn(rays, crossings) : std::vector<int>());
 }
 
-bool RankComponents::DeleteInsideOut(SurfaceState& state, Executor& executor)
+bool SurfaceComponents::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
   this->Label(state, executor);
   const std::vector<int> insideOut = this->FindInsideOut(state, executor);
@@ -343,7 +350,7 @@ bool RankComponents::DeleteInsideOut(SurfaceState& state, Executor& executor)
   return !insideOut.empty();
 }
 
-std::vector<int> RankComponents::LabelsOf(const std::vector<int>& roots) const
+std::vector<int> SurfaceComponents::LabelsOf(const std::vector<int>& roots) const
 {
   std::vector<int> labels;
   for (std::size_t i = 0; this->Part.Ranks.Rank() == 0 && i < roots.size(); ++i)
@@ -355,7 +362,7 @@ std::vector<int> RankComponents::LabelsOf(const std::vector<int>& roots) const
   return BroadcastList(this->Part.Ranks, labels);
 }
 
-void RankComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
+void SurfaceComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
 {
   if (roots.empty())
   {
@@ -383,7 +390,7 @@ void RankComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
     {
       continue;
     }
-    const int label = this->Wholes[this->Labels[v]].Label;
+    const int label = this->WholeAt(state, v).Label;
     const auto removal = std::lower_bound(removals.begin(), removals.end(), label,
       [](const Removal& r, int wanted) { return r.Label < wanted; });
     if (removal != removals.end() && removal->Label == label)
