@@ -24,6 +24,27 @@ SurfaceOptions ForPlate()
   return options;
 }
 
+/** What the coarse level has: its factor, and its surface. */
+struct Coarse
+{
+  enum Start
+  {
+    Enclosing,
+    Seed,
+    Crossing ///< Two balls that intersect each other, as no surface of a level does.
+  };
+  Start Begins = Enclosing;
+  double Factor = std::sqrt(3.);
+};
+
+IndexedSurface CrossingBalls(double edge)
+{
+  SurfaceMesh mesh;
+  mesh.Append(DividedIcosahedron({ 14., 9., 9. }, 6., edge));
+  mesh.Append(DividedIcosahedron({ 20., 9., 9. }, 6., edge));
+  return mesh.ToIndexed();
+}
+
 struct RunOnRanks
 {
   SurfaceResult Surface;
@@ -32,9 +53,9 @@ struct RunOnRanks
   double MissingBoundary = 0.;
   SurfaceEvolution::LostParts Lost;
 
-  RunOnRanks(int count, int threads, SurfaceOptions options, bool isFromSeed = false)
+  RunOnRanks(int count, int threads, SurfaceOptions options, const Coarse& above = Coarse())
   {
-    const TestVolume coarse = Plate(std::sqrt(3.));
+    const TestVolume coarse = Plate(above.Factor);
     const TestVolume fine = Plate(1.);
     options.MostVoxelsOfRank =
       static_cast<std::int64_t>(coarse.Image.Size[0]) * coarse.Image.Size[1] * coarse.Image.Size[2];
@@ -53,15 +74,19 @@ struct RunOnRanks
           evolution.Unite();
           return;
         }
-        if (isFromSeed)
+        switch (above.Begins)
         {
-          evolution.StartSeeds(coarse.Image, 1, { { 31., 17., 17. } });
+          case Coarse::Crossing:
+            evolution.StartIsoSurface(coarse.Image, 1, CrossingBalls(1.6 * above.Factor));
+            break;
+          case Coarse::Seed:
+            evolution.StartSeeds(coarse.Image, 1, { { 31., 17., 17. } });
+            evolution.Run();
+            break;
+          case Coarse::Enclosing:
+            evolution.StartEnclosing(coarse.Image, 1);
+            evolution.Run();
         }
-        else
-        {
-          evolution.StartEnclosing(coarse.Image, 1);
-        }
-        evolution.Run();
         if (count > 1)
         {
           evolution.SetRanks(&ranks);
@@ -152,12 +177,40 @@ TEST(RankSweeps, RecoverWhatOneRankRecovers)
   SurfaceOptions options = ForPlate();
   options.MaximumNumberOfIterations = 5;
   options.RecoverCavities = true;
-  const RunOnRanks one(1, 1, options, true);
+  const Coarse hardlyBegun{ Coarse::Seed };
+  const RunOnRanks one(1, 1, options, hardlyBegun);
   EXPECT_GT(one.Lost.Enclosed, 0);
   EXPECT_GT(one.Surface.Points.size(), 10000u);
   for (const int count : { 2, 4 })
   {
     SCOPED_TRACE(count);
-    ExpectSame(RunOnRanks(count, 1, options, true), one);
+    ExpectSame(RunOnRanks(count, 1, options, hardlyBegun), one);
   }
+}
+
+TEST(RankSweeps, DivideAsOftenAsTheFactorAsks)
+{
+  // By less than the mesh's factor not at all, by its square twice.
+  for (const double factor : { 1.25, 3. })
+  {
+    SCOPED_TRACE(factor);
+    const Coarse above{ Coarse::Enclosing, factor };
+    SurfaceOptions options = ForPlate();
+    options.MaximumNumberOfIterations = 10;
+    const RunOnRanks one(1, 1, options, above);
+    EXPECT_GT(one.Surface.Points.size(), 10000u);
+    ExpectSame(RunOnRanks(3, 1, options, above), one);
+  }
+}
+
+TEST(RankSweeps, RemeshWhatCannotBeDivided)
+{
+  SurfaceOptions options = ForPlate();
+  options.MaximumNumberOfIterations = 5;
+  options.RecoverLostParts = false;
+  const Coarse above{ Coarse::Crossing };
+  const RunOnRanks one(1, 1, options, above);
+  EXPECT_GT(one.Surface.Points.size(), 200u);
+  EXPECT_EQ(CountSelfIntersections(one.Surface), 0);
+  ExpectSame(RunOnRanks(2, 1, options, above), one);
 }

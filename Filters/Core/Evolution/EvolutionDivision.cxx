@@ -364,8 +364,7 @@ bool SurfaceEvolution::Implementation::LayOutInParts(int divisions)
     this->SpreadWhole();
   }
   this->Threads.EndPhase("Division");
-  this->SplitLongEdges();
-  if (this->IsOnAnyRank(!this->Stopped && this->HasEdgeTooLong()))
+  if (!this->SplitLongEdges() && !this->IsOnAnyRank(this->Stopped))
   {
     this->Unite(); // Full rings all about it: not seen yet.
     const SurfaceMesh old = this->State.Mesh;

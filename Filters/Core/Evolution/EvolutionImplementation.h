@@ -124,7 +124,7 @@ struct SurfaceEvolution::Implementation
   bool HasEdgeTooLong() const;
   int CountIntersecting();
   void Verify();
-  void SplitLongEdges();
+  bool SplitLongEdges(); ///< @return whether none is left
   float LongestEdge(); ///< On all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();

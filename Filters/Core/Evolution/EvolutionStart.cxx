@@ -65,8 +65,7 @@ void SurfaceEvolution::Implementation::LayOut()
   this->LayGrid();
   this->MakeBlocks();
   this->Threads.EndPhase("Grid");
-  this->SplitLongEdges();
-  if (!this->Stopped && this->HasEdgeTooLong())
+  if (!this->SplitLongEdges() && !this->Stopped)
   {
     // Full rings all about it: not seen yet.
     this->TakeRemeshed(s.Mesh.ToIndexed(this->Threads));

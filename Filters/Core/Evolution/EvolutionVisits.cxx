@@ -330,7 +330,7 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
   this->SinceEvolved.Removed += this->State.Counts.Removed;
 }
 
-void SurfaceEvolution::Implementation::SplitLongEdges()
+bool SurfaceEvolution::Implementation::SplitLongEdges()
 {
   // Verification relies on it that no edge is longer than the constraints allow.
   BlockVisits visits;
@@ -344,6 +344,14 @@ void SurfaceEvolution::Implementation::SplitLongEdges()
     this->Blocks->AddNew(visit, vertices);
     SurfaceIteration::UpdateChanged(this->State, remesher.TakeChanged());
   };
-  this->VisitBlocks(visits);
+  // A block may have too few places for all of them at once, and half of a split edge is split again.
+  bool hasLeft = true;
+  for (bool hasSplit = true; hasLeft && hasSplit;)
+  {
+    this->VisitBlocks(visits);
+    hasSplit = this->IsOnAnyRank(this->State.Counts.Splits > 0);
+    hasLeft = this->IsOnAnyRank(this->HasEdgeTooLong());
+  }
+  return !hasLeft;
 }
 }
