@@ -283,6 +283,10 @@ std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid
 {
   std::array<double, 2> range = { std::numeric_limits<double>::max(),
     std::numeric_limits<double>::lowest() };
+  if (!contiguous)
+  {
+    return range;
+  }
   if (valid.Marks.empty() && contiguous->GetNumberOfTuples() > 0)
   {
     contiguous->GetRange(range.data());

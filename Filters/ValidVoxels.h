@@ -49,7 +49,10 @@ ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vt
 ValidVoxels FindValidVoxels(Communicator& ranks, const ImagePieces& pieces, vtkDataArray* original,
   vtkDataArray* contiguous, vtkImageData* image, bool nanIsBackground, Executor& executor);
 
-/** The smallest and the largest voxel that is valid; the first is the larger one if none is. */
+/**
+ * The smallest and the largest voxel that is valid; the first is the larger one if none is.
+ * @param contiguous null: there are none
+ */
 std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid);
 
 /** By all ranks together: of all of their pieces. */

@@ -108,6 +108,23 @@ class SameFilesTest(RanksTestCase):
                 self.check_same(2, volume)  # Otsu's threshold
                 self.check_same(2, volume, "--iso", ISO, "--spacing", "1,1,1")
 
+    def test_levels_that_ranks_share(self):
+        """Of over 2^24 voxels, from a file that each reads a part of, and from one that rank 0 reads."""
+        size = 260
+        x = np.arange(size, dtype="f4") - size / 2
+        away = np.sqrt(x[:, None, None] ** 2 + x[:, None] ** 2 + x ** 2)
+        raw = np.clip(150 - away, 0, 255).astype("u1").tobytes()
+        sizes = f"{size} {size} {size}\n"
+        head = f"ObjectType = Image\nNDims = 3\nDimSize = {sizes}ElementType = MET_UCHAR\n"
+        parts = self.write_bytes("parts.mha", (head + "ElementDataFile = LOCAL\n").encode() + raw)
+        head = (f"# vtk DataFile Version 3.0\n\nBINARY\nDATASET STRUCTURED_POINTS\n"
+                f"DIMENSIONS {sizes}SPACING 1 1 1\nORIGIN 0 0 0\nPOINT_DATA {size ** 3}\n"
+                f"SCALARS density unsigned_char\nLOOKUP_TABLE default\n")
+        whole = self.write_bytes("whole.vtk", head.encode() + raw)
+        for volume, *options in ((parts, "--reduction-factor", 1.25), (whole,)):
+            with self.subTest(volume):
+                self.check_same(2, volume, "--iso", 60.5, "--levels", 3, *options)
+
     def test_what_is_given_beside_the_volume(self):
         volume = self.ball_file()
         centre = ORIGIN + SPACING * CENTRE
