@@ -10,6 +10,7 @@ set(volumic_core_sources
   Common/Communicator.cxx
   Common/ContentHash.cxx
   Common/FreeMemory.cxx
+  Common/JoinLabels.cxx
   Common/MeasuredExecutor.cxx
   Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
@@ -91,7 +92,6 @@ set(volumic_core_sources
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
-  Evolution/RankLostVoxels.cxx
   Evolution/RankResult.cxx
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
@@ -110,6 +110,7 @@ set(volumic_core_headers
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
+  Common/JoinLabels.h
   Common/Lanes.h
   Common/LatticeKey.h
   Common/MeasuredExecutor.h

@@ -204,7 +204,7 @@ std::vector<CellLattice::Cell> CellsOfParts(
 }
 
 /** The surface of the cells of all ranks, on all of them. */
-void CoverOnRanks(std::vector<PartCell> cells, const CellLattice& lattice, int numberOfParts,
+void Cover(std::vector<PartCell> cells, const CellLattice& lattice, int numberOfParts,
   Executor& executor, Communicator& ranks, LostPartCover& result)
 {
   cells = GatherLists(ranks, cells);
@@ -232,8 +232,9 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
 {
   LostPartCover stopped;
   stopped.IsStopped = true;
-  const auto agreeOn = [part](bool goesOn) // A rank may be asked to stop, or one of the others.
-  { return part ? !part->Ranks.IsAny(!goesOn) : goesOn; };
+  Communicator& ranks = part ? part->Ranks : OnThisRank();
+  const auto agreeOn = [&ranks](bool goesOn) // A rank may be asked to stop, or one of the others.
+  { return !ranks.IsAny(!goesOn); };
   const LostVoxels lost(state, field, kind, minimumSize, executor,
     [&goOn](double share) { return goOn(AfterLost * share); }, part);
   if (lost.IsStopped())
@@ -255,16 +256,8 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   {
     return stopped;
   }
-  if (part)
-  {
-    result.Boundary.Gather(part->Ranks);
-    CoverOnRanks(std::move(cells), lattice, result.Found, executor, part->Ranks, result);
-  }
-  else
-  {
-    result.Surface =
-      lattice.Boundary(CellsOfParts(cells, result.Found, result.Covered), executor);
-  }
+  result.Boundary.Gather(ranks);
+  Cover(std::move(cells), lattice, result.Found, executor, ranks, result);
   if (kind == PartKind::Cavity)
   {
     for (Triangle& triangle : result.Surface.Triangles)

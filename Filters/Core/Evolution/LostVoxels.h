@@ -4,6 +4,7 @@
 #define volumicLostVoxels_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/JoinLabels.h"
 #include "Core/Common/Monitor.h"
 #include "Core/Evolution/RankRows.h"
 #include "Core/Evolution/SlabSearch.h"
@@ -44,19 +45,18 @@ public:
   const std::vector<std::vector<VoxelRun>>& Slabs() const { return this->Runs; }
 
 private:
-  /** Sizes of parts, of each slab for itself. */
-  using SizesOfSlabs = std::vector<std::vector<std::int64_t>>;
+  using PartsOfSlabs = std::vector<std::vector<SetPiece>>;
 
-  SizesOfSlabs Search(const SurfaceState& state, const Field& field, PartKind kind,
-    std::int64_t minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows* part);
-  /** What the slabs have found becomes parts of the whole, or of a rank's rows. */
-  void JoinSlabs(SizesOfSlabs& sizes, std::int64_t minimumSize, Executor& executor,
-    const RankRows* part);
-  /** What the ranks have found, each for itself, becomes parts of the whole. */
-  void JoinRanks(std::int64_t minimumSize, const RankRows& part);
+  PartsOfSlabs Search(const SurfaceState& state, const Field& field, PartKind kind,
+    std::int64_t minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows& own);
+  /** What the slabs of all ranks have found, each for itself, becomes parts of the whole. */
+  void JoinParts(PartsOfSlabs& parts, std::int64_t minimumSize, const RankRows& own,
+    Executor& executor);
+  /** By rank 0. @return to each rank: how many parts there are, and the number of each of its own */
+  std::vector<Message> JoinRanks(
+    const std::vector<Message>& ofRanks, std::int64_t minimumSize) const;
 
   std::array<int, 3> Size = { 0, 0, 0 }; ///< Of the image.
-  int FirstSlab = 0; ///< Of the image, that there are runs of.
   std::vector<std::vector<VoxelRun>> Runs;
   int Parts = 0;
   bool Stopped = false;

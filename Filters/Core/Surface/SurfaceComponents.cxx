@@ -4,6 +4,7 @@
 
 #include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
+#include "Core/Common/JoinLabels.h"
 #include "Core/Common/RankLists.h"
 #include "Core/Common/Select.h"
 #include "Core/Surface/ComponentNesting.h"
@@ -185,32 +186,32 @@ std::vector<Message> SurfaceComponents::JoinSets(const std::vector<Message>& ofR
     sets.insert(sets.end(), setsOfRank.begin(), setsOfRank.end());
     first.push_back(sets.size());
   }
-  DisjointSets joined(sets.size());
+  std::vector<std::pair<int, int>> joins;
   std::sort(names.begin(), names.end());
   for (std::size_t i = 1; i < names.size(); ++i)
   {
     if (names[i].Vertex == names[i - 1].Vertex)
     {
-      joined.Join(names[i].Set, names[i - 1].Set);
+      joins.emplace_back(names[i].Set, names[i - 1].Set);
     }
   }
-  // Components are numbered by their smallest vertices: those that come first.
-  std::vector<int> order(sets.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-    [&sets](int a, int b) { return sets[a].Root < sets[b].Root; });
-  constexpr int none = -1;
-  std::vector<int> labels(sets.size(), none); // By the root of joined sets.
-  this->All.clear();
-  for (const int set : order)
+  std::vector<SetPiece> pieces;
+  for (const OwnSet& set : sets)
   {
-    int& label = labels[joined.Find(set)];
-    if (label == none)
-    {
-      label = static_cast<int>(this->All.size());
-      this->All.push_back({ label, sets[set].Root, 0, sets[set].Place });
-    }
-    this->All[label].Size += sets[set].Size;
+    pieces.push_back({ set.Root, set.Size });
+  }
+  const JoinedSets joined = JoinLabels(pieces, joins);
+  this->All.clear();
+  for (const SetPiece& whole : joined.Labels)
+  {
+    const int label = static_cast<int>(this->All.size());
+    this->All.push_back(
+      { label, static_cast<int>(whole.First), static_cast<int>(whole.Size), Vector() });
+  }
+  for (std::size_t set = 0; set < sets.size(); ++set)
+  {
+    Whole& whole = this->All[joined.LabelOf[set]];
+    whole.Place = whole.Root == sets[set].Root ? sets[set].Place : whole.Place;
   }
   std::vector<Message> answers;
   for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
@@ -218,7 +219,7 @@ std::vector<Message> SurfaceComponents::JoinSets(const std::vector<Message>& ofR
     std::vector<Whole> wholes;
     for (std::size_t set = first[rank]; set < first[rank + 1]; ++set)
     {
-      wholes.push_back(this->All[labels[joined.Find(static_cast<int>(set))]]);
+      wholes.push_back(this->All[joined.LabelOf[set]]);
     }
     MessageWriter writer;
     writer.Add(static_cast<int>(this->All.size()));
