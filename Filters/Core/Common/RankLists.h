@@ -28,6 +28,17 @@ std::vector<T> ListIn(const Message& message)
 }
 
 template <typename T>
+std::vector<std::vector<T>> ListsIn(const std::vector<Message>& messages)
+{
+  std::vector<std::vector<T>> lists;
+  for (const Message& message : messages)
+  {
+    lists.push_back(ListIn<T>(message));
+  }
+  return lists;
+}
+
+template <typename T>
 std::vector<T> JoinedLists(const std::vector<Message>& messages)
 {
   std::vector<T> all;
@@ -38,6 +49,20 @@ std::vector<T> JoinedLists(const std::vector<Message>& messages)
   }
   return all;
 }
+}
+
+/** @return the list of each rank, by rank, at rank 0; nothing elsewhere. */
+template <typename T>
+std::vector<std::vector<T>> GatherEach(Communicator& ranks, const std::vector<T>& list)
+{
+  return detail::ListsIn<T>(ranks.Gather(detail::MessageOf(list)));
+}
+
+/** @return the list of each rank, by rank, on all ranks. */
+template <typename T>
+std::vector<std::vector<T>> GatherEachOnAll(Communicator& ranks, const std::vector<T>& list)
+{
+  return detail::ListsIn<T>(ranks.GatherOnAll(detail::MessageOf(list)));
 }
 
 /** @return the lists of all ranks, one after the other, at rank 0; nothing elsewhere. */
@@ -71,12 +96,7 @@ std::vector<std::vector<T>> ExchangeLists(
   {
     messages.push_back(detail::MessageOf(list));
   }
-  std::vector<std::vector<T>> received;
-  for (const Message& message : ranks.Exchange(std::move(messages)))
-  {
-    received.push_back(detail::ListIn<T>(message));
-  }
-  return received;
+  return detail::ListsIn<T>(ranks.Exchange(std::move(messages)));
 }
 
 /** From rank 0 to each: a message by rank, of which only rank 0's matter. */

@@ -162,7 +162,7 @@ void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
       swept.Vertices += ofRank.Vertices;
       swept.EulerCharacteristic += ofRank.EulerCharacteristic;
     }
-    this->Parts->Share(swept.KineticEnergy);
+    row.KineticEnergy = this->Parts->AddUp(swept.KineticEnergy);
   }
 }
 

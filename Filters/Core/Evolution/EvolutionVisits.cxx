@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -278,9 +277,7 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
     row.EulerCharacteristic = row.IterationEulerCharacteristic = eulerCharacteristic;
     row.Components = row.IterationComponents = this->NumberOfComponents;
     row.MeanEdgeLength = row.IterationMeanEdgeLength = meanEdge;
-    row.KineticEnergy =
-      std::accumulate(swept.KineticEnergy.begin(), swept.KineticEnergy.end(), 0.) /
-      std::max(vertices, 1);
+    row.KineticEnergy /= std::max(vertices, 1);
     row.Seconds = spent > 0. ? 0. : equal;
     for (PhaseTime& phase : row.Phases)
     {

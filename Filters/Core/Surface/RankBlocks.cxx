@@ -3,6 +3,7 @@
 #include "Core/Surface/RankBlocks.h"
 
 #include "Core/Common/Blocks.h"
+#include "Core/Common/RankLists.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -455,6 +456,33 @@ void RankBlocks::ShareCounts()
   s.EulerCharacteristic = this->KnownCharacteristic;
 }
 
+template <typename T>
+std::vector<T> RankBlocks::OfOwn(const std::vector<T>& ofBlocks) const
+{
+  std::vector<T> own;
+  for (std::size_t block = 0; block < ofBlocks.size(); ++block)
+  {
+    if (this->IsOwn(static_cast<int>(block)))
+    {
+      own.push_back(ofBlocks[block]);
+    }
+  }
+  return own;
+}
+
+template <typename T>
+std::vector<T> RankBlocks::InOrder(const std::vector<std::vector<T>>& ofRanks) const
+{
+  std::vector<std::size_t> next(ofRanks.size(), 0);
+  std::vector<T> all;
+  all.reserve(this->Owners.size());
+  for (const int owner : this->Owners)
+  {
+    all.push_back(ofRanks[owner][next[owner]++]);
+  }
+  return all;
+}
+
 void RankBlocks::AddPlaces(Executor& executor)
 {
   std::vector<int> counts(this->Owners.size(), 0);
@@ -464,35 +492,18 @@ void RankBlocks::AddPlaces(Executor& executor)
       const int block = static_cast<int>(b);
       counts[b] = this->IsOwn(block) ? this->Blocks.MissingPlaces(block) : 0;
     });
-  MessageWriter writer;
-  writer.AddArray(counts);
-  const std::vector<Message> all = this->Ranks.GatherOnAll(writer.Take());
-  for (std::size_t block = 0; block < counts.size(); ++block)
-  {
-    MessageReader reader(all[this->Owners[block]]);
-    counts[block] = reader.TakeVector<int>()[block];
-  }
-  this->Blocks.AddPlaces(counts);
+  this->Blocks.AddPlaces(this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(counts))));
 }
 
-void RankBlocks::Share(std::vector<double>& ofBlocks)
+double RankBlocks::AddUp(const std::vector<double>& ofBlocks)
 {
-  MessageWriter writer;
-  writer.AddArray(ofBlocks);
-  std::vector<std::vector<double>> all;
-  for (const Message& message : this->Ranks.GatherOnAll(writer.Take()))
+  const std::vector<std::vector<double>> lists = GatherEach(this->Ranks, this->OfOwn(ofBlocks));
+  double sum = 0.;
+  if (!lists.empty())
   {
-    all.push_back(MessageReader(message).TakeVector<double>());
+    const std::vector<double> all = this->InOrder(lists);
+    sum = std::accumulate(all.begin(), all.end(), 0.);
   }
-  for (std::size_t block = 0; block < ofBlocks.size(); ++block)
-  {
-    ofBlocks[block] = all[this->Owners[block]][block];
-  }
-}
-
-double RankBlocks::AddUp(std::vector<double> ofBlocks)
-{
-  this->Share(ofBlocks);
-  return std::accumulate(ofBlocks.begin(), ofBlocks.end(), 0.);
+  return BroadcastValue(this->Ranks, sum);
 }
 }

@@ -79,10 +79,8 @@ public:
   void ShareCounts();
   /** SurfaceBlocks::AddPlaces, as the owners wish. */
   void AddPlaces(Executor& executor);
-  /** Of each block the value that its owner has. */
-  void Share(std::vector<double>& ofBlocks);
-  /** Their sum, added in the order of the blocks. */
-  double AddUp(std::vector<double> ofBlocks);
+  /** The sum of what the owners have of their blocks, added in the order of the blocks. */
+  double AddUp(const std::vector<double>& ofBlocks);
 
 private:
   struct Sizes
@@ -91,6 +89,11 @@ private:
     int Vertices;
     int Characteristic;
   };
+  /** Of values of blocks those of own ones, and those of all ranks' own ones put together. */
+  template <typename T>
+  std::vector<T> OfOwn(const std::vector<T>& ofBlocks) const;
+  template <typename T>
+  std::vector<T> InOrder(const std::vector<std::vector<T>>& ofRanks) const;
   Message SendParts(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
   void BeginParts(const Sizes& sizes, const Vector& low, const Vector& high);
