@@ -29,15 +29,15 @@ COLOURS = 8
 @dataclasses.dataclass
 class Constants:
     """Measured with `volumic skull512.vti --iso 226.5 --threads 1 --metric voxels` (512^3, one
-    thread of a 2.6 GHz Xeon): by level, coarser ones as the last; and what is assumed."""
+    thread): by level, coarser ones as the last; and what is assumed."""
 
-    vertices: float = 927749 / 512 ** 2  # of level 0, for each square of the image's side
-    iterating: tuple = (12.4e-6, 20.0e-6, 54.3e-6, 22.6e-6, 32.3e-6, 92.1e-6)  # s a vertex
-    around: tuple = (8.9e-6, 10.7e-6, 15.5e-6, 10.3e-6, 12.8e-6, 25.1e-6)  # s, before and after
-    visits: tuple = (14, 7, 8, 12, 18, 19)  # of a block, of 5 iterations each
-    block_side: float = 128 * 0.85  # voxels
-    sweeps_from: float = 406.4  # voxels, the side of the smallest level in sweeps
-    halo: float = 24 * 0.85  # voxels
+    vertices: float = 927530 / 512 ** 2  # of level 0, for each square of the image's side
+    iterating: tuple = (7.4e-6, 17.5e-6, 40.5e-6, 20.2e-6, 22.0e-6, 78.7e-6)  # s a vertex
+    around: tuple = (8.7e-6, 11.2e-6, 11.1e-6, 11.1e-6, 12.6e-6, 23.4e-6)  # s, before and after
+    visits: tuple = (5, 10, 7, 13, 14, 21)  # of a block, of 5 iterations each
+    block_side: float = 24 * 0.85  # voxels
+    sweeps_from: float = 256  # voxels, the side of the smallest level that ranks share
+    halo: float = 14.2 * 0.85  # voxels
     bytes_of_voxel: float = 2.0  # of the image
     bytes_of_coarse_voxel: float = 2.0
     bytes_of_vertex: float = 350.0  # in memory, with room to grow

@@ -199,7 +199,14 @@ bool SurfaceEvolution::Implementation::DivideWhole(int divisions)
     this->DivideOnce();
     goesOn = this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
   }
-  divisions > 0 ? this->LayOut() : this->Reset();
+  if (divisions > 0)
+  {
+    this->LayOut();
+  }
+  else
+  {
+    this->Reset();
+  }
   return goesOn;
 }
 

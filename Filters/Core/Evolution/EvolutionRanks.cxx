@@ -86,8 +86,9 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
   const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn)
 {
   std::size_t visited = 0;
-  for (const std::vector<int>& ofColour : this->Blocks->ByColour())
+  for (int colour = 0; colour < SurfaceBlocks::Colours; ++colour)
   {
+    const std::vector<int>& ofColour = this->Blocks->ByColour()[colour];
     std::vector<int> own;
     std::copy_if(ofColour.begin(), ofColour.end(), std::back_inserter(own),
       [&](int block)
@@ -106,10 +107,13 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
       this->Parts->EndVisit(block);
     }
     visited += ofColour.size();
-    this->Parts->Exchange();
-    goOn(visited);
-    this->AgreeOnStop();
+    if (colour % 2 == 1)
+    {
+      this->Parts->Exchange(); // Blocks before and after each other along x are of one rank.
+      goOn(visited);
+    }
   }
+  this->AgreeOnStop();
   this->Parts->ShareCounts();
 }
 

@@ -229,8 +229,11 @@ void RankBlocks::Exchange()
       touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
       const auto alive = std::stable_partition(
         touched.begin(), touched.end(), [this](int v) { return !this->State.Mesh.IsAlive(v); });
+      std::vector<Removed> removed;
+      std::for_each(touched.begin(), alive,
+        [&](int v) { removed.push_back({ v, this->State.Block[v] }); });
       MessageWriter writer;
-      writer.AddArray(std::vector<int>(touched.begin(), alive));
+      writer.AddArray(removed);
       this->State.Write(writer, std::vector<int>(alive, touched.end()));
       messages[rank] = writer.Take();
     }
@@ -243,14 +246,14 @@ void RankBlocks::Exchange()
     if (rank != this->Ranks.Rank())
     {
       MessageReader reader(received[rank]);
-      for (const int v : reader.TakeVector<int>())
+      for (const Removed& removed : reader.TakeVector<Removed>())
       {
-        const int block = this->State.Block[v];
-        if (this->State.Mesh.IsAlive(v) && block != NoBlock && this->IsOwn(block))
+        // Perhaps it had come to an own block, and was never heard of here.
+        if (removed.Block != NoBlock && this->IsOwn(removed.Block))
         {
-          this->Blocks.GiveBack(block, v);
+          this->Blocks.GiveBack(removed.Block, removed.Vertex);
         }
-        this->State.Forget(v);
+        this->State.Forget(removed.Vertex);
       }
       // What has left the halo would not be told of any more.
       std::vector<int> come = this->State.Read(reader);

@@ -22,9 +22,10 @@ namespace volumic
  * visits it. A rank has the vertices of its own blocks and, as a halo, those near them, with the indices
  * that they have everywhere; the places of all others are there, but take no memory.
  *
- * The ranks visit their blocks of one colour, then tell each other what has become of the vertices
- * near the borders (Exchange), then go on with the next colour. As blocks of a colour do not touch,
- * each visit sees what it would see on one rank. Messages grow with the border of the ranks.
+ * The ranks visit their blocks of two colours, which differ along x, then tell each other what has
+ * become of the vertices near the borders (Exchange), then go on with the next two. A row of blocks
+ * along x is of one rank, and other blocks of these colours do not touch: each visit sees what it
+ * would see on one rank. Messages grow with the border of the ranks.
  */
 class RankBlocks
 {
@@ -73,7 +74,7 @@ public:
   /** About a visit of an own block. */
   void BeginVisit(int block);
   void EndVisit(int block);
-  /** After the visits of a colour. */
+  /** After the visits of two colours. */
   void Exchange();
   /** Between sweeps: how many vertices there are, and the Euler characteristic, of all. */
   void ShareCounts();
@@ -83,6 +84,12 @@ public:
   double AddUp(const std::vector<double>& ofBlocks);
 
 private:
+  /** A vertex that a visit has removed, and whose place it had. */
+  struct Removed
+  {
+    int Vertex;
+    int Block;
+  };
   struct Sizes
   {
     std::size_t Places;
