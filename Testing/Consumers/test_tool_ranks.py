@@ -109,11 +109,11 @@ class SameFilesTest(RanksTestCase):
                 self.check_same(2, volume, "--iso", ISO, "--spacing", "1,1,1")
 
     def test_levels_that_ranks_share(self):
-        """Of over 2^24 voxels, from a file that each reads a part of, and from one that rank 0 reads."""
-        size = 260
+        """Of over 2^22 voxels, from a file that each reads a part of, and from one that rank 0 reads."""
+        size = 170
         x = np.arange(size, dtype="f4") - size / 2
         away = np.sqrt(x[:, None, None] ** 2 + x[:, None] ** 2 + x ** 2)
-        raw = np.clip(150 - away, 0, 255).astype("u1").tobytes()
+        raw = np.clip(110 - away, 0, 255).astype("u1").tobytes()
         sizes = f"{size} {size} {size}\n"
         head = f"ObjectType = Image\nNDims = 3\nDimSize = {sizes}ElementType = MET_UCHAR\n"
         parts = self.write_bytes("parts.mha", (head + "ElementDataFile = LOCAL\n").encode() + raw)
