@@ -102,7 +102,6 @@ void SegmentationCache::Keep(
   }
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
   this->PlannedEnd = run->GetSettings().End.FinestLevel;
-  this->Recovery = run->HasRecovery();
   if (run->CanGoOn())
   {
     this->Run = std::move(run);

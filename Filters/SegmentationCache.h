@@ -57,8 +57,6 @@ public:
   /** The run, where it can go on from what it has; else null. It is kept no longer. */
   std::unique_ptr<SurfaceSegmentation> TakeRun();
 
-  bool HasRecovery() const { return this->Recovery; }
-
 private:
   using Inputs = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
   static Inputs InputsOf(vtkAlgorithm* filter);
@@ -70,7 +68,6 @@ private:
   Inputs InputsOfRun;
   bool EndIsPlanned = false;
   int PlannedEnd = 0;
-  bool Recovery = false;
 };
 }
 

@@ -111,7 +111,7 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
 std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
 {
   // The field data tell the rest; what is worth a warning needs another choice to be made.
-  constexpr double notable = 0.01;
+  constexpr double notable = 0.05;
   const auto end = this->ByLevel.lower_bound(last);
   if (end == this->ByLevel.end() || !end->second.IsAtRest)
   {

@@ -80,6 +80,15 @@ struct SegmentationSettings
   RecoveryType Recovery = RecoveryType::RecoverObjects;
   KeepComponentsType KeepComponents = KeepComponentsType::AllComponents;
   double MinimumComponentVolume = 0.0; ///< world units cubed
+  /**
+   * Whether parts of the object that no surface has are worth a warning. Of parts that are not
+   * there nobody can say whether they would have been kept.
+   */
+  bool WantsAllParts() const
+  {
+    return this->Recovery != RecoveryType::NoRecovery && !this->End.Preview &&
+      this->KeepComponents == KeepComponentsType::AllComponents;
+  }
   bool Profile = false;                ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0;            ///< iterations; 0: no snapshots
 };

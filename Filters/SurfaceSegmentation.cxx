@@ -215,8 +215,7 @@ void SurfaceSegmentation::Run()
   }
   if (!this->Request.IsStep)
   {
-    this->Found.WarnOf(
-      this->Choice.Last, this->HasRecovery() && !this->Settings.End.Preview, this->Request.Warn);
+    this->Found.WarnOf(this->Choice.Last, this->Settings.WantsAllParts(), this->Request.Warn);
   }
 }
 

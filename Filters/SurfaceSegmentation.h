@@ -61,7 +61,6 @@ public:
   bool CanGoOn() const;
 
   const SegmentationSettings& GetSettings() const { return this->Settings; }
-  bool HasRecovery() const { return this->Settings.Options.RecoverLostParts; }
   const SegmentationResults& Results() const { return this->Found; }
   /** The level at which the last Run() was to end. */
   int EndsAt() const { return this->Choice.Last; }

@@ -434,7 +434,7 @@ bool vtkDeformableSurface::ShowKept(
   }
   const int end = cache.EndOf(request.End);
   results->FillOutputs(end, output);
-  results->WarnOf(end, cache.HasRecovery() && !this->Internals->Settings.End.Preview, request.Warn);
+  results->WarnOf(end, this->Internals->Settings.WantsAllParts(), request.Warn);
   return true;
 }
 
@@ -550,8 +550,7 @@ void vtkDeformableSurface::ShowRun(const volumic::SurfaceSegmentation& run,
     run.EndsAt() <= settings.End.FinestLevel && settings.EdgeLength == 0.0;
   if (request.IsStep && isFinest)
   {
-    run.Results().WarnOf(
-      run.EndsAt(), run.HasRecovery() && !settings.End.Preview, request.Warn);
+    run.Results().WarnOf(run.EndsAt(), settings.WantsAllParts(), request.Warn);
   }
   this->Internals->IsOnTheWay = request.IsStep && !isCutOff && !isFinest;
 }

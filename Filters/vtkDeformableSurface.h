@@ -113,7 +113,7 @@
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty. At
  * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if,
- * with Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level; at
+ * with Recovery, all components kept and no Preview, `MissingBoundary` is more than 0.05 at the finest level; at
  * its start one tells the number of voxels that are NaN. All else is told by the field data only.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.

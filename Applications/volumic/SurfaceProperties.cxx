@@ -204,6 +204,25 @@ const std::vector<PropertyOption>& SurfaceProperties()
   return properties;
 }
 
+std::string InWordsOfOptions(std::string message)
+{
+  for (const PropertyOption& option : SurfaceProperties())
+  {
+    std::string label;
+    for (const char c : option.Property)
+    {
+      label += (c >= 'A' && c <= 'Z' && !label.empty() ? " " : "") + std::string(1, c);
+    }
+    // A single word may be meant as one; what a switch is called may be the contrary.
+    const bool isPlain = label.find(' ') != std::string::npos && !option.Argument.empty();
+    for (std::size_t at = 0; isPlain && (at = message.find(label, at)) != std::string::npos;)
+    {
+      message.replace(at, label.size(), "--" + option.Option);
+    }
+  }
+  return message;
+}
+
 bool IsOfLabelsOnly(const PropertyOption& option)
 {
   return option.Class == "vtkLabelsToSurfaces";
