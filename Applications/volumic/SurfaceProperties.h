@@ -42,7 +42,7 @@ const std::vector<PropertyOption>& SurfaceProperties();
  * A message of a filter, which names properties as ParaView's panel does, with the options in their
  * place that are given the same value: "Finest Level" becomes "--finest".
  */
-std::string InWordsOfOptions(std::string message);
+std::string InWordsOfOptions(const std::string& message);
 
 /** Whether the property means something for the surfaces of labels (--labels). */
 bool IsOfLabels(const PropertyOption& option);
