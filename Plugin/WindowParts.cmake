@@ -20,11 +20,14 @@ function (volumic_panel_widget kind type class)
 endfunction ()
 
 if (PARAVIEW_USE_QT)
+  volumic_panel_widget(WIDGET_DECORATOR Summary pqSummaryDecorator)
+  volumic_panel_widget(WIDGET_DECORATOR Unit pqUnitDecorator)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
   volumic_panel_widget(WIDGET LabelTable pqLabelTablePropertyWidget)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
   volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
   list(APPEND volumic_window_sources
+    Widgets/LabelBelow.cxx Widgets/LabelBelow.h
     Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
     Widgets/PointHandles.cxx Widgets/PointHandles.h)
 
