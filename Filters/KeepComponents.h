@@ -31,7 +31,7 @@ struct ComponentChoice
 /**
  * As the settings have it, and the inputs, in the workspace of an image.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument if the settings are out of range, or there are no points to choose by
+ * @throws std::invalid_argument if the settings are out of range, or points to choose by are missing
  */
 ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
   const Workspace& space, const std::array<int, 3>& size);

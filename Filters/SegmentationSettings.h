@@ -41,8 +41,8 @@ enum class KeepComponentsType
 
 /**
  * Where a run ends, what of its surfaces is put out, and how much time, memory and how many threads
- * it has. A run can go on from where one has ended that differs from it by these only, where it does
- * not start from the seeds.
+ * it has. A run can go on from where one has ended that differs from it by these only (by seeds, if
+ * it does not start from them).
  */
 struct SegmentationEnd
 {

@@ -139,8 +139,8 @@
  * shown at once, and a finer one is reached from the level at which the last run has ended
  * (FinestLevel 2, then 0). Where someone watches, as ParaView's window does (GetNeedsUpdate()), all
  * components stay, without MemoryLimit and ScratchDirectory: with another KeepComponents,
- * MinimumComponentVolume or, without Initialization Seeds, SeedPositions others are shown at once. The
- * outputs are the same bits as those of a run from the start, but for the seconds in History. To go
+ * MinimumComponentVolume or, without Initialization Seeds, SeedPositions others are shown at once.
+ * The outputs are the same bits as those of a run from the start, but for the seconds in History. To go
  * on it holds the surface and the levels of the pyramid that it has not left, and these only where
  * the run has ended at level 1 or above, so that no memory of level 0 is held; else no more than
  * the surfaces of the levels. A run that was cancelled or ran out of time begins anew. ForgetRun()
@@ -164,8 +164,8 @@
  * can go on from: a folder `volumic-<16 digits>` in the scratch directory, one for each volume and
  * choice of settings, with the surfaces of the levels so far. It goes when the run is over; it
  * stays where the process is killed, or the run stopped or cut off by TimeLimit. With Resume a run
- * of the same volume and settings goes on from there; those of Going on may differ, but for the choice
- * of components, and Profile.
+ * of the same volume and settings goes on from there; those of Going on may differ, but for the
+ * choice of components, and Profile.
  * The outputs are the same bits as without interruption, but for the seconds in History; those of
  * the levels that were taken over are the other process's. Where there are only checkpoints of
  * another volume or other settings, it is an error, which names what differs.

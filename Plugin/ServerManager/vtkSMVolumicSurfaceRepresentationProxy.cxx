@@ -27,7 +27,7 @@ vtkStandardNewMacro(vtkSMVolumicSurfaceRepresentationProxy);
 
 namespace
 {
-/** Of the ten largest components, by size; easy to tell apart, and apart from the grey of the others. */
+/** Of the largest components, by size; easy to tell apart, and apart from the grey of the others. */
 constexpr std::array<std::array<double, 3>, 10> ComponentColors = { {
   { 0.89, 0.85, 0.76 }, { 0.12, 0.47, 0.71 }, { 1.00, 0.50, 0.05 }, { 0.17, 0.63, 0.17 },
   { 0.84, 0.15, 0.16 }, { 0.58, 0.40, 0.74 }, { 0.55, 0.34, 0.29 }, { 0.89, 0.47, 0.76 },

@@ -160,7 +160,8 @@ TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
 
 TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
 {
-  const Choice choices[] = { [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); },
+  const Choice choices[] = {
+    [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); },
     [](vtkDeformableSurface* f)
     {
       f->SetKeepComponentsToComponentsAtPoints();
