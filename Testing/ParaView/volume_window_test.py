@@ -130,15 +130,15 @@ class VolumeWindowTest(window.WindowTestCase):
                         for name in ("Area", "Volume"))
         limit = f"{PROPERTIES}/TimeLimit/DoubleLineEdit0"
         self.play(VOLUME + [
-            FILTER, gui.pause(500), window.shown("ObjectIsBright/Summary", False),
-            APPLY, gui.pause(1000), window.shown("ObjectIsBright/Summary", True),
-            gui.check(f"{PROPERTIES}/ObjectIsBright/Summary", "text",
+            FILTER, gui.pause(500), window.shown("KeepComponents/Summary", False),
+            APPLY, gui.pause(1000), window.shown("KeepComponents/Summary", True),
+            gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
                       f"<b>Surface</b> of level 0<br>{surface.GetNumberOfPoints()} vertices, "
                       f"1 part, genus 0<br>area {area:g} world units²<br>volume {volume:g} world "
                       "units³<br>0.0 % of the boundary missing<br>no self-intersections"),
             SHOW_ADVANCED, gui.pause(500), gui.event(limit, "set_string", "1e-9"),
             gui.event(ISO_VALUE, "set_string", "140"), APPLY,
-            gui.pause(1000), gui.check(f"{PROPERTIES}/ObjectIsBright/Summary", "text",
+            gui.pause(1000), gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
                                        "<b>Unfinished</b> (time limit): no surface yet")],
             "volume-summary")
 
