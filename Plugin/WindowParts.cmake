@@ -31,11 +31,13 @@ if (PARAVIEW_USE_QT)
     Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
     Widgets/PointHandles.cxx Widgets/PointHandles.h)
 
-  paraview_plugin_add_auto_start(
-    CLASS_NAME pqAbortButtonBehavior
-    INTERFACES interfaces
-    SOURCES sources)
-  list(APPEND volumic_window_interfaces ${interfaces})
-  list(APPEND volumic_window_sources ${sources}
-    Window/pqAbortButtonBehavior.cxx Window/pqAbortButtonBehavior.h)
+  foreach (behavior IN ITEMS pqAbortButtonBehavior pqSurfaceColorBehavior)
+    paraview_plugin_add_auto_start(
+      CLASS_NAME "${behavior}"
+      INTERFACES interfaces
+      SOURCES sources)
+    list(APPEND volumic_window_interfaces ${interfaces})
+    list(APPEND volumic_window_sources ${sources}
+      "Window/${behavior}.cxx" "Window/${behavior}.h")
+  endforeach ()
 endif ()
