@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "KeepComponents.h"
 
+#include "CheckEnumeration.h"
 #include "Core/Common/Blocks.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
+#include "InputPoints.h"
 #include "SurfaceTransform.h"
 
 #include <algorithm>
@@ -258,6 +261,37 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
   }
   return part;
 }
+}
+
+ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
+  const Workspace& space, const std::array<int, 3>& size)
+{
+  const SegmentationEnd& end = settings.End;
+  CheckEnumeration("Keep Components", end.KeepComponents, KeepComponentsType::LargeComponents);
+  if (!(end.MinimumComponentVolume >= 0.0))
+  {
+    Refuse("Minimum Component Volume is ", end.MinimumComponentVolume, "; it must be 0 or more.");
+  }
+  ComponentChoice choice;
+  choice.Mode = end.KeepComponents;
+  choice.MinimumVolume = end.MinimumComponentVolume;
+  if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
+  {
+    choice.Places = PlacesOf(request.InitialSurface, request.AttractingPoints, space);
+    for (const std::vector<Point>& more :
+      { PositionsOf(end.SeedPositions, "Seed Positions", space, size),
+        PositionsOf(settings.AttractingPositions, "Attracting Positions", space, size) })
+    {
+      choice.Places.insert(choice.Places.end(), more.begin(), more.end());
+    }
+    if (choice.Places.empty())
+    {
+      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
+             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
+             "known to belong to the object to input port 2 (Attracting Points).");
+    }
+  }
+  return choice;
 }
 
 SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,

@@ -5,9 +5,11 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "SegmentationRequest.h"
 #include "SegmentationSettings.h"
 #include "Workspace.h"
 
+#include <array>
 #include <vector>
 
 namespace volumic
@@ -18,7 +20,21 @@ struct ComponentChoice
   KeepComponentsType Mode = KeepComponentsType::AllComponents;
   double MinimumVolume = 0.0; ///< world units, cubed
   std::vector<Point> Places;  ///< workspace
+
+  bool operator==(const ComponentChoice& other) const
+  {
+    return this->Mode == other.Mode && this->MinimumVolume == other.MinimumVolume &&
+      this->Places == other.Places;
+  }
 };
+
+/**
+ * As the settings have it, and the inputs, in the workspace of an image.
+ * @param size voxels of level 0 along each axis
+ * @throws std::invalid_argument if the settings are out of range, or points to choose by are missing
+ */
+ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
+  const Workspace& space, const std::array<int, 3>& size);
 
 /**
  * The part of a closed surface that is chosen. A cavity (negative volume) belongs to the component

@@ -98,10 +98,11 @@ LabelNames::Color LabelNames::ColorOf(int label) const
   {
     return found->second;
   }
-  // Of numbers chosen so that the first 30 labels differ by 15 (CIE 1976), the first 120 by 6.8.
+  // Of numbers chosen so that the first 30 labels differ by 17 (CIE 1976), the first 120 by 7.4, and
+  // that those of maps with one object, 1 and 255, are light enough to show its relief.
   const auto spread = [label](double step) { return step * label - std::floor(step * label); };
   constexpr double goldenRatio = 0.6180339887498949;
-  const double hue = std::fmod(0.05 + spread(goldenRatio), 1.0);
+  const double hue = std::fmod(0.68 + spread(goldenRatio), 1.0);
   const double saturation = 0.4 + 0.55 * spread(0.882);
   const double value = 0.55 + 0.45 * spread(0.958);
   Color color;

@@ -295,8 +295,8 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   settings.Recovery = RecoveryType::NoRecovery;
   settings.Metric = static_cast<Metric>(this->Settings.Metric);
   settings.EdgeLength = this->Settings.EdgeLength;
-  settings.KeepComponents = static_cast<KeepComponentsType>(this->Settings.KeepComponents);
-  settings.MinimumComponentVolume = this->Settings.MinimumComponentVolume;
+  settings.End.KeepComponents = static_cast<KeepComponentsType>(this->Settings.KeepComponents);
+  settings.End.MinimumComponentVolume = this->Settings.MinimumComponentVolume;
   settings.Initialization = InitializationType::IsoSurface;
   settings.End.FinestLevel = level;
   vtkNew<vtkImagePyramid> pyramid;

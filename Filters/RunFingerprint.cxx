@@ -158,7 +158,7 @@ void RunFingerprint::AddSettings(const SegmentationSettings& settings)
   this->Add("Coarsest Level", settings.CoarsestLevel);
   this->Add("Initialization", settings.Initialization);
   this->AddHidden("Seed Radius", NumberText(options.SeedRadius)); // In the workspace's unit.
-  this->AddHidden("Seed Positions", TextOf(settings.SeedPositions));
+  this->AddHidden("Seed Positions", TextOf(settings.End.SeedPositions));
   this->AddHidden("Attracting Positions", TextOf(settings.AttractingPositions));
   this->Add("Sampling Ratio", options.SamplingRatio);
   this->Add("Tension Weight", options.TensionWeight);
@@ -176,8 +176,8 @@ void RunFingerprint::AddSettings(const SegmentationSettings& settings)
   this->Add("Snap To Iso Value", options.SnapToIsoValue);
   this->Add("Recovery", settings.Recovery);
   this->Add("Minimum Part Size", options.MinimumPartSize);
-  this->Add("Keep Components", settings.KeepComponents);
-  this->Add("Minimum Component Volume", settings.MinimumComponentVolume);
+  this->Add("Keep Components", settings.End.KeepComponents);
+  this->Add("Minimum Component Volume", settings.End.MinimumComponentVolume);
   this->Add("Snapshot Interval", settings.SnapshotInterval);
 }
 

@@ -102,7 +102,6 @@ void SegmentationCache::Keep(
   }
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
   this->PlannedEnd = run->GetSettings().End.FinestLevel;
-  this->Recovery = run->HasRecovery();
   if (run->CanGoOn())
   {
     this->Run = std::move(run);
@@ -142,10 +141,12 @@ int SegmentationCache::EndOf(const SegmentationEnd& end) const
   return end.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
 }
 
-const SegmentationResults* SegmentationCache::ResultsFor(const SegmentationEnd& end) const
+const SegmentationResults* SegmentationCache::ResultsFor(
+  const SegmentationSettings& settings, const SegmentationRequest& request)
 {
-  const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
-  return results.HasAtRest(this->EndOf(end)) ? &results : nullptr;
+  SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
+  const bool isThere = results.HasAtRest(this->EndOf(request.End));
+  return isThere && results.Choose(settings, request) ? &results : nullptr;
 }
 
 int SegmentationCache::EndOfRun() const

@@ -46,8 +46,12 @@ public:
   /** Whether neither the filter nor its inputs have changed otherwise, nor the number of ranks. */
   bool IsValidFor(vtkAlgorithm* filter, int ranks) const;
 
-  /** The results of a run that would end where asked, null where there are none. */
-  const SegmentationResults* ResultsFor(const SegmentationEnd& end) const;
+  /**
+   * The results of a run that would end and put out as asked, null where there are none.
+   * @throws as SegmentationResults::Choose()
+   */
+  const SegmentationResults* ResultsFor(
+    const SegmentationSettings& settings, const SegmentationRequest& request);
   /** The level at which it ends. */
   int EndOf(const SegmentationEnd& end) const;
   /** Whether there is a run that can. */
@@ -56,8 +60,6 @@ public:
   int EndOfRun() const;
   /** The run, where it can go on from what it has; else null. It is kept no longer. */
   std::unique_ptr<SurfaceSegmentation> TakeRun();
-
-  bool HasRecovery() const { return this->Recovery; }
 
 private:
   using Inputs = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
@@ -70,7 +72,6 @@ private:
   Inputs InputsOfRun;
   bool EndIsPlanned = false;
   int PlannedEnd = 0;
-  bool Recovery = false;
 };
 }
 

@@ -53,7 +53,7 @@ SegmentationLevels::~SegmentationLevels() = default;
 
 std::vector<Point> SegmentationLevels::SeedPositions(const SegmentationSettings& settings) const
 {
-  return PositionsOf(settings.SeedPositions, "Seed Positions", this->GetWorkspace(),
+  return PositionsOf(settings.End.SeedPositions, "Seed Positions", this->GetWorkspace(),
     this->Voxels.SizeOfLevel0());
 }
 

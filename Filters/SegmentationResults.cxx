@@ -4,6 +4,7 @@
 
 #include "Core/Common/Join.h"
 #include "HistoryTable.h"
+#include "HostThreads.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace volumic
 {
@@ -38,15 +40,53 @@ vtkSmartPointer<vtkPolyData> ShallowCopyOf(vtkPolyData* surface)
 
 SegmentationResults::SegmentationResults() = default;
 
-SegmentationResults::SegmentationResults(
-  int numberOfLevels, int coarsest, const Workspace& space, bool withPhases)
-  : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), WithPhases(withPhases)
+SegmentationResults::SegmentationResults(int numberOfLevels, int coarsest,
+  const Workspace& space, const std::array<int, 3>& size, bool withPhases)
+  : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), Size(size)
+  , WithPhases(withPhases)
 {
 }
 
 SegmentationResults::~SegmentationResults() = default;
 SegmentationResults::SegmentationResults(const SegmentationResults&) = default;
 SegmentationResults& SegmentationResults::operator=(const SegmentationResults&) = default;
+
+bool SegmentationResults::Choose(
+  const SegmentationSettings& settings, const SegmentationRequest& request)
+{
+  const ComponentChoice choice = ChoiceOf(settings, request, this->Space, this->Size);
+  if (choice == this->Choice)
+  {
+    return true;
+  }
+  if (std::any_of(this->ByLevel.begin(), this->ByLevel.end(),
+        [](const auto& level) { return !level.second.Whole; }))
+  {
+    return false;
+  }
+  this->Choice = choice;
+  HostThreads threads(settings.End.NumberOfThreads);
+  threads.Run(
+    [&]
+    {
+      for (auto& level : this->ByLevel)
+      {
+        this->MakeSurface(level.second, *level.second.Whole, threads);
+      }
+    });
+  return true;
+}
+
+void SegmentationResults::MakeSurface(
+  Level& result, SurfaceResult surface, Executor& threads) const
+{
+  const bool isEmpty = surface.Points.empty();
+  // Each step uses up what the one before has made.
+  SurfaceResult kept = KeepChosen(std::move(surface), this->Choice, this->Space, threads);
+  result.KeepsNone = kept.Points.empty() && !isEmpty;
+  threads.EndPhase("Components kept");
+  result.Surface = MakePolyData(std::move(kept), result.Description, this->Space, threads);
+}
 
 void SegmentationResults::AddSnapshot(int level, const std::string& name, vtkPolyData* surface)
 {
@@ -111,7 +151,7 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
 std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
 {
   // The field data tell the rest; what is worth a warning needs another choice to be made.
-  constexpr double notable = 0.01;
+  constexpr double notable = 0.05;
   const auto end = this->ByLevel.lower_bound(last);
   if (end == this->ByLevel.end() || !end->second.IsAtRest)
   {

@@ -4,14 +4,19 @@
 #define volumicSegmentationResults_h
 
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "KeepComponents.h"
+#include "SegmentationRequest.h"
+#include "SegmentationSettings.h"
 #include "SurfaceOutput.h"
 #include "Workspace.h"
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,7 +33,8 @@ class SegmentationResults
 public:
   struct Level
   {
-    vtkSmartPointer<vtkPolyData> Surface;
+    vtkSmartPointer<vtkPolyData> Surface;       ///< of the components that are chosen
+    std::shared_ptr<const SurfaceResult> Whole; ///< of all; null: it was not kept
     SurfaceDescription Description;
     bool KeepsNone = false; ///< KeepComponents has left nothing of a surface that was there.
     bool IsAtRest = false;  ///< Not cut off while it evolved.
@@ -42,7 +48,9 @@ public:
   };
 
   SegmentationResults();
-  SegmentationResults(int numberOfLevels, int coarsest, const Workspace& space, bool withPhases);
+  /** @param size voxels of level 0 along each axis */
+  SegmentationResults(int numberOfLevels, int coarsest, const Workspace& space,
+    const std::array<int, 3>& size, bool withPhases);
   ~SegmentationResults();
   SegmentationResults(const SegmentationResults&);
   SegmentationResults& operator=(const SegmentationResults&);
@@ -50,6 +58,15 @@ public:
   /** The finest level that a preview visits. */
   void SetPreviewLevel(int level) { this->PreviewLevel = level; }
   int LevelOfPreview() const { return this->PreviewLevel; }
+
+  /**
+   * Makes the surfaces those of the components that are wanted from now on.
+   * @return false where they cannot be, as those of all components were not kept
+   * @throws as ChoiceOf()
+   */
+  bool Choose(const SegmentationSettings& settings, const SegmentationRequest& request);
+  /** Of a level, by its description: the part of it that is chosen, and whether that is none. */
+  void MakeSurface(Level& result, SurfaceResult surface, Executor& threads) const;
 
   void SetLevel(int level, const Level& result) { this->ByLevel[level] = result; }
   void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
@@ -82,6 +99,8 @@ private:
   int Coarsest = 0;
   int PreviewLevel = 0;
   Workspace Space;
+  std::array<int, 3> Size = { 0, 0, 0 };
+  ComponentChoice Choice;
   bool WithPhases = false;
   std::map<int, Level> ByLevel;
   std::vector<HistoryRow> Rows;

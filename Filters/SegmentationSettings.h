@@ -40,12 +40,16 @@ enum class KeepComponentsType
 };
 
 /**
- * Where a run ends and how much time, memory and how many threads it has. A run can go on from
- * where one has ended that differs from it by these only.
+ * Where a run ends, what of its surfaces is put out, and how much time, memory and how many threads
+ * it has. A run can go on from where one has ended that differs from it by these only (by seeds, if
+ * it does not start from them).
  */
 struct SegmentationEnd
 {
   int FinestLevel = 0;
+  KeepComponentsType KeepComponents = KeepComponentsType::AllComponents;
+  double MinimumComponentVolume = 0.0; ///< world units cubed
+  std::vector<Point> SeedPositions;    ///< world, beside those of input port 1
   double TimeLimit = 0.0; ///< seconds; 0: none
   bool Preview = false;   ///< End at a level of few voxels.
   bool ShowLevels = false;
@@ -73,15 +77,22 @@ struct SegmentationSettings
   volumic::Metric Metric = volumic::Metric::World;
   double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
   InitializationType Initialization = InitializationType::EnclosingIcosahedron;
-  std::vector<Point> SeedPositions; ///< world, beside those of input port 1
-  int CoarsestLevel = -1;           ///< -1: the last that serves
-  bool BeginsBelowImage = false;    ///< at level -1, whatever CoarsestLevel is; FinestLevel is -1
+  int CoarsestLevel = -1;        ///< -1: the last that serves
+  bool BeginsBelowImage = false; ///< at level -1, whatever CoarsestLevel is; FinestLevel is -1
   std::vector<Point> AttractingPositions; ///< world, beside those of input port 2
   RecoveryType Recovery = RecoveryType::RecoverObjects;
-  KeepComponentsType KeepComponents = KeepComponentsType::AllComponents;
-  double MinimumComponentVolume = 0.0; ///< world units cubed
-  bool Profile = false;                ///< columns of the seconds of each phase in the history
-  int SnapshotInterval = 0;            ///< iterations; 0: no snapshots
+  bool Profile = false;     ///< columns of the seconds of each phase in the history
+  int SnapshotInterval = 0; ///< iterations; 0: no snapshots
+
+  /**
+   * Whether parts of the object that no surface has are worth a warning. Of parts that are not
+   * there nobody can say whether they would have been kept.
+   */
+  bool WantsAllParts() const
+  {
+    return this->Recovery != RecoveryType::NoRecovery && !this->End.Preview &&
+      this->End.KeepComponents == KeepComponentsType::AllComponents;
+  }
 };
 }
 

@@ -53,39 +53,9 @@ SurfaceSegmentation::SurfaceSegmentation(
   this->Renew(request);
   this->ChooseEdgeLength(volume);
   this->Levels.ReadAttraction(volume.Levels, this->Settings, this->Request);
-  this->ReadComponentChoice();
 }
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
-
-void SurfaceSegmentation::ReadComponentChoice()
-{
-  CheckEnumeration(
-    "Keep Components", this->Settings.KeepComponents, KeepComponentsType::LargeComponents);
-  if (!(this->Settings.MinimumComponentVolume >= 0.0))
-  {
-    Refuse("Minimum Component Volume is ", this->Settings.MinimumComponentVolume,
-      "; it must be 0 or more.");
-  }
-  this->Components.Mode = this->Settings.KeepComponents;
-  this->Components.MinimumVolume = this->Settings.MinimumComponentVolume;
-  if (this->Components.Mode == KeepComponentsType::ComponentsAtPoints)
-  {
-    this->Components.Places = PlacesOf(this->Request.InitialSurface, this->Request.AttractingPoints,
-      this->Levels.GetWorkspace());
-    for (const std::vector<Point>& more : { this->Levels.SeedPositions(this->Settings),
-           this->Levels.AttractingPositions(this->Settings) })
-    {
-      this->Components.Places.insert(this->Components.Places.end(), more.begin(), more.end());
-    }
-    if (this->Components.Places.empty())
-    {
-      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
-             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
-             "known to belong to the object to input port 2 (Attracting Points).");
-    }
-  }
-}
 
 void SurfaceSegmentation::ChooseEdgeLength(const SegmentationVolume& volume)
 {
@@ -158,6 +128,7 @@ void SurfaceSegmentation::Renew(const SegmentationRequest& request)
   {
     this->Settings.End.FinestLevel = planned;
   }
+  this->HasChosen = !this->Evolution || this->Found.Choose(this->Settings, request);
 }
 
 void SurfaceSegmentation::Run()
@@ -215,8 +186,7 @@ void SurfaceSegmentation::Run()
   }
   if (!this->Request.IsStep)
   {
-    this->Found.WarnOf(
-      this->Choice.Last, this->HasRecovery() && !this->Settings.End.Preview, this->Request.Warn);
+    this->Found.WarnOf(this->Choice.Last, this->Settings.WantsAllParts(), this->Request.Warn);
   }
 }
 
@@ -224,7 +194,8 @@ bool SurfaceSegmentation::CanServe() const
 {
   // Those up to the level at which it rests are there.
   const int coarsest = ChooseLevels(this->Levels, this->Settings).Coarsest;
-  return coarsest == this->Choice.Coarsest || this->Levels.HasVoxels(coarsest);
+  return this->HasChosen &&
+    (coarsest == this->Choice.Coarsest || this->Levels.HasVoxels(coarsest));
 }
 
 bool SurfaceSegmentation::CanGoOn() const
@@ -237,7 +208,8 @@ void SurfaceSegmentation::Begin()
   this->Evolution.reset();
   this->GoesOn = false;
   this->Found = SegmentationResults(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
-    this->Levels.GetWorkspace(), this->Settings.Profile);
+    this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0(), this->Settings.Profile);
+  this->Found.Choose(this->Settings, this->Request);
   this->Found.SetPreviewLevel(this->Choice.Preview);
 }
 
@@ -447,15 +419,12 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult 
     description.LostCavities = lost.FoundCavities;
     description.RecoveredCavities = lost.EnclosedCavities;
   }
-  // Each step uses up what the one before has made.
   this->Threads->EndPhase("Surface handed out");
-  const bool isEmpty = surface.Points.empty();
-  SurfaceResult kept = KeepChosen(
-    std::move(surface), this->Components, this->Levels.GetWorkspace(), *this->Threads);
-  result.KeepsNone = kept.Points.empty() && !isEmpty;
-  this->Threads->EndPhase("Components kept");
-  result.Surface =
-    MakePolyData(std::move(kept), description, this->Levels.GetWorkspace(), *this->Threads);
+  if (this->Request.KeepsWhole)
+  {
+    result.Whole = std::make_shared<const SurfaceResult>(surface);
+  }
+  this->Found.MakeSurface(result, std::move(surface), *this->Threads);
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
   this->Threads->EndPhase("Output");

@@ -8,7 +8,6 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/LevelImage.h"
 #include "HostThreads.h"
-#include "KeepComponents.h"
 #include "LevelChoice.h"
 #include "ProgressMonitor.h"
 #include "SegmentationCheckpoint.h"
@@ -40,7 +39,10 @@ public:
   SurfaceSegmentation(const SegmentationVolume& volume, const SegmentationRequest& request);
   ~SurfaceSegmentation();
 
-  /** For the next Run(). With EdgeLength the finest level stays what was planned. */
+  /**
+   * For the next Run(). With EdgeLength the finest level stays what was planned.
+   * @throws as SegmentationResults::Choose()
+   */
   void Renew(const SegmentationRequest& request);
 
   /**
@@ -61,14 +63,13 @@ public:
   bool CanGoOn() const;
 
   const SegmentationSettings& GetSettings() const { return this->Settings; }
-  bool HasRecovery() const { return this->Settings.Options.RecoverLostParts; }
   const SegmentationResults& Results() const { return this->Found; }
+  SegmentationResults& Results() { return this->Found; }
   /** The level at which the last Run() was to end. */
   int EndsAt() const { return this->Choice.Last; }
 
 private:
   void ChooseEdgeLength(const SegmentationVolume& volume);
-  void ReadComponentChoice();
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   void Begin();
   void RunLevels();
@@ -86,7 +87,6 @@ private:
   SegmentationSettings Settings; ///< End as asked for; SeedRadius in the workspace
   SegmentationRequest Request;
   SegmentationLevels Levels;
-  ComponentChoice Components;
   LevelChoice Choice;
   SurfaceSnapshots Snapshots;
   SegmentationResults Found;
@@ -96,6 +96,7 @@ private:
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
+  bool HasChosen = true; ///< The components of what is there are those that are wanted.
   std::shared_ptr<SegmentationCheckpoint> Left;
   std::unique_ptr<RankLevel> Shared; ///< what the evolution refers to, after a level on all ranks
 };

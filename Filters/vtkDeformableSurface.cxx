@@ -47,6 +47,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkDeformableSurface);
 
@@ -66,7 +67,7 @@ bool BuildsPyramid(vtkDataObject* input)
 /** The outputs of a run that was stopped before it had a level. */
 void FillByNothing(vtkInformationVector* output, bool isAborted, bool withPhases)
 {
-  volumic::SegmentationResults nothing(0, 0, volumic::Workspace(), withPhases);
+  volumic::SegmentationResults nothing(0, 0, volumic::Workspace(), {}, withPhases);
   nothing.SetStoppedSurface(volumic::MakeStopped(
     0, isAborted ? Describe(volumic::StopReason::Cancelled) : volumic::TimeLimitReason));
   nothing.FillOutputs(0, output);
@@ -271,7 +272,7 @@ vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
   const std::string whole = volumic::SlabInput(this).DescribeWhole();
   if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
   {
-    vtkWarningMacro("Input port 0: " << whole);
+    this->Warn("Input port 0: " + whole);
   }
   if (slabs.IsStopped || !slabs.Image)
   {
@@ -376,6 +377,8 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   request.EdgeSelection = this->GetInputArrayInformation(1);
   request.Checkpoints.AreLeft =
     request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
+  // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
+  request.KeepsWhole = internals.IsWatched && !request.Checkpoints.AreLeft;
   request.Checkpoints.Directory = request.End.ScratchDirectory;
   request.Checkpoints.Resumes = request.End.Resume;
   request.Checkpoints.Stay = this->Internals->LeavesCheckpoints;
@@ -384,7 +387,7 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
   request.Progress = [this, before](double share, const std::string& text)
   { return this->Internals->Alone->GoOn(before + (1.0 - before) * share, text); };
-  request.Warn = [this](const std::string& text) { vtkWarningMacro(<< text); };
+  request.Warn = [this](const std::string& text) { this->Warn(text); };
   if (this->Internals->Ranks->NumberOfRanks() > 1)
   {
     request.Ranks = this->Internals->Ranks.get();
@@ -426,15 +429,16 @@ void vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, boo
 bool vtkDeformableSurface::ShowKept(
   const volumic::SegmentationRequest& request, vtkInformationVector* output)
 {
-  const volumic::SegmentationCache& cache = this->Internals->Cache;
-  const volumic::SegmentationResults* results = cache.ResultsFor(request.End);
+  volumic::SegmentationCache& cache = this->Internals->Cache;
+  const volumic::SegmentationResults* results =
+    cache.ResultsFor(this->Internals->Settings, request);
   if (!results)
   {
     return false;
   }
   const int end = cache.EndOf(request.End);
   results->FillOutputs(end, output);
-  results->WarnOf(end, cache.HasRecovery() && !this->Internals->Settings.End.Preview, request.Warn);
+  results->WarnOf(end, this->Internals->Settings.WantsAllParts(), request.Warn);
   return true;
 }
 
@@ -550,10 +554,36 @@ void vtkDeformableSurface::ShowRun(const volumic::SurfaceSegmentation& run,
     run.EndsAt() <= settings.End.FinestLevel && settings.EdgeLength == 0.0;
   if (request.IsStep && isFinest)
   {
-    run.Results().WarnOf(
-      run.EndsAt(), run.HasRecovery() && !settings.End.Preview, request.Warn);
+    run.Results().WarnOf(run.EndsAt(), settings.WantsAllParts(), request.Warn);
   }
   this->Internals->IsOnTheWay = request.IsStep && !isCutOff && !isFinest;
+}
+
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::Warn(const std::string& text)
+{
+  std::vector<std::string>& warnings = this->Internals->Warnings;
+  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end())
+  {
+    warnings.push_back(text);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::TellWarnings()
+{
+  for (const std::string& text : this->Internals->Memory.TakeWarnings())
+  {
+    this->Warn(text);
+  }
+  if (this->Internals->IsOnTheWay)
+  {
+    return;
+  }
+  for (const std::string& text : std::exchange(this->Internals->Warnings, {}))
+  {
+    vtkWarningMacro(<< text);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -590,10 +620,6 @@ int vtkDeformableSurface::RequestData(
   {
     this->RunOrGoOn(inputVector, outputVector);
     volumic::ScatterOutputs(ranks, request, outputVector);
-    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
-    {
-      vtkWarningMacro(<< warning);
-    }
     ranks.IsAny(false); // Who is through with it here hears of no failure any more.
   }
   catch (const std::bad_alloc& error)
@@ -611,6 +637,7 @@ int vtkDeformableSurface::RequestData(
   {
     this->EndByError({ volumic::ErrorCodeOf(error), error.what() }, outputVector);
   }
+  this->TellWarnings();
   this->Internals->InitialSurface = nullptr;
   this->Internals->AttractingPoints = nullptr;
   const vtkMTimeType before = this->GetMTime();

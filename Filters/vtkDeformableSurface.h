@@ -111,10 +111,11 @@
  * same bits for any number of threads.
  *
  * @par Errors:
- * A message names the port, the array or the value, and the way out; the outputs are empty. At
- * the end of a run a warning tells if nothing is left, if KeepComponents leaves nothing, or if,
- * with Recovery and without Preview, `MissingBoundary` is more than 0.01 at the finest level; at
- * its start one tells the number of voxels that are NaN. All else is told by the field data only.
+ * A message names the port, the array or the value, and the way out; the outputs are empty.
+ * Warnings come at the end of a run: if nothing is left, if KeepComponents leaves nothing, if
+ * `MissingBoundary` is more than 0.05 at the finest level, with Recovery, without Preview and where
+ * KeepComponents leaves out none; and the number of voxels that are NaN, and where MemoryLimit or
+ * checkpoints cannot be kept. All else is told by the field data only.
  * @par
  * Update() goes on after an error, so that whatever follows in the pipeline gets the empty outputs.
  * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run, also
@@ -136,8 +137,10 @@
  * Preview, ShowLevels, TimeLimit, MemoryLimit, ScratchDirectory or NumberOfThreads, and nothing
  * else changed, neither in the filter nor in its inputs, a level at which the surface has rested is
  * shown at once, and a finer one is reached from the level at which the last run has ended
- * (FinestLevel 2, then 0). The
- * outputs are the same bits as those of a run from the start, but for the seconds in History. To go
+ * (FinestLevel 2, then 0). Where someone watches, as ParaView's window does (GetNeedsUpdate()), all
+ * components stay, without MemoryLimit and ScratchDirectory: with another KeepComponents,
+ * MinimumComponentVolume or, without Initialization Seeds, SeedPositions others are shown at once.
+ * The outputs are the same bits as those of a run from the start, but for the seconds in History. To go
  * on it holds the surface and the levels of the pyramid that it has not left, and these only where
  * the run has ended at level 1 or above, so that no memory of level 0 is held; else no more than
  * the surfaces of the levels. A run that was cancelled or ran out of time begins anew. ForgetRun()
@@ -161,7 +164,8 @@
  * can go on from: a folder `volumic-<16 digits>` in the scratch directory, one for each volume and
  * choice of settings, with the surfaces of the levels so far. It goes when the run is over; it
  * stays where the process is killed, or the run stopped or cut off by TimeLimit. With Resume a run
- * of the same volume and settings goes on from there; those of Going on may differ, and Profile.
+ * of the same volume and settings goes on from there; those of Going on may differ, but for the
+ * choice of components, and Profile.
  * The outputs are the same bits as without interruption, but for the seconds in History; those of
  * the levels that were taken over are the other process's. Where there are only checkpoints of
  * another volume or other settings, it is an error, which names what differs.
@@ -774,6 +778,8 @@ protected:
   /// then what `volume` tells of the voxels is changed to fit. Null after a stop.
   vtkSmartPointer<vtkDataObject> ReadInput(
     vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume);
+  /// Told at the end of the run, once: ParaView's message box would cover the progress bar.
+  void Warn(const std::string& text);
   /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
   bool ShowPyramidProgress(double share, const char* text = "Building the pyramid");
 
@@ -804,6 +810,8 @@ private:
     const volumic::SegmentationRequest& request, vtkInformationVector* output);
   /// Whether this rank or another one was asked to stop.
   bool IsStopped();
+  /// Of all that Warn() was given, unless another run is still to come.
+  void TellWarnings();
   void EndByError(const volumic::AlgorithmError& error, vtkInformationVector* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties, and what is kept of the last run
 

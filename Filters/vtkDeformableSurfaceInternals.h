@@ -18,6 +18,8 @@
 #include <vtkSmartPointer.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 /** What vtkDeformableSurface holds, beside what all algorithms do. */
 class vtkDeformableSurface::vtkInternals
@@ -34,6 +36,7 @@ public:
   volumic::LevelsInPieces InPieces; ///< what this rank has of levels that no rank has whole
   vtkSmartPointer<vtkPolyData> InitialSurface;   ///< of the run, of all ranks
   vtkSmartPointer<vtkPolyData> AttractingPoints; ///< likewise
+  std::vector<std::string> Warnings; ///< to be told at the end
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
   bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.

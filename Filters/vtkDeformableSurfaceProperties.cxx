@@ -46,17 +46,23 @@ static_assert(AreEqual(Class::AllComponents, KeepComponentsType::AllComponents) 
   AreEqual(Class::ComponentsAtPoints, KeepComponentsType::ComponentsAtPoints) &&
   AreEqual(Class::LargeComponents, KeepComponentsType::LargeComponents));
 
-/** Changes a property that decides on the end of a run only: what is kept of the last one stays. */
+/** The filter has changed, but what is kept of its last run stays. */
+void ModifyEnd(vtkDeformableSurface* filter, volumic::SegmentationCache& cache)
+{
+  const vtkMTimeType before = filter->GetMTime();
+  filter->Modified();
+  cache.IgnoreChange(before, filter->GetMTime());
+}
+
+/** Changes a property that decides on the end of a run and its outputs only. */
 template <typename T>
 void ChangeEnd(
-  vtkDeformableSurface* filter, volumic::SegmentationCache& cache, T& property, T value)
+  vtkDeformableSurface* filter, volumic::SegmentationCache& cache, T& property, const T& value)
 {
   if (property != value)
   {
-    const vtkMTimeType before = filter->GetMTime();
     property = value;
-    filter->Modified();
-    cache.IgnoreChange(before, filter->GetMTime());
+    ModifyEnd(filter, cache);
   }
 }
 
@@ -94,33 +100,34 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
       this->Modified();                                                                            \
     }                                                                                              \
   }
-// A property that decides on the end of a run only.
+// A property that decides on the end of a run and its outputs only.
 #define VolumicEndProperty(name, type)                                                             \
   VolumicGetProperty(name, type, End.name)                                                         \
   void vtkDeformableSurface::Set##name(type value)                                                 \
   {                                                                                                \
-    vtkInternals& internals = *this->Internals;                                                    \
-    ChangeEnd(this, internals.Cache, internals.Settings.End.name, value);                          \
+    auto& property = this->Internals->Settings.End.name;                                           \
+    ChangeEnd(this, this->Internals->Cache, property,                                              \
+      static_cast<std::decay_t<decltype(property)>>(value));                                       \
   }
-// A list of positions: names of one and of all.
-#define VolumicPositions(one, all)                                                                 \
+// A list of positions: names of one and of all, and what is called when it has changed.
+#define VolumicPositions(one, all, field, modified)                                                \
   void vtkDeformableSurface::Add##one(double x, double y, double z)                                \
   {                                                                                                \
-    this->Internals->Settings.all.push_back({ x, y, z });                                          \
-    this->Modified();                                                                              \
+    this->Internals->Settings.field.push_back({ x, y, z });                                        \
+    modified;                                                                                      \
   }                                                                                                \
   void vtkDeformableSurface::Clear##all()                                                          \
   {                                                                                                \
-    this->Internals->Settings.all.clear();                                                         \
-    this->Modified();                                                                              \
+    this->Internals->Settings.field.clear();                                                       \
+    modified;                                                                                      \
   }                                                                                                \
   int vtkDeformableSurface::GetNumberOf##all()                                                     \
   {                                                                                                \
-    return static_cast<int>(this->Internals->Settings.all.size());                                 \
+    return static_cast<int>(this->Internals->Settings.field.size());                               \
   }                                                                                                \
   void vtkDeformableSurface::Get##one(int index, double position[3])                               \
   {                                                                                                \
-    CopyPosition(this->Internals->Settings.all, index, position);                                  \
+    CopyPosition(this->Internals->Settings.field, index, position);                                \
   }
 
 VolumicProperty(SelectedComponent, int, SelectedComponent)
@@ -143,8 +150,6 @@ VolumicProperty(Friction, double, Options.Friction)
 VolumicProperty(BorderValue, int, Options.BorderValue)
 VolumicProperty(Recovery, int, Recovery)
 VolumicProperty(MinimumPartSize, int, Options.MinimumPartSize)
-VolumicProperty(KeepComponents, int, KeepComponents)
-VolumicProperty(MinimumComponentVolume, double, MinimumComponentVolume)
 VolumicProperty(TopologyChanges, bool, Options.TopologyChanges)
 VolumicProperty(MaximumNumberOfIterations, int, Options.MaximumNumberOfIterations)
 VolumicProperty(ConvergenceTolerance, double, Options.ConvergenceTolerance)
@@ -153,9 +158,14 @@ VolumicProperty(SnapToIsoValue, bool, Options.SnapToIsoValue)
 VolumicProperty(Profile, bool, Profile)
 VolumicProperty(SnapshotInterval, int, SnapshotInterval)
 
-VolumicPositions(SeedPosition, SeedPositions)
-VolumicPositions(AttractingPosition, AttractingPositions)
+VolumicPositions(SeedPosition, SeedPositions, End.SeedPositions,
+  this->GetInitialization() == Seeds
+    ? this->Modified()
+    : ModifyEnd(this, this->Internals->Cache))
+VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, this->Modified())
 
+VolumicEndProperty(KeepComponents, int)
+VolumicEndProperty(MinimumComponentVolume, double)
 VolumicEndProperty(FinestLevel, int)
 VolumicEndProperty(TimeLimit, double)
 VolumicEndProperty(MemoryLimit, int)

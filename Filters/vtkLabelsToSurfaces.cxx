@@ -241,10 +241,6 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
     });
   internals.Settings.Check(
     volumic::Workspace(image->Image(), volumic::Metric::World).WorldUnit());
-  if (!image->Warning().empty())
-  {
-    vtkWarningMacro("Input port 0: " << image->Warning());
-  }
   threads.Run(
     [&]
     {
@@ -261,6 +257,11 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
   }
   const std::string warning =
     volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output);
+  // At the end: ParaView's message box would cover the progress bar.
+  if (!image->Warning().empty())
+  {
+    vtkWarningMacro("Input port 0: " << image->Warning());
+  }
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);

@@ -95,7 +95,7 @@ void vtkVolumeToSurface::TellOfLabels(vtkImageData* image, vtkInformation* selec
   this->HasToldOfLabels = !hint.empty();
   if (this->HasToldOfLabels)
   {
-    vtkWarningMacro("Input port 0: " << hint);
+    this->Warn("Input port 0: " + hint);
   }
 }
 

@@ -20,19 +20,24 @@ function (volumic_panel_widget kind type class)
 endfunction ()
 
 if (PARAVIEW_USE_QT)
+  volumic_panel_widget(WIDGET_DECORATOR Summary pqSummaryDecorator)
+  volumic_panel_widget(WIDGET_DECORATOR Unit pqUnitDecorator)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
   volumic_panel_widget(WIDGET LabelTable pqLabelTablePropertyWidget)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
   volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
   list(APPEND volumic_window_sources
+    Widgets/LabelBelow.cxx Widgets/LabelBelow.h
     Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
     Widgets/PointHandles.cxx Widgets/PointHandles.h)
 
-  paraview_plugin_add_auto_start(
-    CLASS_NAME pqAbortButtonBehavior
-    INTERFACES interfaces
-    SOURCES sources)
-  list(APPEND volumic_window_interfaces ${interfaces})
-  list(APPEND volumic_window_sources ${sources}
-    Window/pqAbortButtonBehavior.cxx Window/pqAbortButtonBehavior.h)
+  foreach (behavior IN ITEMS pqAbortButtonBehavior pqSurfaceColorBehavior)
+    paraview_plugin_add_auto_start(
+      CLASS_NAME "${behavior}"
+      INTERFACES interfaces
+      SOURCES sources)
+    list(APPEND volumic_window_interfaces ${interfaces})
+    list(APPEND volumic_window_sources ${sources}
+      "Window/${behavior}.cxx" "Window/${behavior}.h")
+  endforeach ()
 endif ()

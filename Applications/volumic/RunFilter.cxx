@@ -3,6 +3,7 @@
 #include "RunFilter.h"
 
 #include "Ranks.h"
+#include "SurfaceProperties.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
 
@@ -61,11 +62,14 @@ FilterRun Run(vtkAlgorithm* filter, const std::string& title, ProgressStyle styl
   FilterRun run;
   run.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   filter->RemoveObserver(tag);
-  run.Warnings = messages.Warnings;
+  for (const std::string& warning : messages.Warnings)
+  {
+    run.Warnings.push_back(InWordsOfOptions(warning));
+  }
   run.IsInterrupted = WasInterrupted();
   if (!messages.Errors.empty())
   {
-    throw Failure(messages.Errors.front());
+    throw Failure(InWordsOfOptions(messages.Errors.front()));
   }
   return run;
 }

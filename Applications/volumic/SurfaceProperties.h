@@ -38,6 +38,12 @@ struct PropertyOption
 /** All of them, in the order of the help. A test holds the list to the filters' Set methods. */
 const std::vector<PropertyOption>& SurfaceProperties();
 
+/**
+ * A message of a filter, which names properties as ParaView's panel does, with the options in their
+ * place that are given the same value: "Finest Level" becomes "--finest".
+ */
+std::string InWordsOfOptions(const std::string& message);
+
 /** Whether the property means something for the surfaces of labels (--labels). */
 bool IsOfLabels(const PropertyOption& option);
 

@@ -47,7 +47,7 @@ void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categor
     shown.insert(shown.end(), category.Color.begin(), category.Color.end());
   }
   SetNumbers(colors, "IndexedColors", shown);
-  SetNumbers(colors, "NanColor", { 0.5, 0.5, 0.5 });
+  SetNumbers(colors, "NanColor", { ColorOfOthers.begin(), ColorOfOthers.end() });
   vtkSMPropertyHelper(colors, "AnnotationsInitialized", true).Set(1);
   vtkSMPropertyHelper(colors, "IndexedLookup").Set(1);
   SetReady(colors);

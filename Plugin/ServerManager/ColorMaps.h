@@ -28,7 +28,9 @@ bool HasGotItsRange(vtkSMProxy* colors);
 /** ParaView shall neither rescale it at Apply nor look for values by itself. */
 void SetReady(vtkSMProxy* colors);
 
-/** A grey is given to all other values. */
+constexpr std::array<double, 3> ColorOfOthers = { 0.5, 0.5, 0.5 };
+
+/** All other values get the grey. */
 void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categories);
 
 std::vector<ColorCategory> CategoriesOf(vtkSMProxy* colors);

@@ -14,12 +14,16 @@
 #include <vtkSMTransferFunctionManager.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 vtkStandardNewMacro(vtkSMVolumicLabelsRepresentationProxy);
 
 namespace
 {
+/** Labels of which the legend is shown by itself: as many as can be read. */
+constexpr std::size_t MostInLegend = 12;
+
 std::vector<volumic::ColorCategory> CategoriesOf(const volumic::LabelRows& labels)
 {
   std::vector<volumic::ColorCategory> categories;
@@ -64,7 +68,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
   this->Superclass::ViewUpdated(view);
   if (vtkPVDataInformation* data = this->GetInputInformation())
   {
-    this->ChooseLabels(data);
+    this->ChooseLabels(data, view);
   }
 }
 
@@ -90,7 +94,8 @@ bool vtkSMVolumicLabelsRepresentationProxy::IsMerged(vtkPVDataInformation* data)
 }
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(vtkPVDataInformation* data)
+void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(
+  vtkPVDataInformation* data, vtkSMProxy* view)
 {
   vtkSMPropertyHelper array(this, "ColorArrayName");
   const bool isByBlock = array.GetInputArrayNameToProcess() &&
@@ -105,6 +110,10 @@ void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(vtkPVDataInformation* d
   if (this->IsWaitingForLabels || isMerged)
   {
     this->SetScalarColoring("Label", isMerged ? vtkDataObject::CELL : vtkDataObject::FIELD);
+  }
+  if (this->IsWaitingForLabels && this->Wanted.size() <= MostInLegend)
+  {
+    this->SetScalarBarVisibility(view, true);
   }
   this->IsWaitingForLabels = false;
 }

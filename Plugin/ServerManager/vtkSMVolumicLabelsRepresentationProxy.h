@@ -47,7 +47,7 @@ private:
   /** Brings Wanted up to date. */
   void FetchCategories(vtkPVDataInformation* data);
   /** Colours by the array `Label` that tells all labels, if it is this display's business. */
-  void ChooseLabels(vtkPVDataInformation* data);
+  void ChooseLabels(vtkPVDataInformation* data, vtkSMProxy* view);
   /** Whether a surface is about several labels. */
   bool IsMerged(vtkPVDataInformation* data);
   /** Sets the categories that the map has from here; completes what others have edited. */

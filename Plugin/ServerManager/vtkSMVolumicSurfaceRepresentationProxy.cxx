@@ -27,13 +27,11 @@ vtkStandardNewMacro(vtkSMVolumicSurfaceRepresentationProxy);
 
 namespace
 {
-/** Of the components, by size; easy to tell apart, and apart from the grey of the others. */
-constexpr std::array<std::array<double, 3>, 20> ComponentColors = { {
+/** Of the largest components, by size; easy to tell apart, and apart from the grey of the others. */
+constexpr std::array<std::array<double, 3>, 10> ComponentColors = { {
   { 0.89, 0.85, 0.76 }, { 0.12, 0.47, 0.71 }, { 1.00, 0.50, 0.05 }, { 0.17, 0.63, 0.17 },
   { 0.84, 0.15, 0.16 }, { 0.58, 0.40, 0.74 }, { 0.55, 0.34, 0.29 }, { 0.89, 0.47, 0.76 },
-  { 0.74, 0.74, 0.13 }, { 0.09, 0.75, 0.81 }, { 0.68, 0.78, 0.91 }, { 1.00, 0.73, 0.47 },
-  { 0.60, 0.87, 0.54 }, { 1.00, 0.60, 0.59 }, { 0.77, 0.69, 0.84 }, { 0.77, 0.61, 0.58 },
-  { 0.97, 0.71, 0.82 }, { 0.86, 0.86, 0.55 }, { 0.62, 0.85, 0.90 }, { 0.20, 0.20, 0.55 },
+  { 0.74, 0.74, 0.13 }, { 0.09, 0.75, 0.81 },
 } };
 
 /**
@@ -151,6 +149,11 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptColorsOf(
   {
     this->AdaptComponentColors(colors, data);
   }
+  else if (array == "Contact" && !volumic::HasGotItsRange(colors))
+  {
+    volumic::SetCategories(
+      colors, { { "0", "none", ComponentColors[0] }, { "1", "contact", { 0.84, 0.15, 0.16 } } });
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -186,8 +189,8 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptComponentColors(
   {
     return;
   }
-  const int last = std::clamp(static_cast<int>(component->GetComponentRange(0)[1]), 0,
-    static_cast<int>(ComponentColors.size()) - 1);
+  constexpr int others = static_cast<int>(ComponentColors.size());
+  const int last = std::clamp(static_cast<int>(component->GetComponentRange(0)[1]), 0, others);
   const bool isOurs = static_cast<int>(volumic::CategoriesOf(colors).size()) ==
     this->LastComponent + 1;
   if (last == this->LastComponent || (volumic::HasGotItsRange(colors) && !isOurs))
@@ -195,9 +198,13 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptComponentColors(
     return;
   }
   std::vector<volumic::ColorCategory> categories;
-  for (int c = 0; c <= last; ++c)
+  for (int c = 0; c < std::min(last + 1, others); ++c)
   {
     categories.push_back({ std::to_string(c), std::to_string(c), ComponentColors[c] });
+  }
+  if (last == others)
+  {
+    categories.push_back({ std::to_string(others), "others", volumic::ColorOfOthers });
   }
   volumic::SetCategories(colors, categories);
   this->LastComponent = last;

@@ -164,7 +164,7 @@ class VolumesTest(ToolTestCase):
         self.check(file)
         told = self.run_tool(file, self.path("a.stl"), "--iso", ISO).stderr
         self.assertIn("magnitude of 2 components (--component)", told)
-        self.refused("Selected Component is 2, but array 'vectors' has 2 components", file,
+        self.refused("--component is 2, but array 'vectors' has 2 components", file,
                      self.path("b.stl"), "--component", "2", "--iso", ISO)
 
     def test_nan_voxels_are_told_or_refused(self):

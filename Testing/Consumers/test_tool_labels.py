@@ -398,7 +398,7 @@ class OptionsTest(LabelsTest):
         volume = self.map_file()
         self.refused("map.vti: .*Gap", volume, self.path("o/"), "--labels", "1", "--gap", "-1")
         self.refused("Smoothing", volume, self.path("o/"), "--labels", "1", "--smoothing", "-1")
-        self.refused("Voxel Tolerance is 2 voxels; it must be at most 1", volume, self.path("o/"),
+        self.refused("--voxel-tolerance is 2 voxels; it must be at most 1", volume, self.path("o/"),
                      "--labels", "1", "--voxel-tolerance", "2")
         self.assertFalse(os.path.exists(self.path("o")))
         self.run_tool(volume, self.path("o/"), "--labels", "1")

@@ -206,6 +206,16 @@ class RunTest(ToolTestCase):
         self.assertEqual(sorted(os.listdir(self.path("levels"))),
                          ["level--1.vtp", "level-0.vtp", "level-1.vtp"])
 
+    def test_advice_names_options(self):
+        """Where much stays lost: sheets of one voxel beside a ball."""
+        z, y, x = np.mgrid[0:64, 0:64, 0:64]
+        distance = np.sqrt((x - 32) ** 2 + (y - 32) ** 2 + (z - 32) ** 2)
+        voxels = np.clip(ISO + 100 * (16 - distance), 0, 1000).astype("i2")
+        voxels[10:54, 10:54, 4:9:4] = 620
+        volume = self.write(vtkXMLImageDataWriter(), "sheets.vti", make_image(voxels, [1] * 3))
+        process = self.run_tool(volume, self.path("a.vtp"), "--iso", ISO)
+        self.assertRegex(process.stderr, "warning: .*of the object's boundary.* Set --finest to -1")
+
     def test_edge_length_makes_the_pyramid_for_it(self):
         file = self.path("even.vtp")
         report = self.report(self.ball_file(), file, "--iso", ISO, "--edge-length", "1.1",
@@ -218,7 +228,7 @@ class RunTest(ToolTestCase):
         corners = vtk_to_numpy(reader.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
         edges = np.linalg.norm(points[corners] - points[np.roll(corners, 1, axis=1)], axis=2)
         self.assertAlmostEqual(edges.mean() / 1.1, 1, delta=0.15)
-        self.refused("Edge Length is 0.01, but edges of this image can have mean lengths of",
+        self.refused("--edge-length is 0.01, but edges of this image can have mean lengths of",
                      self.ball_file(), file, "--iso", ISO, "--edge-length", "0.01")
 
     def test_iso_value_by_otsu_is_told(self):

@@ -192,9 +192,7 @@ class RefusalTest(ResumeTestCase):
             "initialization": "iso-surface", "coarsest": "1", "seed-radius": "1.5",
             "iterations": "400", "minimum-part-size": "7", "component": "0", "metric": "voxels",
             "edge-length": "1.7", "keep": "largest", "snapshot-interval": "9"}
-        names = {"reduction-factor": "levels of the pyramid", "edge-length": "Edge Length",
-                 "border": "Border Value", "keep": "Keep Components", "dark": "Object Is Bright",
-                 "refuse-nan": "NaN Is Background", "coarsest": "Coarsest Level"}
+        names = {"reduction-factor": "levels of the pyramid", "refuse-nan": "NaN Is Background"}
         self.kill_at_level(1, self.resume(volume, "killed"))
         table = [line.split("\t")
                  for line in self.run_tool("--list-properties").stdout.splitlines()]
@@ -208,6 +206,8 @@ class RefusalTest(ResumeTestCase):
             if option == "edge-attraction":
                 value += ["--edges", volume]
             label = names.get(option, re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name))
+            if value and " " in label and option not in names:
+                label = f"--{option}"
             with self.subTest(option):
                 run = self.run_tool(*self.resume(volume, "other"), f"--{option}", *value, status=1)
                 self.assertIn("Resume: the checkpoint", run.stderr)
@@ -241,7 +241,7 @@ class RefusalTest(ResumeTestCase):
         self.assertIn("there is no checkpoint to resume from: the run begins anew", run.stderr)
 
     def test_a_folder_that_is_not_there_is_told_before_the_work(self):
-        self.refused("Scratch Directory .*none cannot be used", self.ball_file(),
+        self.refused("--scratch .*none cannot be used", self.ball_file(),
                      self.path("a.vtp"), "--iso", ISO, "--scratch", self.path("none"))
         self.assertFalse(os.path.exists(self.path("a.vtp")))
 

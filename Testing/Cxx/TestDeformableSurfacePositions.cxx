@@ -184,7 +184,7 @@ TEST_F(DeformableSurfacePositions, SeedsOutsideTheObjectAreNamedAsThePanelDoes)
 {
   this->Filter->SetInitializationToSeeds();
   this->Filter->AddSeedPosition(125, 2, 2);
-  this->ExpectError({ "Seed Positions: None of the 1 seeds lies inside the object" });
+  this->ExpectError({ "Seed Positions: The seed does not lie inside the object" });
 }
 
 TEST_F(DeformableSurfacePositions, ListsAreKept)

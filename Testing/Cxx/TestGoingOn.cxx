@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iterator>
 
 using namespace volumic;
 
@@ -155,6 +156,85 @@ TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
     EXPECT_TRUE(ShowsAtOnce(this->Filter)) << "no level iterates";
     ExpectSameOutputs(this->Filter, FromTheStart(this->Image, same, finest));
   }
+}
+
+TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
+{
+  const Choice choices[] = {
+    [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); },
+    [](vtkDeformableSurface* f)
+    {
+      f->SetKeepComponentsToComponentsAtPoints();
+      f->ClearSeedPositions();
+      f->AddSeedPosition(6, 6, 30);
+    },
+    [](vtkDeformableSurface* f)
+    {
+      f->ClearSeedPositions();
+      f->AddSeedPosition(32, 32, 32);
+    },
+    [](vtkDeformableSurface* f)
+    {
+      f->SetKeepComponentsToLargeComponents();
+      f->SetMinimumComponentVolume(1e9);
+    },
+    [](vtkDeformableSurface* f) { f->SetMinimumComponentVolume(100); },
+    [](vtkDeformableSurface* f) { f->SetKeepComponentsToAllComponents(); } };
+  this->Filter->GetNeedsUpdate();
+  this->Filter->Update();
+  ASSERT_EQ(FieldOf(this->Filter->GetOutput(), "NumberOfComponents"), 2);
+  for (std::size_t i = 0; i < std::size(choices); ++i)
+  {
+    SCOPED_TRACE(i);
+    choices[i](this->Filter);
+    const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+    EXPECT_TRUE(ShowsAtOnce(this->Filter)) << "no level iterates";
+    EXPECT_EQ(warnings.Has("Level 0: Keep Components leaves none"), i == 3);
+    const Choice allSoFar = [&](vtkDeformableSurface* filter)
+    { std::for_each(choices, choices + i + 1, [&](const Choice& choose) { choose(filter); }); };
+    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, allSoFar, 0));
+  }
+  this->Filter->SetKeepComponentsToLargestComponent();
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(ShowsAtOnce(this->Filter));
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, choices[0], 1));
+}
+
+TEST_F(GoingOn, GoesOnWithOtherComponents)
+{
+  this->Filter->GetNeedsUpdate();
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  this->Filter->SetKeepComponentsToLargestComponent();
+  this->Filter->SetFinestLevel(0);
+  EXPECT_FALSE(Reruns(this->Filter, 1));
+  ExpectSameOutputs(this->Filter,
+    FromTheStart(
+      this->Image, [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); }, 0));
+}
+
+TEST_F(GoingOn, HoldsNoOtherComponentsWhereNobodyWatchesOrMemoryIsShort)
+{
+  for (const int limit : { 0, 1000 })
+  {
+    this->Filter->SetMemoryLimit(limit);
+    this->Filter->SetKeepComponentsToAllComponents();
+    this->Filter->Modified();
+    this->Filter->Update();
+    this->Filter->SetKeepComponentsToLargestComponent();
+    EXPECT_TRUE(Reruns(this->Filter, 1));
+    this->Filter->GetNeedsUpdate();
+  }
+}
+
+TEST_F(GoingOn, BeginsAnewWithOtherSeedsToStartFrom)
+{
+  this->Filter->GetNeedsUpdate();
+  this->Filter->SetInitializationToSeeds();
+  this->Filter->AddSeedPosition(32, 32, 32);
+  this->Filter->Update();
+  this->Filter->AddSeedPosition(6, 6, 30);
+  EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
 TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)

@@ -39,6 +39,21 @@ TEST(LabelHint, WhoGivesALabelMapToVolumeToSurfaceIsToldOnce)
   }
 }
 
+TEST(LabelHint, IsToldAtTheEndOfTheRun)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(LabelImageOf(34, 28, 28, TwoBalls, VTK_SHORT));
+  filter->SetIsoValue(0.5);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  std::string early;
+  const ProgressHook hook(filter,
+    [&](vtkAlgorithm*, const std::string&, double share)
+    { early += share < 1.0 ? warnings.Get() : ""; }); // At 1 the filter is done.
+  filter->Update();
+  EXPECT_EQ(early, "");
+  EXPECT_TRUE(warnings.Has("looks like a label map"));
+}
+
 TEST(LabelHint, ScansAreNoLabelMaps)
 {
   vtkNew<vtkVolumeToSurface> filter;

@@ -100,6 +100,29 @@ TEST(MissingBoundary, IsNotWarnedOfWhereNoRecoveryIsAskedFor)
   EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01) << "told all the same";
 }
 
+TEST(MissingBoundary, IsNotWarnedOfWhereItIsSmall)
+{
+  // A rod beside a large ball.
+  const auto image = BallImage(64, 64, 64, 0.3);
+  for (int k = 10; k < 54; ++k)
+  {
+    Voxels(image)->SetComponent((k * 64 + 5) * 64 + 5, 0, 62.0);
+    Voxels(image)->SetComponent((k * 64 + 5) * 64 + 6, 0, 62.0);
+  }
+  vtkNew<vtkDeformableSurface> filter;
+  EXPECT_EQ(WarningsOf(filter, image), "");
+  EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01) << "told all the same";
+  EXPECT_LT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.05);
+}
+
+TEST(MissingBoundary, IsNotWarnedOfWhereComponentsAreLeftOut)
+{
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetKeepComponentsToLargestComponent();
+  EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "") << "the sheets would not be kept either";
+  EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.05) << "told all the same";
+}
+
 TEST(MissingBoundary, IsNotWarnedOfInAPreview)
 {
   vtkNew<vtkDeformableSurface> filter;

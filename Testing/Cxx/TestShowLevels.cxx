@@ -4,6 +4,7 @@
 #include "vtkVolumeToSurface.h"
 
 #include <vtkCommand.h>
+#include <vtkMath.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
@@ -109,7 +110,9 @@ TEST(ShowLevels, ReachesTheEndWhereNothingIsKept)
 
 TEST(ShowLevels, WarnsAtTheEndOnly)
 {
-  const auto filter = FilterOf(LargeBall());
+  const auto image = LargeBall();
+  Voxels(image)->SetComponent(0, 0, vtkMath::Nan());
+  const auto filter = FilterOf(image);
   filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
   filter->SetMinimumComponentVolume(1e9);
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
@@ -119,6 +122,7 @@ TEST(ShowLevels, WarnsAtTheEndOnly)
   ASSERT_TRUE(filter->GetNeedsUpdate());
   filter->Update();
   EXPECT_TRUE(warnings.Has("Level 0: Keep Components leaves none"));
+  EXPECT_TRUE(warnings.Has("has 1 NaN voxel")) << warnings.Get();
 }
 
 TEST(ShowLevels, WarnsWhereTheFirstLevelShownIsTheLast)

@@ -80,6 +80,26 @@ class LabelsViewTest(unittest.TestCase):
         self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
         self.check_legend([3, 7, 12])
 
+    def legend_is_shown(self):
+        return self.display.IsScalarBarVisible(self.view)
+
+    def test_legend_of_a_few(self):
+        self.show()
+        self.picture("with-legend")
+        self.assertTrue(self.legend_is_shown())
+        # Who hides it does so for good.
+        self.display.SetScalarBarVisibility(self.view, False)
+        self.filter.Labels = [3, 7]
+        self.picture("without-legend")
+        self.assertFalse(self.legend_is_shown())
+
+    def test_no_legend_of_many(self):
+        voxels = numpy.repeat(numpy.arange(14, dtype=numpy.int16), 4)[:, None, None]
+        voxels = numpy.broadcast_to(voxels, (56, 12, 12)).copy()
+        self.show(testing.produce(testing.make_image(voxels, name="labels")))
+        self.picture("many")
+        self.assertFalse(self.legend_is_shown())
+
     def test_merged_surface(self):
         self.show(Labels=[3, 7], Merge=1)
         self.assertEqual(hues(self.picture("merged")), {"red", "green"})
@@ -134,6 +154,7 @@ class LabelsViewTest(unittest.TestCase):
         self.filter.UpdatePipeline()
         simple.ResetCamera(self.view)
         self.assertEqual(hues(self.picture("good")), {"red", "green", "blue"})
+        self.display.SetScalarBarVisibility(self.view, False)
         good = self.picture("good")
         with testing.CapturedMessages():
             self.filter.Labels = [3, 99]

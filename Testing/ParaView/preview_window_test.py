@@ -88,6 +88,20 @@ class PreviewWindowTest(window.WindowTestCase):
                           triangles_of(150.0), runs[1][1]])
         self.assertEqual([run[2] for run in runs][2:], ["[0]", "[]"], "goes on, and shows at once")
 
+    def test_other_components_without_another_run(self):
+        keep = f"{PROPERTIES}/KeepComponents/ComboBox"
+        self.play(source("RTAnalyticSource") + [
+            FILTER, gui.pause(500), gui.event(ISO_VALUE, "set_string", "180"), APPLY,
+            gui.pause(2000), gui.event(keep, "set_string", "Largest"), APPLY, gui.pause(1000),
+            gui.event(keep, "set_string", "All"), APPLY, gui.pause(1000)], "preview-components",
+            python=TELL_THE_RUNS.replace("AUTO_APPLY", "0"))
+        all_, largest = triangles_of(180.0), triangles_of(180.0, KeepComponents="Largest")
+        self.assertLess(largest, all_)
+        runs = self.runs()
+        self.assertEqual([run[1] for run in runs], [all_, largest, all_], self.session.output)
+        self.assertNotEqual(runs[0][2], "[]")
+        self.assertEqual([run[2] for run in runs[1:]], ["[]"] * 2, "no level iterates")
+
     def test_auto_apply(self):
         self.play(source("RTAnalyticSource") + [
             FILTER, gui.pause(4000), set_preview(True), gui.pause(2000),

@@ -37,6 +37,11 @@ ACTIVATE_THE_3D_VIEW = """
 from paraview import simple
 simple.SetActiveView(next(v for v in simple.GetViews() if v.GetXMLName() == "RenderView"))
 """
+TELL_THE_COLOUR = """
+from paraview import simple
+display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
+print("Colour:", [round(float(c), 3) for c in display.DiffuseColor], flush=True)
+"""
 
 
 def iso_of_the_wavelet():
@@ -127,6 +132,17 @@ class SurfaceWindowTest(window.WindowTestCase):
             window.shown("MinimumComponentVolume", False),
             gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
             gui.pause(300), window.shown("MinimumComponentVolume", True)], "surface-advanced")
+
+    def test_what_is_made_of_it_keeps_its_colour(self):
+        tell = self.session.add_macro("tell_colour", TELL_THE_COLOUR)
+        self.play(VOLUME + [
+            SURFACE, APPLY, gui.pause(500),
+            filter_of_the_menu("Clip", "Alphabetical"), APPLY, gui.pause(500), tell,
+            filter_of_the_menu("Clip", "Alphabetical"), APPLY, gui.pause(500), tell,
+            window.in_the_pipeline(0), filter_of_the_menu("Contour", "Alphabetical"), APPLY,
+            gui.pause(500), tell, gui.pause(500)], "surface-clipped")
+        self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
+                         ["[0.89, 0.85, 0.76]"] * 2 + ["[1.0, 1.0, 1.0]"])
 
     def test_button_that_finds_the_iso_value_again(self):
         for before in ([], [filter_of_the_menu("ImagePyramid"), APPLY]):

@@ -211,6 +211,12 @@ class ColoursTest(ViewsTestCase):
         self.assertEqual(list(colours.Annotations), ["0", "0"])
         self.assertGreater(views.drawn(pixels), 1000)
 
+    def test_contact_has_two_colours(self):
+        colours = self.coloured_by("Contact", "POINTS")
+        self.assertTrue(colours.InterpretValuesAsCategories)
+        self.assertEqual(list(colours.Annotations), ["0", "none", "1", "contact"])
+        self.assertGreater(views.drawn(views.picture_of(self.view, "colours-contact.png")), 1000)
+
     def test_more_components_than_colours(self):
         x = numpy.arange(48) % 12 - 5.5
         many = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
@@ -221,8 +227,9 @@ class ColoursTest(ViewsTestCase):
         self.filter.CoarsestLevel = 0
         colours = self.coloured_by("Component", "CELLS")
         self.assertEqual(self.filter.FieldData["NumberOfComponents"].GetRange()[0], 64)
-        self.assertEqual(len(colours.Annotations), 2 * 20)
-        self.assertEqual(len(colours.IndexedColors), 3 * 20)
+        self.assertEqual(list(colours.Annotations)[0::2], [str(n) for n in range(11)])
+        self.assertEqual(list(colours.Annotations)[1::2], [str(n) for n in range(10)] + ["others"])
+        self.assertEqual(list(colours.IndexedColors)[-3:], list(colours.NanColor))
         views.picture_of(self.view, "colours-many-components.png")
 
     def test_colours_of_others_stay_as_they_are(self):

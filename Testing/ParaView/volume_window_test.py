@@ -42,6 +42,14 @@ def attend(proxy, algorithm):
     algorithm.AddObserver("EndEvent", end)
 """
 
+TELL_THE_PROGRESS = window.WATCH_FILTERS + """
+def attend(proxy, algorithm):
+    def progress(caller, event):
+        if ", iteration" in (caller.GetProgressText() or "") and caller.GetProgress() < 1:
+            print("Iteration", flush=True)
+    algorithm.AddObserver("ProgressEvent", progress)
+"""
+
 
 def edit(action):
     return gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", action)
@@ -105,6 +113,50 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.event(levels, "set_string", "3"), gui.pause(300),
             window.last_level("CoarsestLevel", 2), window.last_level("FinestLevel", 2),
             window.shown("MinimumLevelSize", False)], "volume-advanced")
+
+    def test_units_and_a_button_to_browse(self):
+        units = {"TimeLimit": "s", "MemoryLimit": "MiB", "EdgeLength": "world units",
+                 "SeedRadius": "world units", "MinimumPartSize": "voxels"}
+        self.play(VOLUME + [
+            FILTER, SHOW_ADVANCED, gui.pause(1000),
+            *[gui.check(f"{PROPERTIES}/{name}/Unit", "text", unit)
+              for name, unit in units.items()],
+            window.shown("ScratchDirectory/FileChooser", True)], "volume-units")
+
+    def test_summary(self):
+        testing.load_plugin()
+        surface = testing.fetch(simple.VolumetoSurface(simple.Wavelet()))
+        area, volume = (surface.GetFieldData().GetArray(name).GetValue(0)
+                        for name in ("Area", "Volume"))
+        limit = f"{PROPERTIES}/TimeLimit/DoubleLineEdit0"
+        self.play(VOLUME + [
+            FILTER, gui.pause(500), window.shown("KeepComponents/Summary", False),
+            APPLY, gui.pause(1000), window.shown("KeepComponents/Summary", True),
+            gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
+                      f"<b>Surface</b> of level 0<br>{surface.GetNumberOfPoints()} vertices, "
+                      f"1 part, genus 0<br>area {area:g} world units²<br>volume {volume:g} world "
+                      "units³<br>0.0 % of the boundary missing<br>no self-intersections"),
+            SHOW_ADVANCED, gui.pause(500), gui.event(limit, "set_string", "1e-9"),
+            gui.event(ISO_VALUE, "set_string", "140"), APPLY,
+            gui.pause(1000), gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
+                                       "<b>Unfinished</b> (time limit): no surface yet")],
+            "volume-summary")
+
+    def test_a_warning_waits_for_the_end(self):
+        voxels = numpy.zeros((40, 40, 40), numpy.int16)
+        voxels[10:30, 10:30, 8:20], voxels[10:30, 10:30, 20:34] = 1, 2
+        path = testing.write_volume("labels-for-volume.vti",
+                                    testing.make_image(voxels, name="labels"))
+        # A warning opens a box, so not self.play().
+        succeeded = self.session.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+            gui.pause(1000), FILTER, APPLY, gui.pause(1000)], python=TELL_THE_PROGRESS)
+        self.session.screenshot(testing.output_path("volume-warning.png"))
+        self.assertTrue(succeeded, self.session.output)
+        self.assertEqual(self.session.output.count("looks like a label map"), 1)
+        self.assertGreater(self.session.output.index("looks like a label map"),
+                           self.session.output.rindex("Iteration"))
 
     def test_range_follows_array_and_source(self):
         values = numpy.mgrid[0:12, 0:14, 0:16].sum(axis=0).astype(float)

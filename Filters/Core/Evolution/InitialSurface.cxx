@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/InitialSurface.h"
 
+#include "Core/Common/Join.h"
 #include "Core/Common/LatticeKey.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Mesh/Division.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -332,8 +334,9 @@ std::vector<Point> ChooseSeeds(
   std::vector<Point> chosen = UsableSeeds(field, centres, spacing);
   if (chosen.empty())
   {
-    Refuse("None of the ", centres.size(),
-      " seeds lies inside the object. Move them, or check Iso Value and Object Is Bright.");
+    const std::string which =
+      centres.size() == 1 ? "The seed does not lie" : Join("None of the ", centres.size(), " seeds lies");
+    Refuse(which, " inside the object. Choose other places, or check Iso Value and Object Is Bright.");
   }
   return chosen;
 }
