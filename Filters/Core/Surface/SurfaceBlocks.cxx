@@ -20,8 +20,8 @@ constexpr std::size_t VertexBlock = 8192;
  * Places for new vertices that a block gets at least, for how many of its own one more, and how many
  * for each that its last visit took: a surface that grows takes more each time.
  */
-constexpr int FewPlaces = 64;
-constexpr int VerticesPerPlace = 8;
+constexpr int FewPlaces = 128;
+constexpr int VerticesPerPlace = 4;
 constexpr int PlacesPerTaken = 4;
 
 // See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
