@@ -58,6 +58,7 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Surface/BlockOwners.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
   Surface/ConnectedVertices.cxx

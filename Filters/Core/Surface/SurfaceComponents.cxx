@@ -391,7 +391,7 @@ void SurfaceComponents::Remove(SurfaceState& state, const std::vector<int>& root
     {
       continue;
     }
-    const int label = this->WholeAt(state, v).Label;
+    const int label = state.Component[v];
     const auto removal = std::lower_bound(removals.begin(), removals.end(), label,
       [](const Removal& r, int wanted) { return r.Label < wanted; });
     if (removal != removals.end() && removal->Label == label)

@@ -102,10 +102,6 @@ private:
   std::vector<Name> NameBorders(const SurfaceState& state, Executor& executor) const;
   void FindWholes(const std::vector<Name>& names);
   std::vector<Message> JoinSets(const std::vector<Message>& ofRanks);
-  const Whole& WholeAt(const SurfaceState& state, int v) const
-  {
-    return this->Wholes[this->SetOf[state.Component[v]]];
-  }
   std::vector<int> LabelsOf(const std::vector<int>& roots) const;
   void Remove(SurfaceState& state, const std::vector<int>& roots);
 

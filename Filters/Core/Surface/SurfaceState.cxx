@@ -107,21 +107,6 @@ std::vector<int> SurfaceState::ReadMesh(MessageReader& message)
   return vertices;
 }
 
-void SurfaceState::AddAppended(const std::vector<int>& vertices, Executor& executor)
-{
-  this->Properties.Resize(this->Mesh.Rings.size());
-  this->Grid.Resize(this->Mesh.Rings.size());
-  int faces = 0;
-  for (const int v : vertices)
-  {
-    this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
-    this->Grid.Insert(v, this->Mesh.Position[v]);
-    faces += this->Mesh.Rings[v].Count; // Each is seen from three corners; E = 3 F / 2.
-  }
-  this->EulerCharacteristic += static_cast<int>(vertices.size()) - faces / 6;
-  this->UpdateShape(vertices, executor);
-}
-
 std::vector<int> SurfaceState::AddPart(
   const SurfaceMesh& mesh, int first, const std::vector<int>& vertices)
 {

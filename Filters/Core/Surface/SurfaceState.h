@@ -174,8 +174,6 @@ public:
   static void WriteMesh(
     const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices);
   std::vector<int> ReadMesh(MessageReader& message);
-  /** After SurfaceMesh::Append: they are as after Reset(), but that they have a shape. */
-  void AddAppended(const std::vector<int>& vertices, Executor& executor);
   /**
    * Some vertices of a whole mesh that all ranks have put behind theirs, so that it has `first` and
    * the places after it. @return them, here
