@@ -30,20 +30,11 @@ struct Coarse
   enum Start
   {
     Enclosing,
-    Seed,
-    Crossing ///< Two balls that intersect each other, as no surface of a level does.
+    Seed
   };
   Start Begins = Enclosing;
   double Factor = std::sqrt(3.);
 };
-
-IndexedSurface CrossingBalls(double edge)
-{
-  SurfaceMesh mesh;
-  mesh.Append(DividedIcosahedron({ 14., 9., 9. }, 6., edge));
-  mesh.Append(DividedIcosahedron({ 20., 9., 9. }, 6., edge));
-  return mesh.ToIndexed();
-}
 
 struct RunOnRanks
 {
@@ -76,9 +67,6 @@ struct RunOnRanks
         }
         switch (above.Begins)
         {
-          case Coarse::Crossing:
-            evolution.StartIsoSurface(coarse.Image, 1, CrossingBalls(1.6 * above.Factor));
-            break;
           case Coarse::Seed:
             evolution.StartSeeds(coarse.Image, 1, { { 31., 17., 17. } });
             evolution.Run();
@@ -201,16 +189,4 @@ TEST(RankSweeps, DivideAsOftenAsTheFactorAsks)
     EXPECT_GT(one.Surface.Points.size(), 10000u);
     ExpectSame(RunOnRanks(3, 1, options, above), one);
   }
-}
-
-TEST(RankSweeps, RemeshWhatCannotBeDivided)
-{
-  SurfaceOptions options = ForPlate();
-  options.MaximumNumberOfIterations = 5;
-  options.RecoverLostParts = false;
-  const Coarse above{ Coarse::Crossing };
-  const RunOnRanks one(1, 1, options, above);
-  EXPECT_GT(one.Surface.Points.size(), 200u);
-  EXPECT_EQ(CountSelfIntersections(one.Surface), 0);
-  ExpectSame(RunOnRanks(2, 1, options, above), one);
 }

@@ -184,11 +184,6 @@ void SurfaceEvolution::Implementation::DivideOnce()
     volumic::Divide(s.Mesh, &kept, this->Threads);
     intersections = this->FindIntersections();
   }
-  if (!intersections.empty())
-  {
-    // The old surface intersects itself: not seen yet.
-    this->TakeRemeshed(old.ToIndexed(this->Threads));
-  }
 }
 
 bool SurfaceEvolution::Implementation::DivideWhole(int divisions)
@@ -319,22 +314,6 @@ void SurfaceEvolution::Implementation::DivideInParts()
       this->KeepEdgesAbout(found, faces, old, round, *kept);
     }
   }
-  this->RemeshInParts(old); // It intersects itself: not seen yet.
-}
-
-void SurfaceEvolution::Implementation::RemeshInParts(const SurfaceMesh& old)
-{
-  if (this->NeedVoxels)
-  {
-    const VoxelBox all = VoxelBox::Of(this->TheField->Image().Size);
-    this->NeedVoxels(this->IsFirstRank() ? all : VoxelBox());
-  }
-  this->Clear();
-  if (this->IsFirstRank())
-  {
-    this->TakeRemeshed(old.ToIndexed(this->Threads));
-  }
-  this->SpreadWhole();
 }
 
 void SurfaceEvolution::Implementation::SpreadWhole()
@@ -371,12 +350,7 @@ bool SurfaceEvolution::Implementation::LayOutInParts(int divisions)
     this->SpreadWhole();
   }
   this->Threads.EndPhase("Division");
-  if (!this->SplitLongEdges() && !this->IsOnAnyRank(this->Stopped))
-  {
-    this->Unite(); // Full rings all about it: not seen yet.
-    const SurfaceMesh old = this->State.Mesh;
-    this->RemeshInParts(old);
-  }
+  this->SplitLongEdges();
   return goesOn;
 }
 }

@@ -48,7 +48,7 @@ struct SurfaceEvolution::Implementation
   LostParts LastLost;
   LostBoundary Lost; ///< Of the parts that the last division found.
   int NumberOfComponents = 0; ///< When last labelled.
-  int Unchecked = 0; ///< Cuts and deletions since components were last judged from outside in.
+  int Unchecked = 1; ///< Starts, cuts and deletions since components were judged from outside in.
   std::vector<std::unique_ptr<SurfaceIteration>> Iterations; ///< Of visits, one for each thread.
   std::vector<SurfaceIteration*> Idle;                       ///< Of them, those in no visit.
   std::mutex Handing; ///< Held while visits take them, or add to what is all visits'.
@@ -124,7 +124,7 @@ struct SurfaceEvolution::Implementation
   bool HasEdgeTooLong() const;
   int CountIntersecting();
   void Verify();
-  bool SplitLongEdges(); ///< @return whether none is left
+  void SplitLongEdges();
   float LongestEdge(); ///< On all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
@@ -139,7 +139,6 @@ struct SurfaceEvolution::Implementation
   // From a surface that is whole on rank 0 to one that is in parts, with so many divisions.
   bool LayOutInParts(int divisions);
   void DivideInParts();
-  void RemeshInParts(const SurfaceMesh& old);
   void SpreadWhole();
   void SpreadMesh();
   void LayGridOfPart();

@@ -282,7 +282,10 @@ void SurfaceEvolution::Implementation::Regularise(const Dynamics& dynamics)
 void SurfaceEvolution::Implementation::DeleteInsideOut()
 {
   this->State.Counts = EditCounts();
-  this->DeleteThoseInsideOut();
+  if (this->IsOnAnyRank(this->Unchecked > 0))
+  {
+    this->DeleteThoseInsideOut();
+  }
   this->SinceEvolved.Removed += this->IsFirstRank() ? this->State.Counts.Removed : 0;
 }
 

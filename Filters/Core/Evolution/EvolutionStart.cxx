@@ -60,16 +60,11 @@ void SurfaceEvolution::Implementation::Reset()
 
 void SurfaceEvolution::Implementation::LayOut()
 {
-  SurfaceState& s = this->State;
   this->ForgetBlocks();
   this->LayGrid();
   this->MakeBlocks();
   this->Threads.EndPhase("Grid");
-  if (!this->SplitLongEdges() && !this->Stopped)
-  {
-    // Full rings all about it: not seen yet.
-    this->TakeRemeshed(s.Mesh.ToIndexed(this->Threads));
-  }
+  this->SplitLongEdges();
   this->LabelComponents();
   this->Threads.EndPhase("Labels");
 }
@@ -175,10 +170,12 @@ void SurfaceEvolution::Implementation::Recover()
   if (this->LastLost.Enclosed > 0)
   {
     this->Parts->Append(objects.Surface, this->Threads);
+    ++this->Unchecked;
   }
   if (this->LastLost.EnclosedCavities > 0)
   {
     this->Parts->Append(cavities.Surface, this->Threads);
+    ++this->Unchecked;
   }
 }
 }

@@ -233,13 +233,13 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
   s.Counts = EditCounts();
   const int before = s.Mesh.NumberOfVertices();
   const int characteristicBefore = s.EulerCharacteristic;
-  if (this->IsOnAnyRank(hasChanged))
-  {
-    this->LabelComponents();
-  }
   if (this->Visit.Sweep % InsideOutSweeps == 0 && this->IsOnAnyRank(this->Unchecked > 0))
   {
-    this->DeleteThoseInsideOut();
+    this->DeleteThoseInsideOut(); // Labels them, too.
+  }
+  else if (this->IsOnAnyRank(hasChanged))
+  {
+    this->LabelComponents();
   }
   Add(rows.back().Row, s.Counts);
   rows.back().Vertices += s.Mesh.NumberOfVertices() - before;
@@ -327,9 +327,10 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
   this->SinceEvolved.Removed += this->State.Counts.Removed;
 }
 
-bool SurfaceEvolution::Implementation::SplitLongEdges()
+void SurfaceEvolution::Implementation::SplitLongEdges()
 {
-  // Verification relies on it that no edge is longer than the constraints allow.
+  // Verification relies on it that no edge is longer than the constraints allow. One whose split
+  // would make needles stays, as in an iteration, and what moves it waits: see HasHugeEdge.
   BlockVisits visits;
   visits.OnlyActive = false;
   visits.IsAsked = false;
@@ -342,13 +343,10 @@ bool SurfaceEvolution::Implementation::SplitLongEdges()
     SurfaceIteration::UpdateChanged(this->State, remesher.TakeChanged());
   };
   // A block may have too few places for all of them at once, and half of a split edge is split again.
-  bool hasLeft = true;
-  for (bool hasSplit = true; hasLeft && hasSplit;)
+  do
   {
     this->VisitBlocks(visits);
-    hasSplit = this->IsOnAnyRank(this->State.Counts.Splits > 0);
-    hasLeft = this->IsOnAnyRank(this->HasEdgeTooLong());
-  }
-  return !hasLeft;
+  } while (this->IsOnAnyRank(this->State.Counts.Splits > 0) &&
+    this->IsOnAnyRank(this->HasEdgeTooLong()));
 }
 }

@@ -29,15 +29,23 @@ void SurfaceIteration::BeginVisit(BlockVisit& visit)
   this->Working.clear();
   this->Near.Clear();
   this->CollectActive();
-  // What others have edited or moved since, and what has contacts: which, no visit remembers.
+  // What others have edited or moved since; and of what has contacts, which: no visit remembers.
   this->Suspects.clear();
-  std::copy_if(this->Active.begin(), this->Active.end(), std::back_inserter(this->Suspects),
-    [this, &s](int v) { return s.NearOthers[v] != 0 || this->IsSuspect(v); });
-  for (const int v : this->Suspects)
+  std::vector<int> crowded;
+  for (const int v : this->Active)
   {
-    s.Drift[v] = 0;
+    if (this->IsSuspect(v))
+    {
+      this->Suspects.push_back(v);
+      s.Drift[v] = 0;
+    }
+    else if (s.NearOthers[v])
+    {
+      crowded.push_back(v);
+    }
   }
   this->Near.Examine(s, this->Suspects);
+  this->Near.AddPairs(s, crowded);
   this->Watch.LabelSmall(s, visit.Vertices, visit.Written);
   this->Labelled = visit.Share.Counts;
 }

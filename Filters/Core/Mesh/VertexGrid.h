@@ -128,17 +128,23 @@ private:
     int Item[Capacity];
     int Count = 0;
   };
+  /** All chains side by side, a vertex of each in turn: none waits for the one before it. */
   template <typename Visitor>
   void VisitChains(FirstVertices& firsts, Visitor&& visit) const
   {
-    for (int i = 0; i < firsts.Count; ++i)
+    while (firsts.Count > 0)
     {
-      for (int w = firsts.Item[i]; w >= 0; w = this->Next[w])
+      int count = 0; // No branches: of what has ended the place is written over.
+      for (int i = 0; i < firsts.Count; ++i)
       {
+        const int w = firsts.Item[i];
+        const int next = this->Next[w];
+        firsts.Item[count] = next;
+        count += next >= 0 ? 1 : 0;
         visit(w);
       }
+      firsts.Count = count;
     }
-    firsts.Count = 0;
   }
   /** The cells x0 to x1 of a row; those collected are visited where there is no room for more. */
   template <typename Visitor>

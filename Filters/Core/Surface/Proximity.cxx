@@ -292,10 +292,44 @@ void Proximity::FindNear(const SurfaceState& state, const Vector& p, float radiu
   }
 }
 
+template <typename Visitor>
+void Proximity::VisitOpposed(
+  const SurfaceState& state, int v, float radius, const Visitor& visit)
+{
+  this->FindNear(state, state.Mesh.Position[v], radius, v);
+  for (std::size_t i = 0; i < this->Near.size(); i += Lanes::Count)
+  {
+    const auto cone = [&](std::size_t k) -> const NormalCone&
+    { return state.Normal[this->Near[std::min(k, this->Near.size() - 1)].W]; };
+    unsigned opposed = OpposedBits(
+      state.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
+    opposed &= (1u << std::min<std::size_t>(this->Near.size() - i, Lanes::Count)) - 1;
+    for (; opposed != 0; opposed &= opposed - 1)
+    {
+      const ClosePair& near = this->Near[i + LowestBit(opposed)];
+      visit(near.W, near.Squared);
+    }
+  }
+}
+
+void Proximity::AddPairs(const SurfaceState& state, const std::vector<int>& vertices)
+{
+  for (const int v : vertices)
+  {
+    this->VisitOpposed(state, v, PairReach * state.Sizing.At(v),
+      [&](int w, float squared)
+      {
+        if (!state.Mesh.AreNeighbours(v, w))
+        {
+          this->AllPairs.push_back({ v, w, squared });
+        }
+      });
+  }
+}
+
 void Proximity::ExamineVertex(SurfaceState& state, int v)
 {
   const SurfaceMesh& mesh = state.Mesh;
-  const Vector p = mesh.Position[v];
   const float delta = state.Sizing.At(v);
   const float reach = state.Sizing.Reach(v);
   const float further = reach + (state.IsSlow[v] ? FurtherReachInDelta * delta : 0.f);
@@ -319,22 +353,13 @@ void Proximity::ExamineVertex(SurfaceState& state, int v)
       std::min(slack,
         TestStars(state, star(), star(), this->AllIntersections, this->Tight));
   }
-  this->FindNear(state, p, further, v);
-  for (std::size_t i = 0; i < this->Near.size(); i += Lanes::Count)
-  {
-    const auto cone = [&](std::size_t k) -> const NormalCone&
-    { return state.Normal[this->Near[std::min(k, this->Near.size() - 1)].W]; };
-    unsigned opposed = OpposedBits(
-      state.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
-    opposed &= (1u << std::min<std::size_t>(this->Near.size() - i, Lanes::Count)) - 1;
-    for (; opposed != 0; opposed &= opposed - 1)
+  this->VisitOpposed(state, v, further,
+    [&](int w, float squared)
     {
-      const int w = this->Near[i + LowestBit(opposed)].W;
-      const float squared = this->Near[i + LowestBit(opposed)].Squared;
       if (squared > reach * reach)
       {
         slack = std::min(slack, std::sqrt(squared) - reach + least);
-        continue;
+        return;
       }
       slack = std::min(
         slack, std::max(least, std::sqrt(squared) - state.Sizing.Clearance(v, w)));
@@ -359,8 +384,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v)
       {
         slack = std::min(slack, SomeRoom * delta);
       }
-    }
-  }
+    });
   state.NearOthers[v] = anything;
   state.Slack[v] = slack;
 }

@@ -51,6 +51,8 @@ public:
    * Those of vertices that were not in the last list are kept from when they were.
    */
   const std::vector<ClosePair>& Pairs() const { return this->AllPairs; }
+  /** Finds the pairs alone, of vertices whose stars need no new look. */
+  void AddPairs(const SurfaceState& state, const std::vector<int>& vertices);
   /** Forgets the pairs. */
   void Clear() { this->AllPairs.clear(); }
 
@@ -64,6 +66,9 @@ public:
 private:
   /** Fills Near with the pairs of a vertex within a radius. */
   void FindNear(const SurfaceState& state, const Vector& p, float radius, int v);
+  /** Calls visit(w, squared distance) for those within a radius whose cone of normals is opposed. */
+  template <typename Visitor>
+  void VisitOpposed(const SurfaceState& state, int v, float radius, const Visitor& visit);
   void ExamineVertex(SurfaceState& state, int v);
 
   std::vector<ClosePair> AllPairs;
