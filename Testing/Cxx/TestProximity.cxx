@@ -176,15 +176,22 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
     }
   }
   ASSERT_FALSE(expected.empty());
-  std::set<std::pair<int, int>> found;
-  for (const Proximity::ClosePair& pair : proximity.Pairs())
+  const auto found = [&proximity]
   {
-    if (pair.Squared < SizingField::LambdaInDelta * SizingField::LambdaInDelta)
+    std::set<std::pair<int, int>> close;
+    for (const Proximity::ClosePair& pair : proximity.Pairs())
     {
-      found.insert({ pair.V, pair.W });
+      if (pair.Squared < SizingField::LambdaInDelta * SizingField::LambdaInDelta)
+      {
+        close.insert({ pair.V, pair.W });
+      }
     }
-  }
-  EXPECT_EQ(found, expected);
+    return close;
+  };
+  EXPECT_EQ(found(), expected);
+  proximity.Clear();
+  proximity.AddPairs(state, all);
+  EXPECT_EQ(found(), expected);
 }
 
 TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)

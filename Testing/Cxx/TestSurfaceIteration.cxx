@@ -169,3 +169,47 @@ TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
   blocks.Close(std::move(visit));
   EXPECT_EQ(DescribeBrokenInvariant(s.Mesh), "");
 }
+
+TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)
+{
+  // Two balls that grow towards each other, in visits of an iteration. Nobody merges them.
+  const TestVolume volume = BallVolume(40, 16.);
+  SurfaceOptions options = IsoHalf();
+  options.TopologyChanges = false;
+  SequentialExecutor thread;
+  const Field field(volume.Image, options, thread);
+  const Dynamics dynamics(field, options, thread);
+  SurfaceState s;
+  s.Mesh.Append(DividedIcosahedron({ 15, 20, 20 }, 4., 1.5));
+  const int ofBall = s.Mesh.Size();
+  s.Mesh.Append(DividedIcosahedron({ 25, 20, 20 }, 4., 1.5));
+  s.Sizing = SizingField(1);
+  s.Margin = field.Margin();
+  s.Reset(Vector(-2, -2, -2), Vector(42, 42, 42));
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.UpdateShape(v);
+  }
+  SurfaceBlocks blocks(s, SurfaceBlocks::FrameOf({ 40., 40., 40. }, SurfaceBlocks::SideInDelta), thread);
+  for (int i = 0; i < 12; ++i)
+  {
+    BlockVisit visit = blocks.Open(0);
+    Remesher remesher(s, &field, false, &visit.Share);
+    SurfaceIteration iteration(s);
+    iteration.BeginVisit(visit);
+    HistoryRow row;
+    iteration.Run(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
+    iteration.EndVisit();
+    blocks.Close(std::move(visit));
+  }
+  float nearest = 100.f;
+  for (int v = 0; v < ofBall; ++v)
+  {
+    for (int w = ofBall; w < 2 * ofBall; ++w)
+    {
+      nearest = std::min(nearest, SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]));
+    }
+  }
+  EXPECT_LT(nearest, 2.2f) << "they have met";
+  EXPECT_GT(nearest, .8f) << "and keep apart";
+}
