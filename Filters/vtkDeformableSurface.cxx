@@ -2,31 +2,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
-#include "AlgorithmErrors.h"
-#include "BuildPyramid.h"
-#include "ControllerRanks.h"
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
-#include "Deadline.h"
-#include "GatherLevels.h"
-#include "ImagePieces.h"
-#include "InputImage.h"
-#include "PrefixErrors.h"
-#include "RankInputs.h"
-#include "RankLevel.h"
-#include "RankOutputs.h"
-#include "SegmentationCache.h"
-#include "SegmentationResults.h"
-#include "SegmentationSettings.h"
-#include "SegmentationVolume.h"
-#include "SlabInput.h"
-#include "SurfaceOutput.h"
-#include "SurfaceSegmentation.h"
-#include "VersionCompatibility.h"
-#include "WholeInput.h"
-#include "Workspace.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/ControllerRanks.h"
+#include "Host/Deadline.h"
+#include "Host/PrefixErrors.h"
+#include "Host/VersionCompatibility.h"
+#include "Host/WholeInput.h"
+#include "Input/ImagePieces.h"
+#include "Input/InputImage.h"
+#include "Input/RankInputs.h"
+#include "Input/SlabInput.h"
+#include "Input/Workspace.h"
+#include "Output/RankOutputs.h"
+#include "Output/SegmentationResults.h"
+#include "Output/SurfaceOutput.h"
+#include "Pyramid/BuildPyramid.h"
+#include "Run/GatherLevels.h"
+#include "Run/RankLevel.h"
+#include "Run/SegmentationCache.h"
+#include "Run/SurfaceSegmentation.h"
+#include "Settings/SegmentationSettings.h"
+#include "Settings/SegmentationVolume.h"
 #include "vtkDeformableSurfaceInternals.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -35,7 +34,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -300,26 +298,29 @@ volumic::SegmentationVolume vtkDeformableSurface::VolumeAsSet()
 
 //------------------------------------------------------------------------------
 void vtkDeformableSurface::MakeLevels(
-  vtkImagePyramid* pyramid, vtkImageData* image, volumic::SegmentationVolume& volume)
+  const volumic::PyramidOptions& pyramid, vtkImageData* image, volumic::SegmentationVolume& volume)
 {
   volumic::SegmentationSettings& settings = volume.Settings;
-  pyramid->SetSelectedComponent(settings.SelectedComponent);
-  pyramid->SetNaNIsBackground(settings.NaNIsBackground);
-  pyramid->SetNumberOfThreads(settings.End.NumberOfThreads);
+  volumic::PyramidRequest request;
+  request.Levels = pyramid;
+  request.NaNIsBackground = settings.NaNIsBackground;
+  request.NumberOfThreads = settings.End.NumberOfThreads;
+  request.Progress = [this](double share, const std::string&)
+  { return this->ShowPyramidProgress(share); };
   volumic::Communicator& ranks = *this->Internals->Ranks;
   if (settings.EdgeLength != 0.0)
   {
     const volumic::ImagePieces pieces(ranks, image);
     const volumic::EdgeLengthPlan plan = volumic::PlanEdgeLength(
-      settings.EdgeLength, settings.Options.SamplingRatio, pieces.Frame(), pyramid);
+      settings.EdgeLength, settings.Options.SamplingRatio, pieces.Frame(), request.Levels);
     settings.End.FinestLevel = plan.FinestLevel;
     settings.Options.SamplingRatio = plan.SamplingRatio;
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
   volume.LevelsAreOwn = true;
-  volume.Levels = volumic::BuildPyramid(ranks, pyramid, image, volume.Selection,
-    [this](double share) { return this->ShowPyramidProgress(share); });
+  volume.Levels = volumic::BuildPyramid(
+    ranks, image, volume.Selection, settings.SelectedComponent, request);
 }
 
 //------------------------------------------------------------------------------
@@ -329,13 +330,12 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
   volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
   if (BuildsPyramid(input))
   {
-    vtkNew<vtkImagePyramid> pyramid;
     const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, false, volume);
     if (read || this->Internals->Ranks->NumberOfRanks() > 1)
     {
       vtkImageData* image = volumic::PrefixErrors(
         "Input port 0: ", [&] { return volumic::PieceOfImage(*this->Internals->Ranks, read); });
-      this->MakeLevels(pyramid, image, volume);
+      this->MakeLevels({}, image, volume);
     }
   }
   return volume;

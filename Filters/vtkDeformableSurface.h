@@ -207,7 +207,6 @@
 class vtkAlgorithmOutput;
 class vtkDataObject;
 class vtkImageData;
-class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkMultiProcessController;
@@ -216,6 +215,7 @@ namespace volumic
 {
 struct AlgorithmError;
 class Communicator;
+struct PyramidOptions;
 struct SegmentationRequest;
 struct SegmentationVolume;
 class SurfaceSegmentation;
@@ -768,7 +768,7 @@ protected:
   volumic::SegmentationVolume VolumeAsSet();
   /// Makes the pyramid of an image, for EdgeLength if there is one.
   void MakeLevels(
-    vtkImagePyramid* pyramid, vtkImageData* image, volumic::SegmentationVolume& volume);
+    const volumic::PyramidOptions& pyramid, vtkImageData* image, volumic::SegmentationVolume& volume);
   /// What the surface is searched in, of the data of input port 0; its levels are null where
   /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
   virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);

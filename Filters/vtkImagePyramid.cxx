@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImagePyramid.h"
 
-#include "AlgorithmErrors.h"
-#include "ControllerRanks.h"
 #include "Core/Common/Join.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "ImageVoxels.h"
-#include "InputImage.h"
-#include "LimitedMemory.h"
-#include "PyramidBlocks.h"
-#include "SlabInput.h"
-#include "VersionCompatibility.h"
-#include "WholeInput.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/ControllerRanks.h"
+#include "Host/LimitedMemory.h"
+#include "Host/VersionCompatibility.h"
+#include "Host/WholeInput.h"
+#include "Input/ImageVoxels.h"
+#include "Input/InputImage.h"
+#include "Input/SlabInput.h"
+#include "Pyramid/PyramidBlocks.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -288,13 +288,8 @@ volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(volumic::Communicator& ranks,
   {
     return volumic::StoppedPyramidBlocks();
   }
-  vtkSmartPointer<vtkDataArray> voxels;
-  if (image)
-  {
-    voxels = volumic::SelectComponent(
-      volumic::ChooseArray(this->GetInputArrayInformation(0), image), component);
-  }
-  const volumic::PyramidImage level0(ranks, image, voxels);
+  const volumic::PyramidImage level0(
+    ranks, image, this->GetInputArrayInformation(0), component);
   image = level0.Pieces.Frame();
   volumic::PyramidRequest request;
   request.Levels =

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLabelTable.h"
 
-#include "AlgorithmErrors.h"
-#include "HostThreads.h"
-#include "InputImage.h"
-#include "LabelImage.h"
-#include "LabelNames.h"
-#include "WholeInput.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/HostThreads.h"
+#include "Host/WholeInput.h"
+#include "Input/InputImage.h"
+#include "Labels/LabelImage.h"
+#include "Labels/LabelNames.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>

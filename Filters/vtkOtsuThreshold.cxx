@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOtsuThreshold.h"
 
-#include "AlgorithmErrors.h"
-#include "CellVoxels.h"
-#include "ControllerRanks.h"
-#include "InputImage.h"
-#include "OtsuThreshold.h"
-#include "WholeInput.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/ControllerRanks.h"
+#include "Host/WholeInput.h"
+#include "Input/CellVoxels.h"
+#include "Input/InputImage.h"
+#include "Input/OtsuThreshold.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>

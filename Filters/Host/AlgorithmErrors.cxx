@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Host/AlgorithmErrors.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataObject.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+
+#include <stdexcept>
+
+namespace volumic
+{
+std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& run)
+{
+  std::string errors;
+  vtkNew<vtkCallbackCommand> collect;
+  collect->SetClientData(&errors);
+  collect->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* message)
+    {
+      std::string text = static_cast<const char*>(message);
+      // `ERROR: In file, line 1\nvtkClass (0x1): what is wrong\n\n`
+      const std::size_t speaker = text.find("): ");
+      text.erase(0, speaker == std::string::npos ? 0 : speaker + 3);
+      text.erase(text.find_last_not_of('\n') + 1);
+      *static_cast<std::string*>(client) += text;
+    });
+
+  const unsigned long ofAlgorithm = algorithm->AddObserver(vtkCommand::ErrorEvent, collect);
+  const unsigned long ofExecutive =
+    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, collect);
+  run();
+  algorithm->RemoveObserver(ofAlgorithm);
+  algorithm->GetExecutive()->RemoveObserver(ofExecutive);
+  return errors;
+}
+
+unsigned long ErrorCodeOf(const std::exception& error)
+{
+  const bool isGivenWrong = dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
+  return isGivenWrong ? vtkErrorCode::UserError : vtkErrorCode::UnknownError;
+}
+
+std::string ReasonOf(const AlgorithmError& error)
+{
+  return (error.Code == vtkErrorCode::UserError ? 'U' : 'O') + error.Text;
+}
+
+AlgorithmError ErrorOf(const OtherRankFailed& failure)
+{
+  const std::string reason = failure.what();
+  return { reason.front() == 'U' ? vtkErrorCode::UserError : vtkErrorCode::UnknownError,
+    reason.substr(1) };
+}
+
+void InitializeOutputs(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
+    {
+      output->Initialize();
+    }
+  }
+}
+}
