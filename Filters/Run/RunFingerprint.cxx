@@ -5,6 +5,7 @@
 #include "Core/Common/ContentHash.h"
 #include "Core/Common/Join.h"
 #include "Input/ImageVoxels.h"
+#include "Settings/PropertyTable.h"
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
@@ -12,11 +13,11 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include <cctype>
 #include <cstddef>
 #include <limits>
 #include <locale>
 #include <sstream>
-#include <type_traits>
 
 namespace volumic
 {
@@ -52,6 +53,35 @@ std::string TextOf(const std::vector<Point>& points)
     text += NumberText(p[0]) + "," + NumberText(p[1]) + "," + NumberText(p[2]) + " ";
   }
   return text;
+}
+
+std::string TextOf(bool isOn)
+{
+  return isOn ? "on" : "off";
+}
+
+std::string TextOf(const std::string& text)
+{
+  return text;
+}
+
+/** Of a number, or an enumeration. */
+template <typename Number>
+std::string TextOf(Number number)
+{
+  return NumberText(static_cast<double>(number));
+}
+
+/** `Iso Value` of `IsoValue`, and `NaN Is Background`. */
+std::string WordsOf(const std::string& name)
+{
+  std::string words;
+  for (std::size_t i = 0; i < name.size(); ++i)
+  {
+    const bool begins = i > 0 && std::isupper(name[i]) && std::islower(name[i + 1]);
+    words += (begins ? " " : "") + name.substr(i, 1);
+  }
+  return words;
 }
 
 void AddArray(std::uint64_t& hash, vtkDataArray* array)
@@ -95,30 +125,13 @@ std::string HashOf(vtkPolyData* polyData)
 RunFingerprint::RunFingerprint(const SegmentationSettings& settings,
   const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads)
 {
-  this->AddHidden("version of Volumic", VOLUMIC_FILTERS_VERSION);
+  this->Add("version of Volumic", VOLUMIC_FILTERS_VERSION);
   this->AddVolume(levels, threads);
   this->AddSettings(settings);
   this->AddInputs(request, levels, threads);
 }
 
-template <typename T>
-void RunFingerprint::Add(const char* name, T value)
-{
-  if constexpr (std::is_same_v<T, bool>)
-  {
-    this->Entries.push_back({ name, value ? "on" : "off" });
-  }
-  else if constexpr (std::is_enum_v<T>)
-  {
-    this->AddHidden(name, Join(static_cast<int>(value)));
-  }
-  else
-  {
-    this->Entries.push_back({ name, NumberText(static_cast<double>(value)) });
-  }
-}
-
-void RunFingerprint::AddHidden(const char* name, const std::string& value, Kind kind)
+void RunFingerprint::Add(const std::string& name, const std::string& value, Kind kind)
 {
   this->Entries.push_back({ name, value, kind });
 }
@@ -128,14 +141,14 @@ void RunFingerprint::AddVolume(const SegmentationLevels& levels, Executor& threa
   const PyramidLevels& pyramid = levels.Pyramid();
   const Workspace& space = levels.GetWorkspace();
   const std::array<int, 3> size = pyramid.SizeOfLevel0();
-  this->AddHidden(
+  this->Add(
     "size of the volume", Join(size[0], " x ", size[1], " x ", size[2]), Kind::Volume);
   // An affine map is known by what it does to four points.
-  this->AddHidden("place of the volume",
+  this->Add("place of the volume",
     TextOf({ space.Step(), space.ToWorld({ 0, 0, 0 }), space.ToWorld({ 1, 0, 0 }), space.ToWorld({ 0, 1, 0 }),
       space.ToWorld({ 0, 0, 1 }) }),
     Kind::Volume);
-  this->AddHidden(
+  this->Add(
     "voxels", HashText(pyramid.HashOfVoxels(0, threads)), Kind::Volume);
   std::string coarser = NumberText(levels.UnitInWorld(-1));
   for (int level = 1; level < pyramid.NumberOfLevels(); ++level)
@@ -143,50 +156,26 @@ void RunFingerprint::AddVolume(const SegmentationLevels& levels, Executor& threa
     coarser += " " + NumberText(levels.UnitInWorld(level)) + " " +
       HashText(pyramid.HashOfVoxels(level, threads));
   }
-  this->AddHidden("levels of the pyramid", coarser);
+  this->Add("levels of the pyramid", coarser);
 }
 
 void RunFingerprint::AddSettings(const SegmentationSettings& settings)
 {
-  const SurfaceOptions& options = settings.Options;
-  this->Add("Iso Value", options.IsoValue);
-  this->Add("Object Is Bright", options.ObjectIsBright);
-  this->Add("Border Value", options.BorderValue);
-  this->Add("NaN Is Background", settings.NaNIsBackground);
-  this->Add("Metric", settings.Metric);
-  this->Add("Edge Length", settings.EdgeLength);
-  this->Add("Coarsest Level", settings.CoarsestLevel);
-  this->Add("Initialization", settings.Initialization);
-  this->AddHidden("Seed Radius", NumberText(options.SeedRadius)); // In the workspace's unit.
-  this->AddHidden("Seed Positions", TextOf(settings.End.SeedPositions));
-  this->AddHidden("Attracting Positions", TextOf(settings.AttractingPositions));
-  this->Add("Sampling Ratio", options.SamplingRatio);
-  this->Add("Tension Weight", options.TensionWeight);
-  this->Add("Elasticity Weight", options.ElasticityWeight);
-  this->Add("Isopotential Weight", options.IsopotentialWeight);
-  this->Add("Gradient Weight", options.GradientWeight);
-  this->Add("Point Attraction Weight", options.PointAttractionWeight);
-  this->Add("Edge Attraction Weight", options.EdgeAttractionWeight);
-  this->Add("Friction", options.Friction);
-  this->Add("Maximum Step", options.MaximumStep);
-  this->Add("Topology Changes", options.TopologyChanges);
-  this->Add("Maximum Number Of Iterations", options.MaximumNumberOfIterations);
-  this->Add("Convergence Tolerance", options.ConvergenceTolerance);
-  this->Add("Freeze Motionless Vertices", options.FreezeMotionlessVertices);
-  this->Add("Snap To Iso Value", options.SnapToIsoValue);
-  this->Add("Recovery", settings.Recovery);
-  this->Add("Minimum Part Size", options.MinimumPartSize);
-  this->Add("Keep Components", settings.End.KeepComponents);
-  this->Add("Minimum Component Volume", settings.End.MinimumComponentVolume);
-  this->Add("Snapshot Interval", settings.SnapshotInterval);
+#define VolumicEntry(name, type, field, change, kind)                                              \
+  if (Kind::kind != Kind::Free)                                                                    \
+  {                                                                                                \
+    this->Add(WordsOf(#name), TextOf(settings.field), Kind::kind);                                 \
+  }
+  VOLUMIC_SURFACE_PROPERTIES(VolumicEntry, VolumicEntry)
+#undef VolumicEntry
 }
 
 void RunFingerprint::AddInputs(
   const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads)
 {
-  this->AddHidden("Initial Surface (input port 1)", HashOf(request.InitialSurface));
-  this->AddHidden("Attracting Points (input port 2)", HashOf(request.AttractingPoints));
-  this->AddHidden("Edge Map", HashText(levels.HashOfEdges(threads)));
+  this->Add("Initial Surface (input port 1)", HashOf(request.InitialSurface));
+  this->Add("Attracting Points (input port 2)", HashOf(request.AttractingPoints));
+  this->Add("Edge Map", HashText(levels.HashOfEdges(threads)));
 }
 
 std::uint64_t RunFingerprint::Hash() const
@@ -237,7 +226,7 @@ std::string RunFingerprint::DifferencesFrom(const RunFingerprint& before) const
       continue;
     }
     text += text.empty() ? "" : "; ";
-    text += is.Is == Kind::Shown ? Join(is.Name, " was ", was, " and is ", is.Value)
+    text += is.Is == Kind::Told ? Join(is.Name, " was ", was, " and is ", is.Value)
                                  : Join("not the same ", is.Name);
   }
   return text;

@@ -16,8 +16,8 @@
 namespace volumic
 {
 /**
- * All that the surface of a level depends on, one by one: the voxels, the settings, the other
- * inputs. Not among them is what a run can go on with (SegmentationEnd), and Profile.
+ * All that the surface of a level depends on, one by one: the voxels, the settings as
+ * PropertyTable.h has them, the other inputs.
  */
 class RunFingerprint
 {
@@ -48,21 +48,20 @@ private:
   {
     Volume, ///< Its values tell nobody anything, as those of Hidden.
     Hidden,
-    Shown
+    Told,
+    Free ///< not a part of it (PropertyTable.h)
   };
   struct Entry
   {
     std::string Name;
     std::string Value;
-    Kind Is = Kind::Shown;
+    Kind Is = Kind::Told;
   };
   void AddVolume(const SegmentationLevels& levels, Executor& threads);
   void AddSettings(const SegmentationSettings& settings);
   void AddInputs(
     const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads);
-  template <typename T>
-  void Add(const char* name, T value);
-  void AddHidden(const char* name, const std::string& value, Kind kind = Kind::Hidden);
+  void Add(const std::string& name, const std::string& value, Kind kind = Kind::Hidden);
 
   std::vector<Entry> Entries; ///< The same names, in the same order, of all runs of a version.
 };
