@@ -41,8 +41,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -587,17 +585,6 @@ void vtkDeformableSurface::TellWarnings()
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::EndByError(
-  const volumic::AlgorithmError& error, vtkInformationVector* output)
-{
-  this->Internals->Ranks->Fail(volumic::ReasonOf(error));
-  this->ForgetRun();
-  volumic::InitializeOutputs(output);
-  this->SetErrorCode(error.Code);
-  vtkErrorMacro(<< error.Text);
-}
-
-//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -616,26 +603,23 @@ int vtkDeformableSurface::RequestData(
     return !volumic::IsAbortRequested(this);
   };
   this->Internals->Alone = std::make_unique<volumic::FirstRankWork>(ranks, show);
-  try
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(ranks, outputVector,
+    []
+    {
+      return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
+             "coarser level, or crop the image.";
+    },
+    [&]
+    {
+      this->RunOrGoOn(inputVector, outputVector);
+      volumic::ScatterOutputs(ranks, request, outputVector);
+      ranks.IsAny(false); // Who is through with it here hears of no failure any more.
+    });
+  if (error.Code != vtkErrorCode::NoError)
   {
-    this->RunOrGoOn(inputVector, outputVector);
-    volumic::ScatterOutputs(ranks, request, outputVector);
-    ranks.IsAny(false); // Who is through with it here hears of no failure any more.
-  }
-  catch (const std::bad_alloc& error)
-  {
-    this->EndByError({ volumic::ErrorCodeOf(error),
-                       "Input port 0: the memory does not suffice for the surface. Set Finest "
-                       "Level to a coarser level, or crop the image." },
-      outputVector);
-  }
-  catch (const volumic::OtherRankFailed& failure)
-  {
-    this->EndByError(volumic::ErrorOf(failure), outputVector);
-  }
-  catch (const std::exception& error)
-  {
-    this->EndByError({ volumic::ErrorCodeOf(error), error.what() }, outputVector);
+    this->ForgetRun();
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro(<< error.Text);
   }
   this->TellWarnings();
   this->Internals->InitialSurface = nullptr;

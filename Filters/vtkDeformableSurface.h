@@ -213,7 +213,6 @@ class vtkMultiProcessController;
 class vtkTable;
 namespace volumic
 {
-struct AlgorithmError;
 class Communicator;
 struct PyramidOptions;
 struct SegmentationRequest;
@@ -812,7 +811,6 @@ private:
   bool IsStopped();
   /// Of all that Warn() was given, unless another run is still to come.
   void TellWarnings();
-  void EndByError(const volumic::AlgorithmError& error, vtkInformationVector* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties, and what is kept of the last run
 
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;

@@ -30,8 +30,6 @@
 #include <vtkObjectFactory.h>
 
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -283,26 +281,25 @@ int vtkLabelsToSurfaces::RequestData(
   this->Internals->Seconds.clear();
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  try
-  {
-    this->MakeSurfaces(vtkDataObject::GetData(inputVector[0]), output);
-    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+  // The other ranks wait for the blocks.
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(volumic::OnThisRank(), outputVector,
+    []
     {
-      vtkWarningMacro(<< warning);
-    }
-  }
-  catch (const std::bad_alloc& error)
+      return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "
+             "coarser level, or choose fewer Labels.";
+    },
+    [&]
+    {
+      this->MakeSurfaces(vtkDataObject::GetData(inputVector[0]), output);
+      for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+      {
+        vtkWarningMacro(<< warning);
+      }
+    });
+  if (error.Code != vtkErrorCode::NoError)
   {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: the memory does not suffice for the surfaces. Set Finest Level to "
-                  "a coarser level, or choose fewer Labels.");
-  }
-  catch (const std::exception& error)
-  {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro(<< error.what());
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro(<< error.Text);
   }
   volumic::ShareBlocks(*ranks, output);
   volumic::ForgetAbort(this);

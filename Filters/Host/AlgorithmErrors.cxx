@@ -11,6 +11,7 @@
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
 
+#include <new>
 #include <stdexcept>
 
 namespace volumic
@@ -40,26 +41,49 @@ std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& 
   return errors;
 }
 
-unsigned long ErrorCodeOf(const std::exception& error)
+namespace
 {
-  const bool isGivenWrong = dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
-  return isGivenWrong ? vtkErrorCode::UserError : vtkErrorCode::UnknownError;
-}
-
+/** What Communicator::Fail() tells the other ranks, so that they report the same error. */
 std::string ReasonOf(const AlgorithmError& error)
 {
   return (error.Code == vtkErrorCode::UserError ? 'U' : 'O') + error.Text;
 }
 
+/** What that was made of. */
 AlgorithmError ErrorOf(const OtherRankFailed& failure)
 {
   const std::string reason = failure.what();
   return { reason.front() == 'U' ? vtkErrorCode::UserError : vtkErrorCode::UnknownError,
     reason.substr(1) };
 }
+}
 
-void InitializeOutputs(vtkInformationVector* outputs)
+AlgorithmError RunAlgorithm(Communicator& ranks, vtkInformationVector* outputs,
+  const std::function<std::string()>& aboutMemory, const std::function<void()>& work)
 {
+  AlgorithmError error{ vtkErrorCode::UnknownError, {} };
+  try
+  {
+    work();
+    return { vtkErrorCode::NoError, {} };
+  }
+  catch (const OtherRankFailed& failure)
+  {
+    error = ErrorOf(failure);
+  }
+  catch (const std::bad_alloc&)
+  {
+    error.Text = aboutMemory();
+  }
+  catch (const std::invalid_argument& refused)
+  {
+    error = { vtkErrorCode::UserError, refused.what() };
+  }
+  catch (const std::exception& other)
+  {
+    error.Text = other.what();
+  }
+  ranks.Fail(ReasonOf(error));
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
@@ -67,5 +91,6 @@ void InitializeOutputs(vtkInformationVector* outputs)
       output->Initialize();
     }
   }
+  return error;
 }
 }

@@ -5,7 +5,6 @@
 
 #include "Core/Common/Communicator.h"
 
-#include <exception>
 #include <functional>
 #include <string>
 
@@ -20,31 +19,24 @@ namespace volumic
  */
 std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& run);
 
-/**
- * What a filter's SetErrorCode gets for what ended its run: vtkErrorCode::UserError for
- * std::invalid_argument (what was given is wrong), else vtkErrorCode::UnknownError (memory).
- */
-unsigned long ErrorCodeOf(const std::exception& error);
-
 /** An error as SetErrorCode and vtkErrorMacro get it. */
 struct AlgorithmError
 {
-  unsigned long Code;
+  unsigned long Code; ///< 0: there is none
   std::string Text;
 };
 
-/** What Communicator::Fail() tells the other ranks, so that they report the same error. */
-std::string ReasonOf(const AlgorithmError& error);
-
-/** What that was made of. */
-AlgorithmError ErrorOf(const OtherRankFailed& failure);
-
 /**
- * Leaves all outputs initialised, after an error: no data half made, and none of the field data
- * that the pipeline has passed from the input. RequestData then returns 1 all the same: after 0 the
- * pipeline would print a second error, and ParaView's clients would keep what they had before.
+ * Does the work of RequestData. Where it throws, the other ranks are told, and all outputs are left
+ * initialised: no data half made, and none of the field data that the pipeline has passed from the
+ * input. RequestData then returns 1 all the same: after 0 the pipeline would print a second error,
+ * and ParaView's clients would keep what they had before.
+ * @param aboutMemory what to say where the memory does not suffice
+ * @return what to report: vtkErrorCode::UserError for std::invalid_argument (what was given is
+ *         wrong), else vtkErrorCode::UnknownError (memory); the same on all ranks.
  */
-void InitializeOutputs(vtkInformationVector* outputs);
+AlgorithmError RunAlgorithm(Communicator& ranks, vtkInformationVector* outputs,
+  const std::function<std::string()>& aboutMemory, const std::function<void()>& work);
 }
 
 #endif
