@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The fields that LabelSurfaceMaker makes surfaces of, and how they change where a surface should be
-// elsewhere.
+// The fields that LabelSurfaceMaker makes surfaces of, and how they change where a surface should
+// be elsewhere.
 
 #include "Labels/LabelSurface.h"
 

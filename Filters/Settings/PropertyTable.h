@@ -8,8 +8,8 @@
 /**
  * The properties of vtkDeformableSurface, a line each: its name, its type for Set and Get, where
  * SegmentationSettings has it with its default, and
- * - what a Set changes: the Run, which must begin anew; or its End and its outputs only, so that what
- *   is kept of the last run serves;
+ * - what a Set changes: the Run, which must begin anew; or its End and its outputs only, so that
+ *   what is kept of the last run serves;
  * - its part in the fingerprint of a run: Told with both values where another run had another one;
  *   Hidden, where such values would tell nobody anything; or Free to be another one when a run is
  *   resumed.
