@@ -2,77 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
-#include "AlgorithmErrors.h"
-#include "BuildPyramid.h"
-#include "ControllerRanks.h"
-#include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
-#include "Deadline.h"
-#include "GatherLevels.h"
-#include "ImagePieces.h"
-#include "InputImage.h"
-#include "PrefixErrors.h"
-#include "RankInputs.h"
-#include "RankLevel.h"
-#include "RankOutputs.h"
-#include "SegmentationCache.h"
-#include "SegmentationResults.h"
-#include "SegmentationSettings.h"
-#include "SegmentationVolume.h"
-#include "SlabInput.h"
-#include "SurfaceOutput.h"
-#include "SurfaceSegmentation.h"
-#include "VersionCompatibility.h"
-#include "WholeInput.h"
-#include "Workspace.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/ControllerRanks.h"
+#include "Host/VersionCompatibility.h"
+#include "Host/WholeInput.h"
+#include "Input/SlabInput.h"
+#include "Output/RankOutputs.h"
 #include "vtkDeformableSurfaceInternals.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
 #include <algorithm>
 #include <memory>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkDeformableSurface);
-
-namespace
-{
-/** Share of the progress that the pyramid takes where it is built here. */
-constexpr double PyramidShare = 0.02;
-/** Share of that that the reading takes where the image comes in slabs. */
-constexpr double ReadingShare = 0.5;
-
-/** Whether the levels are made here: the data of input port 0 are no pyramid. */
-bool BuildsPyramid(vtkDataObject* input)
-{
-  return vtkMultiBlockDataSet::SafeDownCast(input) == nullptr;
-}
-
-/** The outputs of a run that was stopped before it had a level. */
-void FillByNothing(vtkInformationVector* output, bool isAborted, bool withPhases)
-{
-  volumic::SegmentationResults nothing(0, 0, volumic::Workspace(), {}, withPhases);
-  nothing.SetStoppedSurface(volumic::MakeStopped(
-    0, isAborted ? Describe(volumic::StopReason::Cancelled) : volumic::TimeLimitReason));
-  nothing.FillOutputs(0, output);
-}
-}
 
 //------------------------------------------------------------------------------
 vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInternals>())
@@ -252,314 +206,6 @@ int vtkDeformableSurface::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
-  vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume)
-{
-  // Of several ranks each has its piece, which is in its memory anyway.
-  if (this->Internals->Memory.Limit() == 0 || this->Internals->Ranks->NumberOfRanks() > 1)
-  {
-    return input;
-  }
-  volumic::SlabInput::Request request;
-  request.Limit = this->Internals->Memory.Limit();
-  request.Selection = volume.Selection;
-  request.SelectedComponent = volume.Settings.SelectedComponent;
-  request.TakesCells = takesCells;
-  request.GoOn = [this](double share)
-  { return this->ShowPyramidProgress(ReadingShare * share, "Reading the image"); };
-  const volumic::SlabInput::Result slabs = volumic::PrefixErrors(
-    "Input port 0: ", [&] { return volumic::SlabInput(this).Read(request); });
-  const std::string whole = volumic::SlabInput(this).DescribeWhole();
-  if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
-  {
-    this->Warn("Input port 0: " + whole);
-  }
-  if (slabs.IsStopped || !slabs.Image)
-  {
-    return slabs.IsStopped ? nullptr : input;
-  }
-  volume.Selection = slabs.Selection;
-  volume.Settings.SelectedComponent = -1; // It has been selected.
-  return slabs.Image;
-}
-
-//------------------------------------------------------------------------------
-volumic::Communicator& vtkDeformableSurface::Ranks()
-{
-  return *this->Internals->Ranks;
-}
-
-//------------------------------------------------------------------------------
-volumic::SegmentationVolume vtkDeformableSurface::VolumeAsSet()
-{
-  volumic::SegmentationVolume volume;
-  volume.Selection = this->GetInputArrayInformation(0);
-  volume.Settings = this->Internals->Settings;
-  return volume;
-}
-
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::MakeLevels(
-  vtkImagePyramid* pyramid, vtkImageData* image, volumic::SegmentationVolume& volume)
-{
-  volumic::SegmentationSettings& settings = volume.Settings;
-  pyramid->SetSelectedComponent(settings.SelectedComponent);
-  pyramid->SetNaNIsBackground(settings.NaNIsBackground);
-  pyramid->SetNumberOfThreads(settings.End.NumberOfThreads);
-  volumic::Communicator& ranks = *this->Internals->Ranks;
-  if (settings.EdgeLength != 0.0)
-  {
-    const volumic::ImagePieces pieces(ranks, image);
-    const volumic::EdgeLengthPlan plan = volumic::PlanEdgeLength(
-      settings.EdgeLength, settings.Options.SamplingRatio, pieces.Frame(), pyramid);
-    settings.End.FinestLevel = plan.FinestLevel;
-    settings.Options.SamplingRatio = plan.SamplingRatio;
-    volume.FactorBelowLevel0 = plan.ReductionFactor;
-    volume.EdgeLengthIsPlanned = true;
-  }
-  volume.LevelsAreOwn = true;
-  volume.Levels = volumic::BuildPyramid(ranks, pyramid, image, volume.Selection,
-    [this](double share) { return this->ShowPyramidProgress(share); });
-}
-
-//------------------------------------------------------------------------------
-volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* input)
-{
-  volumic::SegmentationVolume volume = this->VolumeAsSet();
-  volume.Levels = vtkMultiBlockDataSet::SafeDownCast(input);
-  if (BuildsPyramid(input))
-  {
-    vtkNew<vtkImagePyramid> pyramid;
-    const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, false, volume);
-    if (read || this->Internals->Ranks->NumberOfRanks() > 1)
-    {
-      vtkImageData* image = volumic::PrefixErrors(
-        "Input port 0: ", [&] { return volumic::PieceOfImage(*this->Internals->Ranks, read); });
-      this->MakeLevels(pyramid, image, volume);
-    }
-  }
-  return volume;
-}
-
-//------------------------------------------------------------------------------
-bool vtkDeformableSurface::ShowPyramidProgress(double share, const char* text)
-{
-  return this->Internals->Alone->GoOn(PyramidShare * share, text) &&
-    !this->Internals->Limit.IsOver();
-}
-
-//------------------------------------------------------------------------------
-bool vtkDeformableSurface::IsStopped()
-{
-  return volumic::IsAbortRequested(this) || this->Internals->Alone->IsStoppedByOthers();
-}
-
-//------------------------------------------------------------------------------
-volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVector** input)
-{
-  volumic::SegmentationRequest request;
-  request.Started = volumic::Deadline::Clock::now();
-  request.End = this->Internals->Settings.End;
-  const double limit = request.End.TimeLimit;
-  if (!(limit >= 0.0))
-  {
-    volumic::Refuse("Time Limit is ", limit, "; it must be 0 (none) or more.");
-  }
-  request.Limit = volumic::Deadline(request.Started, limit);
-  this->Internals->Limit = request.Limit;
-  vtkInternals& internals = *this->Internals;
-  internals.InitialSurface =
-    volumic::JoinPieces(*internals.Ranks, vtkPolyData::GetData(input[1]));
-  internals.AttractingPoints =
-    volumic::JoinPieces(*internals.Ranks, vtkPolyData::GetData(input[2]));
-  request.InitialSurface = internals.InitialSurface;
-  request.AttractingPoints = internals.AttractingPoints;
-  request.EdgeSelection = this->GetInputArrayInformation(1);
-  request.Checkpoints.AreLeft =
-    request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
-  // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
-  request.KeepsWhole = internals.IsWatched && !request.Checkpoints.AreLeft;
-  request.Checkpoints.Directory = request.End.ScratchDirectory;
-  request.Checkpoints.Resumes = request.End.Resume;
-  request.Checkpoints.Stay = this->Internals->LeavesCheckpoints;
-  request.Checkpoints.Prepared = [this](const auto& checkpoint)
-  { this->Internals->Checkpoint = checkpoint; };
-  const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
-  request.Progress = [this, before](double share, const std::string& text)
-  { return this->Internals->Alone->GoOn(before + (1.0 - before) * share, text); };
-  request.Warn = [this](const std::string& text) { this->Warn(text); };
-  if (this->Internals->Ranks->NumberOfRanks() > 1)
-  {
-    request.Ranks = this->Internals->Ranks.get();
-    request.Together = [this](const std::function<void()>& part)
-    { this->Internals->Alone->Together(part); };
-  }
-  return request;
-}
-
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, bool isKept)
-{
-  const volumic::SegmentationSettings& settings = this->Internals->Settings;
-  // Whoever asks whether a finer level is still to come asks one rank only: the others would not
-  // run again.
-  const bool isWatched = settings.End.ShowLevels && this->Internals->IsWatched &&
-    this->Internals->Ranks->NumberOfRanks() == 1;
-  if (!isWatched || std::exchange(this->Internals->GoesToTheEnd, false))
-  {
-    return;
-  }
-  const volumic::SegmentationCache& cache = this->Internals->Cache;
-  if (!isKept || !cache.CanGoOn())
-  {
-    request.End.Preview = true;
-    request.IsStep = !settings.End.Preview;
-    return;
-  }
-  const int next = cache.EndOfRun() - 1;
-  if (settings.EdgeLength != 0.0 || next <= std::max(settings.End.FinestLevel, 0))
-  {
-    return;
-  }
-  request.End.FinestLevel = next;
-  request.IsStep = true;
-}
-
-//------------------------------------------------------------------------------
-bool vtkDeformableSurface::ShowKept(
-  const volumic::SegmentationRequest& request, vtkInformationVector* output)
-{
-  volumic::SegmentationCache& cache = this->Internals->Cache;
-  const volumic::SegmentationResults* results =
-    cache.ResultsFor(this->Internals->Settings, request);
-  if (!results)
-  {
-    return false;
-  }
-  const int end = cache.EndOf(request.End);
-  results->FillOutputs(end, output);
-  results->WarnOf(end, this->Internals->Settings.WantsAllParts(), request.Warn);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
-  const volumic::SegmentationRequest& request, vtkDataObject* input)
-{
-  if (BuildsPyramid(input))
-  {
-    this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
-  }
-  volumic::Communicator& ranks = *this->Internals->Ranks;
-  volumic::SegmentationVolume volume = this->PrepareVolume(input);
-  const bool hasLevels = volume.Levels != nullptr;
-  if (ranks.IsAny(!hasLevels))
-  {
-    return nullptr;
-  }
-  volumic::GatherLevels(ranks, volume, request.EdgeSelection);
-  this->Internals->InPieces = volume.InPieces;
-  std::unique_ptr<volumic::SurfaceSegmentation> run;
-  this->Internals->Alone->Run(
-    [&] { run = std::make_unique<volumic::SurfaceSegmentation>(volume, request); });
-  if (!volume.LevelsAreOwn && volumic::AreReleased(this, 0))
-  {
-    input->ReleaseData(); // Now: the run lets go of each level when it has left it.
-  }
-  return run;
-}
-
-//------------------------------------------------------------------------------
-vtkDeformableSurface::Course vtkDeformableSurface::ChooseCourse(bool isKept,
-  volumic::SegmentationRequest& request, std::unique_ptr<volumic::SurfaceSegmentation>& run,
-  vtkInformationVector* output)
-{
-  if (isKept && this->ShowKept(request, output))
-  {
-    return Course::IsShown;
-  }
-  this->ChooseStep(request, isKept);
-  volumic::SegmentationCache& cache = this->Internals->Cache;
-  run = isKept ? cache.TakeRun() : nullptr;
-  cache.Drop();
-  if (run)
-  {
-    run->Renew(request);
-  }
-  if (!run || !run->CanServe())
-  {
-    run.reset(); // Not the levels of both at a time.
-  }
-  return run ? Course::GoesOn : Course::BeginsAnew;
-}
-
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::RunOrGoOn(
-  vtkInformationVector** input, vtkInformationVector* output)
-{
-  const volumic::SegmentationSettings& settings = this->Internals->Settings;
-  volumic::SegmentationCache& cache = this->Internals->Cache;
-  volumic::Communicator& ranks = *this->Internals->Ranks;
-  volumic::FirstRankWork& alone = *this->Internals->Alone;
-  // What has changed on one rank has changed for all.
-  const bool isKept = !ranks.IsAny(!cache.IsValidFor(this, ranks.NumberOfRanks()));
-  // ParaView leaves the flag of an earlier run as it is.
-  volumic::ForgetAbort(this);
-  this->SetErrorCode(vtkErrorCode::NoError);
-  this->Internals->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
-  volumic::SegmentationRequest request = this->RequestAsSet(input);
-  this->Internals->IsOnTheWay = false;
-  std::unique_ptr<volumic::SurfaceSegmentation> run; // At rank 0; the others never have one.
-  auto course = Course::IsShown;
-  alone.Run([&] { course = this->ChooseCourse(isKept, request, run, output); });
-  course = volumic::BroadcastValue(ranks, course);
-  if (course == Course::IsShown)
-  {
-    return;
-  }
-  cache.Drop();
-  this->Internals->Checkpoint.reset();
-  if (course == Course::BeginsAnew)
-  {
-    run = this->NewRun(request, vtkDataObject::GetData(input[0]));
-  }
-  if (!volumic::BroadcastValue(ranks, run != nullptr))
-  {
-    const bool isAborted = this->IsStopped() || !request.Limit.IsOver();
-    FillByNothing(output, isAborted, settings.Profile);
-    return;
-  }
-  alone.Run([&] { run->Run(); },
-    [&]
-    {
-      volumic::HelpWithLevel(ranks, this->Internals->InPieces,
-        [this] { return !volumic::IsAbortRequested(this); });
-    });
-  if (run)
-  {
-    this->ShowRun(*run, request, output);
-  }
-  cache.Keep(std::move(run), this, ranks.NumberOfRanks());
-  volumic::GiveBackFreeMemory();
-}
-
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::ShowRun(const volumic::SurfaceSegmentation& run,
-  const volumic::SegmentationRequest& request, vtkInformationVector* output)
-{
-  const volumic::SegmentationSettings& settings = this->Internals->Settings;
-  run.Results().FillOutputs(run.EndsAt(), output);
-  const bool isCutOff = request.Limit.IsOver() || this->IsStopped();
-  const bool isFinest =
-    run.EndsAt() <= settings.End.FinestLevel && settings.EdgeLength == 0.0;
-  if (request.IsStep && isFinest)
-  {
-    run.Results().WarnOf(run.EndsAt(), settings.WantsAllParts(), request.Warn);
-  }
-  this->Internals->IsOnTheWay = request.IsStep && !isCutOff && !isFinest;
-}
-
-//------------------------------------------------------------------------------
 void vtkDeformableSurface::Warn(const std::string& text)
 {
   std::vector<std::string>& warnings = this->Internals->Warnings;
@@ -587,17 +233,6 @@ void vtkDeformableSurface::TellWarnings()
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::EndByError(
-  const volumic::AlgorithmError& error, vtkInformationVector* output)
-{
-  this->Internals->Ranks->Fail(volumic::ReasonOf(error));
-  this->ForgetRun();
-  volumic::InitializeOutputs(output);
-  this->SetErrorCode(error.Code);
-  vtkErrorMacro(<< error.Text);
-}
-
-//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -616,26 +251,23 @@ int vtkDeformableSurface::RequestData(
     return !volumic::IsAbortRequested(this);
   };
   this->Internals->Alone = std::make_unique<volumic::FirstRankWork>(ranks, show);
-  try
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(ranks, outputVector,
+    []
+    {
+      return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
+             "coarser level, or crop the image.";
+    },
+    [&]
+    {
+      this->RunOrGoOn(inputVector, outputVector);
+      volumic::ScatterOutputs(ranks, request, outputVector);
+      ranks.IsAny(false); // Who is through with it here hears of no failure any more.
+    });
+  if (error.Code != vtkErrorCode::NoError)
   {
-    this->RunOrGoOn(inputVector, outputVector);
-    volumic::ScatterOutputs(ranks, request, outputVector);
-    ranks.IsAny(false); // Who is through with it here hears of no failure any more.
-  }
-  catch (const std::bad_alloc& error)
-  {
-    this->EndByError({ volumic::ErrorCodeOf(error),
-                       "Input port 0: the memory does not suffice for the surface. Set Finest "
-                       "Level to a coarser level, or crop the image." },
-      outputVector);
-  }
-  catch (const volumic::OtherRankFailed& failure)
-  {
-    this->EndByError(volumic::ErrorOf(failure), outputVector);
-  }
-  catch (const std::exception& error)
-  {
-    this->EndByError({ volumic::ErrorCodeOf(error), error.what() }, outputVector);
+    this->ForgetRun();
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro(<< error.Text);
   }
   this->TellWarnings();
   this->Internals->InitialSurface = nullptr;

@@ -49,58 +49,67 @@
  *   block per snapshot in the order in which they were taken, named `Level 3, iteration 20` (of
  *   that level).
  *
- * Point arrays of each surface: `Normals` (float, active), `Residual` (float, field minus IsoValue
- * at the vertex), `Motionless` (unsigned char, 1 for vertices at rest), `Contact` (unsigned char, 1
- * where walls or gaps are thinner than the triangles can hold, see FinestLevel: another part of the
- * surface, at least four edges away along it, keeps the vertex more than 0.1 Delta away from the
- * isopotential, or is nearer than 2.5/sqrt(3) Delta). Cell arrays: `Component` (int, 0 = largest
- * area) and, of the component that the triangle belongs to, `ComponentArea`, `ComponentVolume`
- * (float) and `ComponentGenus` (int), so that filters of cells can choose components. Field data:
- * `Level` (int), `Delta` and `Unit` (double, world units), `NumberOfComponents`,
- * `EulerCharacteristic`, `Genus` (sum over the components), `Iterations` (int, at this level),
- * `Area`, `Volume` (double), `StopReason` (string:
- * `converged`; `limit cycle`: it gets nowhere though it does not rest, as where it merges and cuts
- * in turn; finished like one that rests; `iteration limit`; `cancelled`; `time limit`;
- * `vanished`),
- * `ContactVertices` (int: those with `Contact`), `ResidualQuantile` (double: 98 % of the vertices
- * have a `Residual` of at most this size), `RemainingContacts` (int: pairs of vertices nearer
- * than 2.5/sqrt(3) Delta and at least four edges apart), `LostParts`,
- * `RecoveredParts`, `MissingParts`, `LostCavities` and `RecoveredCavities` (int, see Recovery),
- * `MissingBoundary` (double, 0 to 1: the share of the object's boundary that belongs to parts found
- * by Recovery, which counts them also where it is off, and lies farther than two units from any
- * vertex of the surface at rest; smaller parts than MinimumPartSize don't count) and, with an entry
- * per component, `ComponentArea`, `ComponentVolume` (negative for a cavity), `ComponentGenus`,
- * `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the enclosed solid of
- * density 1 about its centroid). A snapshot has no `StopReason`, but `Iteration` (int): the number
- * of the last row that the history had then.
+ * Point arrays of each surface:
+ * - `Normals` (float, active)
+ * - `Residual` (float): the field minus IsoValue at the vertex
+ * - `Motionless` (unsigned char): 1 for vertices at rest
+ * - `Contact` (unsigned char): 1 where walls or gaps are thinner than the triangles can hold, see
+ *   FinestLevel: another part of the surface, at least four edges away along it, keeps the vertex
+ *   more than 0.1 Delta away from the isopotential, or is nearer than 2.5/sqrt(3) Delta
  *
- * History columns: `Iteration` (over all levels, from 1), `Level`, `Vertices`, `KineticEnergy`
- * (mean over the vertices, along the normals, per unit of mass, in smallest voxel distances of
- * level 0 and units of the simulated time, squared), `MeanEdgeLength` (world units; with Metric
- * Voxels as if voxels were cubes of the smallest voxel distance of level 0), `Seconds`, `TimeStep`,
- * `ActiveVertices` (those not at rest), `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips` (numbers
- * of operations in this iteration), `EulerCharacteristic`, `Components`, `RecoveredParts` (found
- * before this iteration, see Recovery), `Deletions` (components deleted) and `DeletedGenus` (the
- * sum of their genera), `AddedEulerCharacteristic` (of what was added before it: the start, what
- * encloses lost parts). `Vertices`, `MeanEdgeLength`, `EulerCharacteristic` and `Components` of the
- * last row of a level are those of its surface, as regularised, by `RegularisationCuts` and
- * `RegularisationDeletions`; `IterationVertices`, `IterationMeanEdgeLength`,
- * `IterationEulerCharacteristic` and `IterationComponents` tell what the iteration had left (in
- * other rows the same). `SecondsBefore`: since the row before (voxels, division, recovery; in the
- * first row all since the run began); `SecondsAfter`: in the last row of a level, regularisation
- * and output. With these rows add up to the run. Always `IterationEulerCharacteristic` =
- * `EulerCharacteristic` of the row before (first row: 0) + `AddedEulerCharacteristic` + 2 (`Cuts` -
- * `Merges` - `Deletions` + `DeletedGenus`). Iterations are made in sweeps of five, block by block: a
- * row adds up what all blocks did in the same iteration; `MeanEdgeLength` and `Components` are those
- * at the end of its sweep, `TimeStep` the longest of all blocks, `Seconds` its share of the sweep's.
- * With Profile, also what `Seconds` is made of:
- * `ForcesSeconds`, `ContactSeconds`, `ProximitySeconds`, `VerificationSeconds`, `RemeshingSeconds`,
- * `TopologySeconds`; and `DivisionSeconds`, not in `Seconds`: what happens between two iterations
- * (regularisation at the end of a level, in the level's last row), of which `RecoverySeconds` and
- * `RegularisationSeconds` are parts. What one thread worked alone in each of these, whatever the
- * number of threads, is in `ForcesSerialSeconds`, `ContactSerialSeconds`, `ProximitySerialSeconds`,
- * `VerificationSerialSeconds`, `RemeshingSerialSeconds`, `TopologySerialSeconds`,
- * `DivisionSerialSeconds`, `RecoverySerialSeconds` and `RegularisationSerialSeconds`.
+ * Cell arrays:
+ * - `Component` (int): 0 has the largest area
+ * - `ComponentArea`, `ComponentVolume` (float), `ComponentGenus` (int): of the component that the
+ *   triangle belongs to, so that filters of cells can choose components
+ *
+ * Field data:
+ * - `Level`, `Iterations` (int, at this level), `Delta`, `Unit` (double, world units)
+ * - `NumberOfComponents`, `EulerCharacteristic`, `Genus` (int, the sum over the components)
+ * - `Area`, `Volume` (double)
+ * - `StopReason` (string): `converged`; `limit cycle`: it gets nowhere though it does not rest, as
+ *   where it merges and cuts in turn, and is finished like one that rests; `iteration limit`;
+ *   `cancelled`; `time limit`; `vanished`
+ * - `ContactVertices` (int): those with `Contact`
+ * - `RemainingContacts` (int): pairs of vertices nearer than 2.5/sqrt(3) Delta and at least four
+ *   edges apart
+ * - `ResidualQuantile` (double): 98 % of the vertices have a `Residual` of at most this size
+ * - `LostParts`, `RecoveredParts`, `MissingParts`, `LostCavities`, `RecoveredCavities` (int): see
+ *   Recovery
+ * - `MissingBoundary` (double, 0 to 1): the share of the object's boundary that belongs to parts
+ *   found by Recovery, which counts them also where it is off, and lies farther than two units from
+ *   any vertex of the surface at rest; smaller parts than MinimumPartSize don't count
+ * - with an entry per component: `ComponentArea`, `ComponentVolume` (negative for a cavity),
+ *   `ComponentGenus`, `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the
+ *   enclosed solid of density 1 about its centroid)
+ * - of a snapshot, in the place of `StopReason`: `Iteration` (int), the number of the last row that
+ *   the history had then
+ *
+ * Columns of the history:
+ * - `Iteration` (over all levels, from 1), `Level`
+ * - `Vertices`, `EulerCharacteristic`, `Components`, `MeanEdgeLength` (world units; with Metric
+ *   Voxels as if voxels were cubes of the smallest voxel distance of level 0): in the last row of a
+ *   level those of its surface, as regularised, by `RegularisationCuts` and
+ *   `RegularisationDeletions`
+ * - `IterationVertices`, `IterationEulerCharacteristic`, `IterationComponents`,
+ *   `IterationMeanEdgeLength`: what the iteration had left; in other rows the same
+ * - `KineticEnergy`: mean over the vertices, along the normals, per unit of mass, in smallest voxel
+ *   distances of level 0 and units of the simulated time, squared
+ * - `TimeStep`: the longest of all blocks
+ * - `ActiveVertices`: those not at rest
+ * - `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips`: numbers of operations in this iteration
+ * - `Deletions`, `DeletedGenus`: components deleted, and the sum of their genera
+ * - `RecoveredParts`: found before this iteration, see Recovery
+ * - `AddedEulerCharacteristic`: of what was added before it: the start, what encloses lost parts
+ * - `Seconds`, `SecondsBefore`: since the row before (voxels, division, recovery; in the first row
+ *   all since the run began), and `SecondsAfter`: in the last row of a level, regularisation and
+ *   output; rows add up to the run
+ * - with Profile more, which tell where the time goes (Documentation/reference.md of the sources)
+ *
+ * Always `IterationEulerCharacteristic` = `EulerCharacteristic` of the row before (first row: 0) +
+ * `AddedEulerCharacteristic` + 2 (`Cuts` - `Merges` - `Deletions` + `DeletedGenus`). Iterations are
+ * made in sweeps of five, block by block: a row adds up what all blocks did in the same iteration;
+ * `MeanEdgeLength` and `Components` are those at the end of its sweep, `Seconds` its share of the
+ * sweep's.
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever
@@ -140,8 +149,8 @@
  * (FinestLevel 2, then 0). Where someone watches, as ParaView's window does (GetNeedsUpdate()), all
  * components stay, without MemoryLimit and ScratchDirectory: with another KeepComponents,
  * MinimumComponentVolume or, without Initialization Seeds, SeedPositions others are shown at once.
- * The outputs are the same bits as those of a run from the start, but for the seconds in History. To go
- * on it holds the surface and the levels of the pyramid that it has not left, and these only where
+ * The outputs are the same bits as those of a run from the start, but for the seconds in History. To
+ * go on it holds the surface and the levels of the pyramid that it has not left, and these only where
  * the run has ended at level 1 or above, so that no memory of level 0 is held; else no more than
  * the surfaces of the levels. A run that was cancelled or ran out of time begins anew. ForgetRun()
  * frees all of it; nothing is kept after an error, where ReleaseDataFlag is on, or where an input's
@@ -207,15 +216,14 @@
 class vtkAlgorithmOutput;
 class vtkDataObject;
 class vtkImageData;
-class vtkImagePyramid;
 class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkMultiProcessController;
 class vtkTable;
 namespace volumic
 {
-struct AlgorithmError;
 class Communicator;
+struct PyramidOptions;
 struct SegmentationRequest;
 struct SegmentationVolume;
 class SurfaceSegmentation;
@@ -715,7 +723,8 @@ public:
   ///@{
   /**
    * Keep the surface at the start of each level and after every so many iterations, at the end of
-   * the sweep of five in which one is due, in output 3, to see it evolve; 0, the default: off. Each costs the memory of a whole surface.
+   * the sweep of five in which one is due, in output 3, to see it evolve; 0, the default: off. Each
+   * costs the memory of a whole surface.
    */
   virtual void SetSnapshotInterval(int value);
   virtual int GetSnapshotInterval();
@@ -767,8 +776,8 @@ protected:
   /// Without levels, the rest as the properties have it.
   volumic::SegmentationVolume VolumeAsSet();
   /// Makes the pyramid of an image, for EdgeLength if there is one.
-  void MakeLevels(
-    vtkImagePyramid* pyramid, vtkImageData* image, volumic::SegmentationVolume& volume);
+  void MakeLevels(const volumic::PyramidOptions& pyramid, vtkImageData* image,
+    volumic::SegmentationVolume& volume);
   /// What the surface is searched in, of the data of input port 0; its levels are null where
   /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
   virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
@@ -812,7 +821,6 @@ private:
   bool IsStopped();
   /// Of all that Warn() was given, unless another run is still to come.
   void TellWarnings();
-  void EndByError(const volumic::AlgorithmError& error, vtkInformationVector* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties, and what is kept of the last run
 
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;

@@ -4,13 +4,13 @@
 #define vtkDeformableSurfaceInternals_h
 
 #include "Core/Common/Communicator.h"
-#include "Deadline.h"
-#include "FirstRankWork.h"
-#include "LimitedMemory.h"
-#include "SegmentationCache.h"
-#include "SegmentationCheckpoint.h"
-#include "SegmentationSettings.h"
-#include "SegmentationVolume.h"
+#include "Host/Deadline.h"
+#include "Host/FirstRankWork.h"
+#include "Host/LimitedMemory.h"
+#include "Run/SegmentationCache.h"
+#include "Run/SegmentationCheckpoint.h"
+#include "Settings/SegmentationSettings.h"
+#include "Settings/SegmentationVolume.h"
 #include "vtkDeformableSurface.h"
 
 #include <vtkMultiProcessController.h>

@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The properties of vtkDeformableSurface: its Set and Get methods write to and read from one
-// volumic::SegmentationSettings, and PrintSelf() prints them.
+// volumic::SegmentationSettings, and PrintSelf() prints them, by the lines of PropertyTable.h.
 
 #include "vtkDeformableSurface.h"
 
+#include "Settings/PropertyTable.h"
+#include "Settings/PropertyValues.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkMath.h>
 
 #include <algorithm>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -46,23 +47,21 @@ static_assert(AreEqual(Class::AllComponents, KeepComponentsType::AllComponents) 
   AreEqual(Class::ComponentsAtPoints, KeepComponentsType::ComponentsAtPoints) &&
   AreEqual(Class::LargeComponents, KeepComponentsType::LargeComponents));
 
-/** The filter has changed, but what is kept of its last run stays. */
-void ModifyEnd(vtkDeformableSurface* filter, volumic::SegmentationCache& cache)
+/** What a property decides on, see PropertyTable.h. */
+enum class Change
+{
+  Run,
+  End
+};
+
+/** The filter has changed. What is kept of its last run stays where only the end of one has. */
+void Modify(vtkDeformableSurface* filter, volumic::SegmentationCache& cache, Change what)
 {
   const vtkMTimeType before = filter->GetMTime();
   filter->Modified();
-  cache.IgnoreChange(before, filter->GetMTime());
-}
-
-/** Changes a property that decides on the end of a run and its outputs only. */
-template <typename T>
-void ChangeEnd(
-  vtkDeformableSurface* filter, volumic::SegmentationCache& cache, T& property, const T& value)
-{
-  if (property != value)
+  if (what == Change::End)
   {
-    property = value;
-    ModifyEnd(filter, cache);
+    cache.IgnoreChange(before, filter->GetMTime());
   }
 }
 
@@ -78,48 +77,55 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 }
 
 //------------------------------------------------------------------------------
-// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is: `field` of the
-// settings. An int may stand for an enumeration there.
-#define VolumicGetProperty(name, type, field)                                                      \
+// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is.
+#define VolumicSetting(name, type, field, change, kind)                                            \
   type vtkDeformableSurface::Get##name()                                                           \
   {                                                                                                \
-    const auto value = static_cast<type>(this->Internals->Settings.field);                         \
+    const auto value = volumic::ValueOf<type>(this->Internals->Settings.field);                    \
     vtkDebugMacro(<< "returning " #name " of " << value);                                          \
     return value;                                                                                  \
-  }
-#define VolumicProperty(name, type, field)                                                         \
-  VolumicGetProperty(name, type, field)                                                            \
+  }                                                                                                \
   void vtkDeformableSurface::Set##name(type value)                                                 \
   {                                                                                                \
-    vtkDebugMacro(<< "setting " #name " to " << value);                                            \
-    auto& property = this->Internals->Settings.field;                                              \
-    const auto wanted = static_cast<std::decay_t<decltype(property)>>(value);                      \
-    if (property != wanted)                                                                        \
+    auto& setting = this->Internals->Settings.field;                                               \
+    const auto wanted = volumic::SettingOf<std::decay_t<decltype(setting)>>(value);                \
+    vtkDebugMacro(<< "setting " #name " to " << volumic::ValueOf<type>(wanted));                   \
+    if (setting != wanted)                                                                         \
     {                                                                                              \
-      property = wanted;                                                                           \
-      this->Modified();                                                                            \
+      setting = wanted;                                                                            \
+      Modify(this, this->Internals->Cache, Change::change);                                        \
     }                                                                                              \
   }
-// A property that decides on the end of a run and its outputs only.
-#define VolumicEndProperty(name, type)                                                             \
-  VolumicGetProperty(name, type, End.name)                                                         \
-  void vtkDeformableSurface::Set##name(type value)                                                 \
-  {                                                                                                \
-    auto& property = this->Internals->Settings.End.name;                                           \
-    ChangeEnd(this, this->Internals->Cache, property,                                              \
-      static_cast<std::decay_t<decltype(property)>>(value));                                       \
+#define VolumicWritten(name, type, field, change, kind)
+VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
+
+int vtkDeformableSurface::GetNumberOfThreads()
+{
+  return this->Internals->Settings.End.NumberOfThreads;
+}
+
+void vtkDeformableSurface::SetNumberOfThreads(int number)
+{
+  int& threads = this->Internals->Settings.End.NumberOfThreads;
+  if (threads != std::max(number, 0))
+  {
+    threads = std::max(number, 0);
+    Modify(this, this->Internals->Cache, Change::End);
   }
-// A list of positions: names of one and of all, and what is called when it has changed.
-#define VolumicPositions(one, all, field, modified)                                                \
+}
+
+//------------------------------------------------------------------------------
+// A list of positions: names of one and of all, where it is, and what it decides on.
+#define VolumicPositions(one, all, field, change)                                                  \
   void vtkDeformableSurface::Add##one(double x, double y, double z)                                \
   {                                                                                                \
     this->Internals->Settings.field.push_back({ x, y, z });                                        \
-    modified;                                                                                      \
+    Modify(this, this->Internals->Cache, change);                                                  \
   }                                                                                                \
   void vtkDeformableSurface::Clear##all()                                                          \
   {                                                                                                \
     this->Internals->Settings.field.clear();                                                       \
-    modified;                                                                                      \
+    Modify(this, this->Internals->Cache, change);                                                  \
   }                                                                                                \
   int vtkDeformableSurface::GetNumberOf##all()                                                     \
   {                                                                                                \
@@ -129,107 +135,16 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
   {                                                                                                \
     CopyPosition(this->Internals->Settings.field, index, position);                                \
   }
-
-VolumicProperty(SelectedComponent, int, SelectedComponent)
-VolumicProperty(NaNIsBackground, bool, NaNIsBackground)
-VolumicProperty(Metric, int, Metric)
-VolumicProperty(EdgeLength, double, EdgeLength)
-VolumicProperty(IsoValue, double, Options.IsoValue)
-VolumicProperty(ObjectIsBright, bool, Options.ObjectIsBright)
-VolumicProperty(Initialization, int, Initialization)
-VolumicProperty(SeedRadius, double, Options.SeedRadius)
-VolumicProperty(CoarsestLevel, int, CoarsestLevel)
-VolumicProperty(SamplingRatio, double, Options.SamplingRatio)
-VolumicProperty(TensionWeight, double, Options.TensionWeight)
-VolumicProperty(ElasticityWeight, double, Options.ElasticityWeight)
-VolumicProperty(IsopotentialWeight, double, Options.IsopotentialWeight)
-VolumicProperty(GradientWeight, double, Options.GradientWeight)
-VolumicProperty(PointAttractionWeight, double, Options.PointAttractionWeight)
-VolumicProperty(EdgeAttractionWeight, double, Options.EdgeAttractionWeight)
-VolumicProperty(Friction, double, Options.Friction)
-VolumicProperty(BorderValue, int, Options.BorderValue)
-VolumicProperty(Recovery, int, Recovery)
-VolumicProperty(MinimumPartSize, int, Options.MinimumPartSize)
-VolumicProperty(TopologyChanges, bool, Options.TopologyChanges)
-VolumicProperty(MaximumNumberOfIterations, int, Options.MaximumNumberOfIterations)
-VolumicProperty(ConvergenceTolerance, double, Options.ConvergenceTolerance)
-VolumicProperty(FreezeMotionlessVertices, bool, Options.FreezeMotionlessVertices)
-VolumicProperty(SnapToIsoValue, bool, Options.SnapToIsoValue)
-VolumicProperty(Profile, bool, Profile)
-VolumicProperty(SnapshotInterval, int, SnapshotInterval)
-
 VolumicPositions(SeedPosition, SeedPositions, End.SeedPositions,
-  this->GetInitialization() == Seeds
-    ? this->Modified()
-    : ModifyEnd(this, this->Internals->Cache))
-VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, this->Modified())
-
-VolumicEndProperty(KeepComponents, int)
-VolumicEndProperty(MinimumComponentVolume, double)
-VolumicEndProperty(FinestLevel, int)
-VolumicEndProperty(TimeLimit, double)
-VolumicEndProperty(MemoryLimit, int)
-VolumicEndProperty(Resume, bool)
-VolumicEndProperty(Preview, bool)
-VolumicEndProperty(ShowLevels, bool)
-VolumicGetProperty(NumberOfThreads, int, End.NumberOfThreads)
-void vtkDeformableSurface::SetNumberOfThreads(int number)
-{
-  vtkInternals& internals = *this->Internals;
-  ChangeEnd(this, internals.Cache, internals.Settings.End.NumberOfThreads, std::max(number, 0));
-}
-void vtkDeformableSurface::SetScratchDirectory(const char* directory)
-{
-  vtkInternals& internals = *this->Internals;
-  ChangeEnd(this, internals.Cache, internals.Settings.End.ScratchDirectory,
-    std::string(directory ? directory : ""));
-}
-const char* vtkDeformableSurface::GetScratchDirectory()
-{
-  return this->Internals->Settings.End.ScratchDirectory.c_str();
-}
+  this->GetInitialization() == Seeds ? Change::Run : Change::End)
+VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, Change::Run)
 
 //------------------------------------------------------------------------------
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "SelectedComponent: " << this->GetSelectedComponent() << endl;
-  os << indent << "NaNIsBackground: " << this->GetNaNIsBackground() << endl;
-  os << indent << "Metric: " << this->GetMetric() << endl;
-  os << indent << "EdgeLength: " << this->GetEdgeLength() << endl;
-  os << indent << "IsoValue: " << this->GetIsoValue() << endl;
-  os << indent << "ObjectIsBright: " << this->GetObjectIsBright() << endl;
-  os << indent << "Initialization: " << this->GetInitialization() << endl;
-  os << indent << "SeedPositions: " << this->GetNumberOfSeedPositions() << endl;
-  os << indent << "SeedRadius: " << this->GetSeedRadius() << endl;
-  os << indent << "CoarsestLevel: " << this->GetCoarsestLevel() << endl;
-  os << indent << "FinestLevel: " << this->GetFinestLevel() << endl;
-  os << indent << "SamplingRatio: " << this->GetSamplingRatio() << endl;
-  os << indent << "TensionWeight: " << this->GetTensionWeight() << endl;
-  os << indent << "ElasticityWeight: " << this->GetElasticityWeight() << endl;
-  os << indent << "IsopotentialWeight: " << this->GetIsopotentialWeight() << endl;
-  os << indent << "GradientWeight: " << this->GetGradientWeight() << endl;
-  os << indent << "PointAttractionWeight: " << this->GetPointAttractionWeight() << endl;
-  os << indent << "AttractingPositions: " << this->GetNumberOfAttractingPositions() << endl;
-  os << indent << "EdgeAttractionWeight: " << this->GetEdgeAttractionWeight() << endl;
-  os << indent << "Friction: " << this->GetFriction() << endl;
-  os << indent << "BorderValue: " << this->GetBorderValue() << endl;
-  os << indent << "Recovery: " << this->GetRecovery() << endl;
-  os << indent << "MinimumPartSize: " << this->GetMinimumPartSize() << endl;
-  os << indent << "KeepComponents: " << this->GetKeepComponents() << endl;
-  os << indent << "MinimumComponentVolume: " << this->GetMinimumComponentVolume() << endl;
-  os << indent << "TopologyChanges: " << this->GetTopologyChanges() << endl;
-  os << indent << "MaximumNumberOfIterations: " << this->GetMaximumNumberOfIterations() << endl;
-  os << indent << "ConvergenceTolerance: " << this->GetConvergenceTolerance() << endl;
-  os << indent << "FreezeMotionlessVertices: " << this->GetFreezeMotionlessVertices() << endl;
-  os << indent << "SnapToIsoValue: " << this->GetSnapToIsoValue() << endl;
-  os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << endl;
-  os << indent << "MemoryLimit: " << this->GetMemoryLimit() << endl;
-  os << indent << "ScratchDirectory: " << this->GetScratchDirectory() << endl;
-  os << indent << "Resume: " << this->GetResume() << endl;
-  os << indent << "TimeLimit: " << this->GetTimeLimit() << endl;
-  os << indent << "Preview: " << this->GetPreview() << endl;
-  os << indent << "ShowLevels: " << this->GetShowLevels() << endl;
-  os << indent << "Profile: " << this->GetProfile() << endl;
-  os << indent << "SnapshotInterval: " << this->GetSnapshotInterval() << endl;
+#define VolumicPrint(name, type, field, change, kind)                                              \
+  volumic::PrintSetting(os << indent << #name ": ", this->Internals->Settings.field);              \
+  os << endl;
+  VOLUMIC_SURFACE_PROPERTIES(VolumicPrint, VolumicPrint)
 }

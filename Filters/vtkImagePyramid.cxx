@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkImagePyramid.h"
 
-#include "AlgorithmErrors.h"
-#include "ControllerRanks.h"
 #include "Core/Common/Join.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "ImageVoxels.h"
-#include "InputImage.h"
-#include "LimitedMemory.h"
-#include "PyramidBlocks.h"
-#include "SlabInput.h"
-#include "VersionCompatibility.h"
-#include "WholeInput.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/ControllerRanks.h"
+#include "Host/LimitedMemory.h"
+#include "Host/VersionCompatibility.h"
+#include "Host/WholeInput.h"
+#include "Input/ImageVoxels.h"
+#include "Input/InputImage.h"
+#include "Input/SlabInput.h"
+#include "Pyramid/PyramidBlocks.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -32,8 +32,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <new>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -288,13 +287,8 @@ volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(volumic::Communicator& ranks,
   {
     return volumic::StoppedPyramidBlocks();
   }
-  vtkSmartPointer<vtkDataArray> voxels;
-  if (image)
-  {
-    voxels = volumic::SelectComponent(
-      volumic::ChooseArray(this->GetInputArrayInformation(0), image), component);
-  }
-  const volumic::PyramidImage level0(ranks, image, voxels);
+  const volumic::PyramidImage level0(
+    ranks, image, this->GetInputArrayInformation(0), component);
   image = level0.Pieces.Frame();
   volumic::PyramidRequest request;
   request.Levels =
@@ -319,13 +313,6 @@ int vtkImagePyramid::RequestData(
   {
     return 1;
   }
-  const auto endByError = [&](const volumic::AlgorithmError& error)
-  {
-    ranks->Fail(volumic::ReasonOf(error));
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(error.Code);
-    vtkErrorMacro("Input port 0: " << error.Text);
-  };
   vtkInternals& internals = *this->Internals;
   const int ghostLevels = volumic::GhostLevelsAskedOf(request, outputVector);
   if (ranks->NumberOfRanks() > 1 && internals.Has(this, *ranks, ghostLevels))
@@ -334,38 +321,35 @@ int vtkImagePyramid::RequestData(
     return 1;
   }
   internals.Kept = nullptr;
+  // ParaView leaves the flag of an earlier run as it is.
+  volumic::ForgetAbort(this);
   vtkSmartPointer<vtkImageData> image;
-  try
-  {
-    // ParaView leaves the flag of an earlier run as it is.
-    volumic::ForgetAbort(this);
-    const volumic::PyramidBlocks pyramid =
-      this->MakeBlocks(*ranks, vtkDataObject::GetData(inputVector[0]), ghostLevels, image);
-    ranks->IsAny(false); // Whoever has failed tells it here at last.
-    vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
-    internals.Keep(this, *ranks, ghostLevels, pyramid.Blocks);
-    if (!pyramid.AboutNaNs.empty() && ranks->Rank() == 0)
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(*ranks, outputVector,
+    [&]
     {
-      vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
-    }
-    for (const std::string& warning : internals.Memory.TakeWarnings())
+      return volumic::Join("the memory does not suffice for the pyramid of an image of ",
+        image ? volumic::SizeOf(image) : "?", " voxels.");
+    },
+    [&]
     {
-      vtkWarningMacro(<< warning);
-    }
-  }
-  catch (const std::bad_alloc& error)
+      const volumic::PyramidBlocks pyramid =
+        this->MakeBlocks(*ranks, vtkDataObject::GetData(inputVector[0]), ghostLevels, image);
+      ranks->IsAny(false); // Whoever has failed tells it here at last.
+      vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
+      internals.Keep(this, *ranks, ghostLevels, pyramid.Blocks);
+      if (!pyramid.AboutNaNs.empty() && ranks->Rank() == 0)
+      {
+        vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
+      }
+      for (const std::string& warning : internals.Memory.TakeWarnings())
+      {
+        vtkWarningMacro(<< warning);
+      }
+    });
+  if (error.Code != vtkErrorCode::NoError)
   {
-    endByError({ volumic::ErrorCodeOf(error),
-      volumic::Join("the memory does not suffice for the pyramid of an image of ",
-        image ? volumic::SizeOf(image) : "?", " voxels.") });
-  }
-  catch (const volumic::OtherRankFailed& failure)
-  {
-    endByError(volumic::ErrorOf(failure));
-  }
-  catch (const std::exception& error)
-  {
-    endByError({ volumic::ErrorCodeOf(error), error.what() });
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro("Input port 0: " << error.Text);
   }
   volumic::ForgetAbort(this);
   return 1;

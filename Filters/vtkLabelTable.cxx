@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLabelTable.h"
 
-#include "AlgorithmErrors.h"
-#include "HostThreads.h"
-#include "InputImage.h"
-#include "LabelImage.h"
-#include "LabelNames.h"
-#include "WholeInput.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/HostThreads.h"
+#include "Host/WholeInput.h"
+#include "Input/InputImage.h"
+#include "Labels/LabelImage.h"
+#include "Labels/LabelNames.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -22,7 +22,6 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
-#include <exception>
 #include <optional>
 
 vtkStandardNewMacro(vtkLabelTable);
@@ -73,34 +72,35 @@ int vtkLabelTable::RequestData(
   vtkNew<vtkDoubleArray> colors;
   colors->SetName("Color");
   colors->SetNumberOfComponents(3);
-  try
-  {
-    vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-    volumic::HostThreads threads(0);
-    std::optional<volumic::LabelImage> image;
-    threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
-    const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
-    image->CheckNumberOfLabels();
-    for (const auto& entry : image->Labels())
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(volumic::OnThisRank(), outputVector,
+    [] { return "the memory does not suffice for the labels."; },
+    [&]
     {
-      labels->InsertNextValue(entry.first);
-      names->InsertNextValue(known.NameOf(entry.first));
-      voxels->InsertNextValue(entry.second.Count);
-      extents->InsertNextTypedTuple(entry.second.Extent.data());
-      colors->InsertNextTuple(known.ColorOf(entry.first).data());
-    }
-    vtkTable* table = vtkTable::GetData(outputVector);
-    table->AddColumn(labels);
-    table->AddColumn(names);
-    table->AddColumn(voxels);
-    table->AddColumn(extents);
-    table->AddColumn(colors);
-  }
-  catch (const std::exception& error)
+      vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+      volumic::HostThreads threads(0);
+      std::optional<volumic::LabelImage> image;
+      threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
+      const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
+      image->CheckNumberOfLabels();
+      for (const auto& entry : image->Labels())
+      {
+        labels->InsertNextValue(entry.first);
+        names->InsertNextValue(known.NameOf(entry.first));
+        voxels->InsertNextValue(entry.second.Count);
+        extents->InsertNextTypedTuple(entry.second.Extent.data());
+        colors->InsertNextTuple(known.ColorOf(entry.first).data());
+      }
+      vtkTable* table = vtkTable::GetData(outputVector);
+      table->AddColumn(labels);
+      table->AddColumn(names);
+      table->AddColumn(voxels);
+      table->AddColumn(extents);
+      table->AddColumn(colors);
+    });
+  if (error.Code != vtkErrorCode::NoError)
   {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: " << error.what());
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro("Input port 0: " << error.Text);
   }
   return 1;
 }

@@ -2,21 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLabelsToSurfaces.h"
 
-#include "AlgorithmErrors.h"
-#include "ControllerRanks.h"
 #include "Core/Common/FreeMemory.h"
-#include "HostThreads.h"
-#include "InputImage.h"
-#include "LabelBlocks.h"
-#include "LabelImage.h"
-#include "LabelNames.h"
-#include "LabelSurface.h"
-#include "LabelSurfaces.h"
-#include "LimitedMemory.h"
-#include "PrefixErrors.h"
-#include "VersionCompatibility.h"
-#include "WholeInput.h"
-#include "Workspace.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/ControllerRanks.h"
+#include "Host/HostThreads.h"
+#include "Host/LimitedMemory.h"
+#include "Host/PrefixErrors.h"
+#include "Host/VersionCompatibility.h"
+#include "Host/WholeInput.h"
+#include "Input/InputImage.h"
+#include "Input/Workspace.h"
+#include "Labels/LabelBlocks.h"
+#include "Labels/LabelImage.h"
+#include "Labels/LabelNames.h"
+#include "Labels/LabelSurface.h"
+#include "Labels/LabelSurfaces.h"
+#include "Settings/PropertyValues.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -29,10 +30,9 @@
 #include <vtkObjectFactory.h>
 
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 vtkStandardNewMacro(vtkLabelsToSurfaces);
@@ -63,33 +63,42 @@ vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInter
 vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
 
 //------------------------------------------------------------------------------
+// The properties, a line each: name, type for Set and Get, where vtkInternals has it. Set and Get
+// are made of them but for those that are written out, and all of PrintSelf().
+#define VOLUMIC_LABEL_PROPERTIES(MADE, WRITTEN)                         \
+  MADE(BackgroundLabel, int, BackgroundLabel)                           \
+  MADE(Merge, bool, Merge)                                              \
+  MADE(Smoothing, double, Settings.Smoothing)                           \
+  MADE(VoxelTolerance, double, Settings.VoxelTolerance)                 \
+  MADE(Gap, double, Settings.Gap)                                       \
+  MADE(Metric, int, Settings.Metric)                                    \
+  MADE(EdgeLength, double, Settings.EdgeLength)                         \
+  MADE(FinestLevel, int, Settings.FinestLevel)                          \
+  MADE(KeepComponents, int, Settings.KeepComponents)                    \
+  MADE(MinimumComponentVolume, double, Settings.MinimumComponentVolume) \
+  WRITTEN(NumberOfThreads, int, NumberOfThreads)                        \
+  MADE(MemoryLimit, int, MemoryLimit)                                   \
+  MADE(ScratchDirectory, const char*, ScratchDirectory)
+
 // As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is.
 #define VolumicLabelProperty(name, type, field)                                                    \
   type vtkLabelsToSurfaces::Get##name()                                                            \
   {                                                                                                \
-    return this->Internals->field;                                                                 \
+    return volumic::ValueOf<type>(this->Internals->field);                                         \
   }                                                                                                \
   void vtkLabelsToSurfaces::Set##name(type value)                                                  \
   {                                                                                                \
-    vtkDebugMacro(<< "setting " #name " to " << value);                                            \
-    if (this->Internals->field != value)                                                           \
+    auto& setting = this->Internals->field;                                                        \
+    const auto wanted = volumic::SettingOf<std::decay_t<decltype(setting)>>(value);                \
+    vtkDebugMacro(<< "setting " #name " to " << wanted);                                           \
+    if (setting != wanted)                                                                         \
     {                                                                                              \
-      this->Internals->field = value;                                                              \
+      setting = wanted;                                                                            \
       this->Modified();                                                                            \
     }                                                                                              \
   }
-
-VolumicLabelProperty(BackgroundLabel, int, BackgroundLabel)
-VolumicLabelProperty(Merge, bool, Merge)
-VolumicLabelProperty(Smoothing, double, Settings.Smoothing)
-VolumicLabelProperty(VoxelTolerance, double, Settings.VoxelTolerance)
-VolumicLabelProperty(Gap, double, Settings.Gap)
-VolumicLabelProperty(Metric, int, Settings.Metric)
-VolumicLabelProperty(EdgeLength, double, Settings.EdgeLength)
-VolumicLabelProperty(FinestLevel, int, Settings.FinestLevel)
-VolumicLabelProperty(KeepComponents, int, Settings.KeepComponents)
-VolumicLabelProperty(MinimumComponentVolume, double, Settings.MinimumComponentVolume)
-VolumicLabelProperty(MemoryLimit, int, MemoryLimit)
+#define VolumicWritten(name, type, field)
+VOLUMIC_LABEL_PROPERTIES(VolumicLabelProperty, VolumicWritten)
 
 int vtkLabelsToSurfaces::GetNumberOfThreads()
 {
@@ -101,21 +110,6 @@ void vtkLabelsToSurfaces::SetNumberOfThreads(int number)
   if (this->Internals->NumberOfThreads != std::max(number, 0))
   {
     this->Internals->NumberOfThreads = std::max(number, 0);
-    this->Modified();
-  }
-}
-
-const char* vtkLabelsToSurfaces::GetScratchDirectory()
-{
-  return this->Internals->ScratchDirectory.c_str();
-}
-
-void vtkLabelsToSurfaces::SetScratchDirectory(const char* directory)
-{
-  const std::string wanted = directory ? directory : "";
-  if (this->Internals->ScratchDirectory != wanted)
-  {
-    this->Internals->ScratchDirectory = wanted;
     this->Modified();
   }
 }
@@ -287,26 +281,25 @@ int vtkLabelsToSurfaces::RequestData(
   this->Internals->Seconds.clear();
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  try
-  {
-    this->MakeSurfaces(vtkDataObject::GetData(inputVector[0]), output);
-    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+  // The other ranks wait for the blocks.
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(volumic::OnThisRank(), outputVector,
+    []
     {
-      vtkWarningMacro(<< warning);
-    }
-  }
-  catch (const std::bad_alloc& error)
+      return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "
+             "coarser level, or choose fewer Labels.";
+    },
+    [&]
+    {
+      this->MakeSurfaces(vtkDataObject::GetData(inputVector[0]), output);
+      for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+      {
+        vtkWarningMacro(<< warning);
+      }
+    });
+  if (error.Code != vtkErrorCode::NoError)
   {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro("Input port 0: the memory does not suffice for the surfaces. Set Finest Level to "
-                  "a coarser level, or choose fewer Labels.");
-  }
-  catch (const std::exception& error)
-  {
-    volumic::InitializeOutputs(outputVector);
-    this->SetErrorCode(volumic::ErrorCodeOf(error));
-    vtkErrorMacro(<< error.what());
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro(<< error.Text);
   }
   volumic::ShareBlocks(*ranks, output);
   volumic::ForgetAbort(this);
@@ -324,17 +317,8 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << label;
   }
   os << endl;
-  os << indent << "BackgroundLabel: " << this->GetBackgroundLabel() << endl;
-  os << indent << "Merge: " << this->GetMerge() << endl;
-  os << indent << "Smoothing: " << this->GetSmoothing() << endl;
-  os << indent << "VoxelTolerance: " << this->GetVoxelTolerance() << endl;
-  os << indent << "Gap: " << this->GetGap() << endl;
-  os << indent << "Metric: " << this->GetMetric() << endl;
-  os << indent << "EdgeLength: " << this->GetEdgeLength() << endl;
-  os << indent << "FinestLevel: " << this->GetFinestLevel() << endl;
-  os << indent << "KeepComponents: " << this->GetKeepComponents() << endl;
-  os << indent << "MinimumComponentVolume: " << this->GetMinimumComponentVolume() << endl;
-  os << indent << "NumberOfThreads: " << this->GetNumberOfThreads() << endl;
-  os << indent << "MemoryLimit: " << this->GetMemoryLimit() << endl;
-  os << indent << "ScratchDirectory: " << this->GetScratchDirectory() << endl;
+#define VolumicPrint(name, type, field)                                                            \
+  volumic::PrintSetting(os << indent << #name ": ", this->Internals->field);                       \
+  os << endl;
+  VOLUMIC_LABEL_PROPERTIES(VolumicPrint, VolumicPrint)
 }

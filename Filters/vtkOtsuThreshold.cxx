@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOtsuThreshold.h"
 
-#include "AlgorithmErrors.h"
-#include "CellVoxels.h"
-#include "ControllerRanks.h"
-#include "InputImage.h"
-#include "OtsuThreshold.h"
-#include "WholeInput.h"
+#include "Host/AlgorithmErrors.h"
+#include "Host/ControllerRanks.h"
+#include "Host/WholeInput.h"
+#include "Input/CellVoxels.h"
+#include "Input/InputImage.h"
+#include "Input/OtsuThreshold.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -83,41 +83,30 @@ int vtkOtsuThreshold::RequestData(
   {
     return 1;
   }
-  try
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(*ranks, output,
+    [] { return "the memory does not suffice for the threshold."; },
+    [&]
+    {
+      const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
+        volumic::PieceOfImage(*ranks, vtkDataObject::GetData(input[0])),
+        this->GetInputArrayInformation(0));
+      const double threshold = volumic::FindOtsuThreshold(
+        *ranks, voxels.Image, voxels.Selection, this->SelectedComponent);
+      ranks->IsAny(false); // Whoever has failed tells it here at last.
+      vtkNew<vtkDoubleArray> column;
+      column->SetName("Threshold");
+      // One row of them all.
+      column->SetNumberOfTuples(ranks->Rank() == 0 ? 1 : 0);
+      column->FillValue(threshold);
+      vtkTable::GetData(output)->AddColumn(column);
+      this->Threshold = threshold;
+    });
+  if (error.Code != vtkErrorCode::NoError)
   {
-    const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-      volumic::PieceOfImage(*ranks, vtkDataObject::GetData(input[0])),
-      this->GetInputArrayInformation(0));
-    this->Threshold = volumic::FindOtsuThreshold(
-      *ranks, voxels.Image, voxels.Selection, this->SelectedComponent);
-    ranks->IsAny(false); // Whoever has failed tells it here at last.
-    vtkNew<vtkDoubleArray> column;
-    column->SetName("Threshold");
-    // One row of them all.
-    column->SetNumberOfTuples(ranks->Rank() == 0 ? 1 : 0);
-    column->FillValue(this->Threshold);
-    vtkTable::GetData(output)->AddColumn(column);
-  }
-  catch (const volumic::OtherRankFailed& failure)
-  {
-    this->EndByError(*ranks, volumic::ErrorOf(failure), output);
-  }
-  catch (const std::exception& error)
-  {
-    this->EndByError(*ranks, { volumic::ErrorCodeOf(error), error.what() }, output);
+    this->SetErrorCode(error.Code);
+    vtkErrorMacro("Input port 0: " << error.Text);
   }
   return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkOtsuThreshold::EndByError(volumic::Communicator& ranks,
-  const volumic::AlgorithmError& error, vtkInformationVector* output)
-{
-  ranks.Fail(volumic::ReasonOf(error));
-  volumic::InitializeOutputs(output);
-  this->Threshold = vtkMath::Nan();
-  this->SetErrorCode(error.Code);
-  vtkErrorMacro("Input port 0: " << error.Text);
 }
 
 //------------------------------------------------------------------------------

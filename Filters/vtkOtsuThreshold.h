@@ -47,12 +47,6 @@
 #include <vtkMultiProcessController.h>
 #include <vtkSmartPointer.h>
 
-namespace volumic
-{
-struct AlgorithmError;
-class Communicator;
-}
-
 class VTKFILTERSVOLUMIC_EXPORT vtkOtsuThreshold : public vtkTableAlgorithm
 {
 public:
@@ -98,9 +92,6 @@ protected:
   vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
-  void EndByError(volumic::Communicator& ranks, const volumic::AlgorithmError& error,
-    vtkInformationVector* output);
-
   vtkOtsuThreshold(const vtkOtsuThreshold&) = delete;
   void operator=(const vtkOtsuThreshold&) = delete;
 };

@@ -2,21 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVolumeToSurface.h"
 
-#include "CellVoxels.h"
 #include "Core/Common/Communicator.h"
-#include "ImageVoxels.h"
-#include "InputImage.h"
-#include "LabelHint.h"
-#include "OtsuThreshold.h"
-#include "PrefixErrors.h"
-#include "SegmentationVolume.h"
-#include "vtkImagePyramid.h"
+#include "Core/Image/PyramidGeometry.h"
+#include "Host/PrefixErrors.h"
+#include "Input/CellVoxels.h"
+#include "Input/ImageVoxels.h"
+#include "Input/InputImage.h"
+#include "Input/LabelHint.h"
+#include "Input/OtsuThreshold.h"
+#include "Settings/SegmentationVolume.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 
@@ -28,10 +27,10 @@ vtkStandardNewMacro(vtkVolumeToSurface);
 //------------------------------------------------------------------------------
 vtkVolumeToSurface::vtkVolumeToSurface()
 {
-  vtkNew<vtkImagePyramid> defaults;
-  this->NumberOfLevels = defaults->GetNumberOfLevels();
-  this->MinimumLevelSize = defaults->GetMinimumLevelSize();
-  this->ReductionFactor = defaults->GetReductionFactor();
+  const volumic::PyramidOptions defaults;
+  this->NumberOfLevels = defaults.NumberOfLevels;
+  this->MinimumLevelSize = defaults.MinimumLevelSize;
+  this->ReductionFactor = defaults.ReductionFactor;
 }
 
 vtkVolumeToSurface::~vtkVolumeToSurface() = default;
@@ -64,10 +63,10 @@ volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* inp
   {
     this->TellOfLabels(voxels.Image, voxels.Selection);
   }
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetNumberOfLevels(this->NumberOfLevels);
-  pyramid->SetMinimumLevelSize(this->MinimumLevelSize);
-  pyramid->SetReductionFactor(this->ReductionFactor);
+  volumic::PyramidOptions pyramid;
+  pyramid.NumberOfLevels = this->NumberOfLevels;
+  pyramid.MinimumLevelSize = this->MinimumLevelSize;
+  pyramid.ReductionFactor = this->ReductionFactor;
   this->MakeLevels(pyramid, voxels.Image, volume);
   return volume;
 }

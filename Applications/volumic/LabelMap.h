@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicLabelMap_h
-#define volumicLabelMap_h
+#ifndef volumicToolLabelMap_h
+#define volumicToolLabelMap_h
 
 #include "VolumePart.h"
 

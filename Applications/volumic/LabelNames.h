@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicLabelNames_h
-#define volumicLabelNames_h
+#ifndef volumicToolLabelNames_h
+#define volumicToolLabelNames_h
 
 #include "VolumeImage.h"
 

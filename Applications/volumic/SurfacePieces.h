@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicSurfacePieces_h
-#define volumicSurfacePieces_h
+#ifndef volumicToolSurfacePieces_h
+#define volumicToolSurfacePieces_h
 
 #include "ProgressLine.h"
 

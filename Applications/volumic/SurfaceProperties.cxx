@@ -10,6 +10,7 @@
 #include <vtkLabelsToSurfaces.h>
 
 #include <algorithm>
+#include <map>
 
 namespace tool
 {
@@ -246,27 +247,30 @@ bool IsOfLabelsOnly(const PropertyOption& option)
   return option.Class == "vtkLabelsToSurfaces";
 }
 
+// What the labels' filter has of the surface's, and how it gets it.
+#define SHARED(PROPERTY)                                                 \
+  {                                                                      \
+    #PROPERTY, [](const FilterTrio& filters)                             \
+    { filters.Labels->Set##PROPERTY(filters.Surface->Get##PROPERTY()); } \
+  }
+static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
+  SHARED(Metric), SHARED(EdgeLength), SHARED(FinestLevel), SHARED(KeepComponents),
+  SHARED(MinimumComponentVolume), SHARED(NumberOfThreads), SHARED(MemoryLimit),
+  SHARED(ScratchDirectory)
+};
+
 bool IsOfLabels(const PropertyOption& option)
 {
-  static const std::vector<std::string> shared = { "Metric", "EdgeLength", "FinestLevel",
-    "KeepComponents", "MinimumComponentVolume", "NumberOfThreads", "MemoryLimit",
-    "ScratchDirectory" };
   // The component is taken out of the volume before.
   return IsOfLabelsOnly(option) || option.Property == "SelectedComponent" ||
-    std::find(shared.begin(), shared.end(), option.Property) != shared.end();
+    Shared.count(option.Property) > 0;
 }
 
 void ShareProperties(const FilterTrio& filters)
 {
-  vtkDeformableSurface* surface = filters.Surface;
-  vtkLabelsToSurfaces* labels = filters.Labels;
-  labels->SetMetric(surface->GetMetric());
-  labels->SetEdgeLength(surface->GetEdgeLength());
-  labels->SetFinestLevel(surface->GetFinestLevel());
-  labels->SetKeepComponents(surface->GetKeepComponents());
-  labels->SetMinimumComponentVolume(surface->GetMinimumComponentVolume());
-  labels->SetNumberOfThreads(surface->GetNumberOfThreads());
-  labels->SetMemoryLimit(surface->GetMemoryLimit());
-  labels->SetScratchDirectory(surface->GetScratchDirectory());
+  for (const auto& [property, share] : Shared)
+  {
+    share(filters);
+  }
 }
 }

@@ -7,7 +7,7 @@
 #include "SurfaceTables.h"
 #include "WorkModel.h"
 
-#include "HostThreads.h"
+#include "Host/HostThreads.h"
 #include "SupportVtkConversions.h"
 
 #include <vtkDeformableSurface.h>

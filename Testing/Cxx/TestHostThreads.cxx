@@ -3,7 +3,7 @@
 
 // How many threads there are, and another executor in their place, for measurements.
 #include "FilterTestTools.h"
-#include "HostThreads.h"
+#include "Host/HostThreads.h"
 #include "vtkDeformableSurface.h"
 #include "vtkImagePyramid.h"
 

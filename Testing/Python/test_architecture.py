@@ -49,9 +49,19 @@ def includes_of(source):
 
 
 def room_of(source):
-    """The room of a file of the core, from Filters; None for the layer of VTK."""
-    parts = source.split("/")
-    return parts[1] if parts[0] == "Core" and len(parts) == 3 else None
+    """The room of a file by its path from Filters, as `Input` or `Core/Image`; none: a filter's."""
+    return os.path.dirname(source)
+
+
+def rooms_of_the_page():
+    """What the rooms may include, in the order of the page: those of the core, then the others."""
+    may_include = {}
+    for room, below, _ in table_below("Rooms of the core"):
+        may_include["Core/" + names_in(room)[0]] = {"Core/" + name for name in names_in(below)}
+    for room, below, core, _ in table_below("Rooms of the layer"):
+        may_include[names_in(room)[0]] = (set(names_in(below))
+                                          | {"Core/" + name for name in names_in(core)})
+    return may_include
 
 
 class FoldersTest(unittest.TestCase):
@@ -60,8 +70,10 @@ class FoldersTest(unittest.TestCase):
         self.assertEqual({name for row in rows for name in names_in(row[0])}, folders_in(ROOT))
 
     def test_the_rooms_are_those_of_the_page(self):
-        rows = table_below("Rooms of the core")
-        self.assertEqual({name for row in rows for name in names_in(row[0])}, folders_in(CORE))
+        there = {"Core/" + room for room in folders_in(CORE)} | folders_in(FILTERS) - {"Core"}
+        self.assertEqual(set(rooms_of_the_page()), there)
+        self.assertEqual([source for source in sources() if room_of(source) not in there
+                          and not source.startswith("vtk")], [], "only filters are in no room")
 
     def test_files_that_the_page_names_are_there(self):
         folders = "|".join(folders_in(ROOT))
@@ -77,12 +89,12 @@ class FoldersTest(unittest.TestCase):
     def test_classes_that_the_page_names_are_there(self):
         """A name in code that begins as those of units do is a unit, or found in a header."""
         headers = "\n".join(read(os.path.join(FILTERS, s)) for s in sources() if s.endswith(".h"))
-        text = re.split(r"^## Rooms", read(PAGE), flags=re.M)[1]
+        text = read(PAGE).split("\n## Rooms", 1)[1]
         named = set(re.findall(r"`((?:vtk)?[A-Z]\w+)(?:::(\w+))?`", text))
         self.assertGreater(len(named), 30)
         units = {os.path.splitext(os.path.basename(s))[0] for s in sources()}
         unknown = [name for name, member in named
-                   if name not in units | folders_in(CORE)
+                   if name not in units | folders_in(CORE) | folders_in(FILTERS)
                    and not re.search(rf"\b(class|struct|using|void\*) {name}\b", headers)
                    or member and not re.search(rf"\b{member}\b", headers)]
         self.assertEqual(unknown, [], "neither units nor classes of Filters")
@@ -90,41 +102,38 @@ class FoldersTest(unittest.TestCase):
 
 class IncludesTest(unittest.TestCase):
     def test_rooms_include_those_that_they_may(self):
-        may_include = {}
-        for room, below, _ in table_below("Rooms of the core"):
-            self.assertLessEqual(set(names_in(below)), set(may_include), "only rooms further up")
-            may_include[names_in(room)[0]] = set(names_in(below))
-        wrong = []
-        for source in sources():
-            room = room_of(source)
-            for included in includes_of(source) if room else ():
-                # This also refuses short paths, and files of the layer.
-                if room_of(included) not in may_include[room] | {room}:
-                    wrong.append(f"{source} includes {included}")
+        """And nothing else of the project: no file by a shorter path, and no filter."""
+        made_by_cmake = "vtkFiltersVolumicModule.h"
+        may_include = rooms_of_the_page()
+        further_up = set()
+        for room, below in may_include.items():
+            self.assertLessEqual(below, further_up, f"{room} includes only rooms further up")
+            further_up.add(room)
+        wrong = [f"{source} includes {included}" for source in sources() if room_of(source)
+                 for included in includes_of(source) if included != made_by_cmake
+                 and room_of(included) not in may_include[room_of(source)] | {room_of(source)}]
         self.assertEqual(wrong, [])
 
-    def test_what_the_core_includes_is_there(self):
-        known = sources()
-        self.assertEqual([f"{source} includes {included}" for source in known if room_of(source)
-                          for included in includes_of(source) if included not in known], [])
-
-    def test_the_layer_includes_the_core_by_its_rooms(self):
+    def test_what_is_included_is_there(self):
+        """By its path from Filters; VTK's own headers and made ones have no folder."""
         known = sources()
         in_rooms = {os.path.basename(source) for source in known if room_of(source)}
-        for source in known:
-            for included in includes_of(source):
-                if os.path.basename(included) in in_rooms and included not in known:
-                    self.fail(f"{source} includes {included}: not by its path from Filters")
+        self.assertEqual([f"{source} includes {included}" for source in known
+                          for included in includes_of(source) if included not in known
+                          and (room_of(included) or included in in_rooms)], [])
 
-    def test_no_part_of_the_layer_includes_the_filter_that_it_serves(self):
-        """What is below a filter's header: enumerations and settings have files of their own."""
-        runs_another_filter = {"BuildPyramid.cxx", "EdgeLevels.cxx",
-                               "LabelSurface.cxx"}  # vtkImagePyramid
-        wrong = [f"{source} includes {included}" for source in sources()
-                 if not source.startswith("vtk") and source not in runs_another_filter
-                 for included in includes_of(source)
-                 if re.match(r"vtk[A-Z]", included) and included in sources()]
-        self.assertEqual(wrong, [])
+    def test_every_header_has_a_guard_of_its_own(self):
+        """Also among those of the command and the plugin, as one source may include several."""
+        guards = {}
+        for top in ("Filters", "Applications", "Plugin"):
+            for folder, _, names in os.walk(os.path.join(ROOT, top)):
+                for name in names if "build" not in folder else ():
+                    if name.endswith(".h"):
+                        path = os.path.join(folder, name)
+                        guard = re.search(r"^#ifndef (\w+)\n#define \1$", read(path), re.M)
+                        self.assertIsNotNone(guard, path)
+                        guards.setdefault(guard.group(1), []).append(path)
+        self.assertEqual([paths for paths in guards.values() if len(paths) > 1], [])
 
     def test_no_circles(self):
         known = sources()
@@ -141,12 +150,14 @@ class IncludesTest(unittest.TestCase):
         for source in sorted(known):
             follow(source, [])
 
-    def test_all_sources_of_the_core_are_listed(self):
-        text = read(os.path.join(CORE, "CoreSources.cmake"))
-        listed = re.findall(r"^  ([A-Z]\w*/\w+\.(?:cxx|h))\b", text, re.M)
-        there = {source[len("Core/"):] for source in sources() if source.startswith("Core/")}
+    def test_all_sources_are_listed(self):
+        core = read(os.path.join(CORE, "CoreSources.cmake"))
+        layer = read(os.path.join(FILTERS, "CMakeLists.txt"))
+        listed = re.findall(r"^ +(\w+/\w+\.(?:cxx|h))\b", layer, re.M)
+        listed += ["Core/" + name
+                   for name in re.findall(r"^  ([A-Z]\w*/\w+\.(?:cxx|h))\b", core, re.M)]
         self.assertEqual(len(listed), len(set(listed)), "one is listed twice")
-        self.assertEqual(set(listed), there)
+        self.assertEqual(set(listed), {source for source in sources() if room_of(source)})
 
 
 if __name__ == "__main__":

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Host/AlgorithmErrors.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataObject.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+
+#include <new>
+#include <stdexcept>
+
+namespace volumic
+{
+std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& run)
+{
+  std::string errors;
+  vtkNew<vtkCallbackCommand> collect;
+  collect->SetClientData(&errors);
+  collect->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* message)
+    {
+      std::string text = static_cast<const char*>(message);
+      // `ERROR: In file, line 1\nvtkClass (0x1): what is wrong\n\n`
+      const std::size_t speaker = text.find("): ");
+      text.erase(0, speaker == std::string::npos ? 0 : speaker + 3);
+      text.erase(text.find_last_not_of('\n') + 1);
+      *static_cast<std::string*>(client) += text;
+    });
+
+  const unsigned long ofAlgorithm = algorithm->AddObserver(vtkCommand::ErrorEvent, collect);
+  const unsigned long ofExecutive =
+    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, collect);
+  run();
+  algorithm->RemoveObserver(ofAlgorithm);
+  algorithm->GetExecutive()->RemoveObserver(ofExecutive);
+  return errors;
+}
+
+namespace
+{
+/** What Communicator::Fail() tells the other ranks, so that they report the same error. */
+std::string ReasonOf(const AlgorithmError& error)
+{
+  return (error.Code == vtkErrorCode::UserError ? 'U' : 'O') + error.Text;
+}
+
+/** What that was made of. */
+AlgorithmError ErrorOf(const OtherRankFailed& failure)
+{
+  const std::string reason = failure.what();
+  return { reason.front() == 'U' ? vtkErrorCode::UserError : vtkErrorCode::UnknownError,
+    reason.substr(1) };
+}
+}
+
+AlgorithmError RunAlgorithm(Communicator& ranks, vtkInformationVector* outputs,
+  const std::function<std::string()>& aboutMemory, const std::function<void()>& work)
+{
+  AlgorithmError error{ vtkErrorCode::UnknownError, {} };
+  try
+  {
+    work();
+    return { vtkErrorCode::NoError, {} };
+  }
+  catch (const OtherRankFailed& failure)
+  {
+    error = ErrorOf(failure);
+  }
+  catch (const std::bad_alloc&)
+  {
+    error.Text = aboutMemory();
+  }
+  catch (const std::invalid_argument& refused)
+  {
+    error = { vtkErrorCode::UserError, refused.what() };
+  }
+  catch (const std::exception& other)
+  {
+    error.Text = other.what();
+  }
+  ranks.Fail(ReasonOf(error));
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
+    {
+      output->Initialize();
+    }
+  }
+  return error;
+}
+}

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicAlgorithmErrors_h
+#define volumicAlgorithmErrors_h
+
+#include "Core/Common/Communicator.h"
+
+#include <functional>
+#include <string>
+
+class vtkAlgorithm;
+class vtkInformationVector;
+
+namespace volumic
+{
+/**
+ * What an algorithm, or its executive, reports as an error while something runs; it is not printed,
+ * and is without the place in the source. Empty if all went well.
+ */
+std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& run);
+
+/** An error as SetErrorCode and vtkErrorMacro get it. */
+struct AlgorithmError
+{
+  unsigned long Code; ///< 0: there is none
+  std::string Text;
+};
+
+/**
+ * Does the work of RequestData. Where it throws, the other ranks are told, and all outputs are left
+ * initialised: no data half made, and none of the field data that the pipeline has passed from the
+ * input. RequestData then returns 1 all the same: after 0 the pipeline would print a second error,
+ * and ParaView's clients would keep what they had before.
+ * @param aboutMemory what to say where the memory does not suffice
+ * @return what to report: vtkErrorCode::UserError for std::invalid_argument (what was given is
+ *         wrong), else vtkErrorCode::UnknownError (memory); the same on all ranks.
+ */
+AlgorithmError RunAlgorithm(Communicator& ranks, vtkInformationVector* outputs,
+  const std::function<std::string()>& aboutMemory, const std::function<void()>& work);
+}
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicProgressMonitor_h
+#define volumicProgressMonitor_h
+
+#include "Core/Common/Monitor.h"
+#include "Host/Deadline.h"
+
+#include <functional>
+#include <string>
+
+namespace volumic
+{
+/**
+ * Tells the host of the work on the levels, as a share of the whole that never becomes less, and
+ * the core whether the host has asked to stop, or time is over. It is the one place that ends a run
+ * early.
+ */
+class ProgressMonitor final : public Monitor
+{
+public:
+  /** Share of the work that is done and what is being done; false asks to stop. */
+  using Callback = std::function<bool(double share, const std::string& text)>;
+
+  /**
+   * From the level `coarsest` to the level `finest`. A level has about three times the vertices of
+   * the one above, and takes so much more of the work.
+   */
+  ProgressMonitor(Callback callback, int coarsest, int finest, const Deadline& limit = Deadline());
+
+  /** May look at the surface. */
+  std::function<void(const Status&)> AfterSweep = [](const Status&) {};
+
+  bool Continue(const Status& status) override;
+  bool GoOn(const Status& status) override;
+
+  /** Before the voxels of a level are made ready; false asks to stop. */
+  bool BeginLevel(int level);
+
+  bool IsStopped() const { return this->Stopped; }
+
+  /** Whether it was time that has stopped it, and not the host. */
+  bool IsOutOfTime() const { return this->OutOfTime; }
+
+private:
+  bool Report(int level, double fraction, const std::string& text);
+
+  Callback Host;
+  int Coarsest;
+  int Finest;
+  Deadline Limit;
+  bool Stopped = false;
+  bool OutOfTime = false;
+};
+}
+
+#endif

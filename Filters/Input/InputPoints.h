@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInputPoints_h
+#define volumicInputPoints_h
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Image/PointAttraction.h"
+#include "Input/Workspace.h"
+
+#include <vtkType.h>
+
+#include <array>
+#include <vector>
+
+class vtkPolyData;
+
+// The points that are given to vtkDeformableSurface, by input ports and by lists, and what they are
+// for: seeds, attraction, and the choice of components.
+
+namespace volumic
+{
+/** A point of a poly data. */
+struct InputPoint
+{
+  vtkIdType Id;
+  Point World;
+  Point Place; ///< workspace
+};
+
+/**
+ * The points that are meant by a poly data where points are asked for, whatever for: those of its
+ * vertices (cells of the list Verts), each once, in their order; all its points where it has no
+ * cells at all; none if it is null. Other cells beside vertices do not count.
+ * @throws std::invalid_argument if it has cells, but no vertices: nothing says that the points of
+ *         a line or of a surface are meant.
+ */
+std::vector<InputPoint> PointsMeantBy(vtkPolyData* polyData, const Workspace& space);
+
+/**
+ * Port 1 as centres of seeds: the points that it means, in the workspace.
+ * @throws std::invalid_argument if it has polygons or lines only.
+ */
+std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space);
+
+/**
+ * Port 2 as points known to belong to the object: those that it means; point arrays `Weight` and
+ * `Radius` (world units), both optional.
+ * @param size voxels of level 0 along each axis
+ * @throws std::invalid_argument for cells without vertices, a point outside the image, an array
+ *         that is not numbers of one component, a negative or infinite weight or radius.
+ */
+std::vector<AttractingPoint> AttractingPointsOf(
+  vtkPolyData* port2, const Workspace& space, const std::array<int, 3>& size);
+
+/**
+ * Both ports as places that components are chosen by: the points that they mean, in the workspace,
+ * but for a surface at port 1, which means none.
+ * @throws std::invalid_argument for other cells without vertices.
+ */
+std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space);
+
+/**
+ * A list of positions (world coordinates), in the workspace. One that is out of the box of the
+ * image by less than a voxel, as one that was picked on its border may be, is moved onto the box.
+ * @param label of the property, for messages
+ * @param size  voxels of level 0 along each axis
+ * @throws std::invalid_argument for a position farther outside, or one that is not finite.
+ */
+std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
+  const Workspace& space, const std::array<int, 3>& size);
+}
+
+#endif

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Input/OtsuThreshold.h"
+
+#include "Core/Common/Refuse.h"
+#include "Host/HostThreads.h"
+#include "Input/ImagePieces.h"
+#include "Input/ImageVoxels.h"
+#include "Input/ValidVoxels.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkType.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+constexpr int Bins = 1024;
+
+using Counts = std::vector<vtkIdType>;
+
+/** How many voxels of a box each bin between the smallest and the largest voxel has. */
+template <typename T>
+void CountVoxels(const T* voxels, const VoxelBox& held, const VoxelBox& box,
+  const ValidVoxels& valid, const std::array<double, 2>& range, Executor& threads, Counts& all)
+{
+  const double scale = Bins / (range[1] - range[0]);
+  const auto rows = static_cast<std::size_t>(box.Length(1)) *
+    static_cast<std::size_t>(box.Length(2));
+  std::mutex mutex;
+  threads.For(rows, static_cast<std::size_t>((1 << 18) / box.Length(0) + 1),
+    [&](std::size_t begin, std::size_t end)
+    {
+      Counts counts(Bins, 0);
+      for (std::size_t row = begin; row < end; ++row)
+      {
+        const int j = box.First[1] + static_cast<int>(row) % box.Length(1);
+        const int k = box.First[2] + static_cast<int>(row) / box.Length(1);
+        const std::int64_t first = held.NumberOf(box.First[0], j, k);
+        for (std::int64_t i = first; i < first + box.Length(0); ++i)
+        {
+          if (valid.Has(i))
+          {
+            const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
+            ++counts[std::min(Bins - 1, static_cast<int>(place))];
+          }
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      std::transform(all.begin(), all.end(), counts.begin(), all.begin(), std::plus<>());
+    });
+}
+
+/** The sums of all ranks. */
+Counts AddUp(Communicator& ranks, const Counts& own)
+{
+  Counts sum(Bins, 0);
+  MessageWriter writer;
+  writer.AddArray(own);
+  for (const Message& message : ranks.GatherOnAll(writer.Take()))
+  {
+    const Counts counts = MessageReader(message).TakeVector<vtkIdType>();
+    std::transform(sum.begin(), sum.end(), counts.begin(), sum.begin(), std::plus<>());
+  }
+  return sum;
+}
+
+/** The bins below the split with the largest variance between the classes. */
+int BestSplit(const Counts& counts)
+{
+  // Bins stand for the values, which follow from them by a scale that changes no maximum.
+  double all = 0.0;
+  double sum = 0.0;
+  for (int bin = 0; bin < Bins; ++bin)
+  {
+    all += static_cast<double>(counts[bin]);
+    sum += static_cast<double>(counts[bin]) * bin;
+  }
+  std::vector<double> variance(Bins - 1, 0.0);
+  double low = 0.0;
+  double lowSum = 0.0;
+  for (int bin = 0; bin < Bins - 1; ++bin)
+  {
+    low += static_cast<double>(counts[bin]) / all;
+    lowSum += static_cast<double>(counts[bin]) * bin / all;
+    const double difference = sum / all * low - lowSum;
+    variance[bin] = low > 0.0 && low < 1.0 ? difference * difference / (low * (1.0 - low)) : 0.0;
+  }
+  const double best = *std::max_element(variance.begin(), variance.end()) * (1.0 - 1e-12);
+  std::vector<int> splits;
+  for (int bin = 0; bin < Bins - 1; ++bin)
+  {
+    if (variance[bin] >= best)
+    {
+      splits.push_back(bin + 1);
+    }
+  }
+  return splits[splits.size() / 2];
+}
+
+/** The largest voxel up to a value, and the smallest one above that. */
+template <typename T>
+std::array<double, 2> FindNeighbours(
+  const T* voxels, vtkIdType count, const ValidVoxels& valid, double value)
+{
+  T below = std::numeric_limits<T>::lowest();
+  T above = std::numeric_limits<T>::max();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const T voxel = voxels[i];
+    if (!valid.Has(i))
+    {
+      continue;
+    }
+    if (static_cast<double>(voxel) <= value)
+    {
+      below = std::max(below, voxel);
+    }
+    else
+    {
+      above = std::min(above, voxel);
+    }
+  }
+  return { static_cast<double>(below), static_cast<double>(above) };
+}
+}
+
+double FindOtsuThreshold(
+  Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component)
+{
+  vtkSmartPointer<vtkDataArray> chosen;
+  if (image)
+  {
+    chosen = SelectComponent(ChooseArray(selection, image), component);
+  }
+  const ImagePieces pieces(ranks, image);
+  chosen = AgreeOnArray(ranks, chosen);
+  if (!chosen)
+  {
+    Refuse("the image is empty: no process holds any of its voxels.");
+  }
+  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(chosen);
+  HostThreads threads(0);
+  const ValidVoxels valid = FindValidVoxels(ranks, pieces, chosen, voxels, image, true, threads);
+  CheckAnyIsValid(chosen, valid, ranks);
+  const std::array<double, 2> range = RangeOf(ranks, voxels, valid);
+  const double size = range[1] - range[0];
+  if (!(size > 0.0) || !std::isfinite(size))
+  {
+    Refuse(NameOf(chosen), " ranges from ", range[0], " to ", range[1],
+      ": no value separates its voxels.");
+  }
+  const auto visit = [&](const auto& work)
+  {
+    switch (voxels->GetDataType())
+    {
+      vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
+    }
+  };
+  Counts counts(Bins, 0);
+  const VoxelBox held = pieces.Voxels().HeldBy(ranks.Rank());
+  for (const VoxelBox& box : pieces.Voxels().OwnOf(ranks.Rank()))
+  {
+    visit(
+      [&](const auto* values)
+      { threads.Run([&] { CountVoxels(values, held, box, valid, range, threads, counts); }); });
+  }
+  const double value = range[0] + BestSplit(AddUp(ranks, counts)) * size / Bins;
+  std::array<double, 2> neighbours = range;
+  visit([&](const auto* values)
+    { neighbours = FindNeighbours(values, voxels->GetNumberOfTuples(), valid, value); });
+  for (const std::array<double, 2>& other : GatherValues(ranks, neighbours))
+  {
+    neighbours = { std::max(neighbours[0], other[0]), std::min(neighbours[1], other[1]) };
+  }
+  const double middle = 0.5 * (neighbours[0] + neighbours[1]);
+  const bool areReal = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataType() == VTK_DOUBLE;
+  return areReal ? middle : std::floor(middle) + 0.5;
+}
+}

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Input/RankInputs.h"
+
+#include "Input/SurfaceFile.h"
+
+#include <vtkAppendPolyData.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCleanPolyData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+/** Arrays of points that a run looks at; see InputPoints. */
+constexpr const char* ArraysInUse[] = { "Weight", "Radius" };
+
+bool HasPolygons(vtkPolyData* data)
+{
+  return data->GetNumberOfPolys() + data->GetNumberOfStrips() > 0;
+}
+
+/** Where points are all that there is, those that are not another rank's. */
+vtkSmartPointer<vtkPolyData> OwnPointsOf(vtkPolyData* piece)
+{
+  vtkNew<vtkIdList> ids;
+  vtkUnsignedCharArray* types = piece->GetPointGhostArray();
+  for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
+  {
+    if (!types || !(types->GetValue(p) & vtkDataSetAttributes::DUPLICATEPOINT))
+    {
+      ids->InsertNextId(p);
+    }
+  }
+  auto own = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(piece->GetPoints()->GetDataType());
+  piece->GetPoints()->GetPoints(ids, points);
+  own->SetPoints(points);
+  for (const char* name : ArraysInUse)
+  {
+    if (vtkDataArray* numbers = piece->GetPointData()->GetArray(name))
+    {
+      auto selected = vtkSmartPointer<vtkDataArray>::Take(numbers->NewInstance());
+      selected->SetName(name);
+      selected->SetNumberOfComponents(numbers->GetNumberOfComponents());
+      selected->SetNumberOfTuples(ids->GetNumberOfIds());
+      numbers->GetTuples(ids, selected);
+      own->GetPointData()->AddArray(selected);
+    }
+  }
+  return own;
+}
+
+/** Points, cells and the arrays in use of what is this rank's own. */
+vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece)
+{
+  if (piece->GetNumberOfCells() == 0)
+  {
+    return OwnPointsOf(piece);
+  }
+  auto own = vtkSmartPointer<vtkPolyData>::New();
+  own->ShallowCopy(piece);
+  if (own->GetCellGhostArray())
+  {
+    own->RemoveGhostCells();
+  }
+  auto light = vtkSmartPointer<vtkPolyData>::New();
+  light->CopyStructure(own);
+  for (const char* name : ArraysInUse)
+  {
+    if (vtkDataArray* numbers = own->GetPointData()->GetArray(name))
+    {
+      light->GetPointData()->AddArray(numbers);
+    }
+  }
+  vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
+  if (ids && ids->GetNumberOfComponents() == 1)
+  {
+    light->GetPointData()->SetGlobalIds(ids);
+  }
+  return light;
+}
+
+/** Whether all have global ids of their points. */
+bool HaveIds(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces)
+{
+  return std::all_of(pieces.begin(), pieces.end(),
+    [](vtkPolyData* piece) { return piece->GetPointData()->GetGlobalIds() != nullptr; });
+}
+
+/** The polygons, with the points of each id as one. */
+vtkSmartPointer<vtkPolyData> MergeById(vtkPolyData* joined)
+{
+  vtkDataArray* ids = joined->GetPointData()->GetGlobalIds();
+  std::vector<std::pair<vtkIdType, vtkIdType>> order;
+  for (vtkIdType p = 0; p < ids->GetNumberOfTuples(); ++p)
+  {
+    order.emplace_back(static_cast<vtkIdType>(ids->GetComponent(p, 0)), p);
+  }
+  std::sort(order.begin(), order.end());
+  auto merged = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(joined->GetPoints()->GetDataType());
+  std::vector<vtkIdType> place(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    if (i == 0 || order[i].first != order[i - 1].first)
+    {
+      points->InsertNextPoint(joined->GetPoint(order[i].second));
+    }
+    place[static_cast<std::size_t>(order[i].second)] = points->GetNumberOfPoints() - 1;
+  }
+  const auto renumber = [&place](vtkCellArray* cells)
+  {
+    auto renumbered = vtkSmartPointer<vtkCellArray>::New();
+    vtkNew<vtkIdList> corners;
+    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
+    {
+      cells->GetCellAtId(cell, corners);
+      for (vtkIdType& corner : *corners)
+      {
+        corner = place[static_cast<std::size_t>(corner)];
+      }
+      renumbered->InsertNextCell(corners);
+    }
+    return renumbered;
+  };
+  merged->SetPoints(points);
+  merged->SetVerts(renumber(joined->GetVerts()));
+  merged->SetLines(renumber(joined->GetLines()));
+  merged->SetPolys(renumber(joined->GetPolys()));
+  merged->SetStrips(renumber(joined->GetStrips()));
+  return merged;
+}
+
+vtkSmartPointer<vtkPolyData> MergeByPlace(vtkPolyData* joined)
+{
+  constexpr double tolerance = 1e-6; // Sources that give pieces round the border of each anew.
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputData(joined);
+  clean->SetTolerance(tolerance);
+  clean->PieceInvariantOff();
+  clean->Update();
+  return clean->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> Join(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces)
+{
+  if (pieces.size() == 1)
+  {
+    return pieces.front();
+  }
+  vtkNew<vtkAppendPolyData> append;
+  for (vtkPolyData* piece : pieces)
+  {
+    append->AddInputData(piece);
+  }
+  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  append->Update();
+  vtkPolyData* joined = append->GetOutput();
+  if (!HasPolygons(joined))
+  {
+    return joined;
+  }
+  return HaveIds(pieces) ? MergeById(joined) : MergeByPlace(joined);
+}
+}
+
+vtkSmartPointer<vtkPolyData> JoinPieces(Communicator& ranks, vtkPolyData* piece)
+{
+  if (ranks.NumberOfRanks() == 1)
+  {
+    return piece;
+  }
+  const bool hasPoints = piece && piece->GetNumberOfPoints() > 0;
+  std::vector<Message> messages =
+    ranks.Gather(hasPoints ? MessageOf(OwnPartOf(piece)) : Message());
+  const bool isGiven = ranks.IsAny(piece != nullptr);
+  if (ranks.Rank() != 0 || !isGiven)
+  {
+    return nullptr;
+  }
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  bool hasOthers = false;
+  for (std::size_t rank = 0; rank < messages.size(); ++rank)
+  {
+    const auto same = std::find(messages.begin(), messages.end(), messages[rank]);
+    if (!messages[rank].empty() && same == messages.begin() + static_cast<std::ptrdiff_t>(rank))
+    {
+      pieces.push_back(SurfaceFrom(messages[rank]));
+      hasOthers = hasOthers || rank > 0;
+    }
+  }
+  return hasOthers ? Join(pieces) : vtkSmartPointer<vtkPolyData>(piece);
+}
+}

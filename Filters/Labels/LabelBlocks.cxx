@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Labels/LabelBlocks.h"
+
+#include "Core/Common/Communicator.h"
+#include "Output/SurfaceOutput.h"
+
+#include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+
+namespace volumic
+{
+namespace
+{
+/** How many labels or messages a warning names. */
+constexpr std::size_t MostNamed = 10;
+
+template <typename Array, typename Value>
+void AddField(vtkPolyData* surface, const char* name, const std::vector<Value>& values,
+  int components = 1)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  for (const Value& value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  surface->GetFieldData()->AddArray(array);
+}
+
+/** The labels of the triangles; of a merged surface the nearest one's. */
+void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const LabelImage& image)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName("Label");
+  array->SetNumberOfTuples(surface->GetNumberOfCells());
+  if (labels.size() == 1)
+  {
+    array->FillValue(labels.front());
+  }
+  else
+  {
+    image.FindNearest(surface, labels, array);
+  }
+  surface->GetCellData()->AddArray(array);
+}
+
+/** What each of the labels is called, and its colour. */
+void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelNames& names)
+{
+  std::vector<std::string> texts;
+  std::vector<double> colors;
+  for (const int label : labels)
+  {
+    texts.push_back(names.NameOf(label));
+    const LabelNames::Color color = names.ColorOf(label);
+    colors.insert(colors.end(), color.begin(), color.end());
+  }
+  AddField<vtkStringArray>(surface, "LabelName", texts);
+  AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
+}
+
+/** Why what is there may not be in a surface, and what helps, if anything does. */
+std::string ReasonsOfLoss(const LabelSettings& settings)
+{
+  std::string reasons = ": too small, scattered, or too thin for the triangles";
+  reasons += settings.KeepComponents != 0 ? ", or left out by Keep Components" : "";
+  reasons += settings.Gap > 0.0 ? ", or taken away by Gap" : "";
+  reasons += ".";
+  if (settings.EdgeLength > 0.0)
+  {
+    reasons += " A shorter Edge Length makes these smaller.";
+  }
+  else if (settings.FinestLevel > 0)
+  {
+    reasons += " A lower Finest Level makes these smaller.";
+  }
+  return reasons;
+}
+
+std::string JoinedBy(const char* separator, const std::vector<std::string>& texts)
+{
+  std::string all;
+  for (const std::string& text : texts)
+  {
+    all += (all.empty() ? "" : separator) + text;
+  }
+  return all;
+}
+
+/** Text after text, as many as a warning names. */
+std::string Listed(const std::vector<std::string>& texts)
+{
+  std::string list;
+  for (std::size_t i = 0; i < std::min(texts.size(), MostNamed); ++i)
+  {
+    list += (i == 0 ? "" : ", ") + texts[i];
+  }
+  if (texts.size() > MostNamed)
+  {
+    list += " and " + std::to_string(texts.size() - MostNamed) + " others";
+  }
+  return list;
+}
+}
+
+std::vector<int> LabelChoice::LabelsOf(std::size_t surface) const
+{
+  return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
+}
+
+std::vector<std::string> LabelChoice::SurfaceNames() const
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
+  {
+    names.push_back(this->Names.NameOf(this->LabelsOf(i)));
+  }
+  return names;
+}
+
+std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
+  const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
+  vtkMultiBlockDataSet* output)
+{
+  std::vector<std::string> empty;
+  std::vector<std::string> lost;
+  std::vector<std::string> touching;
+  output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    const std::vector<int> labels = choice.LabelsOf(i);
+    vtkIdType voxels = 0;
+    for (const int label : labels)
+    {
+      voxels += image.Labels().at(label).Count;
+    }
+    const std::string name = choice.Names.NameOf(labels);
+    vtkNew<vtkPolyData> surface;
+    const bool isThere = surfaces[i].Surface != nullptr;
+    surface->ShallowCopy(isThere ? surfaces[i].Surface
+                                 : MakeStopped(0, Describe(StopReason::Cancelled)));
+    AddLabels(surface, labels, image);
+    AddField<vtkIntArray>(surface, "Label", labels);
+    AddNames(surface, labels, choice.Names);
+    AddField<vtkIdTypeArray>(surface, "LabelVoxels", std::vector<vtkIdType>{ voxels });
+    AddField<vtkIdTypeArray>(
+      surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });
+    AddField<vtkIdTypeArray>(
+      surface, "MissedVoxels", std::vector<vtkIdType>{ surfaces[i].MissedVoxels });
+    const auto block = static_cast<unsigned int>(i);
+    output->SetBlock(block, surface);
+    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    if (isThere && surface->GetNumberOfCells() == 0)
+    {
+      empty.push_back(name);
+    }
+    else if (isThere && 2 * surfaces[i].WrongVoxels > voxels)
+    {
+      lost.push_back(name);
+    }
+    if (surfaces[i].TouchingFaces > 0)
+    {
+      touching.push_back(name + " (" + std::to_string(surfaces[i].TouchingFaces) + ")");
+    }
+  }
+  std::vector<std::string> warnings;
+  if (!empty.empty())
+  {
+    warnings.push_back("No surface is left of " + Listed(empty) + ReasonsOfLoss(settings));
+  }
+  if (!lost.empty())
+  {
+    warnings.push_back("More voxels than half are on the wrong side of the surface of " +
+      Listed(lost) + ReasonsOfLoss(settings));
+  }
+  if (!touching.empty())
+  {
+    warnings.push_back("Triangles still touch the surfaces of neighbours, in spite of the Gap: " +
+      Listed(touching) + ". Try a larger Gap.");
+  }
+  return JoinedBy(" ", warnings);
+}
+
+void ShareBlocks(Communicator& ranks, vtkMultiBlockDataSet* output)
+{
+  MessageWriter names;
+  const unsigned int count = ranks.Rank() == 0 ? output->GetNumberOfBlocks() : 0;
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    names.AddArray(std::string(output->GetMetaData(i)->Get(vtkCompositeDataSet::NAME())));
+  }
+  const Message told = ranks.Broadcast(names.Take());
+  MessageReader reader(told);
+  for (unsigned int i = 0; ranks.Rank() != 0 && !reader.IsAtEnd(); ++i)
+  {
+    std::string name;
+    reader.TakeArray(name);
+    output->SetBlock(i, vtkNew<vtkPolyData>());
+    output->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+  }
+}
+}

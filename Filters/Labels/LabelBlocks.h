@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelBlocks_h
+#define volumicLabelBlocks_h
+
+#include "Labels/LabelImage.h"
+#include "Labels/LabelNames.h"
+#include "Labels/LabelSurface.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkMultiBlockDataSet;
+
+namespace volumic
+{
+class Communicator;
+
+/** Of which labels there are surfaces, and what they are called. */
+struct LabelChoice
+{
+  std::vector<int> Labels; ///< sorted
+  bool IsMerged = false;   ///< one surface about all
+  LabelNames Names;
+
+  std::size_t NumberOfSurfaces() const { return this->IsMerged ? 1 : this->Labels.size(); }
+  /** Of a surface. */
+  std::vector<int> LabelsOf(std::size_t surface) const;
+  /** The names of all surfaces. */
+  std::vector<std::string> SurfaceNames() const;
+};
+
+/**
+ * Makes a block of each surface, with the arrays of labels.
+ * @return what the user should know: labels that have no surface, or lose most of their voxels, or
+ *         touch neighbours in spite of a gap, and what may help; empty: nothing
+ */
+std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
+  const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
+  vtkMultiBlockDataSet* output);
+
+/**
+ * The first rank has the surfaces. Gives the others its blocks, empty: writers and readers of
+ * ParaView wait for each other where ranks have different ones.
+ */
+void ShareBlocks(Communicator& ranks, vtkMultiBlockDataSet* output);
+}
+
+#endif

@@ -1,0 +1,336 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Labels/LabelImage.h"
+
+#include "Core/Common/Blocks.h"
+#include "Core/Common/Refuse.h"
+#include "Input/CellVoxels.h"
+#include "Input/ImageVoxels.h"
+#include "Input/InputImage.h"
+#include "Input/Workspace.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkIntArray.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <type_traits>
+#include <unordered_map>
+
+namespace volumic
+{
+namespace
+{
+/** Voxels that a thread takes at a time. */
+constexpr std::size_t Grain = 1 << 18;
+
+template <typename Work>
+void VisitVoxels(vtkDataArray* voxels, const Work& work)
+{
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
+  }
+}
+
+/** Whether a value is a whole number that an int holds. */
+template <typename T>
+bool IsLabel(T value)
+{
+  const auto real = static_cast<double>(value);
+  return real >= std::numeric_limits<int>::min() && real <= std::numeric_limits<int>::max() &&
+    real == std::floor(real);
+}
+
+template <typename T>
+[[noreturn]] void RefuseValue(vtkDataArray* voxels, T value)
+{
+  if (std::isfinite(static_cast<double>(value)) &&
+    static_cast<double>(value) == std::floor(static_cast<double>(value)))
+  {
+    Refuse(NameOf(voxels), " has the value ", static_cast<double>(value),
+      "; labels must be integers of 32 bits. Number them anew.");
+  }
+  Refuse(NameOf(voxels), " has the value ", static_cast<double>(value),
+    "; labels must be integers. For the surface of a volume that is no label map apply Volume to "
+    "Surface (vtkVolumeToSurface).");
+}
+
+/** Voxels that follow each other along rows, and from row to row; `last` is one of them. */
+LabelVoxels RunOf(const int* extent, vtkIdType first, vtkIdType last)
+{
+  const vtkIdType row = extent[1] - extent[0] + 1;
+  const vtkIdType slice = row * (extent[3] - extent[2] + 1);
+  const auto index = [&](vtkIdType place) { return static_cast<int>(place); };
+  LabelVoxels run;
+  run.Count = last - first + 1;
+  std::copy_n(extent, 6, run.Extent.begin());
+  if (first / row == last / row)
+  {
+    run.Extent[0] = extent[0] + index(first % row);
+    run.Extent[1] = extent[0] + index(last % row);
+  }
+  if (first / slice == last / slice)
+  {
+    run.Extent[2] = extent[2] + index(first % slice / row);
+    run.Extent[3] = extent[2] + index(last % slice / row);
+  }
+  run.Extent[4] = extent[4] + index(first / slice);
+  run.Extent[5] = extent[4] + index(last / slice);
+  return run;
+}
+
+/** `0, 1, 3, 4 and 112 others`. */
+std::string ListOf(const std::map<int, LabelVoxels>& counts)
+{
+  constexpr std::size_t most = 20;
+  std::string text;
+  std::size_t listed = 0;
+  for (const auto& entry : counts)
+  {
+    if (listed == most && counts.size() > most + 1)
+    {
+      return text + " and " + std::to_string(counts.size() - most) + " others";
+    }
+    text += (listed == 0 ? "" : ", ") + std::to_string(entry.first);
+    ++listed;
+  }
+  return text;
+}
+}
+
+void LabelVoxels::Add(const LabelVoxels& others)
+{
+  for (int axis = 0; axis < 3 && this->Count > 0; ++axis)
+  {
+    const std::size_t first = 2 * static_cast<std::size_t>(axis);
+    this->Extent[first] = std::min(this->Extent[first], others.Extent[first]);
+    this->Extent[first + 1] = std::max(this->Extent[first + 1], others.Extent[first + 1]);
+  }
+  this->Extent = this->Count > 0 ? this->Extent : others.Extent;
+  this->Count += others.Count;
+}
+
+LabelImage::LabelImage(vtkDataObject* input, vtkInformation* selection, Executor& executor)
+{
+  const PointVoxels points = TakeCellsAsPoints(ImageOf(input), selection);
+  this->Voxels = ContiguousVoxels(ChooseVoxels(points.Selection, points.Image));
+  this->Geometry = points.Image;
+  const int* size = this->Geometry->GetDimensions();
+  if (std::min({ size[0], size[1], size[2] }) < 2)
+  {
+    Refuse("the image has ", SizeOf(this->Geometry),
+      " voxels; it must have at least 2 along each axis. A label map of one slice has contours "
+      "only: apply Contour (vtkFlyingEdges2D) to it.");
+  }
+  const int type = this->Voxels->GetDataType();
+  if (type == VTK_FLOAT || type == VTK_DOUBLE)
+  {
+    this->Told = NameOf(this->Voxels) + " is of type " + this->Voxels->GetDataTypeAsString() +
+      "; its values are integers and are taken as labels.";
+  }
+  this->CountLabels(executor);
+}
+
+void LabelImage::CountLabels(Executor& executor)
+{
+  std::mutex mutex;
+  const auto count = static_cast<std::size_t>(this->Voxels->GetNumberOfTuples());
+  const int* extent = this->Geometry->GetExtent();
+  VisitVoxels(this->Voxels,
+    [&](const auto* voxels)
+    {
+      using Value = std::decay_t<decltype(*voxels)>;
+      bool isWrong = false;
+      std::size_t wrongAt = count;
+      ForBlocks(executor, count, Grain,
+        [&](std::size_t, std::size_t begin, std::size_t end)
+        {
+          std::unordered_map<int, LabelVoxels> counts;
+          std::size_t i = begin;
+          for (; i < end && IsLabel(voxels[i]);)
+          {
+            const Value value = voxels[i];
+            const std::size_t first = i;
+            while (i < end && voxels[i] == value)
+            {
+              ++i;
+            }
+            counts[static_cast<int>(value)].Add(
+              RunOf(extent, static_cast<vtkIdType>(first), static_cast<vtkIdType>(i) - 1));
+          }
+          const std::lock_guard<std::mutex> lock(mutex);
+          if (i < end)
+          {
+            isWrong = true;
+            wrongAt = std::min(wrongAt, i);
+          }
+          for (const auto& entry : counts)
+          {
+            this->Counts[entry.first].Add(entry.second);
+          }
+        });
+      if (isWrong)
+      {
+        RefuseValue(this->Voxels, voxels[wrongAt]);
+      }
+    });
+}
+
+void LabelImage::CheckNumberOfLabels() const
+{
+  if (this->Counts.size() > MostLabels)
+  {
+    Refuse(NameOf(this->Voxels), " has ", this->Counts.size(), " different values, more than ",
+      MostLabels,
+      ": it is likely no label map. For the surface of a volume apply Volume to Surface "
+      "(vtkVolumeToSurface); of a label map choose some of its Labels.");
+  }
+}
+
+std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int background) const
+{
+  std::vector<int> labels = wanted;
+  if (wanted.empty() || wanted.size() > MostLabels)
+  {
+    this->CheckNumberOfLabels();
+  }
+  if (wanted.empty())
+  {
+    for (const auto& entry : this->Counts)
+    {
+      if (entry.first != background)
+      {
+        labels.push_back(entry.first);
+      }
+    }
+  }
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  if (labels.empty())
+  {
+    Refuse(NameOf(this->Voxels), " has no label but Background Label, ", background,
+      ": there is nothing to make a surface of. Choose another Background Label.");
+  }
+  for (const int label : labels)
+  {
+    if (this->Counts.find(label) == this->Counts.end())
+    {
+      Refuse("Labels: ", NameOf(this->Voxels), " has no label ", label, "; it has ",
+        ListOf(this->Counts), ".");
+    }
+  }
+  return labels;
+}
+
+LabelMap LabelImage::MakeMap(
+  const std::vector<int>& labels, bool merge, int background, Executor& executor) const
+{
+  LabelMap map;
+  std::copy_n(this->Geometry->GetDimensions(), 3, map.Size.begin());
+  map.Spacing = Workspace(this->Geometry, Metric::World).Step();
+  std::unordered_map<int, LabelMap::Number> objects;
+  for (const int label : labels)
+  {
+    const int last = map.NumberOfObjects;
+    map.NumberOfObjects = merge ? 1 : last + 1;
+    objects[label] = static_cast<LabelMap::Number>(map.NumberOfObjects);
+  }
+  for (const auto& entry : this->Counts)
+  {
+    if (entry.first != background && objects.count(entry.first) == 0 &&
+      map.NumberOfObjects < std::numeric_limits<LabelMap::Number>::max())
+    {
+      objects[entry.first] = static_cast<LabelMap::Number>(++map.NumberOfObjects);
+    }
+  }
+  const auto count = static_cast<std::size_t>(this->Voxels->GetNumberOfTuples());
+  map.Voxels.resize(count);
+  VisitVoxels(this->Voxels,
+    [&](const auto* voxels)
+    {
+      executor.For(count, Grain,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end;)
+          {
+            const auto value = voxels[i];
+            const auto found = objects.find(static_cast<int>(value));
+            const LabelMap::Number object = found == objects.end() ? 0 : found->second;
+            for (; i < end && voxels[i] == value; ++i)
+            {
+              map.Voxels[i] = object;
+            }
+          }
+        });
+    });
+  return map;
+}
+
+void LabelImage::FindNearest(
+  vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const
+{
+  const Workspace space(this->Geometry, Metric::Voxels);
+  const Point step = Workspace(this->Geometry, Metric::World).Step();
+  const std::array<int, 3> size = { this->Geometry->GetDimensions()[0],
+    this->Geometry->GetDimensions()[1], this->Geometry->GetDimensions()[2] };
+  const VoxelBox all = VoxelBox::Of(size);
+  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* corners = nullptr;
+    cells->GetCurrentCell(count, corners);
+    Point centroid = { 0.0, 0.0, 0.0 };
+    for (vtkIdType c = 0; c < count; ++c)
+    {
+      Point corner;
+      surface->GetPoint(corners[c], corner.data());
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        centroid[axis] += corner[axis] / static_cast<double>(count);
+      }
+    }
+    const Point place = space.ToWorkspace(centroid);
+    std::array<int, 3> first;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      first[axis] = static_cast<int>(std::floor(place[axis]));
+    }
+    int nearest = labels.front();
+    double least = std::numeric_limits<double>::max();
+    // A surface has voxels of its own within this reach.
+    const VoxelBox about = VoxelBox{ { first[0] - 1, first[1] - 1, first[2] - 1 },
+      { first[0] + 3, first[1] + 3, first[2] + 3 } }.CommonWith(all);
+    ForRowsOf(about, all,
+      [&](std::int64_t begin, std::int64_t length)
+      {
+        for (std::int64_t v = begin; v < begin + length; ++v)
+        {
+          const int label = static_cast<int>(this->Voxels->GetComponent(v, 0));
+          const std::array<std::int64_t, 3> at = { v % size[0], v / size[0] % size[1],
+            v / size[0] / size[1] };
+          double square = 0.0;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            const double distance = (static_cast<double>(at[axis]) - place[axis]) * step[axis];
+            square += distance * distance;
+          }
+          if (square < least && std::binary_search(labels.begin(), labels.end(), label))
+          {
+            least = square;
+            nearest = label;
+          }
+        }
+      });
+    found->SetValue(cells->GetCurrentCellId(), nearest);
+  }
+}
+}

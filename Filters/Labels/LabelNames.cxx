@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Labels/LabelNames.h"
+
+#include "Core/Common/Refuse.h"
+
+#include <vtkDataArray.h>
+#include <vtkDataObject.h>
+#include <vtkFieldData.h>
+#include <vtkMath.h>
+#include <vtkStringArray.h>
+#include <vtkType.h>
+
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+void CheckEntries(vtkAbstractArray* array, vtkIdType wanted)
+{
+  if (array && array->GetNumberOfTuples() != wanted)
+  {
+    Refuse("field array '", array->GetName(), "' has ", array->GetNumberOfTuples(),
+      " entries, 'LabelValues' has ", wanted, "; they must have as many.");
+  }
+}
+}
+
+LabelNames LabelNames::Of(vtkDataObject* image)
+{
+  LabelNames labels;
+  vtkFieldData* fields = image->GetFieldData();
+  vtkDataArray* values = fields->GetArray("LabelValues");
+  if (!values)
+  {
+    return labels;
+  }
+  const vtkIdType count = values->GetNumberOfTuples();
+  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelNames"));
+  vtkDataArray* colors = fields->GetArray("LabelColors");
+  CheckEntries(names, count);
+  CheckEntries(colors, count);
+  if (colors && colors->GetNumberOfComponents() != 3)
+  {
+    Refuse("field array 'LabelColors' has ", colors->GetNumberOfComponents(),
+      " components; it needs 3: red, green, blue.");
+  }
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const int label = static_cast<int>(values->GetComponent(i, 0));
+    if (names && !names->GetValue(i).empty())
+    {
+      labels.Names[label] = names->GetValue(i);
+    }
+    if (colors)
+    {
+      const double scale = colors->GetDataType() == VTK_UNSIGNED_CHAR ? 1.0 / 255.0 : 1.0;
+      for (int c = 0; c < 3; ++c)
+      {
+        labels.Colors[label][static_cast<std::size_t>(c)] = scale * colors->GetComponent(i, c);
+      }
+    }
+  }
+  return labels;
+}
+
+void LabelNames::Complete(const LabelNames& others)
+{
+  this->Names.insert(others.Names.begin(), others.Names.end());
+  this->Colors.insert(others.Colors.begin(), others.Colors.end());
+}
+
+std::string LabelNames::NameOf(int label) const
+{
+  const auto found = this->Names.find(label);
+  return found != this->Names.end() ? found->second : "Label " + std::to_string(label);
+}
+
+std::string LabelNames::NameOf(const std::vector<int>& labels) const
+{
+  if (labels.size() == 1)
+  {
+    return this->NameOf(labels.front());
+  }
+  std::string text;
+  for (const int label : labels)
+  {
+    text += (text.empty() ? "Labels " : ", ") + std::to_string(label);
+  }
+  return text;
+}
+
+LabelNames::Color LabelNames::ColorOf(int label) const
+{
+  const auto found = this->Colors.find(label);
+  if (found != this->Colors.end())
+  {
+    return found->second;
+  }
+  // Of numbers chosen so that the first 30 labels differ by 17 (CIE 1976), the first 120 by 7.4, and
+  // that those of maps with one object, 1 and 255, are light enough to show its relief.
+  const auto spread = [label](double step) { return step * label - std::floor(step * label); };
+  constexpr double goldenRatio = 0.6180339887498949;
+  const double hue = std::fmod(0.68 + spread(goldenRatio), 1.0);
+  const double saturation = 0.4 + 0.55 * spread(0.882);
+  const double value = 0.55 + 0.45 * spread(0.958);
+  Color color;
+  vtkMath::HSVToRGB(hue, saturation, value, &color[0], &color[1], &color[2]);
+  return color;
+}
+}

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Labels/LabelSurface.h"
+
+#include "Core/Common/Communicator.h"
+#include "Core/Labels/WrongVoxels.h"
+#include "Input/Workspace.h"
+#include "Output/SurfaceOutput.h"
+#include "Pyramid/BuildPyramid.h"
+#include "Run/SurfaceSegmentation.h"
+#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
+
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace volumic
+{
+namespace
+{
+/** Share of the work on a label that its field is. */
+constexpr double FieldShare = 0.2;
+
+/**
+ * Smoothing is in smallest distances of voxels, or in this share of the longest, if that is more:
+ * stairs are as high as voxels are long; but with all of it bulges what is thin along other axes.
+ */
+constexpr double ShareOfLongest = 0.625;
+
+/** A part of so many voxels that level 0 has lost is worth three times the triangles, */
+constexpr std::int64_t LostPartSize = 8;
+
+/** but of a large label one of so many: a mask of a whole head has crumbs about it. */
+constexpr std::int64_t LostPartShare = 20000;
+
+/** In smallest distances of voxels: boundaries are twice as far from centres. */
+constexpr double MostHarmlessHalfGap = 0.25;
+
+/** One of so many voxels on the wrong side is, too. */
+constexpr std::int64_t SeverelyLost = 4;
+
+/** Share of the work on a label whose surface is made at level 0, where it may be made again. */
+constexpr double ShareOfLevel0 = 0.7;
+
+/** That of the active scalars, as GetInputArrayInformation(). */
+vtkSmartPointer<vtkInformation> SelectScalars()
+{
+  auto selection = vtkSmartPointer<vtkInformation>::New();
+  selection->Set(vtkDataObject::FIELD_ASSOCIATION(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
+  selection->Set(vtkDataObject::FIELD_ATTRIBUTE_TYPE(), vtkDataSetAttributes::SCALARS);
+  return selection;
+}
+
+/**
+ * The field in a larger image, so that a coarser level of it has the voxels that it needs, and room
+ * about the object.
+ */
+vtkSmartPointer<vtkImageData> PadForLevel(vtkImageData* field, double factor, int level)
+{
+  constexpr double leastVoxels = 10.0; // At the level, along each axis.
+  constexpr double room = 2.0;         // Voxels of the level on each side.
+  const double scale = std::pow(factor, level);
+  int old[6];
+  int box[6];
+  field->GetExtent(old);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int size = old[2 * axis + 1] - old[2 * axis] + 1;
+    const int wanted =
+      static_cast<int>(std::ceil(std::max(size + 2.0 * room * scale, leastVoxels * scale)));
+    box[2 * axis] = old[2 * axis] - (wanted - size) / 2;
+    box[2 * axis + 1] = box[2 * axis] + wanted - 1;
+  }
+  auto padded = vtkSmartPointer<vtkImageData>::New();
+  padded->CopyStructure(field);
+  padded->SetExtent(box);
+  padded->AllocateScalars(VTK_FLOAT, 1);
+  padded->GetPointData()->GetScalars()->SetName("Distance");
+  auto* values = static_cast<float*>(padded->GetScalarPointer());
+  std::fill(values, values + padded->GetNumberOfPoints(),
+    *static_cast<float*>(field->GetScalarPointer())); // A corner of the box is far outside.
+  for (int k = old[4]; k <= old[5]; ++k)
+  {
+    for (int j = old[2]; j <= old[3]; ++j)
+    {
+      const auto* row = static_cast<float*>(field->GetScalarPointer(old[0], j, k));
+      std::copy(row, row + (old[1] - old[0] + 1),
+        static_cast<float*>(padded->GetScalarPointer(old[0], j, k)));
+    }
+  }
+  return padded;
+}
+
+/** Multiplies the residuals, which are in smallest distances of voxels. */
+void ScaleResidual(vtkPolyData* surface, double unit)
+{
+  for (vtkDataArray* residual : { surface->GetPointData()->GetArray("Residual"),
+         surface->GetFieldData()->GetArray("ResidualQuantile") })
+  {
+    for (vtkIdType i = 0; residual && i < residual->GetNumberOfTuples(); ++i)
+    {
+      residual->SetComponent(i, 0, unit * residual->GetComponent(i, 0));
+    }
+  }
+}
+}
+
+LabelSurfaceMaker::LabelSurfaceMaker(
+  const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings)
+  : Bricks(bricks)
+  , Image(image)
+  , Settings(settings)
+  , Claims(bricks)
+  , Lowered(static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1)
+{
+  const std::array<double, 3>& spacing = bricks.Map().Spacing;
+  const double longest = *std::max_element(spacing.begin(), spacing.end());
+  this->Options.Sigma = settings.Smoothing * std::max(1.0, ShareOfLongest * longest);
+  this->Options.Tolerance = settings.VoxelTolerance;
+  if (settings.EdgeLength != 0.0)
+  {
+    // Fields get as much room as their levels need, whatever the size of the image.
+    constexpr int enough = 1 << 12;
+    vtkNew<vtkImageData> frame;
+    frame->SetDimensions(enough, enough, enough);
+    frame->SetSpacing(image->GetSpacing());
+    PyramidOptions pyramid;
+    this->Plan =
+      PlanEdgeLength(settings.EdgeLength, SurfaceOptions().SamplingRatio, frame, pyramid);
+  }
+}
+
+SegmentationVolume LabelSurfaceMaker::MakeVolume(
+  int level, vtkImageData* field, const Progress& progress) const
+{
+  SegmentationVolume volume;
+  volume.Selection = SelectScalars();
+  SegmentationSettings& settings = volume.Settings;
+  settings.Options.IsoValue = this->HalfGap();
+  settings.Options.RecoverLostParts = false;
+  settings.Recovery = RecoveryType::NoRecovery;
+  settings.Metric = static_cast<Metric>(this->Settings.Metric);
+  settings.EdgeLength = this->Settings.EdgeLength;
+  settings.End.KeepComponents = static_cast<KeepComponentsType>(this->Settings.KeepComponents);
+  settings.End.MinimumComponentVolume = this->Settings.MinimumComponentVolume;
+  settings.Initialization = InitializationType::IsoSurface;
+  settings.End.FinestLevel = level;
+  PyramidRequest pyramid;
+  if (settings.EdgeLength != 0.0)
+  {
+    settings.Options.SamplingRatio = this->Plan.SamplingRatio;
+    pyramid.Levels.ReductionFactor = this->Plan.ReductionFactor;
+    volume.FactorBelowLevel0 = this->Plan.ReductionFactor;
+    volume.EdgeLengthIsPlanned = true;
+  }
+  // No coarser ones, not even above level -1: what is thin, or hollow, would be lost there.
+  settings.CoarsestLevel = std::max(level, 0);
+  settings.BeginsBelowImage = level < 0;
+  pyramid.Levels.NumberOfLevels = settings.CoarsestLevel + 1;
+  pyramid.NumberOfThreads = 1;
+  pyramid.Progress = [&progress](double, const std::string&)
+  { return progress(FieldShare, "Pyramid of the field"); };
+  vtkSmartPointer<vtkImageData> image = field;
+  if (settings.CoarsestLevel > 0)
+  {
+    image = PadForLevel(field, pyramid.Levels.ReductionFactor, settings.CoarsestLevel);
+  }
+  volume.LevelsAreOwn = true;
+  SingleRank alone;
+  volume.Levels = BuildPyramid(alone, image, volume.Selection, -1, pyramid);
+  return volume;
+}
+
+bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
+{
+  if (made.Surface->GetNumberOfCells() == 0)
+  {
+    return this->Bricks.ExtentOf(object).Voxels > 0;
+  }
+  // What is taken away on purpose is not lost; no small gap takes centres away.
+  if (this->HalfGap() > MostHarmlessHalfGap ||
+    static_cast<KeepComponentsType>(this->Settings.KeepComponents) !=
+      KeepComponentsType::AllComponents)
+  {
+    return false;
+  }
+  const std::int64_t voxels = this->Bricks.ExtentOf(object).Voxels;
+  const std::int64_t worth = std::max(LostPartSize, voxels / LostPartShare);
+  return SeverelyLost * made.MissedVoxels > voxels ||
+    (this->Settings.Gap == 0.0 && made.MissedVoxels >= worth &&
+      SizeOfLargestLostPart(this->Bricks.Map(), object,
+        this->FindMissed(object, this->InVoxels(made.Surface))) >= worth);
+}
+
+LabelSurface LabelSurfaceMaker::Make(
+  int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const
+{
+  const int level = this->FinestLevel();
+  if (level != 0 || this->Settings.EdgeLength != 0.0)
+  {
+    return this->MakeAt(level, object, numberOfThreads, threads, progress);
+  }
+  LabelSurface made = this->MakeAt(0, object, numberOfThreads, threads,
+    [&](double share, const std::string& text) { return progress(ShareOfLevel0 * share, text); });
+  if (made.Surface && this->LosesParts(object, made))
+  {
+    const LabelSurface finer = this->MakeAt(-1, object, numberOfThreads, threads,
+      [&](double share, const std::string& text)
+      { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
+    // Null: it was stopped; what level 0 has is finished.
+    if (finer.Surface &&
+      (finer.MissedVoxels < made.MissedVoxels || made.Surface->GetNumberOfCells() == 0))
+    {
+      made = finer;
+    }
+  }
+  return made;
+}
+
+LabelSurface LabelSurfaceMaker::MakeAt(int level, int object, int numberOfThreads,
+  HostThreads& threads, const Progress& progress) const
+{
+  LabelSurface made;
+  made.Surface = MakeStopped(level, "vanished");
+  FieldImage field = this->MakeField(level, object, threads);
+  if (!progress(FieldShare, "Field of the label"))
+  {
+    made.Surface = nullptr;
+    return made;
+  }
+  const LabelExtent& extent = this->Bricks.ExtentOf(object);
+  made.WrongVoxels = made.MissedVoxels = extent.Voxels;
+  SegmentationRequest request;
+  request.Progress = [&](double share, const std::string& text)
+  { return progress(FieldShare + (1.0 - FieldShare) * share, text); };
+  request.Warn = [](const std::string&) {}; // Of all labels that are empty one warning tells.
+  const LabelField original = this->Settings.Gap > 0.0 ? field.Field : LabelField();
+  try
+  {
+    const SegmentationVolume volume = this->MakeVolume(level, field.Image, progress);
+    if (!volume.Levels)
+    {
+      made.Surface = nullptr;
+      return made;
+    }
+    request.End = volume.Settings.End;
+    request.End.NumberOfThreads = numberOfThreads;
+    const Point step = Workspace(this->Image, volume.Settings.Metric).Step();
+    Point first;
+    std::copy(field.Field.Box.First.begin(), field.Field.Box.First.end(), first.begin());
+    int round = 0;
+    request.Revise = [&](const SurfaceResult& surface)
+    {
+      IndexedSurface inVoxels = surface;
+      for (Point& p : inVoxels.Points)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          p[axis] = first[axis] + p[axis] / step[axis];
+        }
+      }
+      return this->ReviseField(object, round++, inVoxels, original, field.Field);
+    };
+    SurfaceSegmentation run(volume, request);
+    run.Run();
+    vtkPolyData* surface = run.Results().Outcome(run.EndsAt());
+    if (!surface)
+    {
+      made.Surface = nullptr;
+      return made;
+    }
+    ScaleResidual(surface, Workspace(this->Image, Metric::World).WorldUnit());
+    made.Surface = surface;
+    const IndexedSurface inVoxels = this->InVoxels(surface);
+    const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, inVoxels);
+    made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
+    made.MissedVoxels = static_cast<vtkIdType>(
+      FindMissedVoxels(this->Bricks.Map(), wrong, inVoxels, this->Settings.VoxelTolerance).size());
+  }
+  catch (const std::invalid_argument&)
+  {
+    // Settings are checked before: it is too small or too thin for such triangles, and stays empty.
+  }
+  return made;
+}
+}

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelSurface_h
+#define volumicLabelSurface_h
+
+#include "Core/Evolution/EdgeLengthPlan.h"
+#include "Core/Labels/LabelClaims.h"
+#include "Core/Labels/LabelField.h"
+#include "Host/HostThreads.h"
+#include "Labels/LabelSettings.h"
+#include "Settings/SegmentationVolume.h"
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+class vtkPolyData;
+
+namespace volumic
+{
+/** The surface of one object, as vtkDeformableSurface gives it. */
+struct LabelSurface
+{
+  vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
+  double Seconds = 0.0;                 ///< that the work on it took, from its begin to its end
+  vtkIdType WrongVoxels = 0;
+  vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance
+  vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
+};
+
+/** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */
+class LabelSurfaceMaker
+{
+public:
+  /** What there is to do, as a share, and whether to go on; called on the thread that does it. */
+  using Progress = std::function<bool(double share, const std::string& text)>;
+
+  /**
+   * @param image its geometry is the map's
+   * All must outlive it.
+   * @throws std::invalid_argument naming the lengths that are possible, if EdgeLength is none.
+   */
+  LabelSurfaceMaker(
+    const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings);
+
+  /** Where objects meet by threes: first of all objects, before any surface is made. */
+  bool HasClaims() const { return this->Bricks.HasContested(); }
+  void AddClaim(int object, HostThreads& threads);
+
+  /**
+   * On any thread. What a level 0 does not hold is tried with the triangles of level -1.
+   * @param numberOfThreads those of `threads`; 0: all
+   */
+  LabelSurface Make(
+    int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const;
+
+  /** With Gap: whether surfaces of neighbours must stay apart. */
+  bool KeepsApart() const { return this->Settings.Gap > 0.0; }
+  /**
+   * Has the next surfaces stay further inside where these touch each other, whose TouchingFaces it
+   * sets.
+   * @return the objects, from 1 on, for which that is so
+   */
+  std::vector<int> DrawApart(std::vector<LabelSurface>& surfaces, HostThreads& threads);
+
+private:
+  /** A field and the image that shows its values. */
+  struct FieldImage
+  {
+    LabelField Field;
+    vtkSmartPointer<vtkImageData> Image;
+  };
+  /** Unit of a level over that of the level below. */
+  double LevelFactor() const
+  {
+    return this->Settings.EdgeLength != 0.0 ? this->Plan.ReductionFactor : std::sqrt(3.0);
+  }
+  /** The finest level, as planned with EdgeLength. */
+  int FinestLevel() const
+  {
+    return this->Settings.EdgeLength != 0.0 ? this->Plan.FinestLevel : this->Settings.FinestLevel;
+  }
+  /** Half of the gap, in smallest distances of voxels. */
+  double HalfGap() const;
+  LabelSurface MakeAt(int level, int object, int numberOfThreads, HostThreads& threads,
+    const Progress& progress) const;
+  /** Whether a level finer than the image may hold what this surface leaves out. */
+  bool LosesParts(int object, const LabelSurface& made) const;
+  FieldImage MakeField(int level, int object, HostThreads& threads) const;
+  SegmentationVolume MakeVolume(
+    int level, vtkImageData* field, const Progress& progress) const;
+  /** The wrong voxels that are further from the surface than VoxelTolerance. */
+  std::vector<std::int64_t> FindMissed(int object, const IndexedSurface& surface) const;
+  /** In coordinates in which voxel (i, j, k) of the map is at (i, j, k). */
+  IndexedSurface InVoxels(vtkPolyData* surface) const;
+  /**
+   * Changes the field where the surface that follows it should be elsewhere.
+   * @param surface in coordinates of the voxels of the map
+   * @param round   how often that was done before
+   * @return whether it has
+   */
+  bool ReviseField(int object, int round, const IndexedSurface& surface,
+    const LabelField& original, LabelField& field) const;
+
+  const LabelBricks& Bricks;
+  vtkImageData* Image;
+  const LabelSettings& Settings;
+  LabelFieldOptions Options;
+  EdgeLengthPlan Plan; ///< with EdgeLength
+  LabelClaims Claims;
+  /** Of each object the voxels at which its field is lowered, as often as they are named. */
+  std::vector<std::vector<std::array<int, 3>>> Lowered;
+};
+}
+
+#endif

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The fields that LabelSurfaceMaker makes surfaces of, and how they change where a surface should
+// be elsewhere.
+
+#include "Labels/LabelSurface.h"
+
+#include "Core/Image/VoxelNumbers.h"
+#include "Core/Labels/DrawBack.h"
+#include "Core/Labels/TouchingSurfaces.h"
+#include "Core/Labels/WrongVoxels.h"
+#include "Input/Workspace.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/**
+ * Margins of voxels that the triangles have cut off, round after round of the surface, in smallest
+ * distances of voxels.
+ */
+constexpr std::array<float, 2> FurtherMargins = { 0.3f, 0.5f };
+
+/** With Gap only voxels are held that its isopotential has so far inside, in the same. */
+constexpr double LeastHeldInGap = 0.1;
+
+/**
+ * Of a coarser level: how much of its Laplacian is taken off the field, times the square of the
+ * level's unit less 1. A quarter makes up for the Gaussian of the pyramid, the rest for chords.
+ */
+constexpr double BendPerLevel = 0.4;
+
+/**
+ * By what fields are lowered, at least, where surfaces of neighbours touch, in smallest distances of
+ * voxels: half a small gap would not part triangles that are deep in each other.
+ */
+constexpr double LeastLowering = 0.2;
+
+/** For a gap, times which triangles that leave their own field's inside are drawn back. */
+constexpr int RoundsOfGap = 6;
+}
+
+void LabelSurfaceMaker::AddClaim(int object, HostThreads& threads)
+{
+  threads.Run(
+    [&]
+    { this->Claims.Add(object, MakeLabelField(this->Bricks, object, this->Options, threads)); });
+}
+
+double LabelSurfaceMaker::HalfGap() const
+{
+  return 0.5 * this->Settings.Gap / Workspace(this->Image, Metric::World).WorldUnit();
+}
+
+LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
+  int level, int object, HostThreads& threads) const
+{
+  FieldImage made;
+  threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, this->Options, threads); });
+  this->Claims.Settle(object, made.Field);
+  if (level > 0)
+  {
+    const double squaredFactor = std::pow(this->LevelFactor(), 2 * level);
+    threads.Run(
+      [&]
+      {
+        CorrectBends(
+          made.Field, this->Bricks, object, BendPerLevel * (squaredFactor - 1.0), threads);
+      });
+  }
+  for (const std::array<int, 3>& voxel : this->Lowered[static_cast<std::size_t>(object)])
+  {
+    if (made.Field.Box.Contains(voxel))
+    {
+      made.Field.Values[static_cast<std::size_t>(made.Field.Box.NumberOf(
+        voxel[0], voxel[1], voxel[2]))] -=
+        static_cast<float>(std::max(this->HalfGap(), LeastLowering));
+    }
+  }
+  made.Image = vtkSmartPointer<vtkImageData>::New();
+  const int* extent = this->Image->GetExtent();
+  int box[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box[2 * axis] = extent[2 * axis] + made.Field.Box.First[axis];
+    box[2 * axis + 1] = extent[2 * axis] + made.Field.Box.End[axis] - 1;
+  }
+  made.Image->SetExtent(box);
+  made.Image->SetOrigin(this->Image->GetOrigin());
+  made.Image->SetSpacing(this->Image->GetSpacing());
+  made.Image->SetDirectionMatrix(this->Image->GetDirectionMatrix());
+  vtkNew<vtkFloatArray> values;
+  values->SetName("Distance");
+  constexpr int isOurs = 1;
+  values->SetArray(
+    made.Field.Values.data(), static_cast<vtkIdType>(made.Field.Values.size()), isOurs);
+  made.Image->GetPointData()->SetScalars(values);
+  return made;
+}
+
+IndexedSurface LabelSurfaceMaker::InVoxels(vtkPolyData* surface) const
+{
+  const Workspace voxels(this->Image, Metric::Voxels);
+  IndexedSurface indexed;
+  const vtkIdType count = surface->GetNumberOfPoints();
+  indexed.Points.resize(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    Point world;
+    surface->GetPoint(i, world.data());
+    indexed.Points[static_cast<std::size_t>(i)] = voxels.ToWorkspace(world);
+  }
+  const int second = voxels.IsMirrored() ? 2 : 1;
+  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    cells->GetCurrentCell(size, corners);
+    indexed.Triangles.push_back({ static_cast<int>(corners[0]),
+      static_cast<int>(corners[second]), static_cast<int>(corners[3 - second]) });
+  }
+  return indexed;
+}
+
+std::vector<std::int64_t> LabelSurfaceMaker::FindMissed(
+  int object, const IndexedSurface& surface) const
+{
+  return FindMissedVoxels(this->Bricks.Map(), FindWrongVoxels(this->Bricks, object, surface),
+    surface, this->Settings.VoxelTolerance);
+}
+
+bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface& surface,
+  const LabelField& original, LabelField& field) const
+{
+  const double halfGap = this->HalfGap();
+  const int holds = static_cast<int>(FurtherMargins.size());
+  // What is lowered for a neighbour is not raised again.
+  const bool mayHold = this->Settings.Smoothing > 0.0 &&
+    this->Lowered[static_cast<std::size_t>(object)].empty();
+  if (round < holds && mayHold)
+  {
+    const float further = FurtherMargins[static_cast<std::size_t>(round)];
+    const VoxelNumbers numbers(this->Bricks.Map().Size);
+    std::vector<HeldVoxel> held;
+    for (const std::int64_t voxel : this->FindMissed(object, surface))
+    {
+      const std::array<int, 3> p = numbers.PlaceOf(voxel);
+      if (halfGap == 0.0)
+      {
+        held.push_back({ voxel, further - static_cast<float>(this->Settings.VoxelTolerance) });
+      }
+      else if (this->Bricks.Map().At(p[0], p[1], p[2]) == object)
+      {
+        // Those near the gap it has taken away, others the triangles.
+        const float before =
+          original.Values[static_cast<std::size_t>(original.Box.NumberOf(p[0], p[1], p[2]))];
+        if (before > halfGap + LeastHeldInGap)
+        {
+          held.push_back({ voxel, before + further });
+        }
+      }
+    }
+    if (!held.empty())
+    {
+      HoldFurther(field, this->Bricks, object, this->Options, held, OnThisThread());
+      return true;
+    }
+  }
+  return halfGap > 0.0 && round < holds + RoundsOfGap &&
+    DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
+}
+
+std::vector<int> LabelSurfaceMaker::DrawApart(
+  std::vector<LabelSurface>& surfaces, HostThreads& threads)
+{
+  std::vector<IndexedSurface> inVoxels(surfaces.size());
+  std::vector<std::vector<int>> touching;
+  threads.Run(
+    [&]
+    {
+      threads.For(surfaces.size(), 1,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            inVoxels[i] =
+              surfaces[i].Surface ? this->InVoxels(surfaces[i].Surface) : IndexedSurface();
+          }
+        });
+      touching = FindTouching(inVoxels, threads);
+    });
+  std::vector<int> objects;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    surfaces[i].TouchingFaces = static_cast<vtkIdType>(touching[i].size());
+    if (!touching[i].empty())
+    {
+      const int object = static_cast<int>(i) + 1;
+      std::vector<std::array<int, 3>>& lowered = this->Lowered[static_cast<std::size_t>(object)];
+      const std::vector<std::array<int, 3>> more = VoxelsAbout(inVoxels[i], touching[i]);
+      lowered.insert(lowered.end(), more.begin(), more.end());
+      objects.push_back(object);
+    }
+  }
+  return objects;
+}
+}

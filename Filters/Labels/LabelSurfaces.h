@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelSurfaces_h
+#define volumicLabelSurfaces_h
+
+#include "Host/HostThreads.h"
+#include "Labels/LabelSurface.h"
+
+#include <string>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * The surfaces of objects of a label map: those that are large one after another, each by all
+ * threads; the others side by side, each by one.
+ *
+ * @param names           of the objects that get surfaces, from 1 on; those beyond them only claim
+ *                        places between
+ * @param numberOfThreads 0: all
+ * @param progress        called on the calling thread, with a text such as `12 of 39, liver`; after
+ *                        false, what is not finished is stopped
+ * @return one for each of them
+ */
+std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
+  const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
+  const LabelSurfaceMaker::Progress& progress);
+}
+
+#endif

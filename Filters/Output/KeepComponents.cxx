@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Output/KeepComponents.h"
+
+#include "Core/Common/Blocks.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/SizingField.h"
+#include "Input/InputPoints.h"
+#include "Output/SurfaceTransform.h"
+#include "Settings/CheckEnumeration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+/** Triangles that one thread looks at at a time. */
+constexpr std::size_t BlockSize = 16384;
+
+/**
+ * Places sorted along y, so that what is near a triangle or a vertex is found without a search of
+ * all.
+ */
+class SortedPlaces
+{
+public:
+  explicit SortedPlaces(const std::vector<Point>& places)
+    : Places(places), Order(places.size())
+  {
+    std::iota(this->Order.begin(), this->Order.end(), std::size_t(0));
+    std::sort(this->Order.begin(), this->Order.end(),
+      [&](std::size_t a, std::size_t b) { return places[a][1] < places[b][1]; });
+  }
+
+  /** Calls visit(index) for the places with low <= y <= high. */
+  template <typename Visitor>
+  void Visit(double low, double high, const Visitor& visit) const
+  {
+    auto at = std::lower_bound(this->Order.begin(), this->Order.end(), low,
+      [this](std::size_t i, double y) { return this->Places[i][1] < y; });
+    for (; at != this->Order.end() && this->Places[*at][1] <= high; ++at)
+    {
+      visit(*at);
+    }
+  }
+
+private:
+  const std::vector<Point>& Places;
+  std::vector<std::size_t> Order;
+};
+
+/**
+ * Whether the ray from p along +y of the plane (y, z) crosses the edge. Both faces of an edge get
+ * the same answer, and of a vertex on the ray one of the two edges counts.
+ */
+bool Crosses(const Point& p, const Point& a, const Point& b)
+{
+  if ((a[2] > p[2]) == (b[2] > p[2]))
+  {
+    return false;
+  }
+  const Point& low = a[2] < b[2] ? a : b;
+  const Point& high = a[2] < b[2] ? b : a;
+  return p[1] < low[1] + (p[2] - low[2]) / (high[2] - low[2]) * (high[1] - low[1]);
+}
+
+/** Whether the ray from p along +x goes through the triangle. */
+bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
+{
+  if (Crosses(p, a, b) == (Crosses(p, b, c) != Crosses(p, c, a)))
+  {
+    return false;
+  }
+  const double ny = (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
+  const double u = ((p[1] - a[1]) * (c[2] - a[2]) - (p[2] - a[2]) * (c[1] - a[1])) / ny;
+  const double v = ((b[1] - a[1]) * (p[2] - a[2]) - (b[2] - a[2]) * (p[1] - a[1])) / ny;
+  return a[0] + u * (b[0] - a[0]) + v * (c[0] - a[0]) > p[0];
+}
+
+/**
+ * For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
+ * not count.
+ */
+std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
+  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
+{
+  const SortedPlaces sorted(places);
+  const std::size_t n = surface.Triangles.size();
+  // Places and components, by blocks of triangles.
+  std::vector<std::vector<std::pair<std::size_t, int>>> blocks((n + BlockSize - 1) / BlockSize);
+  ForBlocks(executor, n, BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const Triangle& triangle = surface.Triangles[t];
+        const Point& a = surface.Points[triangle[0]];
+        const Point& b = surface.Points[triangle[1]];
+        const Point& c = surface.Points[triangle[2]];
+        const int component = features.ComponentOfTriangle[t];
+        const auto y = std::minmax({ a[1], b[1], c[1] });
+        sorted.Visit(y.first, y.second,
+          [&](std::size_t i)
+          {
+            if ((own.empty() || own[i] != component) && Pierces(places[i], a, b, c))
+            {
+              blocks[block].emplace_back(i, component);
+            }
+          });
+      }
+    });
+  std::vector<std::vector<int>> pierced(places.size());
+  for (const auto& block : blocks)
+  {
+    for (const auto& found : block)
+    {
+      pierced[found.first].push_back(found.second);
+    }
+  }
+  std::vector<int> innermost(places.size(), -1);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    double least = 0.0;
+    std::sort(pierced[i].begin(), pierced[i].end());
+    for (auto at = pierced[i].begin(); at != pierced[i].end();)
+    {
+      const auto end = std::upper_bound(at, pierced[i].end(), *at);
+      const double volume = std::abs(features.Components[*at].Volume);
+      if ((end - at) % 2 == 1 && (innermost[i] < 0 || volume < least))
+      {
+        innermost[i] = *at;
+        least = volume;
+      }
+      at = end;
+    }
+  }
+  return innermost;
+}
+
+/** The component that each belongs to: itself, or, for a cavity, the one about it (-1: none). */
+std::vector<int> HostsOf(
+  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
+{
+  const int n = static_cast<int>(features.Components.size());
+  std::vector<int> hosts(static_cast<std::size_t>(n));
+  std::iota(hosts.begin(), hosts.end(), 0);
+  std::vector<Point> places;
+  std::vector<int> cavities;
+  std::vector<bool> isDone(static_cast<std::size_t>(n), false);
+  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
+  {
+    const int component = features.ComponentOfTriangle[t];
+    if (!isDone[component] && features.Components[component].Volume < 0)
+    {
+      places.push_back(surface.Points[surface.Triangles[t][0]]);
+      cavities.push_back(component);
+    }
+    isDone[component] = true;
+  }
+  const std::vector<int> about = InnermostAbout(places, cavities, surface, features, executor);
+  for (std::size_t i = 0; i < cavities.size(); ++i)
+  {
+    const bool isSolid = about[i] >= 0 && features.Components[about[i]].Volume > 0;
+    hosts[cavities[i]] = isSolid ? about[i] : -1;
+  }
+  return hosts;
+}
+
+void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
+  const std::vector<Point>& places, const std::vector<int>& hosts, std::vector<bool>& isKept,
+  Executor& executor)
+{
+  for (const int component : InnermostAbout(places, {}, surface, features, executor))
+  {
+    if (component >= 0 && features.Components[component].Volume > 0)
+    {
+      isKept[component] = true;
+    }
+  }
+  const SortedPlaces sorted(places);
+  const double reach = SizingField::LongestEdgeInDelta * surface.Delta;
+  const std::size_t n = surface.Triangles.size();
+  std::vector<std::vector<int>> touching((n + BlockSize - 1) / BlockSize);
+  ForBlocks(executor, n, BlockSize,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const int host = hosts[features.ComponentOfTriangle[t]];
+        for (const int corner : surface.Triangles[t])
+        {
+          const Point& p = surface.Points[corner];
+          sorted.Visit(p[1] - reach, p[1] + reach,
+            [&](std::size_t i)
+            {
+              const double x = p[0] - places[i][0];
+              const double y = p[1] - places[i][1];
+              const double z = p[2] - places[i][2];
+              if (host >= 0 && x * x + y * y + z * z <= reach * reach)
+              {
+                touching[block].push_back(host);
+              }
+            });
+        }
+      }
+    });
+  for (const int host : Joined(executor, touching))
+  {
+    isKept[host] = true;
+  }
+}
+
+SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& features,
+  const std::vector<bool>& isKept)
+{
+  SurfaceResult part;
+  part.Delta = surface.Delta;
+  LargeVector<int> index(surface.Points.size(), -1);
+  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
+  {
+    if (isKept[features.ComponentOfTriangle[t]])
+    {
+      part.Triangles.push_back(surface.Triangles[t]);
+      for (const int corner : surface.Triangles[t])
+      {
+        index[corner] = 0;
+      }
+    }
+  }
+  for (std::size_t p = 0; p < surface.Points.size(); ++p)
+  {
+    if (index[p] == 0)
+    {
+      index[p] = static_cast<int>(part.Points.size());
+      part.Points.push_back(surface.Points[p]);
+      part.Normals.push_back(surface.Normals[p]);
+      part.Residual.push_back(surface.Residual[p]);
+      part.Motionless.push_back(surface.Motionless[p]);
+      part.Held.push_back(surface.Held[p]);
+    }
+  }
+  for (const std::array<int, 2>& pair : surface.Contacts)
+  {
+    if (index[pair[0]] >= 0 && index[pair[1]] >= 0)
+    {
+      part.Contacts.push_back({ index[pair[0]], index[pair[1]] });
+    }
+  }
+  for (Triangle& triangle : part.Triangles)
+  {
+    for (int& corner : triangle)
+    {
+      corner = index[corner];
+    }
+  }
+  return part;
+}
+}
+
+ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
+  const Workspace& space, const std::array<int, 3>& size)
+{
+  const SegmentationEnd& end = settings.End;
+  CheckEnumeration("Keep Components", end.KeepComponents, KeepComponentsType::LargeComponents);
+  if (!(end.MinimumComponentVolume >= 0.0))
+  {
+    Refuse("Minimum Component Volume is ", end.MinimumComponentVolume, "; it must be 0 or more.");
+  }
+  ComponentChoice choice;
+  choice.Mode = end.KeepComponents;
+  choice.MinimumVolume = end.MinimumComponentVolume;
+  if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
+  {
+    choice.Places = PlacesOf(request.InitialSurface, request.AttractingPoints, space);
+    for (const std::vector<Point>& more :
+      { PositionsOf(end.SeedPositions, "Seed Positions", space, size),
+        PositionsOf(settings.AttractingPositions, "Attracting Positions", space, size) })
+    {
+      choice.Places.insert(choice.Places.end(), more.begin(), more.end());
+    }
+    if (choice.Places.empty())
+    {
+      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
+             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
+             "known to belong to the object to input port 2 (Attracting Points).");
+    }
+  }
+  return choice;
+}
+
+SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
+  const Workspace& space, Executor& executor)
+{
+  if (choice.Mode == KeepComponentsType::AllComponents)
+  {
+    return surface;
+  }
+  const SurfaceFeatures features = ComputeFeatures(surface, executor);
+  const SurfaceFeatures inWorld =
+    ComputeFeatures(ToWorld(surface, space, executor), executor);
+  const std::size_t n = features.Components.size();
+  const std::vector<int> hosts = HostsOf(surface, features, executor);
+  // Components are numbered by their areas, which differ in the world where voxels are no cubes.
+  std::vector<int> worldIndex(n, -1);
+  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
+  {
+    worldIndex[features.ComponentOfTriangle[t]] = inWorld.ComponentOfTriangle[t];
+  }
+  std::vector<bool> isKept(n, false);
+  int largest = -1;
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    const ComponentFeatures& component = inWorld.Components[worldIndex[c]];
+    const bool isSolid = component.Volume > 0;
+    if (isSolid && (largest < 0 || worldIndex[c] < worldIndex[largest]))
+    {
+      largest = static_cast<int>(c);
+    }
+    isKept[c] = choice.Mode == KeepComponentsType::LargeComponents && isSolid &&
+      component.Volume >= choice.MinimumVolume;
+  }
+  if (choice.Mode == KeepComponentsType::LargestComponent && largest >= 0)
+  {
+    isKept[largest] = true;
+  }
+  if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
+  {
+    MarkTouching(surface, features, choice.Places, hosts, isKept, executor);
+  }
+  for (std::size_t c = 0; c < n; ++c)
+  {
+    isKept[c] = hosts[c] >= 0 && isKept[hosts[c]];
+  }
+  return PartOf(surface, features, isKept);
+}
+}

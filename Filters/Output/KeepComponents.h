@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicKeepComponents_h
+#define volumicKeepComponents_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Input/Workspace.h"
+#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
+
+#include <array>
+#include <vector>
+
+namespace volumic
+{
+/** Which components of a surface go into an output. */
+struct ComponentChoice
+{
+  KeepComponentsType Mode = KeepComponentsType::AllComponents;
+  double MinimumVolume = 0.0; ///< world units, cubed
+  std::vector<Point> Places;  ///< workspace
+
+  bool operator==(const ComponentChoice& other) const
+  {
+    return this->Mode == other.Mode && this->MinimumVolume == other.MinimumVolume &&
+      this->Places == other.Places;
+  }
+};
+
+/**
+ * As the settings have it, and the inputs, in the workspace of an image.
+ * @param size voxels of level 0 along each axis
+ * @throws std::invalid_argument if the settings are out of range, or points to choose by are missing
+ */
+ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
+  const Workspace& space, const std::array<int, 3>& size);
+
+/**
+ * The part of a closed surface that is chosen. A cavity (negative volume) belongs to the component
+ * that encloses it most closely, and is kept with it. A component touches a place if it is the
+ * innermost that encloses it, and no cavity, or if a vertex of it or of its cavities is not farther
+ * than 2.5 delta. Cost: O(n log n) of triangles and places; where all are kept and the surface is
+ * given up, none.
+ */
+SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
+  const Workspace& space, Executor& executor = OnThisThread());
+}
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSegmentationResults_h
+#define volumicSegmentationResults_h
+
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Input/Workspace.h"
+#include "Output/KeepComponents.h"
+#include "Output/SurfaceOutput.h"
+#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkInformationVector;
+
+namespace volumic
+{
+/**
+ * What a run has found, level by level. It gives the outputs of vtkDeformableSurface as they are
+ * for a run that ends at any level at which the surface rests, without another run.
+ */
+class SegmentationResults
+{
+public:
+  struct Level
+  {
+    vtkSmartPointer<vtkPolyData> Surface;       ///< of the components that are chosen
+    std::shared_ptr<const SurfaceResult> Whole; ///< of all; null: it was not kept
+    SurfaceDescription Description;
+    bool KeepsNone = false; ///< KeepComponents has left nothing of a surface that was there.
+    bool IsAtRest = false;  ///< Not cut off while it evolved.
+  };
+
+  struct Snapshot
+  {
+    int Level;
+    std::string Name;
+    vtkSmartPointer<vtkPolyData> Surface;
+  };
+
+  SegmentationResults();
+  /** @param size voxels of level 0 along each axis */
+  SegmentationResults(int numberOfLevels, int coarsest, const Workspace& space,
+    const std::array<int, 3>& size, bool withPhases);
+  ~SegmentationResults();
+  SegmentationResults(const SegmentationResults&);
+  SegmentationResults& operator=(const SegmentationResults&);
+
+  /** The finest level that a preview visits. */
+  void SetPreviewLevel(int level) { this->PreviewLevel = level; }
+  int LevelOfPreview() const { return this->PreviewLevel; }
+
+  /**
+   * Makes the surfaces those of the components that are wanted from now on.
+   * @return false where they cannot be, as those of all components were not kept
+   * @throws as ChoiceOf()
+   */
+  bool Choose(const SegmentationSettings& settings, const SegmentationRequest& request);
+  /** Of a level, by its description: the part of it that is chosen, and whether that is none. */
+  void MakeSurface(Level& result, SurfaceResult surface, Executor& threads) const;
+
+  void SetLevel(int level, const Level& result) { this->ByLevel[level] = result; }
+  void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
+  void AddSnapshot(int level, const std::string& name, vtkPolyData* surface);
+  /** Output 0 of a run that was cut off, instead of the surface of a level; null: none. */
+  void SetStoppedSurface(vtkPolyData* surface);
+
+  /** Whether the surface rests at a level. */
+  bool HasAtRest(int level) const;
+  /** Those above `last`, too: they are kept. */
+  void FillOutputs(int last, vtkInformationVector* outputs) const;
+  /**
+   * What is worth a warning where a run has ended at a level; empty: nothing.
+   * @param wantsAll whether it matters if parts of the object are missing
+   */
+  std::string WarningOf(int last, bool wantsAll) const;
+  /** Tells it, where there is any. */
+  void WarnOf(
+    int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const;
+  /** What FillOutputs() gives as output 0. */
+  vtkPolyData* Outcome(int last) const;
+  vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
+
+  /** All that were set. */
+  const std::map<int, Level>& Levels() const { return this->ByLevel; }
+  const std::vector<Snapshot>& AllSnapshots() const { return this->Snapshots; }
+
+private:
+  int NumberOfLevels = 0;
+  int Coarsest = 0;
+  int PreviewLevel = 0;
+  Workspace Space;
+  std::array<int, 3> Size = { 0, 0, 0 };
+  ComponentChoice Choice;
+  bool WithPhases = false;
+  std::map<int, Level> ByLevel;
+  std::vector<HistoryRow> Rows;
+  std::vector<Snapshot> Snapshots;
+  vtkSmartPointer<vtkPolyData> StoppedSurface;
+};
+}
+
+#endif

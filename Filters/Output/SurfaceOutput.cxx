@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Output/SurfaceOutput.h"
+
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Host/LargeArray.h"
+#include "Output/SurfaceTransform.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+template <typename Array, typename Value>
+void AddField(vtkPolyData* polyData, const char* name, Value value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  polyData->GetFieldData()->AddArray(array);
+}
+
+/** An array with an entry per component, of as many values as `get` gives. */
+template <typename Array, int N, typename Get>
+void AddComponentField(
+  vtkPolyData* polyData, const char* name, const SurfaceFeatures& features, const Get& get)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(N);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(features.Components.size()));
+  for (std::size_t c = 0; c < features.Components.size(); ++c)
+  {
+    for (int i = 0; i < N; ++i)
+    {
+      array->SetTypedComponent(static_cast<vtkIdType>(c), i, get(features.Components[c], i));
+    }
+  }
+  polyData->GetFieldData()->AddArray(array);
+}
+
+/** Calls body(begin, end) on ranges of n items, several of them at once. */
+template <typename Body>
+void ForRanges(Executor& executor, std::size_t n, const Body& body)
+{
+  constexpr std::size_t size = 16384;
+  ForBlocks(executor, n, size,
+    [&body](std::size_t, std::size_t begin, std::size_t end) { body(begin, end); });
+}
+
+template <typename T>
+void Free(LargeVector<T>& values)
+{
+  LargeVector<T>().swap(values);
+}
+
+/** The same value for all triangles of a component, so that filters of cells can choose by it. */
+template <typename Array, typename Get>
+void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceFeatures& features,
+  Executor& executor, const Get& get)
+{
+  using Value = typename Array::ValueType;
+  const auto array = NewLargeArray<Array>(features.ComponentOfTriangle.size());
+  array->SetName(name);
+  Value* values = array->GetPointer(0);
+  ForRanges(executor, features.ComponentOfTriangle.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const int component = features.ComponentOfTriangle[t];
+        values[t] = static_cast<Value>(get(features.Components[component], component));
+      }
+    });
+  polyData->GetCellData()->AddArray(array);
+}
+
+/** The size that 98 % of the residuals don't exceed; 0 for none. */
+double ResidualQuantile(LargeVector<float> residuals)
+{
+  if (residuals.empty())
+  {
+    return 0.0;
+  }
+  for (float& residual : residuals)
+  {
+    residual = std::abs(residual);
+  }
+  const auto last = static_cast<double>(residuals.size() - 1);
+  const auto place = residuals.begin() + static_cast<std::ptrdiff_t>(0.98 * last);
+  std::nth_element(residuals.begin(), place, residuals.end());
+  return *place;
+}
+
+void TakePoints(vtkPolyData* polyData, LargeVector<Point>& places, Executor& executor)
+{
+  vtkNew<vtkPoints> points;
+  const auto coordinates = NewLargeArray<vtkDoubleArray>(places.size(), 3);
+  coordinates->SetName(points->GetData()->GetName());
+  points->SetData(coordinates);
+  double* to = coordinates->GetPointer(0);
+  ForRanges(executor, places.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        std::copy(places[p].begin(), places[p].end(), to + 3 * p);
+      }
+    });
+  polyData->SetPoints(points);
+  Free(places);
+}
+
+void TakeTriangles(vtkPolyData* polyData, LargeVector<Triangle>& corners, Executor& executor)
+{
+  // As VTK itself keeps them: what reads arrays of a file by their type finds the same.
+  const auto offsets = NewLargeArray<vtkIdTypeArray>(corners.size() + 1);
+  const auto connectivity = NewLargeArray<vtkIdTypeArray>(3 * corners.size());
+  vtkIdType* first = offsets->GetPointer(0);
+  vtkIdType* to = connectivity->GetPointer(0);
+  ForRanges(executor, corners.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        first[t] = static_cast<vtkIdType>(3 * t);
+        std::copy(corners[t].begin(), corners[t].end(), to + 3 * t);
+      }
+    });
+  first[corners.size()] = static_cast<vtkIdType>(3 * corners.size());
+  Free(corners);
+  vtkNew<vtkCellArray> triangles;
+  triangles->SetData(offsets, connectivity);
+  polyData->SetPolys(triangles);
+}
+
+/** Takes what the surface knows of its points, but for the residuals. */
+void TakePointArrays(
+  vtkPolyData* polyData, SurfaceResult& surface, const Workspace& space, Executor& executor)
+{
+  const std::size_t n = surface.Normals.size();
+  const auto normals = NewLargeArray<vtkFloatArray>(n, 3);
+  normals->SetName("Normals");
+  float* to = normals->GetPointer(0);
+  ForRanges(executor, n,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        const std::array<float, 3> normal = space.NormalToWorld(surface.Normals[p]);
+        std::copy(normal.begin(), normal.end(), to + 3 * p);
+      }
+    });
+  Free(surface.Normals);
+  const auto residual = NewLargeArray<vtkFloatArray>(n);
+  residual->SetName("Residual");
+  std::copy(surface.Residual.begin(), surface.Residual.end(), residual->GetPointer(0));
+  const auto motionless = NewLargeArray<vtkUnsignedCharArray>(n);
+  motionless->SetName("Motionless");
+  std::copy(surface.Motionless.begin(), surface.Motionless.end(), motionless->GetPointer(0));
+  polyData->GetPointData()->SetNormals(normals);
+  polyData->GetPointData()->AddArray(residual);
+  polyData->GetPointData()->AddArray(motionless);
+  const auto contact = NewLargeArray<vtkUnsignedCharArray>(n);
+  contact->SetName("Contact");
+  std::copy(surface.Held.begin(), surface.Held.end(), contact->GetPointer(0));
+  for (const std::array<int, 2>& pair : surface.Contacts)
+  {
+    contact->SetValue(pair[0], 1);
+    contact->SetValue(pair[1], 1);
+  }
+  polyData->GetPointData()->AddArray(contact);
+}
+
+void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executor& executor)
+{
+  using Component = ComponentFeatures;
+  AddComponentOfCells<vtkIntArray>(
+    polyData, "Component", features, executor, [](const Component&, int c) { return c; });
+  AddComponentOfCells<vtkFloatArray>(
+    polyData, "ComponentArea", features, executor, [](const Component& c, int) { return c.Area; });
+  AddComponentOfCells<vtkFloatArray>(polyData, "ComponentVolume", features, executor,
+    [](const Component& c, int) { return c.Volume; });
+  AddComponentOfCells<vtkIntArray>(polyData, "ComponentGenus", features, executor,
+    [](const Component& c, int) { return c.Genus; });
+
+  AddField<vtkIntArray>(
+    polyData, "NumberOfComponents", static_cast<int>(features.Components.size()));
+  AddField<vtkIntArray>(polyData, "EulerCharacteristic", features.EulerCharacteristic);
+  AddField<vtkIntArray>(polyData, "Genus", features.Genus);
+  AddField<vtkDoubleArray>(polyData, "Area", features.Area);
+  AddField<vtkDoubleArray>(polyData, "Volume", features.Volume);
+  AddComponentField<vtkDoubleArray, 1>(
+    polyData, "ComponentArea", features, [](const Component& c, int) { return c.Area; });
+  AddComponentField<vtkDoubleArray, 1>(
+    polyData, "ComponentVolume", features, [](const Component& c, int) { return c.Volume; });
+  AddComponentField<vtkIntArray, 1>(
+    polyData, "ComponentGenus", features, [](const Component& c, int) { return c.Genus; });
+  AddComponentField<vtkDoubleArray, 3>(polyData, "ComponentCentroid", features,
+    [](const Component& c, int i) { return c.Centroid[i]; });
+  AddComponentField<vtkDoubleArray, 6>(
+    polyData, "ComponentInertia", features, [](const Component& c, int i) { return c.Inertia[i]; });
+}
+
+}
+
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
+  const SurfaceDescription& description, const Workspace& space, Executor& executor)
+{
+  auto polyData = vtkSmartPointer<vtkPolyData>::New();
+  IndexedSurface& shape = surface;
+  shape = ToWorld(std::move(shape), space, executor);
+  const SurfaceFeatures features = ComputeFeatures(shape, executor);
+  const auto numberOfPoints = static_cast<std::ptrdiff_t>(shape.Points.size());
+  TakePoints(polyData, shape.Points, executor);
+  TakeTriangles(polyData, shape.Triangles, executor);
+  TakePointArrays(polyData, surface, space, executor);
+  AddField<vtkIntArray>(polyData, "Level", description.Level);
+  AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
+  AddField<vtkDoubleArray>(polyData, "Unit", description.Unit);
+  AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
+  AddField<vtkIntArray>(
+    polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
+  auto* contact =
+    vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
+  const unsigned char* contacts = contact->GetPointer(0);
+  AddField<vtkIntArray>(polyData, "ContactVertices",
+    static_cast<int>(std::count(contacts, contacts + numberOfPoints, 1)));
+  AddField<vtkDoubleArray>(
+    polyData, "ResidualQuantile", ResidualQuantile(std::move(surface.Residual)));
+  AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
+  AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
+  AddField<vtkIntArray>(polyData, "MissingParts", description.MissingParts);
+  AddField<vtkDoubleArray>(polyData, "MissingBoundary", description.MissingBoundary);
+  AddField<vtkIntArray>(polyData, "LostCavities", description.LostCavities);
+  AddField<vtkIntArray>(polyData, "RecoveredCavities", description.RecoveredCavities);
+  if (description.TotalIterations >= 0)
+  {
+    AddField<vtkIntArray>(polyData, "Iteration", description.TotalIterations);
+  }
+  if (!description.StopReason.empty())
+  {
+    AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
+  }
+  SetFeatures(polyData, features, executor);
+  return polyData;
+}
+
+void SetStopReason(vtkPolyData* surface, const std::string& reason)
+{
+  // Not into field data that a shallow copy may share.
+  vtkNew<vtkFieldData> fieldData;
+  fieldData->ShallowCopy(surface->GetFieldData());
+  surface->SetFieldData(fieldData);
+  AddField<vtkStringArray>(surface, "StopReason", reason.c_str());
+}
+
+vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason)
+{
+  SurfaceDescription description;
+  description.Level = level;
+  description.StopReason = reason;
+  return MakePolyData(SurfaceResult(), description, Workspace());
+}
+}

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSurfaceOutput_h
+#define volumicSurfaceOutput_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Input/Workspace.h"
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkPolyData;
+
+namespace volumic
+{
+/** What is told of a surface beside its geometry. */
+struct SurfaceDescription
+{
+  int Level = 0;
+  double Unit = 0.0;        ///< U_h, world units
+  int Iterations = 0;       ///< at this level
+  int TotalIterations = -1; ///< over all levels; field `Iteration`, -1: none
+  std::string StopReason;   ///< empty: none, the surface is still on its way
+  int LostParts = 0;
+  int RecoveredParts = 0;
+  int MissingParts = 0;
+  double MissingBoundary = 0.0; ///< share, 0 to 1
+  int LostCavities = 0;
+  int RecoveredCavities = 0;
+};
+
+/**
+ * The surface in world coordinates with all arrays that vtkDeformableSurface documents. Where it is
+ * given up, each of its arrays is freed once it is in VTK's.
+ */
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
+  const SurfaceDescription& description, const Workspace& space,
+  Executor& executor = OnThisThread());
+
+/** In the place of the one that it has; what it was copied from keeps its own. */
+void SetStopReason(vtkPolyData* surface, const std::string& reason);
+
+/** `StopReason` of what a run hands over that has come to the end of its time. */
+constexpr const char* TimeLimitReason = "time limit";
+
+/** The surface of a run that was stopped before it had one: empty, with all its arrays. */
+vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason);
+}
+
+#endif

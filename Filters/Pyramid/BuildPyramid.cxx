@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pyramid/BuildPyramid.h"
+
+#include "Host/PrefixErrors.h"
+
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+
+#include <string>
+
+namespace volumic
+{
+EdgeLengthPlan PlanEdgeLength(
+  double edgeLength, double samplingRatio, vtkImageData* image, PyramidOptions& pyramid)
+{
+  const int* size = image->GetDimensions();
+  const double* spacing = image->GetSpacing();
+  const EdgeLengthPlan plan = PlanEdgeLength(edgeLength, { size[0], size[1], size[2] },
+    { spacing[0], spacing[1], spacing[2] }, EdgeLengthPreferences{ pyramid, samplingRatio });
+  pyramid.ReductionFactor = plan.ReductionFactor;
+  return plan;
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(Communicator& ranks, vtkImageData* image,
+  vtkInformation* selection, int component, const PyramidRequest& request)
+{
+  return PrefixErrors("Input port 0: ",
+    [&]
+    {
+      bool isStopped = false;
+      PyramidRequest watched = request;
+      watched.Progress = [&](double share, const std::string& text)
+      {
+        isStopped = isStopped || !request.Progress(share, text);
+        return !isStopped;
+      };
+      const PyramidBlocks made =
+        MakePyramidBlocks(ranks, PyramidImage(ranks, image, selection, component), watched);
+      return ranks.IsAny(isStopped) ? nullptr : made.Blocks;
+    });
+}
+}

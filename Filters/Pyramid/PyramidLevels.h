@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicPyramidLevels_h
+#define volumicPyramidLevels_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Common/ScratchMemory.h"
+#include "Core/Image/LevelImage.h"
+#include "Input/ValidVoxels.h"
+#include "Input/Workspace.h"
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkImageData;
+class vtkInformation;
+class vtkMultiBlockDataSet;
+
+namespace volumic
+{
+/**
+ * The blocks of vtkImagePyramid's output as the levels that the core wants.
+ *
+ * Errors are std::invalid_argument; messages name the block and the way out.
+ */
+class PyramidLevels
+{
+public:
+  /** The fewest voxels along an axis on which a surface can evolve. */
+  static constexpr int MinimumSize = 8;
+
+  /**
+   * @param blocks    block h is the vtkImageData of level h
+   * @param selection says which array holds the voxels (GetInputArrayInformation)
+   * @param metric    which lengths the workspace has
+   * @param nanIsBackground off: Load() refuses voxels that are NaN
+   * @throws if a block is not an image, has no such array, or its size or place are not those of a
+   *         level of a pyramid; if the image is 2D or under MinimumSize along an axis.
+   */
+  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric,
+    bool nanIsBackground = true);
+  ~PyramidLevels();
+  PyramidLevels(PyramidLevels&&) noexcept;
+
+  int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
+  const Workspace& GetWorkspace() const { return this->Space; }
+
+  /** Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it. */
+  bool HasRoom(int level) const;
+
+  std::int64_t NumberOfVoxels(int level) const;
+
+  /** Voxels of the finest level along each axis. */
+  std::array<int, 3> SizeOfLevel0() const;
+
+  /**
+   * U_h in world units. Level -1, finer than the image, has U_0 / T, with sqrt 3 for T unless told.
+   */
+  double UnitInWorld(int level) const;
+  /** Voxels of a level along each axis. */
+  std::array<int, 3> SizeOf(int level) const { return this->Sizes[level]; }
+  void SetFactorBelowLevel0(double t) { this->FactorBelowLevel0 = t; }
+
+  /**
+   * Whether something of the object, which is above the value (bright) or below, is thick enough
+   * at a level to hold a surface there (ThickPart.h).
+   */
+  bool HoldsObject(int level, double isoValue, bool objectIsBright) const;
+
+  /**
+   * Smallest and largest voxel of a level among those that are valid (ValidVoxels.h); the first is
+   * the larger one if none is.
+   */
+  std::array<double, 2> Range(int level) const;
+
+  /**
+   * For a level whose voxels are not here (LevelInPieces): all of them are valid, and these are the
+   * smallest and the largest.
+   */
+  void SetRange(int level, const std::array<double, 2>& range) { this->Ranges[level] = range; }
+
+  /** What DescribeNaNs() says of level 0; nothing if there are none. */
+  std::string DescribeNaNsOfLevel0() const;
+
+  /** Of size, type and values of the level's voxels; see ContentHash.h. */
+  std::uint64_t HashOfVoxels(int level, Executor& executor) const;
+
+  /**
+   * The voxels of a level, of level 0 for level -1; they stay valid until the next call. They are
+   * shared, and read in their own type (VoxelValues), unless some of them are not valid: then they
+   * are copied. Floats are taken as they are, unless their differences are small beside their size;
+   * of all others `base` is subtracted: it is the Base of the result.
+   * @param base       a value of the field that matters, such as the iso-value
+   * @param background the value that voxels get which are not valid
+   * @throws if the level is under MinimumSize along an axis, or has voxels that are infinite or too
+   *         large for single precision, or NaN where these are refused.
+   */
+  LevelImage Load(int level, double base, double background, Executor& executor);
+
+  /**
+   * Lets go of the voxels of the levels that are coarser: no more than sizes, units and ranges that
+   * were asked for is known of them afterwards. Of level 0 the voxels stay.
+   */
+  void ReleaseCoarserThan(int level);
+  /** Whether the voxels of a level are still there. */
+  bool HasVoxels(int level) const { return this->Voxels[level] != nullptr; }
+
+private:
+  using Size = std::array<int, 3>;
+  double UnitOf(int level) const;
+  ValidVoxels ValidAt(int level, Executor& executor) const;
+
+  /** Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on. */
+  std::vector<vtkSmartPointer<vtkImageData>> Images; ///< null where they were let go, as Voxels
+  std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
+  std::vector<Size> Sizes;
+  std::vector<double> Units; ///< workspace
+  double FactorBelowLevel0 = 1.7320508075688772;
+  Workspace Space;
+  vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to
+  LargeVector<float> Filled;            ///< or this
+  bool NaNIsBackground;
+  mutable std::vector<std::optional<std::array<double, 2>>> Ranges; ///< by level, once asked for
+};
+}
+
+#endif

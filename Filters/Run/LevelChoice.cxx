@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/LevelChoice.h"
+
+#include "Core/Common/Refuse.h"
+#include "Pyramid/PyramidLevels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** The levels from the last that has room to the finest that is asked for, whatever is on them. */
+LevelChoice LevelsAsSet(const PyramidLevels& pyramid, const SegmentationSettings& settings)
+{
+  LevelChoice choice;
+  if (settings.BeginsBelowImage)
+  {
+    choice.Coarsest = choice.Last = -1;
+    return choice;
+  }
+  const int last = pyramid.NumberOfLevels() - 1;
+  choice.Coarsest = settings.CoarsestLevel;
+  if (settings.CoarsestLevel == -1)
+  {
+    // A pyramid may go on to levels of a single voxel.
+    for (choice.Coarsest = last; !pyramid.HasRoom(choice.Coarsest);)
+    {
+      --choice.Coarsest;
+    }
+  }
+  const int finest = settings.End.FinestLevel;
+  if (choice.Coarsest < 0 || choice.Coarsest > last)
+  {
+    Refuse("Coarsest Level is ", settings.CoarsestLevel, ", but the pyramid has the levels 0 to ",
+      last, "; use one of them, or -1 for the last.");
+  }
+  if (settings.EdgeLength != 0.0 && finest > choice.Coarsest)
+  {
+    Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", finest,
+      ", but Coarsest Level is ", settings.CoarsestLevel,
+      "; set it to that level, a coarser one, or -1 for the last.");
+  }
+  if (finest < -1 || finest > choice.Coarsest)
+  {
+    Refuse("Finest Level is ", finest, "; it must lie between 0 and the coarsest level, ",
+      choice.Coarsest, ", or be -1 for a last division beyond the image.");
+  }
+  while (choice.Preview < choice.Coarsest &&
+    pyramid.NumberOfVoxels(choice.Preview) > LevelChoice::VoxelsOfPreview)
+  {
+    ++choice.Preview;
+  }
+  return choice;
+}
+
+void CheckIsoValue(double iso, const std::array<double, 2>& range)
+{
+  if (std::isnan(iso))
+  {
+    Refuse(
+      "Iso Value is not set. Set it to the value that parts the object from the background; the "
+      "voxels range from ",
+      range[0], " to ", range[1], ".");
+  }
+  if (iso <= range[0] || iso >= range[1])
+  {
+    Refuse("Iso Value is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
+      "; set it between them.");
+  }
+}
+
+/** At most `from`; 0 where no other level has any of the object. */
+int CoarsestLevelWithObject(
+  const SegmentationLevels& levels, const SurfaceOptions& options, int from)
+{
+  int level = from;
+  for (; level > 0; --level)
+  {
+    const std::array<double, 2> range = levels.Range(level);
+    if (options.ObjectIsBright ? range[1] > options.IsoValue : range[0] < options.IsoValue)
+    {
+      break;
+    }
+  }
+  return level;
+}
+
+/**
+ * At most `from`, at least the level to end at: the coarsest on which the object is thick enough
+ * for a surface that starts there not to vanish, if that would be the end.
+ */
+int CoarsestLevelThatHolds(
+  const SegmentationLevels& levels, const SurfaceOptions& options, int from, int last)
+{
+  // With recovery a surface that has vanished comes again, sooner than one that starts on a finer
+  // level. Where other forces stop the surface, the object is not what its voxels' values tell.
+  if (options.RecoverLostParts || !(options.IsopotentialWeight > 0.0) ||
+    options.GradientWeight > 0.0 || levels.HasEdges())
+  {
+    return from;
+  }
+  int level = from;
+  while (level > std::max(last, 0) && !levels.HoldsObject(level, options))
+  {
+    --level;
+  }
+  return level;
+}
+
+/** @param there the coarsest level that has any of the object, finer than the one to start at */
+[[noreturn]] void RefuseCoarsest(
+  const LevelChoice& choice, const SegmentationSettings& settings, int there)
+{
+  const char* side = settings.Options.ObjectIsBright ? "above" : "below";
+  if (settings.EdgeLength != 0.0 && choice.Coarsest == choice.Last)
+  {
+    Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", choice.Last,
+      ", but the object is too thin for it: no voxel is ", side, " Iso Value ",
+      settings.Options.IsoValue, " there. Give a shorter Edge Length.");
+  }
+  Refuse("the object has vanished at level ", choice.Coarsest, ", the coarsest: no voxel is ", side,
+    " Iso Value ", settings.Options.IsoValue,
+    " there. It is too thin for that level; set Coarsest Level to ", there,
+    ", where it is still there, or less.");
+}
+}
+
+LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSettings& settings)
+{
+  LevelChoice choice = LevelsAsSet(levels.Pyramid(), settings);
+  CheckIsoValue(settings.Options.IsoValue, levels.Range(0));
+  // Every level shows what points mark.
+  const int there = levels.HasPoints()
+    ? choice.Coarsest
+    : CoarsestLevelWithObject(levels, settings.Options, choice.Coarsest);
+  choice.Preview = std::min(choice.Preview, there);
+  choice.Last = settings.End.Preview ? std::max(settings.End.FinestLevel, choice.Preview)
+                                     : settings.End.FinestLevel;
+  if (levels.HasPoints() || settings.BeginsBelowImage)
+  {
+    return choice;
+  }
+  if (settings.CoarsestLevel == -1 && there >= choice.Last)
+  {
+    choice.Coarsest = CoarsestLevelThatHolds(levels, settings.Options, there, choice.Last);
+    return choice;
+  }
+  if (there != choice.Coarsest)
+  {
+    RefuseCoarsest(choice, settings, there);
+  }
+  return choice;
+}
+}

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/RankLevel.h"
+
+#include "Core/Common/FreeMemory.h"
+#include "Core/Common/Monitor.h"
+#include "Core/Image/Field.h"
+#include "Host/HostThreads.h"
+
+#include <cstddef>
+
+namespace volumic
+{
+namespace
+{
+/** Of a rank that helps: it shows nothing. */
+class HelpersMonitor final : public Monitor
+{
+public:
+  explicit HelpersMonitor(const std::function<bool()>& goOn) : Goes(goOn) {}
+  bool Continue(const Status&) override { return this->Goes(); }
+  bool GoOn(const Status&) override { return this->Goes(); }
+
+private:
+  const std::function<bool()>& Goes;
+};
+}
+
+RankLevel::RankLevel(
+  Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces)
+  : Ranks(ranks)
+  , Level(BroadcastValue(ranks, image))
+  , StaysInPieces(BroadcastValue(ranks, pieces != nullptr))
+{
+  const VoxelBox all = VoxelBox::Of(this->Level.Size);
+  if (ranks.Rank() == 0)
+  {
+    // What it has room for it may fill.
+    this->Room = const_cast<char*>(static_cast<const char*>(image.Values.Data()));
+  }
+  else
+  {
+    MakeZeroed(this->Voxels,
+      static_cast<std::size_t>(all.Count()) * this->Level.Values.BytesPerVoxel());
+    this->Room = this->Voxels.data();
+  }
+  this->Level.Values = this->Level.Values.At(this->Room);
+  if (this->StaysInPieces)
+  {
+    this->Pieces = pieces->Pieces;
+    this->Held = pieces->Values ? pieces->Values->GetVoidPointer(0) : nullptr;
+  }
+  else
+  {
+    this->Pieces = VoxelPieces(ranks, ranks.Rank() == 0 ? all : VoxelBox());
+    this->Held = this->Room;
+  }
+}
+
+void RankLevel::Need(const VoxelBox& box)
+{
+  const bool hasAll = this->Ranks.Rank() == 0 && !this->StaysInPieces;
+  this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(),
+    hasAll ? VoxelBox() : box, VoxelBox::Of(this->Level.Size), this->Room);
+}
+
+void RankLevel::NeedMeasures()
+{
+  if (this->StaysInPieces)
+  {
+    for (const VoxelBox& box : Field::MeasuredVoxels(this->Level.Size))
+    {
+      this->Need(this->Ranks.Rank() == 0 ? box : VoxelBox());
+    }
+  }
+}
+
+std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
+  const LevelImage& image, const LevelsInPieces& pieces)
+{
+  BroadcastValue(ranks, shared);
+  const auto found = pieces.find(shared.Level);
+  auto level = std::make_unique<RankLevel>(
+    ranks, image, found != pieces.end() ? &found->second : nullptr);
+  if (shared.GivesVoxels)
+  {
+    level->Need(VoxelBox::Of(image.Size));
+  }
+  return level;
+}
+
+bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
+  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface)
+{
+  level.NeedMeasures();
+  evolution.SetRanks(&ranks, [&level](const VoxelBox& box) { level.Need(box); });
+  const bool isDivided = evolution.Divide(level.Image(), shared.Level);
+  if (isDivided)
+  {
+    reason = evolution.Run();
+    surface = evolution.Result();
+    if (!shared.IsLast)
+    {
+      evolution.Unite();
+    }
+  }
+  evolution.SetRanks(nullptr);
+  return isDivided;
+}
+
+void HelpWithLevel(
+  Communicator& ranks, const LevelsInPieces& pieces, const std::function<bool()>& goOn)
+{
+  const SharedLevel shared = BroadcastValue(ranks, SharedLevel());
+  const auto found = pieces.find(shared.Level);
+  RankLevel level(ranks, LevelImage(), found != pieces.end() ? &found->second : nullptr);
+  if (shared.GivesVoxels)
+  {
+    level.Need(VoxelBox());
+    return;
+  }
+  level.NeedMeasures();
+  HostThreads threads(shared.NumberOfThreads);
+  HelpersMonitor monitor(goOn);
+  threads.Run(
+    [&]
+    {
+      SurfaceEvolution evolution(shared.Options, threads, monitor);
+      evolution.SetRanks(&ranks, [&level](const VoxelBox& box) { level.Need(box); });
+      if (evolution.Divide(level.Image(), shared.Level))
+      {
+        evolution.Run();
+        evolution.Result();
+        if (!shared.IsLast)
+        {
+          evolution.Unite();
+        }
+      }
+    });
+  GiveBackFreeMemory();
+}
+}

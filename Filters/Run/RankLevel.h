@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRankLevel_h
+#define volumicRankLevel_h
+
+#include "Core/Common/Communicator.h"
+#include "Core/Common/Executor.h"
+#include "Core/Common/ScratchMemory.h"
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/LevelImage.h"
+#include "Core/Image/VoxelBox.h"
+#include "Core/Image/VoxelPieces.h"
+#include "Settings/SegmentationVolume.h"
+
+#include <functional>
+#include <memory>
+
+namespace volumic
+{
+/** A level that a surface evolves on over several ranks: what each of them has of it. */
+class RankLevel
+{
+public:
+  /**
+   * By all ranks together.
+   * @param image at rank 0 the level, with all its voxels or room for them; the others learn of it
+   *        here
+   * @param pieces the voxels that are not there, but with the ranks; null: rank 0 has all
+   */
+  RankLevel(Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces);
+
+  /** At rank 0 where it was; else with room for all voxels, which takes no memory before Need(). */
+  const LevelImage& Image() const { return this->Level; }
+
+  /** By all ranks together: brings this rank the voxels of a box, and no others. */
+  void Need(const VoxelBox& box);
+  /** By all ranks together: brings rank 0 what Field asks of a whole image. */
+  void NeedMeasures();
+
+private:
+  Communicator& Ranks;
+  LevelImage Level;
+  const bool StaysInPieces;
+  VoxelPieces Pieces;
+  const void* Held = nullptr; ///< this rank's piece
+  LargeVector<char> Voxels;   ///< of the whole level; written where they are needed
+  char* Room = nullptr;       ///< these, or those of rank 0
+};
+
+/** What rank 0 of a run shares with those that help it. */
+struct SharedLevel
+{
+  bool GivesVoxels = false; ///< Rank 0 wants all voxels, and does the rest alone.
+  SurfaceOptions Options;
+  int Level = 0;
+  int NumberOfThreads = 0;
+  bool IsLast = false; ///< The surface does not go on from there.
+};
+
+/**
+ * At rank 0: the division to a level that all ranks share, and the run there, on all ranks; they must be in
+ * HelpWithLevel(). @return false as SurfaceEvolution::Divide().
+ */
+bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
+  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface);
+
+/** At rank 0, likewise: the level of which it wants the voxels, or on which all evolve. */
+std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
+  const LevelImage& image, const LevelsInPieces& pieces);
+
+/** At the others. @param goOn asked now and then; false ends the run on all ranks */
+void HelpWithLevel(
+  Communicator& ranks, const LevelsInPieces& pieces, const std::function<bool()>& goOn);
+}
+
+#endif

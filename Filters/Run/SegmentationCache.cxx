@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/SegmentationCache.h"
+
+#include "Host/WholeInput.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkAlgorithmOutput.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataObject.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+
+namespace volumic
+{
+namespace
+{
+/**
+ * What comes to a connection. ParaView puts a filter of its own between any two, which hands on the
+ * same data in an object that it fills anew at each update.
+ */
+vtkDataObject* DataOf(vtkAlgorithmOutput* connection)
+{
+  vtkAlgorithm* producer = connection->GetProducer();
+  while (producer->IsA("vtkPVPostFilter") && producer->GetNumberOfInputConnections(0) > 0)
+  {
+    connection = producer->GetInputConnection(0, 0);
+    producer = connection->GetProducer();
+  }
+  return producer->GetOutputDataObject(connection->GetIndex());
+}
+
+/** When anything of it was changed last; blocks do not tell of it by themselves. */
+vtkMTimeType TimeOf(vtkDataObject* data)
+{
+  vtkMTimeType time = data->GetMTime();
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+    {
+      time = std::max(time, it->GetCurrentDataObject()->GetMTime());
+    }
+  }
+  return time;
+}
+}
+
+SegmentationCache::SegmentationCache() = default;
+SegmentationCache::~SegmentationCache() = default;
+
+SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
+{
+  Inputs inputs;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+    {
+      vtkDataObject* data = DataOf(filter->GetInputConnection(port, i));
+      inputs.emplace_back(data, data ? TimeOf(data) : 0);
+    }
+    inputs.emplace_back(nullptr, port);
+  }
+  return inputs;
+}
+
+void SegmentationCache::Keep(
+  std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks)
+{
+  this->Drop();
+  bool areReleased = filter->GetReleaseDataFlag() != 0;
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    areReleased = areReleased || AreReleased(filter, port);
+  }
+  if (areReleased)
+  {
+    return; // They must not stay because of us.
+  }
+  this->Time = filter->GetMTime();
+  this->Ranks = ranks;
+  this->InputsOfRun = InputsOf(filter);
+  if (!run)
+  {
+    return;
+  }
+  this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
+  this->PlannedEnd = run->GetSettings().End.FinestLevel;
+  if (run->CanGoOn())
+  {
+    this->Run = std::move(run);
+  }
+  else
+  {
+    this->Results = std::make_unique<SegmentationResults>(run->Results());
+  }
+}
+
+void SegmentationCache::Drop()
+{
+  this->Run.reset();
+  this->Results.reset();
+  this->InputsOfRun.clear();
+  this->Time = 0;
+}
+
+void SegmentationCache::IgnoreChange(vtkMTimeType before, vtkMTimeType after)
+{
+  if (this->Time != 0 && this->Time == before)
+  {
+    this->Time = after;
+  }
+}
+
+bool SegmentationCache::IsValidFor(vtkAlgorithm* filter, int ranks) const
+{
+  return this->Time != 0 && this->Time == filter->GetMTime() && this->Ranks == ranks &&
+    this->InputsOfRun == InputsOf(filter);
+}
+
+int SegmentationCache::EndOf(const SegmentationEnd& end) const
+{
+  const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
+  const int finest = this->EndIsPlanned ? this->PlannedEnd : end.FinestLevel;
+  return end.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
+}
+
+const SegmentationResults* SegmentationCache::ResultsFor(
+  const SegmentationSettings& settings, const SegmentationRequest& request)
+{
+  SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
+  const bool isThere = results.HasAtRest(this->EndOf(request.End));
+  return isThere && results.Choose(settings, request) ? &results : nullptr;
+}
+
+int SegmentationCache::EndOfRun() const
+{
+  return this->Run->EndsAt();
+}
+
+std::unique_ptr<SurfaceSegmentation> SegmentationCache::TakeRun()
+{
+  return std::move(this->Run);
+}
+}

@@ -1,0 +1,391 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/SegmentationCheckpoint.h"
+
+#include "Core/Common/CheckedFile.h"
+#include "Core/Common/ContentHash.h"
+#include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
+#include "Host/FolderLock.h"
+#include "Input/SurfaceFile.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* Prefix = "volumic-";
+/** Begins each state; to be changed with the format, or with the bits of what a run makes of it. */
+constexpr const char* Format = "Volumic checkpoint 2";
+
+std::string StateIn(const fs::path& folder)
+{
+  return (folder / "state").string();
+}
+
+std::string LevelFileIn(const fs::path& folder, int level)
+{
+  return (folder / Join("level-", level)).string();
+}
+
+/** Those of a level, in their order. */
+std::vector<const SegmentationResults::Snapshot*> SnapshotsOf(
+  const SegmentationResults& results, int level)
+{
+  std::vector<const SegmentationResults::Snapshot*> found;
+  for (const SegmentationResults::Snapshot& snapshot : results.AllSnapshots())
+  {
+    if (snapshot.Level == level)
+    {
+      found.push_back(&snapshot);
+    }
+  }
+  return found;
+}
+
+void WriteDescription(CheckedWriter& file, const SurfaceDescription& about)
+{
+  file.Put(about.Level);
+  file.Put(about.Unit);
+  file.Put(about.Iterations);
+  file.Put(about.TotalIterations);
+  file.PutText(about.StopReason);
+  file.Put(about.LostParts);
+  file.Put(about.RecoveredParts);
+  file.Put(about.MissingParts);
+  file.Put(about.MissingBoundary);
+  file.Put(about.LostCavities);
+  file.Put(about.RecoveredCavities);
+}
+
+SurfaceDescription ReadDescription(CheckedReader& file)
+{
+  SurfaceDescription about;
+  about.Level = file.Get<int>();
+  about.Unit = file.Get<double>();
+  about.Iterations = file.Get<int>();
+  about.TotalIterations = file.Get<int>();
+  about.StopReason = file.GetText();
+  about.LostParts = file.Get<int>();
+  about.RecoveredParts = file.Get<int>();
+  about.MissingParts = file.Get<int>();
+  about.MissingBoundary = file.Get<double>();
+  about.LostCavities = file.Get<int>();
+  about.RecoveredCavities = file.Get<int>();
+  return about;
+}
+
+void WriteLevel(const std::string& name, const SegmentationResults& results, int level)
+{
+  const SegmentationResults::Level& result = results.Levels().at(level);
+  CheckedWriter file(name);
+  WriteDescription(file, result.Description);
+  file.Put(result.KeepsNone);
+  file.Put(result.IsAtRest);
+  WriteSurfaceTo(file, result.Surface);
+  const auto snapshots = SnapshotsOf(results, level);
+  file.Put<std::uint64_t>(snapshots.size());
+  for (const SegmentationResults::Snapshot* snapshot : snapshots)
+  {
+    file.PutText(snapshot->Name);
+    WriteSurfaceTo(file, snapshot->Surface);
+  }
+  file.Commit();
+}
+
+void ReadLevel(const std::string& name, SegmentationResults& results, int level)
+{
+  CheckedReader file(name);
+  SegmentationResults::Level result;
+  result.Description = ReadDescription(file);
+  result.KeepsNone = file.Get<bool>();
+  result.IsAtRest = file.Get<bool>();
+  result.Surface = ReadSurfaceFrom(file);
+  results.SetLevel(level, result);
+  for (auto left = file.Get<std::uint64_t>(); left > 0; --left)
+  {
+    const std::string snapshot = file.GetText();
+    results.AddSnapshot(level, snapshot, ReadSurfaceFrom(file));
+  }
+}
+
+/** What each state begins with. */
+struct StateHead
+{
+  RunFingerprint Fingerprint;
+  SegmentationCheckpoint::Place Place;
+};
+
+StateHead ReadHead(CheckedReader& file)
+{
+  if (file.GetText() != Format)
+  {
+    file.Refuse("was written by another version of Volumic");
+  }
+  StateHead head;
+  head.Fingerprint = RunFingerprint::Read(file);
+  head.Place.Level = file.Get<int>();
+  head.Place.GoesOn = file.Get<bool>();
+  return head;
+}
+
+/** As an absolute path. */
+std::string CheckedDirectory(const std::string& given)
+{
+  const char* ofSystem = std::getenv("TMPDIR");
+  const bool isFromSystem = given.empty() && ofSystem && *ofSystem;
+  const std::string chosen = !given.empty() ? given : (isFromSystem ? ofSystem : "/var/tmp");
+  std::error_code error;
+  const fs::path directory = fs::absolute(chosen, error);
+  const std::string reason = WhyNoFilesIn(directory.string());
+  if (!reason.empty())
+  {
+    Refuse("Scratch Directory ", directory.string(), isFromSystem ? " (of TMPDIR)" : "",
+      " cannot be used: ", reason,
+      ". Choose a directory that exists and in which you may make files.");
+  }
+  return directory.string();
+}
+}
+
+SegmentationCheckpoint::SegmentationCheckpoint(
+  const std::string& directory, RunFingerprint fingerprint)
+  : Directory(CheckedDirectory(directory)), IsShared(directory.empty()),
+    Folder((fs::path(this->Directory) / (Prefix + HashText(fingerprint.Hash()))).string()),
+    Fingerprint(std::move(fingerprint))
+{
+}
+
+SegmentationCheckpoint::~SegmentationCheckpoint()
+{
+  this->RemoveIfEmpty();
+}
+
+void SegmentationCheckpoint::RemoveIfEmpty()
+{
+  std::error_code ignored;
+  if (this->Locked && !fs::exists(StateIn(this->Folder), ignored))
+  {
+    this->Locked->RemoveFolder();
+    this->Locked.reset();
+  }
+}
+
+std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::PlaceOfState() const
+{
+  if (!fs::exists(StateIn(this->Folder)))
+  {
+    return std::nullopt;
+  }
+  CheckedReader file(StateIn(this->Folder));
+  return ReadHead(file).Place;
+}
+
+void SegmentationCheckpoint::CheckOthers() const
+{
+  // Of those that are there, and that nobody is at, the one that is most like this run is told of.
+  std::string nearest;
+  RunFingerprint before;
+  int fewest = 0;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(this->Directory, ignored))
+  {
+    const std::string folder = entry.path().string();
+    if (entry.path().filename().string().rfind(Prefix, 0) != 0 ||
+      !fs::exists(StateIn(folder), ignored) || FolderLock::IsHeld(folder))
+    {
+      continue;
+    }
+    try
+    {
+      CheckedReader file(StateIn(folder));
+      const RunFingerprint found = ReadHead(file).Fingerprint;
+      if (this->IsShared && !this->Fingerprint.IsSameVolume(found))
+      {
+        continue;
+      }
+      const int differences = this->Fingerprint.NumberOfDifferences(found);
+      if (nearest.empty() || differences < fewest)
+      {
+        nearest = folder;
+        before = found;
+        fewest = differences;
+      }
+    }
+    catch (const FileError&)
+    {
+      // Of another version, damaged, or another user's.
+    }
+  }
+  if (!nearest.empty())
+  {
+    Refuse("Resume: the checkpoint ", nearest, " is of ",
+      this->Fingerprint.IsSameVolume(before) ? "other settings: " : "another volume: ",
+      this->Fingerprint.DifferencesFrom(before),
+      ". Set it as it was, or, to begin anew, switch Resume off or choose another Scratch "
+      "Directory.");
+  }
+}
+
+std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
+  SegmentationResults& results, SurfaceEvolution& evolution)
+{
+  if (!fs::exists(StateIn(this->Folder)))
+  {
+    this->CheckOthers();
+    return std::nullopt;
+  }
+  try
+  {
+    if (!this->TakeFolder())
+    {
+      Refuse("Resume: another run is at the checkpoint ", this->Folder,
+        ". Wait until it has ended, or end it.");
+    }
+    CheckedReader file(StateIn(this->Folder));
+    const StateHead head = ReadHead(file);
+    std::vector<int> levels;
+    file.GetList(levels);
+    evolution.Load(file);
+    for (const int level : levels)
+    {
+      ReadLevel(LevelFileIn(this->Folder, level), results, level);
+    }
+    this->WrittenLevels.insert(levels.begin(), levels.end());
+    this->Existing = head.Place;
+    this->Resumed = head.Place.Level;
+    return head.Place;
+  }
+  catch (const FileError& error)
+  {
+    Refuse("Resume: ", error.what(), ". Begin anew: switch Resume off, or remove that folder, or "
+      "choose another Scratch Directory.");
+  }
+}
+
+bool SegmentationCheckpoint::TakeFolder()
+{
+  if (!this->Locked)
+  {
+    this->Locked = FolderLock::Take(this->Folder);
+  }
+  return this->Locked != nullptr;
+}
+
+std::string SegmentationCheckpoint::Save(
+  const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place)
+{
+  if (this->HasFailed)
+  {
+    return "";
+  }
+  try
+  {
+    const bool isNew = !this->Locked;
+    if (!this->TakeFolder())
+    {
+      this->HasFailed = true;
+      return Join("Another run of the same volume and settings has its checkpoint in ",
+        this->Folder, ": this one leaves none.");
+    }
+    try
+    {
+      this->Existing = isNew ? this->PlaceOfState() : this->Existing;
+    }
+    catch (const FileError&)
+    {
+      this->Existing.reset(); // What cannot be read is replaced.
+    }
+    if (!this->Existing || this->Existing->Level >= place.Level)
+    {
+      this->Write(results, evolution, place);
+      this->Existing = place;
+    }
+    return "";
+  }
+  catch (const std::exception& error)
+  {
+    this->HasFailed = true;
+    this->RemoveIfEmpty();
+    const std::string from = this->Existing
+      ? Join(", and can be resumed from level ", this->Existing->Level, " only")
+      : std::string();
+    return Join("The checkpoint of level ", place.Level, " could not be left: ", error.what(),
+      ". The run goes on without", from,
+      ". Give Scratch Directory more room, or choose another one.");
+  }
+}
+
+void SegmentationCheckpoint::Write(
+  const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place)
+{
+  std::vector<int> levels;
+  for (const auto& [level, result] : results.Levels())
+  {
+    levels.push_back(level);
+  }
+  std::vector<int> added;
+  std::vector<int> replaced; // By the same: the state that was there before may need them.
+  try
+  {
+    // The coarser ones come first, as their snapshots do.
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+    {
+      if (this->WrittenLevels.count(*level) == 0)
+      {
+        const std::string name = LevelFileIn(this->Folder, *level);
+        (fs::exists(name) ? replaced : added).push_back(*level);
+        WriteLevel(name, results, *level);
+      }
+    }
+    CheckedWriter file(StateIn(this->Folder));
+    file.PutText(Format);
+    this->Fingerprint.Write(file);
+    file.Put(place.Level);
+    file.Put(place.GoesOn);
+    file.PutList(std::vector<int>(levels.rbegin(), levels.rend()));
+    evolution.Save(file);
+    file.Commit();
+  }
+  catch (...)
+  {
+    // The room is better used by others.
+    for (const int level : added)
+    {
+      std::error_code ignored;
+      fs::remove(LevelFileIn(this->Folder, level), ignored);
+    }
+    throw;
+  }
+  this->WrittenLevels.insert(added.begin(), added.end());
+  this->WrittenLevels.insert(replaced.begin(), replaced.end());
+}
+
+void SegmentationCheckpoint::Remove()
+{
+  std::error_code ignored;
+  if (!this->Locked && (!fs::exists(this->Folder, ignored) || !this->TakeFolder()))
+  {
+    return;
+  }
+  fs::remove(StateIn(this->Folder), ignored); // First: from then on there is none.
+  this->Locked->RemoveFolder();
+  this->Locked.reset();
+  this->WrittenLevels.clear();
+  this->Existing.reset();
+}
+
+std::string SegmentationCheckpoint::FolderInUse() const
+{
+  return this->Existing ? this->Folder : std::string();
+}
+}

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSegmentationLevels_h
+#define volumicSegmentationLevels_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Image/LevelImage.h"
+#include "Core/Image/PointAttraction.h"
+#include "Input/Workspace.h"
+#include "Pyramid/EdgeLevels.h"
+#include "Pyramid/PyramidLevels.h"
+#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
+#include "Settings/SegmentationVolume.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkMultiBlockDataSet;
+
+namespace volumic
+{
+/**
+ * The levels of a volume as a surface evolves on them: the voxels as attracting points bend them,
+ * and the map of edges. Errors are std::invalid_argument; messages name the port or the property.
+ */
+class SegmentationLevels
+{
+public:
+  /** @throws if the blocks are not the levels of a pyramid, or there is no such Metric. */
+  explicit SegmentationLevels(const SegmentationVolume& volume);
+  ~SegmentationLevels();
+
+  /** Takes the points and the map of edges, where the settings give them a weight. */
+  void ReadAttraction(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings,
+    const SegmentationRequest& request);
+  bool HasPoints() const { return this->Points != nullptr; }
+  bool HasEdges() const { return this->Edges != nullptr; }
+
+  const PyramidLevels& Pyramid() const { return this->Voxels; }
+  const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
+
+  /** A list of positions of the settings, in the workspace (PositionsOf in InputPoints.h). */
+  std::vector<Point> SeedPositions(const SegmentationSettings& settings) const;
+  std::vector<Point> AttractingPositions(const SegmentationSettings& settings) const;
+
+  /** U_h in world units. */
+  double UnitInWorld(int level) const { return this->Voxels.UnitInWorld(level); }
+  void SetFactorBelowLevel0(double factor) { this->Voxels.SetFactorBelowLevel0(factor); }
+
+  /** Smallest and largest voxel of a level; the first is the larger one if none is valid. */
+  std::array<double, 2> Range(int level) const;
+
+  /** PyramidLevels::HoldsObject; looks once at a level, so the options must be the same always. */
+  bool HoldsObject(int level, const SurfaceOptions& options) const;
+
+  /** What is to be reported of the NaN voxels of level 0; empty: nothing, or it has been. */
+  std::string DescribeUnreportedNaNs() const;
+
+  /** The field of a level, valid until the next call. */
+  LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
+
+  /**
+   * Lets go of the voxels of coarser levels, and of what Load() gave last: what was asked of them
+   * stays known.
+   */
+  void ReleaseCoarserThan(int level);
+  bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
+
+  /** Those whose voxels the ranks have (SegmentationVolume); what Load() gives has none then. */
+  const LevelsInPieces& InPieces() const { return this->Pieces; }
+  bool IsInPieces(int level) const { return this->Pieces.count(std::max(level, 0)) > 0; }
+  /** Its voxels are here from now on. */
+  void TakeWhole(int level) { this->Pieces.erase(std::max(level, 0)); }
+
+  /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */
+  std::uint64_t HashOfEdges(Executor& threads) const;
+
+private:
+  bool MayHaveUnreportedNaNs;
+  PyramidLevels Voxels;
+  std::unique_ptr<PointAttraction> Points; ///< null: none
+  std::unique_ptr<EdgeLevels> Edges;       ///< null: none
+  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
+  LevelsInPieces Pieces;
+  mutable std::map<int, bool> Holds;       ///< what HoldsObject() has found
+};
+}
+
+#endif

@@ -1,0 +1,455 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/SurfaceSegmentation.h"
+
+#include "Core/Common/FreeMemory.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Common/ScratchMemory.h"
+#include "Core/Evolution/EdgeLengthPlan.h"
+#include "Host/PrefixErrors.h"
+#include "Input/InputPoints.h"
+#include "Output/SurfaceOutput.h"
+#include "Run/InitialSurfaces.h"
+#include "Run/RankLevel.h"
+#include "Settings/CheckEnumeration.h"
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace volumic
+{
+SurfaceSegmentation::SurfaceSegmentation(
+  const SegmentationVolume& volume, const SegmentationRequest& request)
+  : Settings(volume.Settings), Levels(volume),
+    Snapshots(volume.Settings.SnapshotInterval, this->Levels.GetWorkspace())
+{
+  SurfaceOptions& options = this->Settings.Options;
+  CheckEnumeration(
+    "Initialization", this->Settings.Initialization, InitializationType::InputSurface);
+  CheckEnumeration("Border Value", options.BorderValue, Border::Replicate);
+  CheckEnumeration(
+    "Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
+  if (options.MaximumNumberOfIterations < 1)
+  {
+    Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
+      "; it must be at least 1.");
+  }
+  if (this->Settings.SnapshotInterval < 0)
+  {
+    Refuse(
+      "Snapshot Interval is ", this->Settings.SnapshotInterval, "; it must be 0 (off) or more.");
+  }
+  if (options.SeedRadius < 0.0 || !std::isfinite(options.SeedRadius))
+  {
+    Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
+  }
+  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
+  options.RecoverCavities = this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities;
+  options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
+  this->Renew(request);
+  this->ChooseEdgeLength(volume);
+  this->Levels.ReadAttraction(volume.Levels, this->Settings, this->Request);
+}
+
+SurfaceSegmentation::~SurfaceSegmentation() = default;
+
+void SurfaceSegmentation::ChooseEdgeLength(const SegmentationVolume& volume)
+{
+  double factor = volume.FactorBelowLevel0;
+  if (this->Settings.EdgeLength != 0.0 && !volume.EdgeLengthIsPlanned)
+  {
+    std::vector<double> units;
+    for (int level = 0; level < this->Levels.Pyramid().NumberOfLevels(); ++level)
+    {
+      units.push_back(this->Levels.UnitInWorld(level));
+    }
+    EdgeLengthPreferences preferences;
+    preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
+    const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
+    this->Settings.End.FinestLevel = plan.FinestLevel;
+    this->Settings.Options.SamplingRatio = plan.SamplingRatio;
+    factor = plan.ReductionFactor;
+  }
+  this->Levels.SetFactorBelowLevel0(factor);
+}
+
+void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
+{
+  const Workspace& space = this->Levels.GetWorkspace();
+  const int level = this->Choice.Coarsest;
+  vtkPolyData* given = this->Request.InitialSurface;
+  const InitializationType type = this->Settings.Initialization;
+  std::vector<Point> seeds;
+  if (type == InitializationType::Seeds)
+  {
+    seeds = this->Levels.SeedPositions(this->Settings);
+  }
+  const bool isGiven =
+    type == InitializationType::InputSurface || type == InitializationType::Seeds;
+  const bool ofPositions = !seeds.empty() && !given;
+  const char* place =
+    ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "";
+  PrefixErrors(place,
+    [&]
+    {
+      switch (type)
+      {
+        case InitializationType::Seeds:
+        {
+          const std::vector<Point> connected = SeedsOf(given, space);
+          seeds.insert(seeds.begin(), connected.begin(), connected.end());
+          evolution.StartSeeds(image, level, seeds);
+          break;
+        }
+        case InitializationType::IsoSurface:
+          evolution.StartIsoSurface(
+            image, level, ClosedIsoSurface(image, this->Settings.Options));
+          break;
+        case InitializationType::InputSurface:
+          evolution.StartSurface(image, level, SurfaceOf(given, space));
+          break;
+        case InitializationType::EnclosingIcosahedron:
+          evolution.StartEnclosing(image, level);
+          break;
+      }
+    });
+}
+
+void SurfaceSegmentation::Renew(const SegmentationRequest& request)
+{
+  const int planned = this->Settings.End.FinestLevel;
+  this->Request = request;
+  this->Settings.End = request.End;
+  if (this->Settings.EdgeLength != 0.0)
+  {
+    this->Settings.End.FinestLevel = planned;
+  }
+  this->HasChosen = !this->Evolution || this->Found.Choose(this->Settings, request);
+}
+
+void SurfaceSegmentation::Run()
+{
+  const int before = this->Choice.Coarsest;
+  this->Choice = ChooseLevels(this->Levels, this->Settings);
+  if (!this->Evolution)
+  {
+    // Once for all runs that go on from this one.
+    const std::string text = this->Levels.DescribeUnreportedNaNs();
+    if (!text.empty())
+    {
+      this->Request.Warn(text);
+    }
+  }
+  // Where a run begins may depend on where it is to end; then nothing of the last one serves.
+  if (!this->Evolution || this->Choice.Coarsest != before)
+  {
+    this->Begin();
+  }
+  this->Found.SetStoppedSurface(nullptr);
+  this->PrepareCheckpoint();
+  if (!this->Found.HasAtRest(this->Choice.Last))
+  {
+    // What the evolution refers to stays in its place.
+    this->Threads.emplace(this->Settings.End.NumberOfThreads);
+    this->Measured.emplace(*this->Threads);
+    this->Threads->EndPhase("Levels");
+    this->Progress.emplace(
+      this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
+    this->Progress->AfterSweep = [this](const Monitor::Status& status)
+    {
+      this->Snapshots.TakeIfDue(*this->Evolution, status.Level,
+        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found,
+        *this->Threads);
+    };
+    try
+    {
+      this->Threads->Run([this] { this->RunLevels(); });
+    }
+    catch (const ScratchFull&)
+    {
+      // Whose disk is full wants nothing to be left on it.
+      if (this->Left)
+      {
+        this->Left->Remove();
+      }
+      throw;
+    }
+  }
+  const bool isOver = this->Found.HasAtRest(this->Choice.Last) && !this->Request.IsStep;
+  if (this->Left && isOver && !this->Request.Checkpoints.Stay)
+  {
+    this->Left->Remove();
+  }
+  if (!this->Request.IsStep)
+  {
+    this->Found.WarnOf(this->Choice.Last, this->Settings.WantsAllParts(), this->Request.Warn);
+  }
+}
+
+bool SurfaceSegmentation::CanServe() const
+{
+  // Those up to the level at which it rests are there.
+  const int coarsest = ChooseLevels(this->Levels, this->Settings).Coarsest;
+  return this->HasChosen &&
+    (coarsest == this->Choice.Coarsest || this->Levels.HasVoxels(coarsest));
+}
+
+bool SurfaceSegmentation::CanGoOn() const
+{
+  return this->GoesOn && this->Reached > 0 && !this->Evolution->IsStopped();
+}
+
+void SurfaceSegmentation::Begin()
+{
+  this->Evolution.reset();
+  this->GoesOn = false;
+  this->Found = SegmentationResults(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
+    this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0(), this->Settings.Profile);
+  this->Found.Choose(this->Settings, this->Request);
+  this->Found.SetPreviewLevel(this->Choice.Preview);
+}
+
+void SurfaceSegmentation::RunLevels()
+{
+  if (!this->Evolution)
+  {
+    Executor* threads = &*this->Threads;
+    if (this->Settings.Profile)
+    {
+      threads = &*this->Measured;
+    }
+    this->Evolution =
+      std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
+    this->Reached = this->Choice.Coarsest + 1;
+    this->GoesOn = true;
+    this->Resume();
+  }
+  this->Evolution->StartClock(this->Request.Started);
+  while (this->GoesOn && this->Reached > this->Choice.Last)
+  {
+    const int level = this->Reached - 1;
+    if (!this->Progress->BeginLevel(level))
+    {
+      this->KeepStoppedSurface(level);
+      break;
+    }
+    // The surface leaves the level that it is on: a stop from here on is for good.
+    this->Levels.ReleaseCoarserThan(level);
+    if (this->Levels.IsInPieces(level) && !this->MayBeShared(level))
+    {
+      this->GatherVoxels(level);
+    }
+    const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
+    this->Threads->EndPhase("Voxels");
+    if (level == this->Settings.End.FinestLevel)
+    {
+      this->Evolution->SetMeanEdgeLength(
+        this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit());
+    }
+    StopReason reason = StopReason::Cancelled;
+    SurfaceResult surface;
+    if (!this->EvolveOn(image, level, reason, surface))
+    {
+      this->KeepStoppedSurface(level);
+      break;
+    }
+    this->GoesOn = this->KeepLevel(level, reason, std::move(surface));
+    this->Reached = level;
+    this->LeaveCheckpoint(level);
+  }
+  this->Found.SetRows(this->Evolution->History());
+}
+
+bool SurfaceSegmentation::MayBeShared(int level) const
+{
+  // Snapshots, mean edges, and what attracts are for the whole surface, on one rank.
+  return this->Request.Together && level < this->Choice.Coarsest && level >= 0 &&
+    SurfaceEvolution::AreShared(
+      this->Settings.Options, this->Levels.Pyramid().SizeOf(level)) &&
+    this->Settings.SnapshotInterval == 0 && this->Settings.EdgeLength == 0.0 &&
+    !this->Levels.HasPoints() && !this->Levels.HasEdges();
+}
+
+void SurfaceSegmentation::GatherVoxels(int level)
+{
+  SharedLevel shared;
+  shared.GivesVoxels = true;
+  shared.Level = std::max(level, 0);
+  const LevelImage image =
+    this->Levels.Load(shared.Level, this->Settings.Options, *this->Threads);
+  this->Request.Together(
+    [&] { ShareLevel(*this->Request.Ranks, shared, image, this->Levels.InPieces()); });
+  this->Levels.TakeWhole(level);
+}
+
+bool SurfaceSegmentation::EvolveOn(
+  const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface)
+{
+  SurfaceEvolution& evolution = *this->Evolution;
+  if (this->MayBeShared(level))
+  {
+    bool isDivided = false;
+    // From level 0 only the run to level -1 goes on.
+    const bool isLast = level == 0 && this->Choice.Last == 0;
+    const SharedLevel shared{ false, this->Settings.Options, level,
+      this->Settings.End.NumberOfThreads, isLast };
+    this->Request.Together(
+      [&]
+      {
+        Communicator& ranks = *this->Request.Ranks;
+        auto onRanks = ShareLevel(ranks, shared, image, this->Levels.InPieces());
+        isDivided = EvolveOnRanks(ranks, shared, *onRanks, evolution, reason, surface);
+        this->Shared = std::move(onRanks); // After the one before, which the division has left.
+      });
+    return isDivided;
+  }
+  if (level == this->Choice.Coarsest)
+  {
+    this->Start(evolution, image);
+  }
+  else if (!evolution.Divide(image, level))
+  {
+    return false;
+  }
+  GiveBackFreeMemory();
+  this->Snapshots.TakeIfDue(
+    evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
+  reason = evolution.Run();
+  GiveBackFreeMemory();
+  surface = evolution.Result();
+  const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
+    reason != StopReason::Cancelled &&
+    !(this->Request.Together &&
+      SurfaceEvolution::AreShared(this->Settings.Options, image.Size));
+  while (mayBeRevised && !evolution.IsStopped() && !surface.Points.empty() &&
+    this->Request.Revise(surface))
+  {
+    evolution.Revise(image);
+    surface = evolution.Result();
+  }
+  reason = evolution.IsStopped() ? StopReason::Cancelled : reason;
+  return true;
+}
+
+void SurfaceSegmentation::PrepareCheckpoint()
+{
+  const CheckpointRequest& wanted = this->Request.Checkpoints;
+  if (!wanted.AreLeft && !wanted.Resumes)
+  {
+    this->Left.reset();
+  }
+  else if (this->Evolution)
+  {
+    // It goes on with the one that it has: levels that it has let go of tell nothing any more.
+    this->Request.Checkpoints.Prepared(this->Left);
+  }
+  else
+  {
+    HostThreads threads(this->Settings.End.NumberOfThreads);
+    threads.Run(
+      [&]
+      {
+        SegmentationSettings settings = this->Settings;
+        settings.CoarsestLevel = this->Choice.Coarsest;
+        this->Left = std::make_shared<SegmentationCheckpoint>(
+          wanted.Directory, RunFingerprint(settings, this->Request, this->Levels, threads));
+      });
+  }
+}
+
+void SurfaceSegmentation::Resume()
+{
+  if (!this->Left)
+  {
+    return;
+  }
+  if (this->Request.Checkpoints.Resumes)
+  {
+    const auto place = this->Left->Load(this->Found, *this->Evolution);
+    if (place)
+    {
+      this->Reached = place->Level;
+      this->GoesOn = place->GoesOn;
+    }
+  }
+  this->Request.Checkpoints.Prepared(this->Left);
+}
+
+void SurfaceSegmentation::LeaveCheckpoint(int level)
+{
+  const CheckpointRequest& wanted = this->Request.Checkpoints;
+  const bool isLast = level <= this->Choice.Last && !this->Request.IsStep;
+  if (!this->Left || !wanted.AreLeft || !this->Found.HasAtRest(level) || (isLast && !wanted.Stay))
+  {
+    return;
+  }
+  const std::string warning =
+    this->Left->Save(this->Found, *this->Evolution, { level, this->GoesOn });
+  if (!warning.empty())
+  {
+    this->Request.Warn(warning);
+  }
+}
+
+bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult surface)
+{
+  SegmentationResults::Level result;
+  result.IsAtRest = reason != StopReason::Cancelled;
+  SurfaceDescription& description = result.Description;
+  description.Level = level;
+  description.Unit = this->Levels.UnitInWorld(level);
+  description.Iterations = this->Evolution->Iterations();
+  description.StopReason = result.IsAtRest ? Describe(reason) : this->DescribeStop();
+  const SurfaceEvolution::Verdict verdict = this->Evolution->Verified();
+  if (verdict.Found > 0)
+  {
+    this->Request.Warn(verdict.Describe(level));
+  }
+  if (level < this->Choice.Coarsest)
+  {
+    const SurfaceEvolution::LostParts lost = this->Evolution->Lost();
+    description.LostParts = lost.Found;
+    description.RecoveredParts = lost.Enclosed;
+    description.MissingParts = lost.Missing;
+    description.MissingBoundary = lost.MissingBoundary;
+    description.LostCavities = lost.FoundCavities;
+    description.RecoveredCavities = lost.EnclosedCavities;
+  }
+  this->Threads->EndPhase("Surface handed out");
+  if (this->Request.KeepsWhole)
+  {
+    result.Whole = std::make_shared<const SurfaceResult>(surface);
+  }
+  this->Found.MakeSurface(result, std::move(surface), *this->Threads);
+  this->Found.SetLevel(level, result);
+  this->Evolution->EndLevel();
+  this->Threads->EndPhase("Output");
+  // With recovery a finer level may find again what has vanished.
+  return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
+    reason == StopReason::IterationLimit ||
+    (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
+}
+
+std::string SurfaceSegmentation::DescribeStop() const
+{
+  return this->Progress->IsOutOfTime() ? TimeLimitReason : Describe(StopReason::Cancelled);
+}
+
+void SurfaceSegmentation::KeepStoppedSurface(int level)
+{
+  if (level == this->Choice.Coarsest)
+  {
+    this->Found.SetStoppedSurface(MakeStopped(level, this->DescribeStop()));
+    return;
+  }
+  // The block of the level above is a surface at rest and stays one.
+  vtkNew<vtkPolyData> surface;
+  surface->ShallowCopy(this->Found.SurfaceOf(level + 1));
+  SetStopReason(surface, this->DescribeStop());
+  this->Found.SetStoppedSurface(surface);
+}
+}

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSegmentationSettings_h
+#define volumicSegmentationSettings_h
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Input/Workspace.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace volumic
+{
+/** What the surface starts from. */
+enum class InitializationType
+{
+  EnclosingIcosahedron = 0,
+  Seeds = 1,
+  IsoSurface = 2,
+  InputSurface = 3
+};
+
+/** What is done about parts of the object that a coarser level has lost. */
+enum class RecoveryType
+{
+  NoRecovery = 0,
+  RecoverObjects = 1,
+  RecoverObjectsAndCavities = 2
+};
+
+/** Which components of the surfaces the outputs hold. */
+enum class KeepComponentsType
+{
+  AllComponents = 0,
+  LargestComponent = 1,
+  ComponentsAtPoints = 2,
+  LargeComponents = 3
+};
+
+/**
+ * Where a run ends, what of its surfaces is put out, and how much time, memory and how many threads
+ * it has. A run can go on from where one has ended that differs from it by these only (by seeds, if
+ * it does not start from them).
+ */
+struct SegmentationEnd
+{
+  int FinestLevel = 0;
+  KeepComponentsType KeepComponents = KeepComponentsType::AllComponents;
+  double MinimumComponentVolume = 0.0; ///< world units cubed
+  std::vector<Point> SeedPositions;    ///< world, beside those of input port 1
+  double TimeLimit = 0.0; ///< seconds; 0: none
+  bool Preview = false;   ///< End at a level of few voxels.
+  bool ShowLevels = false;
+  int NumberOfThreads = 0; ///< 0: all
+  int MemoryLimit = 0;     ///< of the process, MiB; 0: none
+  std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
+  bool Resume = false; ///< Go on from a checkpoint, where there is one.
+};
+
+/**
+ * The properties of vtkDeformableSurface, which documents them, with their only defaults: it writes
+ * them here, and hands them to a run as they are. Numbers, also those of enumerations, may be out
+ * of range: SurfaceSegmentation checks them.
+ */
+struct SegmentationSettings
+{
+  SegmentationSettings() { this->Options.IsoValue = std::numeric_limits<double>::quiet_NaN(); }
+
+  /** SeedRadius in world units; Recovery decides on RecoverLostParts and RecoverCavities. */
+  SurfaceOptions Options;
+  SegmentationEnd End;
+
+  int SelectedComponent = -1;
+  bool NaNIsBackground = true;
+  volumic::Metric Metric = volumic::Metric::World;
+  double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
+  InitializationType Initialization = InitializationType::EnclosingIcosahedron;
+  int CoarsestLevel = -1;        ///< -1: the last that serves
+  bool BeginsBelowImage = false; ///< at level -1, whatever CoarsestLevel is; FinestLevel is -1
+  std::vector<Point> AttractingPositions; ///< world, beside those of input port 2
+  RecoveryType Recovery = RecoveryType::RecoverObjects;
+  bool Profile = false;     ///< columns of the seconds of each phase in the history
+  int SnapshotInterval = 0; ///< iterations; 0: no snapshots
+
+  /**
+   * Whether parts of the object that no surface has are worth a warning. Of parts that are not
+   * there nobody can say whether they would have been kept.
+   */
+  bool WantsAllParts() const
+  {
+    return this->Recovery != RecoveryType::NoRecovery && !this->End.Preview &&
+      this->End.KeepComponents == KeepComponentsType::AllComponents;
+  }
+};
+}
+
+#endif
