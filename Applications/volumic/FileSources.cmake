@@ -39,3 +39,23 @@ set(volumic_reader_sources
   VtkMessages.cxx
   VtkReaders.cxx)
 list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
+
+# Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
+set(volumic_writer_sources
+  CheckPly.cxx
+  CheckWritten.cxx
+  FileBuffer.cxx
+  FileGrowth.cxx
+  FullDisk.cxx
+  GltfDescription.cxx
+  GltfScene.cxx
+  JsonWriter.cxx
+  LabelColors.cxx
+  OutputFiles.cxx
+  ProgressLine.cxx
+  Ranks.cxx
+  RunWriter.cxx
+  StreamedWriters.cxx
+  SurfacePieces.cxx
+  WriteResults.cxx)
+list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
