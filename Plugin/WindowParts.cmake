@@ -33,7 +33,8 @@ if (PARAVIEW_USE_QT)
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   foreach (behavior IN ITEMS
-    pqAbortButtonBehavior pqExportSurfacesBehavior pqSurfaceColorBehavior)
+    pqAbortButtonBehavior pqExportSurfacesBehavior pqSurfaceColorBehavior
+    pqUnfinishedBehavior)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"
       INTERFACES interfaces

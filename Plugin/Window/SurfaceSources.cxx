@@ -11,11 +11,17 @@
 namespace volumic
 {
 //------------------------------------------------------------------------------
-bool IsOfSurface(pqPipelineSource* source)
+bool GivesSurfaces(pqPipelineSource* source)
 {
   const QString name = source->getProxy()->GetXMLName();
+  return name == "DeformableSurface" || name == "VolumeToSurface" || name == "LabelsToSurfaces";
+}
+
+//------------------------------------------------------------------------------
+bool IsOfSurface(pqPipelineSource* source)
+{
   auto* filter = qobject_cast<pqPipelineFilter*>(source);
-  return name == "DeformableSurface" || name == "VolumeToSurface" || name == "LabelsToSurfaces" ||
+  return GivesSurfaces(source) ||
     (filter && filter->getInput(0) && IsOfSurface(filter->getInput(0)));
 }
 }

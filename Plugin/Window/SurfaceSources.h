@@ -7,7 +7,10 @@ class pqPipelineSource;
 
 namespace volumic
 {
-/** Whether it is a filter of Volumic that gives surfaces, or comes after one. */
+/** Whether it is a filter of Volumic that gives surfaces. */
+bool GivesSurfaces(pqPipelineSource* source);
+
+/** Whether it is one, or comes after one. */
 bool IsOfSurface(pqPipelineSource* source);
 }
 

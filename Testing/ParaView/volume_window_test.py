@@ -68,6 +68,19 @@ def iso_of_the_wavelet():
     wavelet.UpdatePipeline()
     return repr(simple.VolumetoSurface(wavelet).IsoValue)
 
+STOP_ONE_RUN = window.WATCH_FILTERS + """
+def attend(proxy, algorithm):
+    runs = []
+    def start(caller, event):
+        runs.append(1)
+        print("Run begins", flush=True)
+    def progress(caller, event):
+        if len(runs) == 1:
+            caller.SetAbortExecute(1)
+    algorithm.AddObserver("StartEvent", start)
+    algorithm.AddObserver("ProgressEvent", progress)
+"""
+
 
 class VolumeWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
@@ -141,6 +154,16 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.pause(1000), gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
                                        "<b>Unfinished</b> (time limit): no surface yet")],
             "volume-summary")
+
+    def test_apply_stays_active_after_a_stop_and_runs_again(self):
+        apply = f"{gui.PANEL}/Accept"
+        self.play(VOLUME + [
+            FILTER, gui.pause(500), APPLY, gui.pause(500), gui.check(apply, "enabled", "true"),
+            gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
+                      "<b>Unfinished</b> (cancelled): no surface yet"),
+            APPLY, gui.pause(1000), gui.check(apply, "enabled", "false")],
+            "volume-again", python=STOP_ONE_RUN)
+        self.assertEqual(self.session.output.count("Run begins"), 2)
 
     def test_a_warning_waits_for_the_end(self):
         voxels = numpy.zeros((40, 40, 40), numpy.int16)
