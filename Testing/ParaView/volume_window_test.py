@@ -136,6 +136,25 @@ class VolumeWindowTest(window.WindowTestCase):
               for name, unit in units.items()],
             window.shown("ScratchDirectory/FileChooser", True)], "volume-units")
 
+    def test_values_of_a_ct_are_offered_and_the_slider_has_room(self):
+        z, y, x = numpy.mgrid[0:40, 0:40, 0:40]
+        distance = numpy.sqrt((x - 20.0)**2 + (y - 20.0)**2 + (z - 20.0)**2)
+        voxels = numpy.clip(1500 - 150 * distance, -1000, 1500).astype(numpy.int16)
+        path = testing.write_volume("ct.vti", testing.make_image(voxels, name="HU"))
+        label = f"{PROPERTIES}/IsoValue/ValueRange"
+        self.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+            FILTER, gui.pause(500),
+            gui.check(label, "text", "<b>Value Range:</b> [-1000, 1500]<br>CT: "
+                      "<a href='226'>bone 226</a>, <a href='-300'>skin -300</a>"),
+            # Of the third row the first link.
+            *[gui.event(label, f"mouse{what}", f"1,{buttons},0,50,38")
+              for what, buttons in (("Press", 1), ("Release", 0))], gui.pause(500),
+            gui.check(ISO_VALUE, "text", "226"),
+            gui.check(f"{PROPERTIES}/IsoValue/Slider", "visible", "true"), APPLY,
+            gui.pause(1000)], "volume-ct")
+
     def test_summary(self):
         testing.load_plugin()
         surface = testing.fetch(simple.VolumetoSurface(simple.Wavelet()))
