@@ -113,6 +113,17 @@ class VolumeToSurfaceTest(unittest.TestCase):
             self.assertLessEqual(testing.field(surface, "MissingBoundary"), 0.05)
         self.assertEqual(levels, [1, 0])
 
+    def test_a_box_of_a_turned_volume(self):
+        image = testing.make_image(ball_values(), spacing=(1, 2, 3), origin=(5, 6, 7),
+                                   name="density")
+        image.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
+        source = testing.produce(image)
+        whole = testing.fetch(simple.VolumetoSurface(source, IsoValue=120.0))
+        box = simple.ExtractSubset(source, VOI=[3, 28, 3, 28, 3, 28])
+        numpy.testing.assert_allclose(
+            testing.fetch(simple.VolumetoSurface(box, IsoValue=120.0)).GetBounds(),
+            whole.GetBounds(), atol=0.3)
+
     def test_pyramid_inside(self):
         filter_ = simple.VolumetoSurface(self.ball, NumberOfLevels=2, FinestLevel=1)
         self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)
