@@ -680,8 +680,9 @@ public:
   ///@{
   /**
    * End at a coarse level, fine enough to judge an IsoValue: the finest from FinestLevel on that
-   * has at most a million voxels, or the coarsest of the run if none has. Switched off, the run
-   * goes on from there (see Going on). Default: off.
+   * has at most a million voxels, or the coarsest of the run if none has; with Recovery a finer one,
+   * if that is known to miss more than 5 % of the object's boundary (MissingBoundary). Switched off,
+   * the run goes on from there (see Going on). Default: off.
    */
   void SetPreview(bool preview);
   virtual bool GetPreview();

@@ -21,10 +21,11 @@
  * @par Output:
  * A vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order of the labels' values,
  * named by the label's name, or `Label 3`; with Merge one block, named `Labels 1, 3`, or `Label 3`.
- * A label that asks for more than the triangles can hold has an empty block, and a warning tells
- * which; and of which more voxels than half are on the wrong side, and, with Gap, of which
- * triangles touch those of neighbours all the same. World coordinates; arrays and field data of
- * each block as vtkDeformableSurface has them, and:
+ * A label that asks for more than the triangles can hold has an empty block: `LostLabels` (string,
+ * field data of the whole; only where there are any) tells which, and of which more voxels than half
+ * are on the wrong side; a warning, too, where these are more than 5 % of the labels' voxels. With
+ * Gap a warning tells of which triangles touch those of neighbours all the same. World coordinates;
+ * arrays and field data of each block as vtkDeformableSurface has them, and:
  * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
  * - field data: with an entry for the label, with Merge for each that was merged, `Label` (int),
  *   `LabelName` (string) and `LabelColor` (double, 3 components, 0 to 1: as given, or one of a

@@ -29,9 +29,12 @@ if (PARAVIEW_USE_QT)
   list(APPEND volumic_window_sources
     Widgets/LabelBelow.cxx Widgets/LabelBelow.h
     Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
-    Widgets/PointHandles.cxx Widgets/PointHandles.h)
+    Widgets/PointHandles.cxx Widgets/PointHandles.h
+    Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
-  foreach (behavior IN ITEMS pqAbortButtonBehavior pqSurfaceColorBehavior)
+  foreach (behavior IN ITEMS
+    pqAbortButtonBehavior pqExportSurfacesBehavior pqSurfaceColorBehavior
+    pqUnfinishedBehavior)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"
       INTERFACES interfaces

@@ -5,7 +5,7 @@
 #include "GltfLayout.h"
 
 #include "JsonWriter.h"
-#include "Report.h"
+#include "LabelColors.h"
 
 #include <vtkPolyData.h>
 

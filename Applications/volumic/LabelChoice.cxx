@@ -164,23 +164,6 @@ std::string Shortened(const std::string& text, std::size_t most)
   }
   return text.substr(0, end);
 }
-
-/** Of a name what may be that of a file, on the systems of others, too; may be empty. */
-std::string SafeName(const std::string& name)
-{
-  std::string safe;
-  for (const char c : name)
-  {
-    const bool isPlain = static_cast<unsigned char>(c) > 0x20 && c != 0x7F &&
-      std::string("/\\:*?\"<>|'`$&;!%").find(c) == std::string::npos;
-    safe += isPlain ? c : '_';
-  }
-  safe.erase(0, std::min(safe.find_first_not_of("._-~ "), safe.size()));
-  safe.erase(safe.find_last_not_of("._ ") + 1);
-  static const std::set<std::string> devices = { "con", "prn", "aux", "nul", "com1", "com2", "com3",
-    "com4", "lpt1", "lpt2", "lpt3" };
-  return Shortened(safe, 120) + (devices.count(Lower(safe)) > 0 ? "_" : "");
-}
 }
 
 std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer)

@@ -33,6 +33,13 @@ Bytes AsBytes(const Vector3& color)
 }
 }
 
+std::string StopReason(vtkPolyData* surface)
+{
+  auto* reason =
+    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
+  return reason && reason->GetNumberOfValues() > 0 ? reason->GetValue(0) : "";
+}
+
 std::vector<SurfaceLabel> LabelsOf(vtkPolyData* surface)
 {
   vtkFieldData* fields = surface->GetFieldData();

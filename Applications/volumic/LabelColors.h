@@ -23,6 +23,9 @@ struct SurfaceLabel
   Vector3 Color = { 0.0, 0.0, 0.0 }; ///< 0 to 1, as screens have it (sRGB)
 };
 
+/** The `StopReason` of a surface of vtkDeformableSurface. */
+std::string StopReason(vtkPolyData* surface);
+
 /** Of the surface's field data; none if it is not about labels. */
 std::vector<SurfaceLabel> LabelsOf(vtkPolyData* surface);
 

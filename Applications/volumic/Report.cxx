@@ -3,6 +3,7 @@
 #include "Report.h"
 
 #include "JsonWriter.h"
+#include "LabelColors.h"
 #include "ParseNumbers.h"
 
 #include <vtkDataArray.h>
@@ -186,13 +187,6 @@ double PeakMemory()
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-std::string StopReason(vtkPolyData* surface)
-{
-  auto* reason =
-    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
-  return reason && reason->GetNumberOfValues() > 0 ? reason->GetValue(0) : "";
 }
 
 void WriteReport(std::ostream& out, const ReportInput& input)

@@ -56,9 +56,6 @@ void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings);
 
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();
-
-/** The `StopReason` of a surface of vtkDeformableSurface. */
-std::string StopReason(vtkPolyData* surface);
 }
 
 #endif

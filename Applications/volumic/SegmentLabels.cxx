@@ -164,9 +164,17 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
     return FilterRun();
   }
   SetInput(filter, map, layer);
-  const FilterRun run =
+  FilterRun run =
     OfVolume(options, [&] { return RunFilter(filter, "Making surfaces", style); });
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  auto* lost = vtkStringArray::SafeDownCast(blocks->GetFieldData()->GetAbstractArray("LostLabels"));
+  const std::string told = lost ? InWordsOfOptions(lost->GetValue(0)) : std::string();
+  // Where it is much, it is a warning of the filter's already.
+  if (lost && std::none_of(run.Warnings.begin(), run.Warnings.end(),
+      [&told](const std::string& warning) { return warning.find(told) != std::string::npos; }))
+  {
+    run.Warnings.push_back(told);
+  }
   for (unsigned int i = 0; i < own.size() && i < blocks->GetNumberOfBlocks(); ++i)
   {
     own[i]->Seconds = filter->GetSeconds(static_cast<int>(i));

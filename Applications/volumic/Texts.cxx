@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 
 namespace tool
 {
@@ -115,5 +116,21 @@ std::string AsUtf8(const std::string& text)
     characters += Utf8Character(static_cast<unsigned char>(byte));
   }
   return characters;
+}
+
+std::string SafeName(const std::string& name)
+{
+  std::string safe;
+  for (const char c : name)
+  {
+    const bool isPlain = static_cast<unsigned char>(c) > 0x20 && c != 0x7F &&
+      std::string("/\\:*?\"<>|'`$&;!%").find(c) == std::string::npos;
+    safe += isPlain ? c : '_';
+  }
+  safe.erase(0, std::min(safe.find_first_not_of("._-~ "), safe.size()));
+  safe.erase(safe.find_last_not_of("._ ") + 1);
+  static const std::set<std::string> devices = { "con", "prn", "aux", "nul", "com1", "com2", "com3",
+    "com4", "lpt1", "lpt2", "lpt3" };
+  return Shortened(safe, 120) + (devices.count(Lower(safe)) > 0 ? "_" : "");
 }
 }

@@ -30,6 +30,9 @@ std::string Utf8Character(unsigned int code);
 
 /** The text in UTF-8: as it is, or, where it is none, from Latin-1, whose bytes are characters. */
 std::string AsUtf8(const std::string& text);
+
+/** Of a name what may be that of a file, on the systems of others, too; may be empty. */
+std::string SafeName(const std::string& name);
 }
 
 #endif

@@ -37,6 +37,9 @@ public:
   /** Before the voxels of a level are made ready; false asks to stop. */
   bool BeginLevel(int level);
 
+  /** There is another level to come, after which the share that is done is less. */
+  void GoOnTo(int finest) { this->Finest = finest; }
+
   bool IsStopped() const { return this->Stopped; }
 
   /** Whether it was time that has stopped it, and not the host. */

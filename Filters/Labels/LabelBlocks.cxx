@@ -27,6 +27,9 @@ namespace
 /** How many labels or messages a warning names. */
 constexpr std::size_t MostNamed = 10;
 
+/** Of all voxels, those without a surface that are worth a warning; less is told as field data. */
+constexpr double NotableShare = 0.05;
+
 template <typename Array, typename Value>
 void AddField(vtkPolyData* surface, const char* name, const std::vector<Value>& values,
   int components = 1)
@@ -139,6 +142,8 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   std::vector<std::string> empty;
   std::vector<std::string> lost;
   std::vector<std::string> touching;
+  double sought = 0.0;  // voxels of all labels
+  double missing = 0.0; // those without a surface that nobody has chosen to be without
   output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
@@ -164,28 +169,43 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     const auto block = static_cast<unsigned int>(i);
     output->SetBlock(block, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    sought += static_cast<double>(voxels);
     if (isThere && surface->GetNumberOfCells() == 0)
     {
       empty.push_back(name);
+      missing += static_cast<double>(voxels);
     }
     else if (isThere && 2 * surfaces[i].WrongVoxels > voxels)
     {
       lost.push_back(name);
+      missing += settings.KeepComponents == 0 ? static_cast<double>(surfaces[i].WrongVoxels) : 0.0;
     }
     if (surfaces[i].TouchingFaces > 0)
     {
       touching.push_back(name + " (" + std::to_string(surfaces[i].TouchingFaces) + ")");
     }
   }
-  std::vector<std::string> warnings;
+  std::vector<std::string> losses;
   if (!empty.empty())
   {
-    warnings.push_back("No surface is left of " + Listed(empty) + ReasonsOfLoss(settings));
+    losses.push_back("No surface is left of " + Listed(empty) + ReasonsOfLoss(settings));
   }
   if (!lost.empty())
   {
-    warnings.push_back("More voxels than half are on the wrong side of the surface of " +
+    losses.push_back("More voxels than half are on the wrong side of the surface of " +
       Listed(lost) + ReasonsOfLoss(settings));
+  }
+  std::vector<std::string> warnings;
+  if (!losses.empty())
+  {
+    vtkNew<vtkStringArray> told;
+    told->SetName("LostLabels");
+    told->InsertNextValue(JoinedBy(" ", losses));
+    output->GetFieldData()->AddArray(told);
+  }
+  if (missing > NotableShare * sought)
+  {
+    warnings = losses;
   }
   if (!touching.empty())
   {

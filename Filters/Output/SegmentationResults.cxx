@@ -151,7 +151,6 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
 std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
 {
   // The field data tell the rest; what is worth a warning needs another choice to be made.
-  constexpr double notable = 0.05;
   const auto end = this->ByLevel.lower_bound(last);
   if (end == this->ByLevel.end() || !end->second.IsAtRest)
   {
@@ -170,7 +169,7 @@ std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
   {
     return Join("Level ", about.Level, ": Keep Components leaves none of the components.");
   }
-  if (about.MissingBoundary > notable && wantsAll)
+  if (about.MissingBoundary > NotableShare && wantsAll)
   {
     const int lost = about.LostParts + about.LostCavities;
     const std::string parts =

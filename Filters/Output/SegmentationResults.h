@@ -31,6 +31,9 @@ namespace volumic
 class SegmentationResults
 {
 public:
+  /** Of the object's boundary: more that is missing matters. */
+  static constexpr double NotableShare = 0.05;
+
   struct Level
   {
     vtkSmartPointer<vtkPolyData> Surface;       ///< of the components that are chosen

@@ -259,9 +259,24 @@ void SurfaceSegmentation::RunLevels()
     }
     this->GoesOn = this->KeepLevel(level, reason, std::move(surface));
     this->Reached = level;
+    if (level == this->Choice.Last && this->PreviewMissesParts(level))
+    {
+      this->Choice.Last = level - 1;
+      this->Progress->GoOnTo(level - 1);
+      this->Found.SetPreviewLevel(level - 1);
+    }
     this->LeaveCheckpoint(level);
   }
   this->Found.SetRows(this->Evolution->History());
+}
+
+bool SurfaceSegmentation::PreviewMissesParts(int level) const
+{
+  return this->Settings.End.Preview && this->GoesOn &&
+    level > std::max(this->Settings.End.FinestLevel, 0) &&
+    this->Settings.Recovery != RecoveryType::NoRecovery &&
+    this->Found.Levels().at(level).Description.MissingBoundary >
+      SegmentationResults::NotableShare;
 }
 
 bool SurfaceSegmentation::MayBeShared(int level) const

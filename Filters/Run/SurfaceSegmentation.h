@@ -73,6 +73,8 @@ private:
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   void Begin();
   void RunLevels();
+  /** Whether a preview that has come to this level must go on, as too much is missing. */
+  bool PreviewMissesParts(int level) const;
   bool MayBeShared(int level) const;
   void GatherVoxels(int level);
   bool EvolveOn(

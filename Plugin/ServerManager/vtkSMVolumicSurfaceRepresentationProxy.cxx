@@ -93,6 +93,10 @@ void vtkSMVolumicSurfaceRepresentationProxy::OnPropertyModified(
   {
     this->AdaptColors();
   }
+  else if (name && std::strcmp(static_cast<const char*>(name), "Visibility") == 0)
+  {
+    this->Text.Hide(); // until the view is up to date
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -101,6 +105,12 @@ void vtkSMVolumicSurfaceRepresentationProxy::ViewUpdated(vtkSMProxy* view)
   this->Superclass::ViewUpdated(view);
   this->AdaptColors();
   this->ChooseBlock();
+  vtkPVDataInformation* data = this->GetInputInformation();
+  const bool isShown = data && vtkSMPropertyHelper(this, "Visibility").GetAsInt() != 0;
+  this->Text.Show(view,
+    isShown
+      ? volumic::TellUnfinished(data, vtkSMPropertyHelper(this, "Input", true).GetAsProxy())
+      : "");
 }
 
 //------------------------------------------------------------------------------

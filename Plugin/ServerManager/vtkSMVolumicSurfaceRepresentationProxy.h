@@ -4,19 +4,21 @@
  * @class   vtkSMVolumicSurfaceRepresentationProxy
  * @brief   a surface with colours that suit its arrays, and of several blocks the one to look at
  *
- * ParaView's display of geometry, with three differences:
+ * ParaView's display of geometry, with four differences:
  * - Only arrays of points and cells are offered as colours. The field data of a surface are numbers
  *   about it, of which there are more than arrays.
  * - A colour map of its own is given to an array that is coloured by for the first time. `Residual`
  *   gets one that diverges from 0, as far to both sides as ResidualQuantile (field data) says;
  *   `Component` a colour for each of the twenty largest, and grey for the others. Both follow new
  *   data until they are edited.
+ * - Of a surface that has been stopped on its way the view says so, see UnfinishedText.
  * - With <ShownBlock place="first"/> or "last" among the hints of the proxy, a new display of
  *   blocks shows the first or last one that isn't empty, until somebody chooses others.
  */
 #ifndef vtkSMVolumicSurfaceRepresentationProxy_h
 #define vtkSMVolumicSurfaceRepresentationProxy_h
 
+#include "UnfinishedText.h" // For the text
 #include "vtkSMPVRepresentationProxy.h"
 #include "vtkServerManagerVolumicModule.h" // For export macro
 
@@ -74,6 +76,7 @@ private:
   /** What was set here last: the range is from minus it to it, the values are 0 to it. */
   double ResidualRange = -1.0;
   int LastComponent = -1;
+  volumic::UnfinishedText Text;
   std::string ChosenBlock;
   bool IsChoosingBlock = false;
 };

@@ -15,6 +15,7 @@
 #include <vtkSMSourceProxy.h>
 
 #include <QLabel>
+#include <QStringList>
 
 namespace
 {
@@ -24,14 +25,39 @@ double NumberOf(vtkPVDataInformation* data, const char* name)
   return array ? array->GetComponentRange(0)[0] : 0.0;
 }
 
+QStringList TextsOf(vtkPVDataInformation* data, const char* name)
+{
+  vtkPVArrayInformation* array = data->GetArrayInformation(name, vtkDataObject::FIELD);
+  QStringList texts;
+  for (int i = 0; array && i < array->GetNumberOfStringValues(); ++i)
+  {
+    texts.append(QString::fromUtf8(array->GetStringValue(i)));
+  }
+  return texts;
+}
+
+/** Of blocks of labels. */
+QString SummaryOfLabels(vtkPVDataInformation* data)
+{
+  const bool isUnfinished = TextsOf(data, "StopReason").contains("cancelled");
+  const QStringList lost = TextsOf(data, "LostLabels");
+  return (isUnfinished ? QObject::tr("<b>Unfinished</b> (cancelled)") : QObject::tr("<b>Surfaces</b>")) +
+    QObject::tr(": %1 vertices<br>no self-intersections").arg(data->GetNumberOfPoints()) +
+    (lost.isEmpty() ? QString() : "<br>" + lost.first().toHtmlEscaped());
+}
+
 QString SummaryOf(vtkPVDataInformation* data)
 {
-  vtkPVArrayInformation* reason = data->GetArrayInformation("StopReason", vtkDataObject::FIELD);
-  if (!reason || reason->GetNumberOfStringValues() == 0)
+  const QStringList reasons = TextsOf(data, "StopReason");
+  if (reasons.isEmpty())
   {
     return QString();
   }
-  const QString why = QString::fromUtf8(reason->GetStringValue(0));
+  if (data->IsCompositeDataSet())
+  {
+    return SummaryOfLabels(data);
+  }
+  const QString& why = reasons.first();
   const bool isUnfinished = why == "cancelled" || why == "time limit";
   const QString level = QString::number(NumberOf(data, "Level"));
   const QString head = isUnfinished

@@ -9,7 +9,8 @@ class QLabel;
 
 /**
  * Tells below the widget of a property what the filter's last run has given: by the field data of
- * its first output, which must be vtkDeformableSurface's. Before a run there is nothing.
+ * its first output, which must be that of vtkDeformableSurface or vtkLabelsToSurfaces. Before a run
+ * there is nothing.
  *
  *   <PropertyWidgetDecorator type="Summary"/>
  */

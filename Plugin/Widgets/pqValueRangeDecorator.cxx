@@ -10,14 +10,35 @@
 #include <vtkCommand.h>
 #include <vtkSMDoubleRangeDomain.h>
 #include <vtkSMProperty.h>
+#include <vtkSMUncheckedPropertyHelper.h>
 
+#include <QBoxLayout>
 #include <QLabel>
+#include <QSlider>
+
+namespace
+{
+/** Whether these are the Hounsfield units of a CT of a body: from air to bone. */
+bool areHounsfieldUnits(double low, double high)
+{
+  return low <= -500.0 && low >= -4096.0 && high >= 300.0 && high <= 32767.0;
+}
+}
 
 //------------------------------------------------------------------------------
 pqValueRangeDecorator::pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWidget* parent)
   : pqPropertyWidgetDecorator(xml, parent)
   , Label(volumic::AddLabelBelow(parent, "ValueRange"))
 {
+  // Beside the number, a slider is too short at the width that the panel has at first.
+  auto* slider = parent->findChild<QSlider*>();
+  auto* column = qobject_cast<QBoxLayout*>(parent->layout());
+  if (slider && column)
+  {
+    slider->parentWidget()->layout()->removeWidget(slider);
+    column->insertWidget(column->indexOf(this->Label), slider);
+  }
+  this->connect(this->Label, SIGNAL(linkActivated(const QString&)), SLOT(take(const QString&)));
   this->showRange();
   pqCoreUtilities::connect(
     parent->property(), vtkCommand::DomainModifiedEvent, this, SLOT(showRange()));
@@ -33,7 +54,20 @@ void pqValueRangeDecorator::showRange()
   this->Label->setVisible(isKnown);
   if (isKnown)
   {
-    this->Label->setText(
-      tr("<b>Value Range:</b> [%1, %2]").arg(range->GetMinimum(0)).arg(range->GetMaximum(0)));
+    const double low = range->GetMinimum(0);
+    const double high = range->GetMaximum(0);
+    this->Label->setText(tr("<b>Value Range:</b> [%1, %2]").arg(low).arg(high) +
+      (areHounsfieldUnits(low, high)
+          ? tr("<br>CT: <a href='226'>bone 226</a>, <a href='-300'>skin -300</a>")
+          : QString()));
   }
+}
+
+//------------------------------------------------------------------------------
+void pqValueRangeDecorator::take(const QString& value)
+{
+  pqPropertyWidget* widget = this->parentWidget();
+  vtkSMUncheckedPropertyHelper(widget->property()).Set(0, value.toDouble());
+  Q_EMIT widget->changeAvailable();
+  Q_EMIT widget->changeFinished();
 }

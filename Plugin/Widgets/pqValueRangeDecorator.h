@@ -9,7 +9,8 @@ class QLabel;
 
 /**
  * Shows the range of a property of one number below its widget, as Contour does: "Value Range:
- * [0, 1300]". It is that of the property's domain, and follows it.
+ * [0, 1300]". It is that of the property's domain, and follows it. Where it is that of Hounsfield
+ * units, values of bone and skin are offered. The slider, if there is one, gets a row of its own.
  *
  *   <PropertyWidgetDecorator type="ValueRange"/>
  */
@@ -23,6 +24,7 @@ public:
 
 private Q_SLOTS:
   void showRange();
+  void take(const QString& value);
 
 private:
   Q_DISABLE_COPY(pqValueRangeDecorator)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqSurfaceColorBehavior.h"
 
+#include "SurfaceSources.h"
+
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
@@ -12,20 +14,6 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
-
-#include <QString>
-
-namespace
-{
-/** Where it comes from a surface of Volumic, by whatever filters. */
-bool isOfSurface(pqPipelineSource* source)
-{
-  const QString name = source->getProxy()->GetXMLName();
-  auto* filter = qobject_cast<pqPipelineFilter*>(source);
-  return name == "DeformableSurface" || name == "VolumeToSurface" ||
-    (filter && filter->getInput(0) && isOfSurface(filter->getInput(0)));
-}
-}
 
 //------------------------------------------------------------------------------
 pqSurfaceColorBehavior::pqSurfaceColorBehavior() = default;
@@ -58,7 +46,7 @@ void pqSurfaceColorBehavior::giveColor(pqRepresentation* display)
   pqOutputPort* input = filter && !filter->getAllInputs().isEmpty()
     ? filter->getAllInputs().first()
     : nullptr;
-  pqDataRepresentation* former = input && isOfSurface(input->getSource())
+  pqDataRepresentation* former = input && volumic::IsOfSurface(input->getSource())
     ? input->getRepresentation(pqActiveObjects::instance().activeView())
     : nullptr;
   // What a saved state brings has its colours.

@@ -14,6 +14,7 @@ import label_maps
 import plugin_testing as testing
 import window_testing as window
 from label_maps import NAMES
+from paraview import simple
 from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
 
 FILTER = filter_of_the_menu("LabelsToSurfaces")
@@ -137,6 +138,26 @@ class LabelsWindowTest(window.WindowTestCase):
             note("2 of 4 labels"), undo, undo, gui.pause(1000), note("3 of 4 labels"),
             *save, gui.pause(500)], "labels-undone")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
+
+    def test_a_speck_that_is_lost_is_told_below_and_not_by_a_warning(self):
+        balls = {**label_maps.BALLS, 9: ((3, 26, 3), 0.5)}
+        path = testing.write_volume("labels-speck.vti", label_maps.image(balls=balls))
+        summary = f"{PROPERTIES}/EdgeLength/Summary"
+        # A warning opens a box, which play() takes for a failure.
+        self.play(opened(path) + [
+            FILTER, gui.pause(500), window.shown("EdgeLength/Summary", False),
+            gui.event(f"{PROPERTIES}/FinestLevel/IntRangeWidget/LineEdit", "set_string", "2"),
+            APPLY, gui.pause(1000), window.shown("EdgeLength/Summary", True),
+            gui.check(summary, "text",
+                      f"<b>Surfaces</b>: {self.vertices_of(path)} vertices<br>"
+                      "no self-intersections<br>No surface is left of Label 9: too small, "
+                      "scattered, or too thin for the triangles. A lower Finest Level makes these "
+                      "smaller.")], "labels-speck")
+
+    def vertices_of(self, path):
+        testing.load_plugin()
+        filter_ = simple.LabelstoSurfaces(simple.OpenDataFile(path), FinestLevel=2)
+        return testing.fetch(filter_).GetNumberOfPoints()
 
     def test_background(self):
         path, save = self.saved_state("labels-background.pvsm")

@@ -164,6 +164,25 @@ class PointsWindowTest(window.WindowTestCase):
         self.assertLess(high, 25.0)
         self.picture("points-picked-applied")
 
+    @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
+    def test_a_component_is_chosen_in_the_view(self):
+        self.play(a_slice_of(two_balls()) + [
+            filter_of_the_menu("VolumeToSurface"), APPLY, gui.pause(1500),
+            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "At Points"),
+            gui.pause(1000)], "points-components", python=TELL_OF_RUNS)
+        hand = x_input.Input(self.session.display)
+        hand.move(*LEFT_BALL)
+        hand.focus()
+        hand.key("p")
+        picked = self.picture("points-component-picked")
+        button = self.apply_button(picked)
+        hand.drag(button, button)
+        told = self.session.wait_for(" .\n", timeout=180)
+        low, high = [float(n) for n in re.search(r"surface: (\S+) (\S+)", told).groups()]
+        self.assertLess(low, 8.0)
+        self.assertLess(high, 25.0, "the other ball is left out")
+        self.picture("points-component-kept")
+
     def picture(self, name):
         time.sleep(1.5)
         return self.session.screenshot(testing.output_path(f"{name}.png"))

@@ -298,6 +298,40 @@ class BlocksTest(ViewsTestCase):
         self.assertGreater(views.drawn(views.picture_of(view, "snapshots-last.png")), 1000)
 
 
+class UnfinishedTest(ViewsTestCase):
+    """A surface that was stopped says so in the view, as long as it is shown."""
+
+    def text(self, name):
+        """How many pixels of the dark red behind the text there are in the upper left corner."""
+        simple.Render(self.view)
+        corner = views.picture_of(self.view, f"unfinished-{name}.png")[-60:, :400].astype(int)
+        return int(((corner[..., 0] > 110) & (corner[..., 1:].max(axis=2) < 70)).sum())
+
+    def test_text(self):
+        filter_ = simple.VolumetoSurface(simple.Wavelet(WholeExtent=[-40, 40] * 3), IsoValue=150.0)
+        self.view = views.new_view("RenderView", (600, 400))
+        algorithm = filter_.GetClientSideObject()
+        stop = algorithm.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(
+            int("Level 0, iteration" in (caller.GetProgressText() or ""))))
+        display = simple.Show(filter_, self.view)
+        simple.ResetCamera(self.view)
+        self.assertGreater(self.text("cancelled"), 500)
+        self.assertEqual(testing.field(testing.fetch(filter_), "StopReason"), "cancelled")
+        display.Visibility = 0
+        self.assertEqual(self.text("hidden"), 0)
+        display.Visibility = 1
+        self.assertGreater(self.text("shown"), 500)
+        algorithm.RemoveObserver(stop)
+        filter_.IsoValue = 151.0
+        self.assertEqual(self.text("finished"), 0)
+        filter_.TimeLimit = 1e-9
+        filter_.IsoValue = 152.0
+        self.assertGreater(self.text("none"), 500)
+        del display
+        simple.Delete(filter_)
+        self.assertEqual(self.text("deleted"), 0)
+
+
 class TurnedImageTest(ViewsTestCase):
     """What Documentation/paraview.md tells about images with a direction."""
 

@@ -97,6 +97,33 @@ class VolumeToSurfaceTest(unittest.TestCase):
         self.assertIn("Iso Value is 4, outside the range", messages.text)
         self.assertEqual(surface.GetNumberOfPoints(), 0)
 
+    def test_preview_goes_on_where_much_is_missing(self):
+        # More than a million voxels: a ball, and rods that level 1 shows but cannot hold.
+        z, y, x = numpy.mgrid[0:112, 0:112, 0:112].astype(numpy.float32)
+        distance = numpy.sqrt((x - 20)**2 + (y - 56)**2 + (z - 56)**2) - 12
+        levels = []
+        for rods in (0, 5):
+            for i in range(rods):
+                rod = numpy.sqrt((y - 20 - 18 * i)**2 + (z - 56)**2) - 1.5
+                distance = numpy.minimum(distance, numpy.maximum(rod, numpy.abs(x - 60) - 40))
+            image = testing.make_image(numpy.clip(50 - 50 * distance, 0, 100), name="density")
+            surface = testing.fetch(simple.VolumetoSurface(testing.produce(image), IsoValue=50.0,
+                                                           Preview=1))
+            levels.append(testing.field(surface, "Level"))
+            self.assertLessEqual(testing.field(surface, "MissingBoundary"), 0.05)
+        self.assertEqual(levels, [1, 0])
+
+    def test_a_box_of_a_turned_volume(self):
+        image = testing.make_image(ball_values(), spacing=(1, 2, 3), origin=(5, 6, 7),
+                                   name="density")
+        image.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
+        source = testing.produce(image)
+        whole = testing.fetch(simple.VolumetoSurface(source, IsoValue=120.0))
+        box = simple.ExtractSubset(source, VOI=[3, 28, 3, 28, 3, 28])
+        numpy.testing.assert_allclose(
+            testing.fetch(simple.VolumetoSurface(box, IsoValue=120.0)).GetBounds(),
+            whole.GetBounds(), atol=0.3)
+
     def test_pyramid_inside(self):
         filter_ = simple.VolumetoSurface(self.ball, NumberOfLevels=2, FinestLevel=1)
         self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)

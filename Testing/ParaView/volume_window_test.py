@@ -68,6 +68,19 @@ def iso_of_the_wavelet():
     wavelet.UpdatePipeline()
     return repr(simple.VolumetoSurface(wavelet).IsoValue)
 
+STOP_ONE_RUN = window.WATCH_FILTERS + """
+def attend(proxy, algorithm):
+    runs = []
+    def start(caller, event):
+        runs.append(1)
+        print("Run begins", flush=True)
+    def progress(caller, event):
+        if len(runs) == 1:
+            caller.SetAbortExecute(1)
+    algorithm.AddObserver("StartEvent", start)
+    algorithm.AddObserver("ProgressEvent", progress)
+"""
+
 
 class VolumeWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
@@ -123,6 +136,25 @@ class VolumeWindowTest(window.WindowTestCase):
               for name, unit in units.items()],
             window.shown("ScratchDirectory/FileChooser", True)], "volume-units")
 
+    def test_values_of_a_ct_are_offered_and_the_slider_has_room(self):
+        z, y, x = numpy.mgrid[0:40, 0:40, 0:40]
+        distance = numpy.sqrt((x - 20.0)**2 + (y - 20.0)**2 + (z - 20.0)**2)
+        voxels = numpy.clip(1500 - 150 * distance, -1000, 1500).astype(numpy.int16)
+        path = testing.write_volume("ct.vti", testing.make_image(voxels, name="HU"))
+        label = f"{PROPERTIES}/IsoValue/ValueRange"
+        self.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+            FILTER, gui.pause(500),
+            gui.check(label, "text", "<b>Value Range:</b> [-1000, 1500]<br>CT: "
+                      "<a href='226'>bone 226</a>, <a href='-300'>skin -300</a>"),
+            # Of the third row the first link.
+            *[gui.event(label, f"mouse{what}", f"1,{buttons},0,50,38")
+              for what, buttons in (("Press", 1), ("Release", 0))], gui.pause(500),
+            gui.check(ISO_VALUE, "text", "226"),
+            gui.check(f"{PROPERTIES}/IsoValue/Slider", "visible", "true"), APPLY,
+            gui.pause(1000)], "volume-ct")
+
     def test_summary(self):
         testing.load_plugin()
         surface = testing.fetch(simple.VolumetoSurface(simple.Wavelet()))
@@ -141,6 +173,16 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.pause(1000), gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
                                        "<b>Unfinished</b> (time limit): no surface yet")],
             "volume-summary")
+
+    def test_apply_stays_active_after_a_stop_and_runs_again(self):
+        apply = f"{gui.PANEL}/Accept"
+        self.play(VOLUME + [
+            FILTER, gui.pause(500), APPLY, gui.pause(500), gui.check(apply, "enabled", "true"),
+            gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
+                      "<b>Unfinished</b> (cancelled): no surface yet"),
+            APPLY, gui.pause(1000), gui.check(apply, "enabled", "false")],
+            "volume-again", python=STOP_ONE_RUN)
+        self.assertEqual(self.session.output.count("Run begins"), 2)
 
     def test_a_warning_waits_for_the_end(self):
         voxels = numpy.zeros((40, 40, 40), numpy.int16)

@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# Sets volumic_reader_sources: what reads volumes and the names of labels (ReadVolume.h,
+# LabelNames.h), with absolute paths. The program has them, and the reader of the ParaView plugin.
+set(volumic_reader_sources
+  BinaryFile.cxx
+  Bunzip.cxx
+  ByteBudget.cxx
+  CheckInputs.cxx
+  CheckNetcdf.cxx
+  CheckNifti.cxx
+  CheckPictures.cxx
+  CheckTiff.cxx
+  CheckXmlInput.cxx
+  DicomHeader.cxx
+  Inflate.cxx
+  InputFiles.cxx
+  JsonReader.cxx
+  LabelJson.cxx
+  LabelNames.cxx
+  LabelTable.cxx
+  NiftiLabels.cxx
+  NrrdSegments.cxx
+  ParseNumbers.cxx
+  RawSlabs.cxx
+  ReadDicom.cxx
+  ReadInv3.cxx
+  ReadMeta.cxx
+  ReadMrc.cxx
+  ReadNifti.cxx
+  ReadNrrd.cxx
+  ReadPictures.cxx
+  ReadVolume.cxx
+  SlabSource.cxx
+  TarFile.cxx
+  Texts.cxx
+  VolumeImage.cxx
+  VtkMessages.cxx
+  VtkReaders.cxx)
+list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
+
+# Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
+set(volumic_writer_sources
+  CheckPly.cxx
+  CheckWritten.cxx
+  FileBuffer.cxx
+  FileGrowth.cxx
+  FullDisk.cxx
+  GltfDescription.cxx
+  GltfScene.cxx
+  JsonWriter.cxx
+  LabelColors.cxx
+  OutputFiles.cxx
+  ProgressLine.cxx
+  Ranks.cxx
+  RunWriter.cxx
+  StreamedWriters.cxx
+  SurfacePieces.cxx
+  WriteResults.cxx)
+list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

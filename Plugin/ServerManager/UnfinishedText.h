@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicUnfinishedText_h
+#define volumicUnfinishedText_h
+
+#include <vtkNew.h>
+#include <vtkTextActor.h>
+#include <vtkWeakPointer.h>
+
+#include <string>
+
+class vtkPVDataInformation;
+class vtkRenderer;
+class vtkSMProxy;
+
+namespace volumic
+{
+/**
+ * What a view says of a surface that has been stopped on its way, such as "unfinished (cancelled,
+ * level 1 of 0)"; empty for one that is finished.
+ * @param filter that has made it, whose FinestLevel tells where it was to end
+ */
+std::string TellUnfinished(vtkPVDataInformation* surface, vtkSMProxy* filter);
+
+/** A text at the upper left corner of a view, for as long as this object lives. */
+class UnfinishedText
+{
+public:
+  UnfinishedText();
+  ~UnfinishedText();
+
+  /** Shows the text in the view, a render view; an empty one hides it. */
+  void Show(vtkSMProxy* view, const std::string& text);
+  void Hide() { this->Actor->VisibilityOff(); }
+
+private:
+  vtkNew<vtkTextActor> Actor;
+  vtkWeakPointer<vtkRenderer> Renderer; ///< that it is in
+};
+}
+
+#endif

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The writer behind Export Surfaces: a file for each label, level or component."""
+
+import json
+import os
+import shutil
+import struct
+import sys
+import unittest
+
+from paraview import servermanager
+from paraview import simple
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import label_maps
+import plugin_testing as testing
+
+READERS = {".stl": vtkSTLReader, ".ply": vtkPLYReader, ".obj": vtkOBJReader,
+           ".vtp": vtkXMLPolyDataReader}
+
+
+def triangles_in(path):
+    reader = READERS[os.path.splitext(path)[1]]()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput().GetNumberOfPolys()
+
+
+class ExportTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+
+    def setUp(self):
+        self.folder = testing.output_path("exported")
+        shutil.rmtree(self.folder, ignore_errors=True)
+        os.mkdir(self.folder)
+
+    def tearDown(self):
+        testing.delete_sources()
+
+    def export(self, name, source, port=0):
+        """{name: triangles} of the files that it makes."""
+        writer = servermanager.writers.ExportSurfaces(
+            Input=servermanager.OutputPort(source, port), FileName=os.path.join(self.folder, name))
+        writer.UpdatePipeline()
+        return {file: triangles_in(os.path.join(self.folder, file))
+                for file in sorted(os.listdir(self.folder)) if not file.endswith(".glb")}
+
+    def labels(self, **names):
+        image = label_maps.add_names(label_maps.image(), **names)
+        return simple.LabelstoSurfaces(testing.produce(image), FinestLevel=1)
+
+    def test_a_file_for_each_label(self):
+        source = self.labels()
+        blocks = testing.fetch(source)
+        wanted = {f"organs-{name.replace(' ', '_')}": blocks.GetBlock(i).GetNumberOfPolys()
+                  for i, name in enumerate(label_maps.NAMES.values())}
+        for suffix in READERS:
+            with self.subTest(suffix=suffix):
+                self.setUp()
+                self.assertEqual(self.export("organs" + suffix, source),
+                                 {name + suffix: count for name, count in wanted.items()})
+
+    def test_names_that_files_cannot_have(self):
+        source = self.labels(names={3: "a/b", 7: "A:b", 12: ".."})
+        self.assertEqual(list(self.export("x.stl", source)), ["x-.stl", "x-A_b-2.stl", "x-a_b.stl"])
+
+    def test_levels(self):
+        source = simple.VolumetoSurface(simple.Wavelet(), IsoValue=150.0)
+        blocks = testing.fetch(source, 1)
+        self.assertEqual(self.export("w.vtp", source, 1), {
+            f"w-Level_{i}.vtp": blocks.GetBlock(i).GetNumberOfPolys() for i in range(2)})
+
+    def test_components(self):
+        source = simple.VolumetoSurface(testing.produce(label_maps.image()), IsoValue=1.5)
+        surface = testing.fetch(source)
+        array = surface.GetCellData().GetArray("Component")
+        found = [int(array.GetValue(i)) for i in range(array.GetNumberOfTuples())]
+        self.assertGreater(max(found), 0)
+        self.assertEqual(self.export("w.stl", source), {
+            f"w-component-{i}.stl": found.count(i) for i in set(found)})
+
+    def test_one_surface_is_one_file(self):
+        source = simple.VolumetoSurface(simple.Wavelet(), IsoValue=150.0)
+        self.assertEqual(self.export("w.ply", source),
+                         {"w.ply": testing.fetch(source).GetNumberOfPolys()})
+
+    def test_a_scene_with_names_and_colours(self):
+        self.export("organs.glb", self.labels())
+        self.assertEqual(os.listdir(self.folder), ["organs.glb"])
+        with open(os.path.join(self.folder, "organs.glb"), "rb") as file:
+            size = struct.unpack("<5I", file.read(20))[3]
+            scene = json.loads(file.read(size))
+        names = {mesh["name"] for mesh in scene["meshes"]}
+        self.assertEqual(names, set(label_maps.NAMES.values()))
+        self.assertEqual(len(scene["materials"]), 3)
+
+    def test_a_folder_that_is_not_there(self):
+        with testing.CapturedMessages() as messages:
+            self.export("none/organs.stl", self.labels())
+        self.assertIn("none/organs", messages.text)
+
+
+if __name__ == "__main__":
+    testing.main()

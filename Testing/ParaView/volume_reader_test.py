@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The reader Volumic Volume: places, directions and names of labels of files, series, errors."""
+
+import gzip
+import os
+import sys
+import unittest
+
+import numpy
+from paraview import simple
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(os.path.dirname(HERE), "Python")]
+import label_maps
+import medical_files
+import plugin_testing as testing
+
+SPACING, ORIGIN = (0.5, 0.75, 2.0), (10.0, -20.0, 30.0)
+# A quarter of a turn about z.
+TURN = numpy.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+SEGMENTS = ("Segment0_ID:=a", "Segment0_Name:=liver", "Segment0_LabelValue:=3",
+            "Segment0_Color:=0.8 0.2 0.2", "Segment1_ID:=b", "Segment1_Name:=spleen",
+            "Segment1_LabelValue:=12", "Segment1_Color:=0.2 0.2 0.8", "Segment2_ID:=c",
+            "Segment2_Name:=left kidney", "Segment2_LabelValue:=7", "Segment2_Color:=0.2 0.8 0.2")
+
+
+def write(name, content):
+    path = testing.output_path(name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "wb") as file:
+        file.write(content)
+    return path
+
+
+def voxels():
+    return label_maps.values()[:20, :24, :]  # of three sizes
+
+
+def ramp():
+    """A ball whose values fall from its centre to its surface and beyond."""
+    z, y, x = numpy.mgrid[0:20, 0:24, 0:28]
+    return (1000 - 90 * numpy.sqrt((x - 14)**2 + (y - 12)**2 + (z - 10)**2)).astype("i2")
+
+
+def nifti(name="turned.nii.gz", data=None):
+    sform = numpy.column_stack([TURN * SPACING, ORIGIN])
+    content = medical_files.nifti(voxels() if data is None else data, SPACING, sform)
+    return write(name, gzip.compress(content) if name.endswith("gz") else content)
+
+
+def segmentation():
+    header = medical_files.nrrd_header(label_maps.values(), SPACING, ORIGIN, TURN, "gzip", "little")
+    content = "\n".join([*SEGMENTS, ""]).encode()
+    return write("organs.seg.nrrd",
+                 header + content + b"\n" + gzip.compress(label_maps.values().tobytes()))
+
+
+def meta():
+    directions = "0 1 0 -1 0 0 0 0 1"  # axis by axis
+    return write("turned.mha", medical_files.meta_header(voxels(), SPACING, ORIGIN, directions)
+                 + voxels().tobytes())
+
+
+def dicom():
+    """The folder, of a file for each slice."""
+    for number, pixels in enumerate(voxels()):
+        path = write(f"series/{number:03}.dcm", medical_files.dicom_slice(
+            pixels, number, SPACING, ORIGIN, TURN))
+    return os.path.dirname(path)
+
+
+class VolumeReaderTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        testing.load_plugin()
+
+    def tearDown(self):
+        testing.delete_sources()
+
+    def check(self, source):
+        image = testing.fetch(source)
+        self.assertEqual(image.GetDimensions(), voxels().shape[::-1])
+        numpy.testing.assert_allclose(image.GetOrigin(), ORIGIN)
+        numpy.testing.assert_allclose(image.GetSpacing(), SPACING)
+        matrix = image.GetDirectionMatrix()
+        found = [[matrix.GetElement(i, j) for j in range(3)] for i in range(3)]
+        numpy.testing.assert_allclose(found, TURN, atol=1e-12)
+        name = image.GetPointData().GetScalars().GetName()
+        numpy.testing.assert_array_equal(testing.voxels(image, name), voxels())
+
+    def test_formats(self):
+        for path in (nifti(), nifti("turned.nii"), meta()):
+            with self.subTest(path=path):
+                self.check(simple.VolumicVolume(FileNames=[path]))
+
+    def test_dicom(self):
+        folder = dicom()
+        self.check(simple.VolumicDICOM(FileName=folder))
+        self.check(simple.VolumicDICOM(FileName=os.path.join(folder, "007.dcm")))
+
+    def test_what_paraview_cannot_open_opens(self):
+        self.check(simple.OpenDataFile(nifti()))
+
+    def test_names_and_colours_of_labels(self):
+        surfaces = simple.LabelstoSurfaces(simple.VolumicVolume(FileNames=[segmentation()]))
+        blocks = testing.fetch(surfaces)
+        self.assertEqual(testing.names(blocks), ["liver", "left kidney", "spleen"])
+        color = blocks.GetBlock(2).GetFieldData().GetArray("LabelColor").GetTuple3(0)
+        numpy.testing.assert_allclose(color, (0.2, 0.2, 0.8))
+
+    def test_names_beside_the_file(self):
+        path = nifti("beside.nii.gz", label_maps.values())
+        write("beside.json", b'{"3": "liver", "7": "left kidney", "12": "spleen"}')
+        surfaces = simple.LabelstoSurfaces(simple.VolumicVolume(FileNames=[path]))
+        self.assertEqual(testing.names(testing.fetch(surfaces)),
+                         ["liver", "left kidney", "spleen"])
+
+    def test_series_in_time(self):
+        paths = [nifti(f"t{i}.nii.gz", voxels() + i) for i in range(3)]
+        source = simple.VolumicVolume(FileNames=paths)
+        source.UpdatePipelineInformation()
+        self.assertEqual(list(source.TimestepValues), [0, 1, 2])
+        for time in (2, 0, 1):
+            source.UpdatePipeline(time)
+            image = source.GetDataInformation().GetPointDataInformation()
+            self.assertEqual(image.GetArrayInformation(0).GetComponentRange(0),
+                             (time, 12 + time))
+
+    def test_damage_is_an_error_that_names_the_file(self):
+        with open(nifti(), "rb") as file:
+            path = write("cut.nii.gz", file.read()[:200])
+        with testing.CapturedMessages() as messages:
+            simple.VolumicVolume(FileNames=[path]).UpdatePipeline()
+        self.assertIn(path, messages.text)
+
+
+if __name__ == "__main__":
+    testing.main()
