@@ -13,7 +13,6 @@
 #include <vtkMath.h>
 
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
 namespace
@@ -77,25 +76,9 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 }
 
 //------------------------------------------------------------------------------
-// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is.
 #define VolumicSetting(name, type, field, change, kind)                                            \
-  type vtkDeformableSurface::Get##name()                                                           \
-  {                                                                                                \
-    const auto value = volumic::ValueOf<type>(this->Internals->Settings.field);                    \
-    vtkDebugMacro(<< "returning " #name " of " << value);                                          \
-    return value;                                                                                  \
-  }                                                                                                \
-  void vtkDeformableSurface::Set##name(type value)                                                 \
-  {                                                                                                \
-    auto& setting = this->Internals->Settings.field;                                               \
-    const auto wanted = volumic::SettingOf<std::decay_t<decltype(setting)>>(value);                \
-    vtkDebugMacro(<< "setting " #name " to " << volumic::ValueOf<type>(wanted));                   \
-    if (setting != wanted)                                                                         \
-    {                                                                                              \
-      setting = wanted;                                                                            \
-      Modify(this, this->Internals->Cache, Change::change);                                        \
-    }                                                                                              \
-  }
+  VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Settings.field,                            \
+    Modify(this, this->Internals->Cache, Change::change))
 #define VolumicWritten(name, type, field, change, kind)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
 

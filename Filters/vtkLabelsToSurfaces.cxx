@@ -32,7 +32,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 vtkStandardNewMacro(vtkLabelsToSurfaces);
@@ -80,25 +79,10 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(MemoryLimit, int, MemoryLimit)                                   \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
-// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is.
-#define VolumicLabelProperty(name, type, field)                                                    \
-  type vtkLabelsToSurfaces::Get##name()                                                            \
-  {                                                                                                \
-    return volumic::ValueOf<type>(this->Internals->field);                                         \
-  }                                                                                                \
-  void vtkLabelsToSurfaces::Set##name(type value)                                                  \
-  {                                                                                                \
-    auto& setting = this->Internals->field;                                                        \
-    const auto wanted = volumic::SettingOf<std::decay_t<decltype(setting)>>(value);                \
-    vtkDebugMacro(<< "setting " #name " to " << wanted);                                           \
-    if (setting != wanted)                                                                         \
-    {                                                                                              \
-      setting = wanted;                                                                            \
-      this->Modified();                                                                            \
-    }                                                                                              \
-  }
+#define VolumicSetting(name, type, field)                                                          \
+  VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, field, this->Modified())
 #define VolumicWritten(name, type, field)
-VOLUMIC_LABEL_PROPERTIES(VolumicLabelProperty, VolumicWritten)
+VOLUMIC_LABEL_PROPERTIES(VolumicSetting, VolumicWritten)
 
 int vtkLabelsToSurfaces::GetNumberOfThreads()
 {

@@ -248,11 +248,8 @@ bool IsOfLabelsOnly(const PropertyOption& option)
 }
 
 // What the labels' filter has of the surface's, and how it gets it.
-#define SHARED(PROPERTY)                                                 \
-  {                                                                      \
-    #PROPERTY, [](const FilterTrio& filters)                             \
-    { filters.Labels->Set##PROPERTY(filters.Surface->Get##PROPERTY()); } \
-  }
+#define SHARED(PROPERTY) \
+  { #PROPERTY, [](const FilterTrio& f) { f.Labels->Set##PROPERTY(f.Surface->Get##PROPERTY()); } }
 static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
   SHARED(Metric), SHARED(EdgeLength), SHARED(FinestLevel), SHARED(KeepComponents),
   SHARED(MinimumComponentVolume), SHARED(NumberOfThreads), SHARED(MemoryLimit),

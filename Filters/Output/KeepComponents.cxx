@@ -301,33 +301,22 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   {
     return surface;
   }
-  const SurfaceFeatures features = ComputeFeatures(surface, executor);
-  const SurfaceFeatures inWorld =
+  // Components are numbered by their areas, which differ in the world where voxels are no cubes.
+  const SurfaceFeatures features =
     ComputeFeatures(ToWorld(surface, space, executor), executor);
   const std::size_t n = features.Components.size();
   const std::vector<int> hosts = HostsOf(surface, features, executor);
-  // Components are numbered by their areas, which differ in the world where voxels are no cubes.
-  std::vector<int> worldIndex(n, -1);
-  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
-  {
-    worldIndex[features.ComponentOfTriangle[t]] = inWorld.ComponentOfTriangle[t];
-  }
   std::vector<bool> isKept(n, false);
-  int largest = -1;
+  bool hasLargest = false;
   for (std::size_t c = 0; c < n; ++c)
   {
-    const ComponentFeatures& component = inWorld.Components[worldIndex[c]];
-    const bool isSolid = component.Volume > 0;
-    if (isSolid && (largest < 0 || worldIndex[c] < worldIndex[largest]))
-    {
-      largest = static_cast<int>(c);
-    }
-    isKept[c] = choice.Mode == KeepComponentsType::LargeComponents && isSolid &&
-      component.Volume >= choice.MinimumVolume;
-  }
-  if (choice.Mode == KeepComponentsType::LargestComponent && largest >= 0)
-  {
-    isKept[largest] = true;
+    const double volume = features.Components[c].Volume;
+    const bool isSolid = volume > 0;
+    isKept[c] = isSolid &&
+      (choice.Mode == KeepComponentsType::LargeComponents
+          ? volume >= choice.MinimumVolume
+          : choice.Mode == KeepComponentsType::LargestComponent && !hasLargest);
+    hasLargest = hasLargest || isSolid;
   }
   if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
   {
