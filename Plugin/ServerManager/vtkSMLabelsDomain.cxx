@@ -43,9 +43,15 @@ vtkSMLabelsDomain::Choice vtkSMLabelsDomain::CurrentChoice()
     const char* text = chosen.GetAsString(i);
     choice.Array[i] = text ? text : "";
   }
-  if (choice.Producer)
+  vtkPVDataInformation* data =
+    choice.Producer ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
+  if (data)
   {
-    choice.Time = choice.Producer->GetDataInformation(choice.Port)->GetMTime();
+    choice.Time = data->GetMTime();
+  }
+  else
+  {
+    choice.Producer = nullptr; // Of one that could not be made there is nothing to know.
   }
   return choice;
 }
