@@ -153,17 +153,6 @@ std::vector<std::string> SplitAtCommas(const std::string& text)
   }
   return parts;
 }
-
-/** As much of a text as has at most so many bytes, in whole characters. */
-std::string Shortened(const std::string& text, std::size_t most)
-{
-  std::size_t end = 0;
-  while (end < text.size() && end + std::max<std::size_t>(CharacterBytes(text, end), 1) <= most)
-  {
-    end += std::max<std::size_t>(CharacterBytes(text, end), 1);
-  }
-  return text.substr(0, end);
-}
 }
 
 std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer)

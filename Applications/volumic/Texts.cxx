@@ -118,6 +118,20 @@ std::string AsUtf8(const std::string& text)
   return characters;
 }
 
+namespace
+{
+/** As much of a text as has at most so many bytes, in whole characters. */
+std::string BeginOf(const std::string& text, std::size_t most)
+{
+  std::size_t end = 0;
+  while (end < text.size() && end + std::max<std::size_t>(CharacterBytes(text, end), 1) <= most)
+  {
+    end += std::max<std::size_t>(CharacterBytes(text, end), 1);
+  }
+  return text.substr(0, end);
+}
+}
+
 std::string SafeName(const std::string& name)
 {
   std::string safe;
@@ -131,6 +145,6 @@ std::string SafeName(const std::string& name)
   safe.erase(safe.find_last_not_of("._ ") + 1);
   static const std::set<std::string> devices = { "con", "prn", "aux", "nul", "com1", "com2", "com3",
     "com4", "lpt1", "lpt2", "lpt3" };
-  return Shortened(safe, 120) + (devices.count(Lower(safe)) > 0 ? "_" : "");
+  return BeginOf(safe, 120) + (devices.count(Lower(safe)) > 0 ? "_" : "");
 }
 }
