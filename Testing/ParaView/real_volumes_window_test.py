@@ -59,7 +59,7 @@ class RealVolumesTest(window.WindowTestCase):
         found = re.findall(r"Run: level (\S+) ; ([a-z ]+) ; (\d+)", self.session.output)
         return [(level, reason, int(triangles)) for level, reason, triangles in found]
 
-    def first_minutes(self, name, iso_value, preview_level):
+    def first_minutes(self, name, iso_value, preview_levels):
         """Preview at Otsu's threshold, at the iso-value, then the surface; and its chart."""
         picture = name.split("_")[0]
         self.play(self.volume(name) + [
@@ -67,7 +67,7 @@ class RealVolumesTest(window.WindowTestCase):
             set_iso_value(iso_value), APPLY, gui.pause(1500), *FROM_THE_FRONT],
             f"real-{picture}-preview", python=TELL_THE_RUNS, timeout=600)
         self.assertNotIn("WARN|", self.session.output)
-        self.assertEqual([run[0] for run in self.runs()], [str(preview_level)] * 2)
+        self.assertEqual([run[0] for run in self.runs()], [str(level) for level in preview_levels])
         seen = self.runs()[-1]
         self.session.close_window()
 
@@ -77,24 +77,25 @@ class RealVolumesTest(window.WindowTestCase):
             f"real-{picture}", python=TELL_THE_RUNS, timeout=600)
         runs = self.runs()
         self.assertEqual(runs[0], seen)
-        self.assertEqual([run[:2] for run in runs], [(str(preview_level), seen[1]), ("0", runs[1][1])])
+        self.assertEqual([run[:2] for run in runs], [seen[:2], ("0", runs[1][1])])
         self.assertIn(runs[1][1], ("converged", "limit cycle"))
         self.assertGreater(runs[1][2], 2 * seen[2])
 
     def test_tooth(self):
-        self.first_minutes("tooth_ct_u16.vti", 600.5, 1)
+        self.first_minutes("tooth_ct_u16.vti", 600.5, (1, 1))
         self.assertNotIn("WARN|", self.session.output)
 
     def test_engine(self):
-        self.first_minutes("engine_ct_u8.vti", 75.5, 2)
+        self.first_minutes("engine_ct_u8.vti", 75.5, (2, 2))
         self.assertNotIn("WARN|", self.session.output)
 
     def test_head(self):
-        self.first_minutes("vismale_head_ct_u8.vti", 95.5, 2)
+        self.first_minutes("vismale_head_ct_u8.vti", 95.5, (2, 2))
         self.assertNotIn("WARN|", self.session.output)
 
     def test_vessels_of_which_a_few_per_cent_stay_lost(self):
-        self.first_minutes("aneurism_u8.vti", 100.5, 2)
+        # At level 2 more than 5 % of what there is at 100.5 are missing: Preview goes on.
+        self.first_minutes("aneurism_u8.vti", 100.5, (2, 1))
         self.assertNotIn("WARN|", self.session.output)
 
     def test_an_error_then_a_good_run(self):
