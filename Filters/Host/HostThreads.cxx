@@ -204,8 +204,7 @@ void HostThreads::Share(
   guarded.Rethrow();
 }
 
-bool HostThreads::MakeVisits(
-  const VisitSchedule& schedule, const std::function<void(int, std::size_t)>& visit)
+bool HostThreads::MakeVisits(const VisitSchedule& schedule, const VisitBody& visit)
 {
   return this->Instead && this->Instead->MakeVisits(schedule, visit);
 }

@@ -45,8 +45,7 @@ public:
    */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
-  bool MakeVisits(const VisitSchedule& schedule,
-    const std::function<void(int item, std::size_t place)>& visit) override;
+  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override;
   void EndPhase(const char* name) override;
 
 private:

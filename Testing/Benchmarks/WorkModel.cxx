@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -72,45 +73,232 @@ double ScheduledSeconds(const std::vector<double>& chunks, int threads, double s
   return last;
 }
 
-double ScheduledSeconds(const VisitSchedule& schedule, const std::vector<double>& visits,
-  int threads, double secondsOfVisit)
+namespace
 {
-  const std::vector<int>& order = schedule.Order();
-  std::vector<int> placeOf(order.size());
-  std::vector<int> waits(order.size());
-  std::priority_queue<int, std::vector<int>, std::greater<int>> ready; // Places in the order.
-  for (std::size_t place = 0; place < order.size(); ++place)
+
+/** Makes visits as VisitSchedule::Run does, in a time of its own. */
+class ModelledVisits
+{
+public:
+  ModelledVisits(const VisitSchedule& schedule, const std::vector<std::vector<VisitStep>>& steps,
+    int threads, const ThreadOverhead& overhead)
+    : Schedule(schedule), Steps(steps), Overhead(overhead), Free(threads),
+      PlaceOf(schedule.Order().size()), Waits(schedule.Order().size()), Visits(steps.size())
   {
-    placeOf[order[place]] = static_cast<int>(place);
-    waits[order[place]] = schedule.NumberOfEarlier(order[place]);
-    if (waits[order[place]] == 0)
+    for (std::size_t place = 0; place < this->PlaceOf.size(); ++place)
     {
-      ready.push(static_cast<int>(place));
-    }
-  }
-  using End = std::pair<double, int>; // Of a visit under way, and its item.
-  std::priority_queue<End, std::vector<End>, std::greater<End>> underWay;
-  double now = 0.0;
-  while (!ready.empty() || !underWay.empty())
-  {
-    while (!ready.empty() && static_cast<int>(underWay.size()) < threads)
-    {
-      const int item = order[ready.top()];
-      ready.pop();
-      underWay.push({ now + visits[item] + secondsOfVisit, item });
-    }
-    now = underWay.top().first;
-    const int done = underWay.top().second;
-    underWay.pop();
-    for (const int later : schedule.LaterThan(done))
-    {
-      if (--waits[later] == 0)
+      const int item = schedule.Order()[place];
+      this->PlaceOf[item] = static_cast<int>(place);
+      this->Waits[item] = schedule.NumberOfEarlier(item);
+      if (this->Waits[item] == 0)
       {
-        ready.push(placeOf[later]);
+        this->Ready.push(static_cast<int>(place));
       }
     }
   }
-  return now;
+
+  double Run()
+  {
+    this->Employ();
+    while (!this->Ends.empty())
+    {
+      const End end = this->Ends.top();
+      this->Ends.pop();
+      this->Now = end.Time;
+      Visit& visit = this->Visits[end.Item];
+      visit.UnderWay -= end.IsPart;
+      visit.IsOpen = visit.IsOpen || !end.IsPart;
+      if (end.IsOwner)
+      {
+        visit.OwnerWaits = true;
+      }
+      else
+      {
+        ++this->Free;
+      }
+      this->GoOn(end.Item);
+      this->Employ();
+    }
+    return this->Now;
+  }
+
+private:
+  struct Visit
+  {
+    std::size_t Step = 0;
+    std::size_t NextPart = 0;
+    int UnderWay = 0;        ///< Parts.
+    bool IsOpen = false;     ///< What is for one thread alone is done: parts may be taken.
+    bool OwnerWaits = false; ///< The thread that has taken the visit has nothing to do.
+  };
+  struct End
+  {
+    double Time;
+    int Item;
+    bool IsPart;
+    bool IsOwner;
+    bool operator>(const End& other) const { return this->Time > other.Time; }
+  };
+
+  bool HasPart(int item) const
+  {
+    const Visit& visit = this->Visits[item];
+    return visit.IsOpen && visit.NextPart < this->Steps[item][visit.Step].Parts.size();
+  }
+
+  void TakePart(int item, bool isOwner)
+  {
+    Visit& visit = this->Visits[item];
+    const double seconds = this->Steps[item][visit.Step].Parts[visit.NextPart++] +
+      this->Overhead.SecondsOfChunk + (isOwner ? 0.0 : this->Overhead.SecondsOfCall);
+    ++visit.UnderWay;
+    this->Ends.push({ this->Now + seconds, item, true, isOwner });
+  }
+
+  void BeginStep(int item)
+  {
+    Visit& visit = this->Visits[item];
+    visit.IsOpen = visit.OwnerWaits = false;
+    visit.NextPart = 0;
+    this->Ends.push({ this->Now + this->Steps[item][visit.Step].Alone + this->Overhead.SecondsOfChunk,
+      item, false, true });
+  }
+
+  /** What the thread of a visit does next, if it waits. */
+  void GoOn(int item)
+  {
+    Visit& visit = this->Visits[item];
+    if (!visit.OwnerWaits)
+    {
+      return;
+    }
+    if (this->HasPart(item))
+    {
+      visit.OwnerWaits = false;
+      this->TakePart(item, true);
+    }
+    else if (visit.UnderWay == 0 && visit.Step + 1 < this->Steps[item].size())
+    {
+      ++visit.Step;
+      this->BeginStep(item);
+    }
+    else if (visit.UnderWay == 0)
+    {
+      visit.OwnerWaits = visit.IsOpen = false;
+      ++this->Free;
+      this->Shared.erase(std::find(this->Shared.begin(), this->Shared.end(), item));
+      for (const int later : this->Schedule.LaterThan(item))
+      {
+        if (--this->Waits[later] == 0)
+        {
+          this->Ready.push(this->PlaceOf[later]);
+        }
+      }
+    }
+  }
+
+  /** Threads that are free take visits, else parts. */
+  void Employ()
+  {
+    for (; this->Free > 0 && !this->Ready.empty(); --this->Free)
+    {
+      const int item = this->Schedule.Order()[this->Ready.top()];
+      this->Ready.pop();
+      this->Shared.push_back(item);
+      this->BeginStep(item);
+    }
+    for (std::size_t i = 0; i < this->Shared.size() && this->Free > 0; ++i)
+    {
+      for (; this->Free > 0 && this->HasPart(this->Shared[i]); --this->Free)
+      {
+        this->TakePart(this->Shared[i], false);
+      }
+    }
+  }
+
+  const VisitSchedule& Schedule;
+  const std::vector<std::vector<VisitStep>>& Steps;
+  const ThreadOverhead Overhead;
+  int Free; ///< Threads.
+  double Now = 0.0;
+  std::vector<int> PlaceOf;
+  std::vector<int> Waits;
+  std::vector<Visit> Visits;
+  std::vector<int> Shared; ///< Visits under way.
+  std::priority_queue<int, std::vector<int>, std::greater<int>> Ready; ///< Places in the order.
+  std::priority_queue<End, std::vector<End>, std::greater<End>> Ends;
+};
+
+/** Does all that a visit would share on this thread, and times it. */
+class StepTimes final : public Executor
+{
+public:
+  explicit StepTimes(double clockSeconds) : ClockSeconds(clockSeconds) {}
+
+  void Begin()
+  {
+    this->Steps.assign(1, VisitStep());
+    this->Mark = Now();
+  }
+  std::vector<VisitStep> Take()
+  {
+    this->Steps.back().Alone += this->Lap();
+    return std::move(this->Steps);
+  }
+
+  void For(std::size_t n, std::size_t grain,
+    const std::function<void(std::size_t, std::size_t)>& body) override
+  {
+    if (n == 0)
+    {
+      return;
+    }
+    if (n <= grain || this->IsInside)
+    {
+      body(0, n);
+      return;
+    }
+    const Inside inside(this->IsInside);
+    this->Steps.back().Alone += this->Lap();
+    for (std::size_t begin = 0; begin < n; begin += grain)
+    {
+      body(begin, std::min(n, begin + grain));
+      this->Steps.back().Parts.push_back(this->Lap());
+    }
+    this->Steps.emplace_back();
+  }
+
+private:
+  double Lap()
+  {
+    const double now = Now();
+    const double seconds = std::max(0.0, now - this->Mark - this->ClockSeconds);
+    this->Mark = now;
+    return seconds;
+  }
+
+  double ClockSeconds;
+  double Mark = 0.0;
+  bool IsInside = false;
+  std::vector<VisitStep> Steps;
+};
+
+double SumOf(const std::vector<VisitStep>& steps)
+{
+  double sum = 0.0;
+  for (const VisitStep& step : steps)
+  {
+    sum = std::accumulate(step.Parts.begin(), step.Parts.end(), sum + step.Alone);
+  }
+  return sum;
+}
+
+} // namespace
+
+double ScheduledSeconds(const VisitSchedule& schedule,
+  const std::vector<std::vector<VisitStep>>& visits, int threads, const ThreadOverhead& overhead)
+{
+  return ModelledVisits(schedule, visits, threads, overhead).Run();
 }
 
 std::vector<double> JoinedChunks(
@@ -212,30 +400,28 @@ void WorkModel::For(
   this->Mark = Now(); // The reckoning does not count.
 }
 
-bool WorkModel::MakeVisits(
-  const VisitSchedule& schedule, const std::function<void(int, std::size_t)>& visit)
+bool WorkModel::MakeVisits(const VisitSchedule& schedule, const VisitBody& visit)
 {
   this->Present.Serial += std::max(0.0, Now() - this->Mark - this->ClockSeconds);
-  std::vector<double> seconds(schedule.Order().size(), 0.0);
+  std::vector<std::vector<VisitStep>> visits(schedule.Order().size());
   {
     const Inside inside(this->IsInside);
-    double last = Now();
-    for (std::size_t place = 0; place < seconds.size(); ++place)
+    StepTimes times(this->ClockSeconds);
+    for (std::size_t place = 0; place < visits.size(); ++place)
     {
       const int item = schedule.Order()[place];
-      visit(item, place);
-      const double now = Now();
-      seconds[item] = std::max(0.0, now - last - this->ClockSeconds);
-      this->Present.Parallel += seconds[item];
-      last = now;
+      times.Begin();
+      visit(item, place, times);
+      visits[item] = times.Take();
+      this->Present.Parallel += SumOf(visits[item]);
     }
   }
   this->Present.Calls += 1.0;
-  this->Present.Chunks += static_cast<double>(seconds.size());
+  this->Present.Chunks += static_cast<double>(visits.size());
   for (std::size_t i = 0; i < ModelledThreads.size(); ++i)
   {
     this->Present.Scheduled[i] += this->Overhead.SecondsOfCall +
-      ScheduledSeconds(schedule, seconds, ModelledThreads[i], this->Overhead.SecondsOfChunk);
+      ScheduledSeconds(schedule, visits, ModelledThreads[i], this->Overhead);
   }
   this->Mark = Now(); // The reckoning does not count.
   return true;

@@ -35,9 +35,17 @@ struct ThreadOverhead
 double ScheduledSeconds(
   const std::vector<double>& chunks, int threads, double secondsOfChunk = 0.0);
 
-/** The same for visits, of which a schedule tells what waits for what; seconds by item. */
-double ScheduledSeconds(const VisitSchedule& schedule, const std::vector<double>& visits,
-  int threads, double secondsOfVisit = 0.0);
+/** Work of a visit for one thread, and then parts in which others that are idle may share. */
+struct VisitStep
+{
+  double Alone = 0.0;
+  std::vector<double> Parts;
+};
+
+/** The same for visits, of which a schedule tells what waits for what; their steps by item. */
+double ScheduledSeconds(const VisitSchedule& schedule,
+  const std::vector<std::vector<VisitStep>>& visits, int threads,
+  const ThreadOverhead& overhead = { 0.0, 0.0 });
 
 /** Chunks of `size` items made of finer ones of `fine` items each (the last one may have less). */
 std::vector<double> JoinedChunks(
@@ -80,9 +88,11 @@ public:
 
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) override;
-  /** In their order; each then begins when what it waits for is done and a thread is free. */
-  bool MakeVisits(const VisitSchedule& schedule,
-    const std::function<void(int item, std::size_t place)>& visit) override;
+  /**
+   * In their order; each then begins when what it waits for is done and a thread is free. Threads
+   * that find none take parts of others, one by one, after the time of a call.
+   */
+  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override;
   void EndPhase(const char* name) override;
 
   /** In the order in which they ended first. */

@@ -60,7 +60,7 @@ struct Stage
     const Field field(this->Volume.Image, this->Options, this->Threads);
     const Dynamics dynamics(field, this->Options, this->Threads);
     Dynamics::Step step;
-    dynamics.Accelerate(this->State, this->All, pairs, step);
+    dynamics.Accelerate(this->State, this->All, pairs, step, OnThisThread());
     dynamics.Displace(this->State, this->All, step);
     return step.Time;
   }
@@ -71,7 +71,7 @@ struct Stage
     const Field field(this->Volume.Image, this->Options, this->Threads);
     const Dynamics dynamics(field, this->Options, this->Threads);
     Dynamics::Step step;
-    dynamics.Relax(this->State, this->All, pairs, snap, step);
+    dynamics.Relax(this->State, this->All, pairs, snap, step, OnThisThread());
   }
 
   Vector OutwardAt(int v) const

@@ -34,7 +34,7 @@ struct Scene : Bench
       this->Volume = MakeVolume(33, image);
       this->TheField = std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
     }
-    this->Near.Examine(this->State, this->All());
+    this->Near.Examine(this->State, this->All(), OnThisThread());
   }
 
   int Merges(bool topologyChanges = true)

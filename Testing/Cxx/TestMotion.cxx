@@ -106,7 +106,7 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
     const Field field(stage.Volume.Image, stage.Options, stage.Threads);
     const Dynamics dynamics(field, stage.Options, stage.Threads);
     Dynamics::Step step;
-    dynamics.Accelerate(stage.State, stage.All, {}, step);
+    dynamics.Accelerate(stage.State, stage.All, {}, step, OnThisThread());
     stage.State.Velocity[3] *= 100.f;
     stage.State.Velocity[4] *= 0.1f;
     const LargeVector<Vector> before = stage.State.Mesh.Position;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Executor.h"
+#include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/TriangleTests.h"
 #include "Core/Surface/NewFaces.h"
 #include "Core/Surface/Proximity.h"
@@ -145,7 +146,7 @@ TEST(Proximity, FindsNothingOnASmoothSphere)
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
-  proximity.Examine(state, all);
+  proximity.Examine(state, all, OnThisThread());
   EXPECT_TRUE(proximity.Pairs().empty());
   EXPECT_TRUE(proximity.Intersections().empty());
   EXPECT_EQ(
@@ -161,7 +162,7 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
-  proximity.Examine(state, all);
+  proximity.Examine(state, all, OnThisThread());
   std::set<std::pair<int, int>> expected;
   for (int v = 0; v < second; ++v)
   {
@@ -194,6 +195,52 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   EXPECT_EQ(found(), expected);
 }
 
+TEST(Proximity, FindsTheSameOnThreads)
+{
+  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
+  Add(surface, DividedIcosahedron({ 11., 0.3, 0.2 }, 5.5, 1.7));
+  struct Found
+  {
+    std::vector<std::array<int, 2>> Pairs;
+    std::vector<std::array<int, 3>> Faces;
+    std::vector<float> Slack;
+    std::vector<int> NearOthers;
+  };
+  const auto foundBy = [&surface](Executor& executor)
+  {
+    LiveSurface state(surface, 1);
+    const std::vector<int> all = All(state);
+    state.UpdateShape(all, executor);
+    Proximity proximity;
+    proximity.Examine(state, all, executor);
+    Found found;
+    for (const Proximity::ClosePair& pair : proximity.Pairs())
+    {
+      found.Pairs.push_back({ pair.V, pair.W });
+    }
+    for (const Proximity::FacePair& pair : proximity.Intersections())
+    {
+      found.Faces.insert(found.Faces.end(), { pair.First, pair.Second });
+    }
+    found.Slack.assign(state.Slack.AsVector().begin(), state.Slack.AsVector().end());
+    found.NearOthers.assign(
+      state.NearOthers.AsVector().begin(), state.NearOthers.AsVector().end());
+    return found;
+  };
+  const Found expected = foundBy(Threads);
+  ASSERT_FALSE(expected.Pairs.empty());
+  ASSERT_FALSE(expected.Faces.empty());
+  for (const int threads : { 2, 7 })
+  {
+    StandardThreads executor(threads);
+    const Found found = foundBy(executor);
+    EXPECT_EQ(found.Pairs, expected.Pairs) << "in their order";
+    EXPECT_EQ(found.Faces, expected.Faces);
+    EXPECT_EQ(found.Slack, expected.Slack);
+    EXPECT_EQ(found.NearOthers, expected.NearOthers);
+  }
+}
+
 TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
 {
   for (double distance = 10.; distance < 13.; distance += 0.05)
@@ -204,7 +251,7 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
     const std::vector<int> all = All(state);
     state.UpdateShape(all, Threads);
     Proximity proximity;
-    proximity.Examine(state, all);
+    proximity.Examine(state, all, OnThisThread());
     const bool intersects = CountSelfIntersections(surface, 1) > 0;
     // The tolerance may find a touch where there is none by less than it; never the other way.
     if (intersects)
@@ -287,7 +334,7 @@ TEST(Proximity, ToldRoomIsThere)
     const std::vector<int> all = All(state);
     state.UpdateShape(all, Threads);
     Proximity proximity;
-    proximity.Examine(state, all);
+    proximity.Examine(state, all, OnThisThread());
     if (!proximity.Intersections().empty())
     {
       continue;
@@ -353,7 +400,7 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   const std::vector<int> all = All(state);
   state.UpdateShape(all, Threads);
   Proximity proximity;
-  proximity.Examine(state, all);
+  proximity.Examine(state, all, OnThisThread());
   const std::size_t pairs = proximity.Pairs().size();
   ASSERT_GT(pairs, 3u);
   for (const Proximity::ClosePair& pair : proximity.Pairs())
@@ -362,9 +409,9 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
     EXPECT_EQ(state.NearOthers[pair.W], 1);
     EXPECT_NE(pair.V < second, pair.W < second) << "never neighbours along the surface";
   }
-  proximity.Examine(state, { 0 });
+  proximity.Examine(state, { 0 }, OnThisThread());
   EXPECT_EQ(proximity.Pairs().size(), pairs);
-  proximity.Examine(state, all);
+  proximity.Examine(state, all, OnThisThread());
   EXPECT_EQ(proximity.Pairs().size(), pairs);
 }
 
@@ -381,7 +428,7 @@ TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
   state.UpdateShape(All(state), Threads);
   ASSERT_TRUE(state.AreOpposed(0, 2));
   Proximity proximity;
-  proximity.Examine(state, All(state));
+  proximity.Examine(state, All(state), OnThisThread());
   EXPECT_TRUE(proximity.Pairs().empty());
   EXPECT_EQ(state.NearOthers[0], 1) << "though something else is near";
 }
@@ -400,7 +447,7 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
   state.UpdateShape(all, Threads);
   ASSERT_GT(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0);
   Proximity proximity;
-  proximity.Examine(state, all);
+  proximity.Examine(state, all, OnThisThread());
   EXPECT_FALSE(proximity.Intersections().empty());
   for (const Proximity::FacePair& pair : proximity.Intersections())
   {

@@ -108,7 +108,7 @@ TEST(Verification, FindsSheetsThatFaceTheSameWay)
     bench.State.AddVertex(v, 0);
   }
   bench.UpdateShape();
-  proximity.Examine(bench.State, bench.All());
+  proximity.Examine(bench.State, bench.All(), OnThisThread());
   EXPECT_TRUE(proximity.Intersections().empty()) << "which is why there is a last look";
   EXPECT_GT(CountIn(bench), 0u);
 }

@@ -171,13 +171,12 @@ public:
     ++this->Calls;
     body(0, n);
   }
-  bool MakeVisits(const VisitSchedule& schedule,
-    const std::function<void(int item, std::size_t place)>& visit) override
+  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override
   {
     const std::vector<int>& order = schedule.Order();
     for (std::size_t place = order.size(); place > 0; --place)
     {
-      visit(order[place - 1], place - 1);
+      visit(order[place - 1], place - 1, *this);
     }
     return true;
   }
@@ -221,7 +220,7 @@ TEST(VisitSchedule, VisitsEachOnceAndNeverWhatTouchesAtTheSameTime)
         delays.begin(), delays.end(), [&random] { return static_cast<int>(random() % 200); });
       Book book(order, neighbours);
       const bool areAllDone = ScheduleOf(order, neighbours).Run(executor,
-        [&](int item, std::size_t place)
+        [&](int item, std::size_t place, Executor&)
         {
           book.Begin(item, place);
           std::this_thread::sleep_for(std::chrono::microseconds(delays[item]));
@@ -246,7 +245,7 @@ TEST(VisitSchedule, MakesWhatOneThreadWouldMake)
   {
     std::vector<std::uint64_t> values(order.size(), 1);
     schedule.Run(executor,
-      [&](int item, std::size_t)
+      [&](int item, std::size_t, Executor&)
       {
         for (const int other : neighbours[item])
         {
@@ -281,7 +280,7 @@ TEST(VisitSchedule, KeepsTheOrderOnOneThread)
   {
     std::vector<int> visited;
     EXPECT_TRUE(schedule.Run(*executor,
-      [&visited](int item, std::size_t place)
+      [&visited](int item, std::size_t place, Executor&)
       {
         EXPECT_EQ(place, visited.size());
         visited.push_back(item);
@@ -304,7 +303,7 @@ TEST(VisitSchedule, WaitsForNoMoreThanWhatItTouches)
   std::atomic<int> others{ 0 };
   std::atomic<bool> isLate{ false };
   schedule.Run(threads,
-    [&](int item, std::size_t)
+    [&](int item, std::size_t, Executor&)
     {
       others += item > 1;
       const auto start = std::chrono::steady_clock::now();
@@ -340,7 +339,7 @@ TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
     return true;
   };
   std::atomic<int> visits{ 0 };
-  EXPECT_TRUE(Apart(9).Run(late, [&](int, std::size_t) { ++visits; }, goOn));
+  EXPECT_TRUE(Apart(9).Run(late, [&](int, std::size_t, Executor&) { ++visits; }, goOn));
   EXPECT_EQ(visits, 9);
   EXPECT_EQ(questions, 1);
 }
@@ -380,7 +379,7 @@ TEST(VisitSchedule, HandsOnWhatAVisitThrows)
         try
         {
           schedule->Run(*executor,
-            [&](int item, std::size_t)
+            [&](int item, std::size_t, Executor&)
             {
               ++begun;
               ++underWay;
@@ -414,7 +413,7 @@ TEST(VisitSchedule, EndsWhereItIsTold)
   {
     std::size_t visits = 0;
     std::vector<std::size_t> asked;
-    EXPECT_FALSE(schedule.Run(thread, [&visits](int, std::size_t) { ++visits; },
+    EXPECT_FALSE(schedule.Run(thread, [&visits](int, std::size_t, Executor&) { ++visits; },
       [&](std::size_t done)
       {
         asked.push_back(done);
@@ -439,7 +438,7 @@ TEST(VisitSchedule, EndsSoonWhereItIsToldOnThreads)
     std::atomic<int> underWay{ 0 };
     int asked = 0;
     EXPECT_FALSE(schedule.Run(*executor,
-      [&](int, std::size_t)
+      [&](int, std::size_t, Executor&)
       {
         ++visits;
         ++underWay;
@@ -467,7 +466,7 @@ TEST(VisitSchedule, AsksOnTheCallingThreadAlone)
     int elsewhere = 0;
     std::size_t most = 0;
     EXPECT_TRUE(schedule.Run(*executor,
-      [](int, std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); },
+      [](int, std::size_t, Executor&) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); },
       [&](std::size_t done)
       {
         ++asked;
@@ -490,7 +489,7 @@ TEST(VisitSchedule, OfNoneOrOne)
   for (Executor* executor : std::initializer_list<Executor*>{ &sequential, &threads })
   {
     int visits = 0;
-    const auto visit = [&visits](int item, std::size_t place)
+    const auto visit = [&visits](int item, std::size_t place, Executor&)
     {
       ++visits;
       EXPECT_EQ(item, 0);
@@ -512,7 +511,7 @@ TEST(VisitSchedule, LeavesTheVisitsToAnExecutorThatMakesThem)
     std::vector<int> visited;
     std::vector<std::size_t> asked;
     EXPECT_EQ(schedule.Run(executor,
-                [&visited](int item, std::size_t) { visited.push_back(item); },
+                [&visited](int item, std::size_t, Executor&) { visited.push_back(item); },
                 [&](std::size_t done)
                 {
                   asked.push_back(done);

@@ -11,7 +11,11 @@
 
 namespace volumic
 {
+class Executor;
 class VisitSchedule;
+
+/** Makes the visit of an item, at its place in the order of a schedule: see VisitSchedule::Run. */
+using VisitBody = std::function<void(int item, std::size_t place, Executor& idle)>;
 
 /**
  * A parallel for, so that the core needs no threading library of its own.
@@ -35,8 +39,7 @@ public:
    * Makes all visits of a schedule in its own way, for executors that keep books. @return whether
    * it has; else they are made by For().
    */
-  virtual bool MakeVisits(const VisitSchedule& schedule,
-    const std::function<void(int item, std::size_t place)>& visit)
+  virtual bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit)
   {
     static_cast<void>(schedule);
     static_cast<void>(visit);

@@ -40,8 +40,7 @@ void MeasuredExecutor::For(
   this->Measure([&] { this->Measured.For(n, grain, body); });
 }
 
-bool MeasuredExecutor::MakeVisits(
-  const VisitSchedule& schedule, const std::function<void(int, std::size_t)>& visit)
+bool MeasuredExecutor::MakeVisits(const VisitSchedule& schedule, const VisitBody& visit)
 {
   return this->Measure([&] { return this->Measured.MakeVisits(schedule, visit); });
 }

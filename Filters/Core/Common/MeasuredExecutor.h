@@ -28,8 +28,7 @@ public:
   /** @see Executor. For one caller at a time. */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) override;
-  bool MakeVisits(const VisitSchedule& schedule,
-    const std::function<void(int item, std::size_t place)>& visit) override;
+  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override;
   double SecondsInside() const override { return this->Seconds; }
   void EndPhase(const char* name) override { this->Measured.EndPhase(name); }
 

@@ -3,8 +3,10 @@
 #include "Core/Common/VisitSchedule.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <queue>
 #include <thread>
@@ -14,14 +16,19 @@ namespace volumic
 {
 namespace
 {
-/** Threads that take visits at most. */
+/** Threads that take visits, or parts of them, at most. */
 constexpr std::size_t MostThreads = 256;
+/** Parts for each thread that shares in a visit, as some take longer than others. */
+constexpr std::size_t PartsPerThread = 4;
 /** How long visits are taken before the host is asked whether to go on. */
 constexpr std::chrono::milliseconds Round(50);
 }
 
-/** What is ready, under way and done; threads share it. */
-class VisitSchedule::Progress
+/**
+ * What is ready, under way and done; threads share it. Those that find no visit that is ready take
+ * parts of what visits under way have handed to For().
+ */
+class VisitSchedule::Progress final : public Executor
 {
 public:
   Progress(const VisitSchedule& schedule, const std::function<bool(std::size_t done)>& goOn)
@@ -54,16 +61,55 @@ public:
     }
   }
 
+  /** Called within a visit. */
+  void For(std::size_t n, std::size_t grain,
+    const std::function<void(std::size_t begin, std::size_t end)>& body) override
+  {
+    const std::size_t idle = this->Idle;
+    if (idle == 0 || n <= grain)
+    {
+      if (n > 0)
+      {
+        body(0, n);
+      }
+      return;
+    }
+    SharedWork work{ body, 0, n, std::max(grain, n / (PartsPerThread * (idle + 1))), 0, nullptr };
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    this->Shared.push_back(&work);
+    this->HasChanged.notify_all();
+    this->TakeParts(work, lock);
+    this->HasEnded.wait(lock, [&work] { return work.UnderWay == 0; });
+    this->Shared.erase(std::find(this->Shared.begin(), this->Shared.end(), &work));
+    lock.unlock();
+    if (work.Exception)
+    {
+      std::rethrow_exception(work.Exception);
+    }
+  }
+
   /** Takes visits until the round ends, or all are done, or one has failed. */
-  void Work(const std::function<void(int, std::size_t)>& visit)
+  void Work(const VisitBody& visit)
   {
     const bool isCaller = std::this_thread::get_id() == this->Caller;
     std::unique_lock<std::mutex> lock(this->Mutex);
     this->CallerWorks = this->CallerWorks || isCaller;
     while (true)
     {
-      this->HasChanged.wait(
-        lock, [this] { return !this->Ready.empty() || this->UnderWay == 0 || this->IsOver(); });
+      SharedWork* shared = nullptr;
+      ++this->Idle;
+      this->HasChanged.wait(lock,
+        [&]
+        {
+          shared = this->FindShared();
+          return !this->Ready.empty() || shared || this->UnderWay == 0 || this->IsOver();
+        });
+      --this->Idle;
+      if (this->Ready.empty() && shared)
+      {
+        this->TakeParts(*shared, lock);
+        continue;
+      }
       // A round makes one visit at least; it needs no end where the calling thread asks itself.
       if (this->Ready.empty() || this->IsOver() ||
         (this->HasBegun && !this->CallerWorks && std::chrono::steady_clock::now() >= this->End))
@@ -78,7 +124,7 @@ public:
       const int item = this->Schedule.Items[place];
       try
       {
-        visit(item, place);
+        visit(item, place, *this);
       }
       catch (...)
       {
@@ -111,13 +157,65 @@ public:
   }
 
 private:
+  /** What a visit has handed to For(). */
+  struct SharedWork
+  {
+    const std::function<void(std::size_t begin, std::size_t end)>& Body;
+    std::size_t Next;
+    std::size_t End;
+    std::size_t Part;
+    int UnderWay; ///< Parts.
+    std::exception_ptr Exception;
+  };
+
   bool IsOver() const { return this->HasFailed || this->Stopped; }
+
+  /** The first of which any part is left, or null. */
+  SharedWork* FindShared() const
+  {
+    const auto found = std::find_if(this->Shared.begin(), this->Shared.end(),
+      [](const SharedWork* work) { return work->Next < work->End; });
+    return found != this->Shared.end() ? *found : nullptr;
+  }
+
+  /** Until none is left; others may be under way then. */
+  void TakeParts(SharedWork& work, std::unique_lock<std::mutex>& lock)
+  {
+    while (work.Next < work.End)
+    {
+      const std::size_t begin = work.Next;
+      const std::size_t end = std::min(begin + work.Part, work.End);
+      work.Next = end;
+      ++work.UnderWay;
+      lock.unlock();
+      std::exception_ptr exception;
+      try
+      {
+        work.Body(begin, end);
+      }
+      catch (...)
+      {
+        exception = std::current_exception();
+      }
+      lock.lock();
+      --work.UnderWay;
+      if (exception)
+      {
+        work.Next = work.End; // What is left is not worth doing.
+        work.Exception = exception;
+      }
+    }
+    this->HasEnded.notify_all();
+  }
 
   const VisitSchedule& Schedule;
   const std::function<bool(std::size_t done)>& GoOn;
   const std::thread::id Caller = std::this_thread::get_id();
   std::mutex Mutex; ///< Of all that follows, while threads work.
   std::condition_variable HasChanged;
+  std::condition_variable HasEnded; ///< Parts of what is shared.
+  std::vector<SharedWork*> Shared;
+  std::atomic<std::size_t> Idle{ 0 }; ///< Threads that wait for something to do.
   std::vector<int> Waits; ///< Of an item: how many of those before it are not done.
   std::priority_queue<int, std::vector<int>, std::greater<int>> Ready; ///< Places in the order.
   int UnderWay = 0;
@@ -157,8 +255,7 @@ VisitSchedule::VisitSchedule(
   }
 }
 
-bool VisitSchedule::Run(Executor& executor,
-  const std::function<void(int item, std::size_t place)>& visit,
+bool VisitSchedule::Run(Executor& executor, const VisitBody& visit,
   const std::function<bool(std::size_t done)>& goOn) const
 {
   if (executor.MakeVisits(*this, visit))
@@ -166,11 +263,10 @@ bool VisitSchedule::Run(Executor& executor,
     return goOn(this->Items.size());
   }
   Progress progress(*this, goOn);
-  const std::size_t threads = std::min(MostThreads, this->Items.size());
   while (!progress.IsAllDone() && !progress.IsStopped())
   {
     progress.BeginRound();
-    executor.For(threads, 1,
+    executor.For(MostThreads, 1,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)

@@ -36,13 +36,15 @@ public:
   const std::vector<int>& LaterThan(int item) const { return this->Later[item]; }
 
   /**
-   * Calls visit(item, place in the order) for all, on the threads of an executor, and returns when
-   * all are done. An exception of a visit ends it; others that are under way are finished first.
+   * Calls visit(item, place in the order, idle) for all, on the threads of an executor, and returns
+   * when all are done. By `idle` a visit shares out what it has to do with the threads that find no
+   * visit to make at the time; where there are none it does all itself.
+   * An exception of a visit ends it; others that are under way are finished first.
    * @param goOn asked with how many are done, by the calling thread: after each visit that it makes,
    *             or several times a second; false ends it
    * @return whether nothing asked to end it
    */
-  bool Run(Executor& executor, const std::function<void(int item, std::size_t place)>& visit,
+  bool Run(Executor& executor, const VisitBody& visit,
     const std::function<bool(std::size_t done)>& goOn) const;
 
 private:

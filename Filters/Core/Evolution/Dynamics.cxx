@@ -33,6 +33,8 @@ constexpr float ContactRecovery = 0.25f;
 /** Of the stiffest shape of a mesh against it, per unit of weight: that of a zigzag. */
 constexpr float TensionStiffness = 4.f;
 constexpr float ElasticityStiffness = 12.f;
+/** Vertices that are worth a thread. */
+constexpr std::size_t VertexGrain = 128;
 /** By how much the time step may be shortened for the sake of internal forces. */
 constexpr float Shortening = 4.f;
 
@@ -125,18 +127,25 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
 }
 
 void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
-  const std::vector<Proximity::ClosePair>& pairs, Step& step) const
+  const std::vector<Proximity::ClosePair>& pairs, Step& step, Executor& executor) const
 {
   const float friction = this->Drag;
   const float longest = this->Longest;
   step.Force.resize(active.size());
+  executor.For(active.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = active[i];
+        step.Force[i] = this->ForceAt(state, v, state.FieldValue[v]) * state.Sizing.At(v);
+      }
+    });
   float fastest = 0;
   for (std::size_t i = 0; i < active.size(); ++i)
   {
-    const int v = active[i];
-    step.Force[i] = this->ForceAt(state, v, state.FieldValue[v]) * state.Sizing.At(v);
     const Vector speed =
-      (state.Velocity[v] + step.Force[i] * longest) * (1 / (1 + friction * longest));
+      (state.Velocity[active[i]] + step.Force[i] * longest) * (1 / (1 + friction * longest));
     fastest = std::max(fastest, SquaredLength(speed));
   }
   fastest = std::sqrt(fastest);
@@ -151,31 +160,40 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
 }
 
 void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
-  const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step) const
+  const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step, Executor& executor) const
 {
   step.Time = 1;
-  for (const int v : vertices)
-  {
-    const float longest = LongestRelaxation * state.Sizing.At(v);
-    const Vector n = state.Normal[v].Axis();
-    Vector pull = state.Laplacian[v];
-    pull.Padding = 0;
-    Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
-    if (snap && this->Options.SnapToIsoValue)
+  executor.For(vertices.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
-      move += n * this->TheField.StepToIso(sample, n, longest);
-    }
-    if (this->Edges && this->Options.SnapToEdges)
-    {
-      const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
-      move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
-    }
-    const float length = Length(move);
-    state.Velocity[v] = length > longest ? move * (longest / length) : move;
-  }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        state.Velocity[vertices[i]] = this->RelaxationOf(state, vertices[i], snap);
+      }
+    });
   // Contacts: nothing may come nearer than it is.
   this->ApplyContacts(state, vertices, pairs, step);
+}
+
+Vector Dynamics::RelaxationOf(const SurfaceState& state, int v, bool snap) const
+{
+  const float longest = LongestRelaxation * state.Sizing.At(v);
+  const Vector n = state.Normal[v].Axis();
+  Vector pull = state.Laplacian[v];
+  pull.Padding = 0;
+  Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
+  if (snap && this->Options.SnapToIsoValue)
+  {
+    const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
+    move += n * this->TheField.StepToIso(sample, n, longest);
+  }
+  if (this->Edges && this->Options.SnapToEdges)
+  {
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
+  }
+  const float length = Length(move);
+  return length > longest ? move * (longest / length) : move;
 }
 
 bool Dynamics::MayClose(const SurfaceState& state, int v, int w) const

@@ -71,7 +71,7 @@ public:
    * last examination.
    */
   void Accelerate(SurfaceState& state, const std::vector<int>& active,
-    const std::vector<Proximity::ClosePair>& pairs, Step& step) const;
+    const std::vector<Proximity::ClosePair>& pairs, Step& step, Executor& executor) const;
 
   /**
    * Instead of Accelerate, at the end of a level: velocities that even the mesh out tangentially
@@ -79,7 +79,8 @@ public:
    * SurfaceOptions::SnapToEdges, up to the ridge of the map of edges, never towards a contact.
    */
   void Relax(SurfaceState& state, const std::vector<int>& vertices,
-    const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step) const;
+    const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step,
+    Executor& executor) const;
 
   /** Displaces them; the place before is kept in SurfaceState::PreviousPosition. */
   void Displace(SurfaceState& state, const std::vector<int>& active, const Step& step) const;
@@ -94,6 +95,8 @@ public:
 private:
   void SetPace();
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
+  /** The way of a vertex in a pass of Relax. */
+  Vector RelaxationOf(const SurfaceState& state, int v, bool snap) const;
   /**
    * Whether two vertices with a common neighbour lie across a hole, or a waist, that the image
    * wants closed: contact between them would keep it open for ever, short of the 3-cycle that a

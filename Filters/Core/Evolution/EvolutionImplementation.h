@@ -153,7 +153,7 @@ struct SurfaceEvolution::Implementation
 
   // By visits: EvolutionVisits.cxx.
   SurfaceIteration& TakeIteration();
-  void VisitBlock(int block, const BlockVisits& visits);
+  void VisitBlock(int block, const BlockVisits& visits, Executor& idle);
   void VisitBlocks(const BlockVisits& visits);
   void RunSweep(const Dynamics& dynamics);
   void VisitToEvolve(BlockVisit& visit, SurfaceIteration& iteration, const Dynamics& dynamics,

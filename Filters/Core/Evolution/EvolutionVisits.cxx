@@ -88,7 +88,8 @@ SurfaceIteration& SurfaceEvolution::Implementation::TakeIteration()
   return *iteration;
 }
 
-void SurfaceEvolution::Implementation::VisitBlock(int block, const BlockVisits& visits)
+void SurfaceEvolution::Implementation::VisitBlock(
+  int block, const BlockVisits& visits, Executor& idle)
 {
   if (visits.OnlyActive && !this->Blocks->HasActive(block))
   {
@@ -101,6 +102,7 @@ void SurfaceEvolution::Implementation::VisitBlock(int block, const BlockVisits& 
   }
   SurfaceIteration& iteration = this->TakeIteration();
   BlockVisit visit = this->Blocks->Open(block);
+  visit.Idle = &idle;
   visits.Visit(visit, iteration);
   const EditCounts counts = visit.Share.Counts;
   this->Blocks->Close(std::move(visit));
@@ -131,7 +133,9 @@ void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
   else
   {
     this->Blocks->Schedule().Run(
-      this->Threads, [&](int block, std::size_t) { this->VisitBlock(block, visits); }, goOn);
+      this->Threads,
+      [&](int block, std::size_t, Executor& idle) { this->VisitBlock(block, visits, idle); },
+      goOn);
   }
   this->Visit.Block = 0;
   this->Visit.Iterations = 0.;

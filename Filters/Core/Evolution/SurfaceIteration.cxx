@@ -44,7 +44,7 @@ void SurfaceIteration::BeginVisit(BlockVisit& visit)
       crowded.push_back(v);
     }
   }
-  this->Near.Examine(s, this->Suspects);
+  this->Near.Examine(s, this->Suspects, *visit.Idle);
   this->Near.AddPairs(s, crowded);
   this->Watch.LabelSmall(s, visit.Vertices, visit.Written);
   this->Labelled = visit.Share.Counts;
@@ -205,7 +205,7 @@ void SurfaceIteration::RollBack()
     }
     SortUnique(examined);
     s.UpdateShape(examined, OnThisThread());
-    this->Recheck.Examine(s, examined);
+    this->Recheck.Examine(s, examined, OnThisThread());
     this->Recheck.Clear();
     intersections = &this->Recheck.Intersections();
   }
@@ -286,31 +286,33 @@ void SurfaceIteration::Run(
   HistoryRow& row, const Dynamics& dynamics, Remesher& remesher, Mode mode)
 {
   SurfaceState& s = this->State;
+  Executor& idle = *this->Visit->Idle;
   const bool evolves = mode == Mode::Evolve;
   Stopwatch watch(row, OnThisThread());
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
   if (evolves)
   {
-    dynamics.Accelerate(s, this->Active, this->Near.Pairs(), this->Step);
+    dynamics.Accelerate(s, this->Active, this->Near.Pairs(), this->Step, idle);
   }
   else
   {
-    dynamics.Relax(s, this->Active, this->Near.Pairs(), mode == Mode::Regularise, this->Step);
+    dynamics.Relax(
+      s, this->Active, this->Near.Pairs(), mode == Mode::Regularise, this->Step, idle);
   }
   row.TimeStep = this->Step.Time;
   watch.Lap(Phase::Forces);
 
   dynamics.Displace(s, this->Active, this->Step);
   this->CollectWorking();
-  s.UpdateShape(this->Working, OnThisThread());
+  s.UpdateShape(this->Working, idle);
   watch.Lap(Phase::Contact);
 
   this->SplitBeforeVerification(remesher);
   watch.Lap(Phase::Remeshing);
 
   this->CollectSuspects();
-  this->Near.Examine(s, this->Suspects);
+  this->Near.Examine(s, this->Suspects, idle);
   watch.Lap(Phase::Proximity);
   this->RollBack();
   if (evolves)

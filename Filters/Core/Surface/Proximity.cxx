@@ -21,7 +21,7 @@ constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
 /** Vertices that one thread examines at a time, as each may take long. */
-constexpr std::size_t ExaminedBlock = 256;
+constexpr std::size_t ExaminedBlock = 64;
 /** Room along the normals that needs no look for more along the line between the vertices. */
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
@@ -215,7 +215,7 @@ private:
 
 /** Adds the faces that intersect. @return the room that the rest has for certain. */
 float TestStars(const SurfaceState& state, const StarFaces& first, const StarFaces& second,
-  std::vector<Proximity::FacePair>& intersections, std::vector<int>& tight)
+  Proximity::Findings& found)
 {
   const int v = first.Centre;
   const FirstPair pair(state, v, second.Centre);
@@ -250,27 +250,51 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
       if (TrianglesIntersect(one, other, someRoom))
       {
         room = 0;
-        tight.insert(tight.end(), f.begin(), f.end());
-        tight.insert(tight.end(), g.begin(), g.end());
+        found.Tight.insert(found.Tight.end(), f.begin(), f.end());
+        found.Tight.insert(found.Tight.end(), g.begin(), g.end());
         if (TrianglesIntersect(one, other, state.Sizing.Contact(v)))
         {
-          intersections.push_back({ f, g });
+          found.Intersections.push_back({ f, g });
         }
       }
     }
   }
   return room;
 }
-}
 
-void Proximity::FindNear(const SurfaceState& state, const Vector& p, float radius, int v)
+/** Examines vertices; what it keeps meanwhile is a thread's own. */
+class Search
 {
+public:
+  Search(SurfaceState& state)
+    : State(state)
+  {
+  }
+
+  /** Calls visit(w, squared distance) for those within a radius whose cone of normals is opposed. */
+  template <typename Visitor>
+  void VisitOpposed(int v, float radius, const Visitor& visit);
+  /** Sets NearOthers and Slack of a vertex, but for faces without room: see Findings::Tight. */
+  void Examine(int v, Proximity::Findings& found);
+
+private:
+  /** Fills Near with the pairs of a vertex within a radius. */
+  void FindNear(int v, float radius);
+
+  SurfaceState& State;
+  std::vector<int> Visited; ///< Vertices in the cells about one.
+  std::vector<Proximity::ClosePair> Near;
+};
+
+void Search::FindNear(int v, float radius)
+{
+  const LargeVector<Vector>& place = this->State.Mesh.Position;
+  const Vector p = place[v];
   std::vector<int>& visited = this->Visited;
   visited.clear();
-  state.Grid.Visit(p, radius, [&](int w) { visited.push_back(w); });
+  this->State.Grid.Visit(p, radius, [&](int w) { visited.push_back(w); });
   visited.resize((visited.size() + Lanes::Count - 1) / Lanes::Count * Lanes::Count, v);
   this->Near.clear();
-  const LargeVector<Vector>& place = state.Mesh.Position;
   const VectorLanes from = AllLanes(p);
   const Lanes most(radius * radius);
   for (std::size_t i = 0; i < visited.size(); i += Lanes::Count)
@@ -293,46 +317,31 @@ void Proximity::FindNear(const SurfaceState& state, const Vector& p, float radiu
 }
 
 template <typename Visitor>
-void Proximity::VisitOpposed(
-  const SurfaceState& state, int v, float radius, const Visitor& visit)
+void Search::VisitOpposed(int v, float radius, const Visitor& visit)
 {
-  this->FindNear(state, state.Mesh.Position[v], radius, v);
+  this->FindNear(v, radius);
   for (std::size_t i = 0; i < this->Near.size(); i += Lanes::Count)
   {
     const auto cone = [&](std::size_t k) -> const NormalCone&
-    { return state.Normal[this->Near[std::min(k, this->Near.size() - 1)].W]; };
+    { return this->State.Normal[this->Near[std::min(k, this->Near.size() - 1)].W]; };
     unsigned opposed = OpposedBits(
-      state.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
+      this->State.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
     opposed &= (1u << std::min<std::size_t>(this->Near.size() - i, Lanes::Count)) - 1;
     for (; opposed != 0; opposed &= opposed - 1)
     {
-      const ClosePair& near = this->Near[i + LowestBit(opposed)];
+      const Proximity::ClosePair& near = this->Near[i + LowestBit(opposed)];
       visit(near.W, near.Squared);
     }
   }
 }
 
-void Proximity::AddPairs(const SurfaceState& state, const std::vector<int>& vertices)
+void Search::Examine(int v, Proximity::Findings& found)
 {
-  for (const int v : vertices)
-  {
-    this->VisitOpposed(state, v, PairReach * state.Sizing.At(v),
-      [&](int w, float squared)
-      {
-        if (!state.Mesh.AreNeighbours(v, w))
-        {
-          this->AllPairs.push_back({ v, w, squared });
-        }
-      });
-  }
-}
-
-void Proximity::ExamineVertex(SurfaceState& state, int v)
-{
+  SurfaceState& state = this->State;
   const SurfaceMesh& mesh = state.Mesh;
   const float delta = state.Sizing.At(v);
   const float reach = state.Sizing.Reach(v);
-  const float further = reach + (state.IsSlow[v] ? FurtherReachInDelta * delta : 0.f);
+  const float further = reach + (state.IsSlow[v] ? Proximity::FurtherReachInDelta * delta : 0.f);
   const float near = PairReach * delta;
   const float least = ReachSlack * delta;
   std::optional<StarFaces> own; // Few vertices need it, those that do need it often.
@@ -349,11 +358,9 @@ void Proximity::ExamineVertex(SurfaceState& state, int v)
   if (state.AreOpposed(v, v))
   {
     anything = true;
-    slack =
-      std::min(slack,
-        TestStars(state, star(), star(), this->AllIntersections, this->Tight));
+    slack = std::min(slack, TestStars(state, star(), star(), found));
   }
-  this->VisitOpposed(state, v, further,
+  this->VisitOpposed(v, further,
     [&](int w, float squared)
     {
       if (squared > reach * reach)
@@ -366,7 +373,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v)
       anything = true;
       if (squared < near * near && !mesh.AreNeighbours(v, w))
       {
-        this->AllPairs.push_back({ v, w, squared });
+        found.Pairs.push_back({ v, w, squared });
       }
       const StarFaces& first = star();
       const StarFaces second(mesh, w);
@@ -377,8 +384,7 @@ void Proximity::ExamineVertex(SurfaceState& state, int v)
       }
       else if (v < w || !(state.Marks[w] & IsListed))
       {
-        slack = std::min(
-          slack, TestStars(state, first, second, this->AllIntersections, this->Tight));
+        slack = std::min(slack, TestStars(state, first, second, found));
       }
       else
       {
@@ -388,8 +394,26 @@ void Proximity::ExamineVertex(SurfaceState& state, int v)
   state.NearOthers[v] = anything;
   state.Slack[v] = slack;
 }
+}
 
-void Proximity::Examine(SurfaceState& state, const std::vector<int>& vertices)
+void Proximity::AddPairs(SurfaceState& state, const std::vector<int>& vertices)
+{
+  Search search(state);
+  for (const int v : vertices)
+  {
+    search.VisitOpposed(v, PairReach * state.Sizing.At(v),
+      [&](int w, float squared)
+      {
+        if (!state.Mesh.AreNeighbours(v, w))
+        {
+          this->AllPairs.push_back({ v, w, squared });
+        }
+      });
+  }
+}
+
+void Proximity::Examine(
+  SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
   for (const int v : vertices)
   {
@@ -403,19 +427,40 @@ void Proximity::Examine(SurfaceState& state, const std::vector<int>& vertices)
                              !state.Mesh.IsAlive(pair.V) || !state.Mesh.IsAlive(pair.W);
                          }),
     this->AllPairs.end());
-  this->AllIntersections.clear();
-  this->Tight.clear();
-  for (const int v : vertices)
-  {
-    if (state.Mesh.IsAlive(v))
+  const std::size_t blocks = (vertices.size() + ExaminedBlock - 1) / ExaminedBlock;
+  this->OfBlocks.resize(std::max(this->OfBlocks.size(), blocks));
+  executor.For(blocks, 1,
+    [&](std::size_t begin, std::size_t end)
     {
-      this->ExamineVertex(state, v);
-    }
-  }
-  // A pair of faces is tested once, but all its corners must know that it has no room.
-  for (const int v : this->Tight)
+      Search search(state);
+      for (std::size_t block = begin; block < end; ++block)
+      {
+        Proximity::Findings& found = this->OfBlocks[block];
+        found.Pairs.clear();
+        found.Intersections.clear();
+        found.Tight.clear();
+        const std::size_t last = std::min(vertices.size(), (block + 1) * ExaminedBlock);
+        for (std::size_t i = block * ExaminedBlock; i < last; ++i)
+        {
+          if (state.Mesh.IsAlive(vertices[i]))
+          {
+            search.Examine(vertices[i], found);
+          }
+        }
+      }
+    });
+  this->AllIntersections.clear();
+  for (std::size_t block = 0; block < blocks; ++block)
   {
-    state.Slack[v] = 0;
+    const Proximity::Findings& found = this->OfBlocks[block];
+    this->AllPairs.insert(this->AllPairs.end(), found.Pairs.begin(), found.Pairs.end());
+    this->AllIntersections.insert(
+      this->AllIntersections.end(), found.Intersections.begin(), found.Intersections.end());
+    // A pair of faces is tested once, but all its corners must know that it has no room.
+    for (const int v : found.Tight)
+    {
+      state.Slack[v] = 0;
+    }
   }
   for (const int v : vertices)
   {
@@ -426,38 +471,8 @@ void Proximity::Examine(SurfaceState& state, const std::vector<int>& vertices)
 std::vector<Proximity::FacePair> Proximity::FindIntersections(
   SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
-  std::vector<Proximity> parts((vertices.size() + ExaminedBlock - 1) / ExaminedBlock);
-  const auto forAll = [&](auto&& work)
-  {
-    ForBlocks(executor, vertices.size(), ExaminedBlock,
-      [&](std::size_t block, std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          work(parts[block], vertices[i]);
-        }
-      });
-  };
-  forAll([&state](Proximity&, int v) { state.Marks[v] |= IsListed; });
-  forAll(
-    [&state](Proximity& part, int v)
-    {
-      if (state.Mesh.IsAlive(v))
-      {
-        part.ExamineVertex(state, v);
-        part.AllPairs.clear();
-      }
-    });
-  forAll([&state](Proximity&, int v) { state.Marks[v] &= static_cast<std::uint8_t>(~IsListed); });
-  std::vector<FacePair> found;
-  for (const Proximity& part : parts)
-  {
-    found.insert(found.end(), part.AllIntersections.begin(), part.AllIntersections.end());
-    for (const int v : part.Tight)
-    {
-      state.Slack[v] = 0;
-    }
-  }
-  return found;
+  Proximity all;
+  all.Examine(state, vertices, executor);
+  return all.AllIntersections;
 }
 }

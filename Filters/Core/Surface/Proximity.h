@@ -38,13 +38,20 @@ public:
     std::array<int, 3> First;
     std::array<int, 3> Second;
   };
+  /** What is found of some vertices that follow each other in the list. */
+  struct Findings
+  {
+    std::vector<ClosePair> Pairs;
+    std::vector<FacePair> Intersections;
+    std::vector<int> Tight; ///< Corners of faces without room.
+  };
 
   /**
    * Fills Pairs, Intersections, and NearOthers and Slack of the vertices in the list. Slack is the
    * room that their stars have: while neither of two stars has moved by half of its slack they
-   * can't intersect.
+   * can't intersect. Threads share the list; what is found does not depend on them.
    */
-  void Examine(SurfaceState& state, const std::vector<int>& vertices);
+  void Examine(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
   /**
    * Opposed pairs nearer than about lambda delta, grouped by V; a pair of two listed occurs twice.
@@ -52,30 +59,21 @@ public:
    */
   const std::vector<ClosePair>& Pairs() const { return this->AllPairs; }
   /** Finds the pairs alone, of vertices whose stars need no new look. */
-  void AddPairs(const SurfaceState& state, const std::vector<int>& vertices);
+  void AddPairs(SurfaceState& state, const std::vector<int>& vertices);
   /** Forgets the pairs. */
   void Clear() { this->AllPairs.clear(); }
 
   /** Pairs of faces that intersect. */
   const std::vector<FacePair>& Intersections() const { return this->AllIntersections; }
 
-  /** Those about the vertices of a list alone, on all threads; some may be named more than once. */
+  /** Those about the vertices of a list alone. */
   static std::vector<FacePair> FindIntersections(
     SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
 private:
-  /** Fills Near with the pairs of a vertex within a radius. */
-  void FindNear(const SurfaceState& state, const Vector& p, float radius, int v);
-  /** Calls visit(w, squared distance) for those within a radius whose cone of normals is opposed. */
-  template <typename Visitor>
-  void VisitOpposed(const SurfaceState& state, int v, float radius, const Visitor& visit);
-  void ExamineVertex(SurfaceState& state, int v);
-
   std::vector<ClosePair> AllPairs;
   std::vector<FacePair> AllIntersections;
-  std::vector<int> Tight;   ///< Corners of faces without room.
-  std::vector<int> Visited; ///< Vertices in the cells about one.
-  std::vector<ClosePair> Near;
+  std::vector<Findings> OfBlocks; ///< Of the last list; kept for their memory.
 };
 }
 

@@ -28,6 +28,7 @@ struct BlockVisit
   Box Moving;                ///< Vertices that lie in it may move; EditShare::Region is for edits.
   Box Written;               ///< Beyond it nothing is changed.
   EditShare Share;
+  Executor* Idle = &OnThisThread(); ///< Threads that may share in what only reads the mesh.
 
   std::ptrdiff_t OldOnes = 0; ///< Of the vertices, those that there were when it was opened.
   int PlacesBefore = 0;       ///< As many as the share had then.

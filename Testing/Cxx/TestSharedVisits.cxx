@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Visits in which threads share that find no visit to make.
+#include "Core/Common/StandardThreads.h"
+#include "Core/Common/VisitSchedule.h"
+#include "WorkModel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+using namespace volumic;
+using bench::ScheduledSeconds;
+using bench::ThreadOverhead;
+using bench::VisitStep;
+
+namespace
+{
+constexpr std::chrono::seconds Patience(20);
+
+bool Always(std::size_t)
+{
+  return true;
+}
+
+/** Items in a row, each of which touches the one before it, so that one thread visits at a time. */
+VisitSchedule ChainOf(int n)
+{
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  return VisitSchedule(order,
+    [n](int item)
+    {
+      std::vector<int> touched;
+      if (item > 0)
+      {
+        touched.push_back(item - 1);
+      }
+      if (item + 1 < n)
+      {
+        touched.push_back(item + 1);
+      }
+      return touched;
+    });
+}
+
+using Visits = std::vector<std::vector<VisitStep>>;
+}
+
+TEST(SharedVisits, ThreadsWithoutAVisitTakePartsOfOthers)
+{
+  StandardThreads threads(3);
+  std::set<std::thread::id> parts;
+  std::mutex mutex;
+  const auto start = std::chrono::steady_clock::now();
+  ChainOf(1).Run(threads,
+    [&](int, std::size_t, Executor& idle)
+    {
+      // Until others have come: before, it makes all parts itself.
+      while (parts.size() < 2 && std::chrono::steady_clock::now() - start < Patience)
+      {
+        idle.For(12, 1,
+          [&](std::size_t, std::size_t)
+          {
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+            const std::lock_guard<std::mutex> lock(mutex);
+            parts.insert(std::this_thread::get_id());
+          });
+      }
+    },
+    Always);
+  EXPECT_GE(parts.size(), 2u);
+}
+
+TEST(SharedVisits, EachPartIsMadeOnceAndBeforeTheVisitGoesOn)
+{
+  constexpr int visits = 30;
+  constexpr std::size_t n = 1000;
+  for (const int count : { 1, 2, 5 })
+  {
+    StandardThreads threads(count);
+    std::vector<std::vector<int>> made(visits, std::vector<int>(n, 0));
+    std::atomic<int> wrong{ 0 };
+    // Two chains, so that more than one visit shares at a time.
+    std::vector<int> order(visits);
+    std::iota(order.begin(), order.end(), 0);
+    const VisitSchedule schedule(order,
+      [](int item)
+      {
+        std::vector<int> touched;
+        if (item > 1)
+        {
+          touched.push_back(item - 2);
+        }
+        if (item + 2 < visits)
+        {
+          touched.push_back(item + 2);
+        }
+        return touched;
+      });
+    EXPECT_TRUE(schedule.Run(threads,
+      [&](int item, std::size_t, Executor& idle)
+      {
+        std::vector<int>& own = made[item];
+        for (int round = 1; round <= 3; ++round)
+        {
+          idle.For(n, 10,
+            [&own](std::size_t begin, std::size_t end)
+            {
+              std::this_thread::sleep_for(std::chrono::microseconds(50));
+              for (std::size_t i = begin; i < end; ++i)
+              {
+                ++own[i];
+              }
+            });
+          wrong += std::count(own.begin(), own.end(), round) != static_cast<std::ptrdiff_t>(n);
+        }
+      },
+      Always));
+    EXPECT_EQ(wrong, 0) << count << " threads";
+  }
+}
+
+TEST(SharedVisits, WhatIsSmallStaysWithTheVisit)
+{
+  StandardThreads threads(4);
+  std::atomic<int> others{ 0 };
+  ChainOf(1).Run(threads,
+    [&](int, std::size_t, Executor& idle)
+    {
+      const std::thread::id own = std::this_thread::get_id();
+      for (int time = 0; time < 200; ++time)
+      {
+        idle.For(64, 64,
+          [&](std::size_t begin, std::size_t end)
+          { others += std::this_thread::get_id() != own || begin != 0 || end != 64; });
+        idle.For(0, 64, [&](std::size_t, std::size_t) { ++others; });
+        std::this_thread::sleep_for(std::chrono::microseconds(20));
+      }
+    },
+    Always);
+  EXPECT_EQ(others, 0);
+}
+
+TEST(SharedVisits, WhatAPartThrowsLeavesTheVisit)
+{
+  for (const int count : { 1, 3 })
+  {
+    StandardThreads threads(count);
+    int caught = 0;
+    std::atomic<int> underWay{ 0 };
+    EXPECT_THROW(ChainOf(5).Run(threads,
+                   [&](int item, std::size_t, Executor& idle)
+                   {
+                     try
+                     {
+                       idle.For(40, 1,
+                         [&](std::size_t begin, std::size_t)
+                         {
+                           ++underWay;
+                           std::this_thread::sleep_for(std::chrono::microseconds(300));
+                           --underWay;
+                           if (item == 2 && begin <= 20)
+                           {
+                             throw std::runtime_error("part");
+                           }
+                         });
+                     }
+                     catch (const std::runtime_error&)
+                     {
+                       EXPECT_EQ(item, 2);
+                       EXPECT_EQ(underWay, 0) << "thrown before other parts were finished";
+                       ++caught;
+                       throw;
+                     }
+                   },
+                   Always),
+      std::runtime_error);
+    EXPECT_EQ(caught, 1) << count << " threads";
+  }
+}
+
+TEST(SharedVisits, AreModelledWithTheThreadsThatAreFree)
+{
+  const VisitSchedule one = ChainOf(1);
+  const Visits shared = { { { 1., { 2., 2., 2., 2. } }, { 3., {} } } };
+  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 1), 12.);
+  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 2), 8.);
+  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 3), 8.) << "four parts for three";
+  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 64), 6.);
+  // Two of a chain never share with each other.
+  const VisitSchedule two = ChainOf(2);
+  EXPECT_DOUBLE_EQ(ScheduledSeconds(two, { shared[0], shared[0] }, 2), 16.);
+  // Where all threads have visits nobody is free to share.
+  const VisitSchedule apart({ 0, 1 }, [](int) { return std::vector<int>(); });
+  EXPECT_DOUBLE_EQ(ScheduledSeconds(apart, { shared[0], shared[0] }, 2), 12.);
+  // A call is told to others at a price, a part costs something everywhere.
+  ThreadOverhead overhead;
+  overhead.SecondsOfCall = 0.25;
+  overhead.SecondsOfChunk = 0.5;
+  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, { { { 1., { 2., 2. } } } }, 2, overhead), 1.5 + 2.75);
+}
