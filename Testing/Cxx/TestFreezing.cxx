@@ -57,10 +57,10 @@ protected:
 };
 }
 
-TEST_F(Freezing, TakesFiveIterationsOfRest)
+TEST_F(Freezing, TakesThreeIterationsOfRest)
 {
   this->Actors.State.Velocity[7] = Vector(0.1f, 0, 0);
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 2; ++i)
   {
     this->Iterate();
     EXPECT_EQ(this->CountActive(), static_cast<int>(this->Actors.All.size())) << i;
@@ -95,7 +95,7 @@ TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursActive)
 
 TEST_F(Freezing, MotionActivatesMotionlessNeighbours)
 {
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 3; ++i)
   {
     this->Iterate();
   }
@@ -104,7 +104,7 @@ TEST_F(Freezing, MotionActivatesMotionlessNeighbours)
   this->Iterate(this->Actors.OutwardAt(Mover) * 0.05f);
   EXPECT_TRUE(this->IsActive(this->Neighbour));
   EXPECT_EQ(this->CountActive(), 1 + this->Actors.State.Mesh.Rings[Mover].Count);
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 2; ++i)
   {
     this->Iterate();
     EXPECT_TRUE(this->IsActive(this->Neighbour)) << "its patience starts afresh";
@@ -124,7 +124,7 @@ TEST_F(Freezing, SlowMotionIsMotion)
 TEST_F(Freezing, OneMotionDoesNotKeepAVertexActiveForEver)
 {
   this->Iterate(this->Actors.OutwardAt(Mover) * 0.2f);
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 3; ++i)
   {
     EXPECT_TRUE(this->IsActive(Mover));
     this->Iterate();

@@ -176,6 +176,7 @@ TEST(History, ALevelRestsAsSoonAsItsVolumeDoes)
   {
     SurfaceOptions options = IsoHalf();
     options.ConvergenceTolerance = tolerance;
+    options.FreezeMotionlessVertices = false; // Else it ends when none is active any more.
     std::vector<double> volumes;
     const SurfaceEvolution* watched = nullptr;
     Observer observer([&](const Monitor::Status&)

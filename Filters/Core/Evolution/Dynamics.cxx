@@ -17,7 +17,7 @@ constexpr float VisibleAlongNormal = 0.03f;
 /** The same in any direction: sliding along the surface changes nothing, and is left to the end. */
 constexpr float Visible = 0.3f;
 /** Iterations without visible motion after which a vertex is motionless. */
-constexpr int RestingIterations = 5;
+constexpr int RestingIterations = 3;
 
 /** Longest way of a vertex in a pass of the regularisation, in delta. */
 constexpr float LongestRelaxation = 0.15f;
