@@ -7,7 +7,6 @@ set(volumic_reader_sources
   BinaryFile.cxx
   Bunzip.cxx
   ByteBudget.cxx
-  CheckInputs.cxx
   CheckNetcdf.cxx
   CheckNifti.cxx
   CheckPictures.cxx
@@ -16,7 +15,6 @@ set(volumic_reader_sources
   DicomHeader.cxx
   Inflate.cxx
   InputFiles.cxx
-  JsonReader.cxx
   LabelJson.cxx
   LabelNames.cxx
   LabelTable.cxx
@@ -38,6 +36,7 @@ set(volumic_reader_sources
   VolumeImage.cxx
   VtkMessages.cxx
   VtkReaders.cxx)
+find_package(nlohmann_json REQUIRED) # headers, in Debian's nlohmann-json3-dev
 list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
@@ -50,12 +49,12 @@ set(volumic_writer_sources
   GltfDescription.cxx
   GltfScene.cxx
   JsonWriter.cxx
-  LabelColors.cxx
   OutputFiles.cxx
   ProgressLine.cxx
   Ranks.cxx
   RunWriter.cxx
   StreamedWriters.cxx
+  SurfaceFields.cxx
   SurfacePieces.cxx
   WriteResults.cxx)
 list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

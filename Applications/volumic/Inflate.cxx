@@ -57,13 +57,13 @@ bool IsMember(const z_stream& stream)
 }
 }
 
-UnpackedSink To(char* place, std::uint64_t before)
+UnpackedSink Without(std::uint64_t before, const UnpackedSink& sink)
 {
-  return [place, before](const char* bytes, std::size_t count) mutable
+  return [sink, before](const char* bytes, std::size_t count) mutable
   {
     const std::size_t skipped = static_cast<std::size_t>(std::min<std::uint64_t>(before, count));
     before -= skipped;
-    place = std::copy_n(bytes + skipped, count - skipped, place);
+    sink(bytes + skipped, count - skipped);
   };
 }
 

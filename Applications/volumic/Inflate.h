@@ -17,8 +17,8 @@ using UnpackedSink = std::function<void(const char* bytes, std::size_t count)>;
 /** Lets them go: only the checksum is wanted. */
 inline const UnpackedSink Nowhere = [](const char*, std::size_t) {};
 
-/** Puts them to a place, without those that come before. */
-UnpackedSink To(char* place, std::uint64_t before = 0);
+/** Hands them on without so many at the begin. */
+UnpackedSink Without(std::uint64_t before, const UnpackedSink& sink);
 
 /**
  * Unpack zlib or gzip data to their end, which alone tells whether they are what was packed: the

@@ -4,7 +4,7 @@
 
 #include "GltfScene.h"
 #include "InputFiles.h"
-#include "LabelColors.h"
+#include "SurfaceFields.h"
 #include "LabelNames.h"
 #include "OutputChecks.h"
 #include "Texts.h"

@@ -3,7 +3,7 @@
 #include "Report.h"
 
 #include "JsonWriter.h"
-#include "LabelColors.h"
+#include "SurfaceFields.h"
 #include "ParseNumbers.h"
 
 #include <vtkDataArray.h>

@@ -4,7 +4,7 @@
 
 #include "Announcer.h"
 #include "GatherSurface.h"
-#include "LabelColors.h"
+#include "SurfaceFields.h"
 #include "LabelMap.h"
 #include "LoadVolume.h"
 #include "ParseNumbers.h"

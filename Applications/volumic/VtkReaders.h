@@ -31,6 +31,9 @@ vtkSmartPointer<vtkImageData> ReadWith(const std::string& name)
   return ImageOf(reader, name);
 }
 
+/** The one of VTK's readers of images that takes the file for its own. @throws Failure for none. */
+vtkSmartPointer<vtkImageReader2> ReaderOf(const std::string& name);
+
 /** A reader for the file. @throws Failure if it is of another format. */
 template <class Reader>
 vtkSmartPointer<Reader> NewReader(const std::string& name)

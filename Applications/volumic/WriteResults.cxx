@@ -6,7 +6,7 @@
 #include "CheckWritten.h"
 #include "FileGrowth.h"
 #include "GltfScene.h"
-#include "LabelColors.h"
+#include "SurfaceFields.h"
 #include "OutputFiles.h"
 #include "Ranks.h"
 #include "RunWriter.h"

@@ -164,8 +164,9 @@ class VolumesTest(ToolTestCase):
         self.check(file)
         told = self.run_tool(file, self.path("a.stl"), "--iso", ISO).stderr
         self.assertIn("magnitude of 2 components (--component)", told)
-        self.refused("--component is 2, but array 'vectors' has 2 components", file,
-                     self.path("b.stl"), "--component", "2", "--iso", ISO)
+        told = self.run_tool(file, self.path("b.stl"), "--component", "2", "--iso", ISO, status=1)
+        self.assertIn("--component is 2, but array 'vectors' has 2 components", told.stderr)
+        self.assertIn("component 2 of 2 components (--component)\n", told.stderr)  # and no range
 
     def test_nan_voxels_are_told_or_refused(self):
         voxels = ball("f4")
