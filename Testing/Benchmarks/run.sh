@@ -196,11 +196,13 @@ measure_all_labels()
 
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
 if [ -n "$with_pyramid" ]; then
-  "$build/vtk/bin/BenchmarkImagePyramid" --volume "$results/skull.vti" \
-    --repetitions "${repetitions:-15}" --benchmark_out="$results/pyramid-skull.json"
+  pyramid=(python3 "$folder/benchmark_pyramid.py"
+    --program "$build/vtk/bin/BenchmarkImagePyramid")
+  "${pyramid[@]}" --volume "$results/skull.vti" --repetitions "${repetitions:-15}" \
+    --json "$results/pyramid-skull.json"
   if [ "$generated_size" -gt 0 ]; then
-    "$build/vtk/bin/BenchmarkImagePyramid" --generate "$generated_size" \
-      --repetitions "${repetitions:-5}" --benchmark_out="$results/pyramid-generated.json"
+    "${pyramid[@]}" --generate "$generated_size" --repetitions "${repetitions:-5}" \
+      --json "$results/pyramid-generated.json"
   fi
 fi
 if [ -n "$with_surface" ]; then
