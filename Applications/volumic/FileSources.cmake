@@ -55,6 +55,7 @@ set(volumic_writer_sources
   RunWriter.cxx
   StreamedWriters.cxx
   SurfaceFields.cxx
+  SurfaceFormats.cxx
   SurfacePieces.cxx
   WriteResults.cxx)
 list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

@@ -9,7 +9,6 @@ import base64
 import gzip
 import importlib.util
 import io
-import os
 import re
 import resource
 import signal

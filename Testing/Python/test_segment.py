@@ -3,9 +3,7 @@
 """Examples/Python/segment.py: what it writes, its bar, its errors and exit codes."""
 
 import os
-import pty
 import re
-import signal
 import subprocess
 import sys
 import tempfile
@@ -19,6 +17,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from examples_path import EXAMPLES
+from folder_test_case import run_on_terminal
 from sample_volumes import (
     RING_ISO, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
 
@@ -189,27 +188,10 @@ class RefusedTest(SegmentTest):
 
 
 class TerminalTest(SegmentTest):
-    def run_on_terminal(self, volume, output, interrupt_at=None):
-        """All that a terminal shows, and the exit code; Ctrl-C when the text has come."""
-        leader, follower = pty.openpty()
-        arguments = [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume,
-                     self.path(output), "--iso", str(RING_ISO)]
-        with subprocess.Popen(arguments, stdout=follower, stderr=follower) as process:
-            os.close(follower)
-            shown = ""
-            while True:
-                try:
-                    piece = os.read(leader, 4096)
-                except OSError:  # Linux's way to say that the other end is closed
-                    piece = b""
-                if not piece:
-                    break
-                shown += piece.decode()
-                if interrupt_at and re.search(interrupt_at, shown):
-                    process.send_signal(signal.SIGINT)
-                    interrupt_at = None
-            os.close(leader)
-        return shown, process.returncode
+    def segment_on_terminal(self, volume, output, interrupt_at=None):
+        return run_on_terminal(
+            [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume, self.path(output),
+             "--iso", str(RING_ISO)], interrupt_at)
 
     def slow_volume(self):
         """Large enough to take a second, so that there is time to stop it."""
@@ -217,13 +199,13 @@ class TerminalTest(SegmentTest):
         return write_volume(self.path("slow.mha"), large)
 
     def test_a_bar_grows_and_is_replaced_by_the_time(self):
-        shown, code = self.run_on_terminal(self.ring, "a.stl")
+        shown, code = self.segment_on_terminal(self.ring, "a.stl")
         self.assertEqual(code, 0, shown)
         self.assertRegex(shown, r"\rEvolving the surface \[#*\.*\] +\d+ % .*")
         self.assertRegex(shown, r"\rEvolving the surface: \d+\.\d\d s")
 
     def test_control_c_hands_over_a_closed_surface(self):
-        shown, code = self.run_on_terminal(self.slow_volume(), "b.vtp", r"Level \d, iteration")
+        shown, code = self.segment_on_terminal(self.slow_volume(), "b.vtp", r"Level \d, iteration")
         self.assertEqual(code, 3, shown)
         self.assertIn("interrupted", shown)
         self.assertIn("(not finished)", shown)
