@@ -5,9 +5,9 @@
 #include "BinaryFile.h"
 #include "ByteBudget.h"
 #include "CheckInputs.h"
-#include "Inflate.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "Unpack.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 # LabelNames.h), with absolute paths. The program has them, and the reader of the ParaView plugin.
 set(volumic_reader_sources
   BinaryFile.cxx
-  Bunzip.cxx
   ByteBudget.cxx
   CheckNetcdf.cxx
   CheckNifti.cxx
@@ -13,7 +12,6 @@ set(volumic_reader_sources
   CheckTiff.cxx
   CheckXmlInput.cxx
   DicomHeader.cxx
-  Inflate.cxx
   InputFiles.cxx
   LabelJson.cxx
   LabelNames.cxx
@@ -33,6 +31,7 @@ set(volumic_reader_sources
   SlabSource.cxx
   TarFile.cxx
   Texts.cxx
+  Unpack.cxx
   VolumeImage.cxx
   VtkMessages.cxx
   VtkReaders.cxx)

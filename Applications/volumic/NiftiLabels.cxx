@@ -6,9 +6,9 @@
 //   <Label Key="1" Red="1" Green="0" Blue="0.5" Alpha="1"><![CDATA[spleen]]></Label>
 #include "BinaryFile.h"
 #include "ByteBudget.h"
-#include "Inflate.h"
 #include "LabelNames.h"
 #include "ParseNumbers.h"
+#include "Unpack.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "RawSlabs.h"
 
 #include "BinaryFile.h"
-#include "Bunzip.h"
 #include "ByteBudget.h"
 #include "ParseNumbers.h"
 #include "ToolErrors.h"

@@ -3,8 +3,8 @@
 #ifndef volumicRawSlabs_h
 #define volumicRawSlabs_h
 
-#include "Inflate.h"
 #include "SlabReader.h"
+#include "Unpack.h"
 
 #include <cstdint>
 #include <fstream>

@@ -100,19 +100,16 @@ void CheckPixels(const DicomHeader& header)
 /** The header of a slice, or of something that is no image at all. */
 DicomHeader ReadHeader(const std::string& file)
 {
-  try
-  {
-    const DicomHeader header = ReadDicomHeader(file);
-    if (!header.IsOtherThanImage())
+  return Named(file,
+    [&file]
     {
-      CheckPixels(header);
-    }
-    return header;
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(file + ": " + failure.what());
-  }
+      const DicomHeader header = ReadDicomHeader(file);
+      if (!header.IsOtherThanImage())
+      {
+        CheckPixels(header);
+      }
+      return header;
+    });
 }
 
 /** @throws Failure with a list of the series unless there is one. `files` have these headers. */

@@ -3,11 +3,11 @@
 #include "SlabReader.h"
 
 #include "CheckInputs.h"
-#include "Inflate.h"
 #include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "Unpack.h"
 #include "VolumeImage.h"
 #include "VtkReaders.h"
 

@@ -123,20 +123,6 @@ vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
   return reader->GetOutput();
 }
 
-/** What the check throws names the file. */
-template <class Check>
-void NameFailure(const std::string& file, const Check& check)
-{
-  try
-  {
-    check();
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(file + ": " + failure.what());
-  }
-}
-
 /** @throws Failure unless they are pictures of one kind and size. */
 void CheckPictures(const std::vector<std::string>& files)
 {
@@ -157,7 +143,7 @@ void CheckPictures(const std::vector<std::string>& files)
   std::array<int, 4> size = { 0, 0, 0, 0 };
   for (const std::string& file : files)
   {
-    NameFailure(file,
+    Named(file,
       [&]
       {
         if (const int pages = CheckPicture(file); pages > 1)
@@ -166,7 +152,7 @@ void CheckPictures(const std::vector<std::string>& files)
         }
       });
     const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
-    NameFailure(file, [&] { CheckChosen(reader, file); });
+    Named(file, [&] { CheckChosen(reader, file); });
     VtkMessages messages;
     messages.ListenTo(reader);
     reader->UpdateInformation();

@@ -25,6 +25,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <new>
 #include <vector>
@@ -288,6 +289,11 @@ void WriteTable(vtkTable* table, const std::string& name)
 
 void WriteText(const std::string& text, const std::string& name)
 {
+  if (name == "-")
+  {
+    std::cout << text;
+    return;
+  }
   WriteBeside(name, [&](const std::string& path) { WriteBytes(path, text.data(), text.size()); });
 }
 }
