@@ -4,9 +4,9 @@
 
 #include "GltfScene.h"
 #include "InputFiles.h"
-#include "SurfaceFields.h"
 #include "LabelNames.h"
 #include "OutputChecks.h"
+#include "SurfaceFields.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"

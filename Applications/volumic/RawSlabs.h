@@ -52,10 +52,10 @@ public:
 
   std::vector<std::string> Files;
   Packing Code = Packing::None;
-  std::uint64_t Start = 0;  ///< bytes before the values in each file, or before what is packed
-  std::uint64_t Before = 0; ///< bytes that what is packed begins with, before the values
+  std::uint64_t Start = 0;  ///< Each file has so many bytes before its values, packed or not.
+  std::uint64_t Before = 0; ///< What is packed begins with so many bytes before the values.
   bool AreLast = false;     ///< The values are the last bytes of a file, whatever is before.
-  bool IsBig = false;       ///< the most significant byte first
+  bool IsBig = false;       ///< The most significant byte of a value comes first.
 
   /**
    * To call when all this is known. Packed values, of which parts will be wanted, are unpacked.
@@ -75,7 +75,7 @@ private:
   void Unpack(const UnpackedSink& sink) const;
   void ReadBytes(std::uint64_t first, std::uint64_t count, char* values) const;
 
-  std::unique_ptr<NamelessFile> Unpacked; ///< which the only one of Files is, or null
+  std::unique_ptr<NamelessFile> Unpacked; ///< If it is there, it is the only one of Files.
 };
 }
 

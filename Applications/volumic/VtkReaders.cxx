@@ -18,11 +18,10 @@
 
 namespace tool
 {
-vtkSmartPointer<vtkImageData> ImageOf(
-  vtkAlgorithm* reader, const std::string& name, bool hasTrustedWarnings)
+vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name)
 {
   VtkMessages messages;
-  messages.UpdateReader(reader, name, hasTrustedWarnings);
+  messages.UpdateReader(reader, name);
   auto* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!image)
   {

@@ -20,8 +20,7 @@ class vtkMatrix4x4;
 namespace tool
 {
 /** The image that a reader of VTK gives. @throws Failure if it, or one within it, complains. */
-vtkSmartPointer<vtkImageData> ImageOf(
-  vtkAlgorithm* reader, const std::string& name, bool hasTrustedWarnings = true);
+vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name);
 
 template <class Reader>
 vtkSmartPointer<vtkImageData> ReadWith(const std::string& name)
