@@ -78,14 +78,10 @@ class FormatsTest(SegmentTest):
         self.assertEqual(2 * surface.GetNumberOfPoints(), surface.GetNumberOfPolys())
         return run, surface
 
-    def test_stl(self):
-        self.check_format("stl")
-
-    def test_ply(self):
-        self.check_format("ply")
-
-    def test_obj(self):
-        self.check_format("obj")
+    def test_formats_of_meshes(self):
+        for suffix in ("stl", "ply", "obj"):
+            with self.subTest(suffix):
+                self.check_format(suffix)
 
     def test_vtp_holds_all_that_the_filter_tells(self):
         run, surface = self.check_format("vtp")
@@ -144,35 +140,24 @@ class RefusedTest(SegmentTest):
         self.assertRegex(run.stderr, reason)
         self.assertNotIn("Traceback", run.stderr)
 
-    def test_missing_volume(self):
-        self.refused("no such file", self.path("none.mha"), self.path("a.stl"))
-
-    def test_unknown_format_is_told_before_reading(self):
-        self.refused(r"\.stl, \.ply", self.path("none.mha"), self.path("a.dwg"))
-
-    def test_missing_folder_is_told_before_reading(self):
-        self.refused("no such folder", self.path("none.mha"), self.path("none/a.stl"))
-
-    def test_file_that_cannot_be_written(self):
+    def test_what_is_refused(self):
         os.mkdir(self.path("folder.stl"))
-        self.refused("cannot be written", self.ring, self.path("folder.stl"))
-
-    def test_unknown_property(self):
-        self.refused("no property Isovalue; it has .*IsoValue", self.ring, self.path("a.stl"),
-                     "--set", "Isovalue=3")
-
-    def test_property_of_another_kind(self):
-        self.refused("a whole number, not '0.5'", self.ring, self.path("a.stl"), "--set",
-                     "FinestLevel=0.5")
-        self.refused("on or off, not 'maybe'", self.ring, self.path("a.stl"), "--set",
-                     "SnapToIsoValue=maybe")
-        self.refused("NAME=VALUE", self.ring, self.path("a.stl"), "--set", "FinestLevel")
-
-    def test_what_the_filter_refuses(self):
-        self.refused("1e\\+?06|1000000", self.ring, self.path("a.stl"), "--iso", "1e6")
-        self.assertFalse(os.path.exists(self.path("a.stl")))
-
-    def test_wrong_command_line(self):
+        none, output = self.path("none.mha"), self.path("a.stl")
+        for reason, *arguments in (
+                ("no such file", none, output),
+                # These are told before the volume is read.
+                (r"\.stl, \.ply", none, self.path("a.dwg")),
+                ("no such folder", none, self.path("none/a.stl")),
+                ("cannot be written", self.ring, self.path("folder.stl")),
+                ("no property Isovalue; it has .*IsoValue", self.ring, output, "--set",
+                 "Isovalue=3"),
+                ("a whole number, not '0.5'", self.ring, output, "--set", "FinestLevel=0.5"),
+                ("on or off, not 'maybe'", self.ring, output, "--set", "SnapToIsoValue=maybe"),
+                ("NAME=VALUE", self.ring, output, "--set", "FinestLevel"),
+                ("1e\\+?06|1000000", self.ring, output, "--iso", "1e6")):
+            with self.subTest(reason):
+                self.refused(reason, *arguments)
+        self.assertFalse(os.path.exists(output))
         self.refused("usage", self.ring, code=2)
 
     def test_package_that_is_not_there(self):
