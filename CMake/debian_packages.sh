@@ -9,8 +9,9 @@
 # build/ (prepare_paraview, prepare_vtk). And names of packages tell versions: what can be derived
 # from another package's dependencies, is, so that a new release needs no change here.
 
-# libbz2-dev: for NRRD files that are packed so.
-tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libbz2-dev)
+# libbz2-dev: for NRRD files that are packed so. nlohmann-json3-dev: for names of labels in JSON.
+tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libbz2-dev
+  nlohmann-json3-dev)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
 # mpi-default-bin: mpirun, without which the tests of several ranks are skipped.
 test_packages=(dpkg-dev file locales libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth

@@ -49,67 +49,50 @@
  *   block per snapshot in the order in which they were taken, named `Level 3, iteration 20` (of
  *   that level).
  *
+ * Arrays, field data and columns are listed here; Documentation/reference.md of the sources tells all
+ * of them in full, and has what only Profile gives.
+ *
  * Point arrays of each surface:
- * - `Normals` (float, active)
+ * - `Normals` (float, 3, active)
  * - `Residual` (float): the field minus IsoValue at the vertex
  * - `Motionless` (unsigned char): 1 for vertices at rest
- * - `Contact` (unsigned char): 1 where walls or gaps are thinner than the triangles can hold, see
- *   FinestLevel: another part of the surface, at least four edges away along it, keeps the vertex
- *   more than 0.1 Delta away from the isopotential, or is nearer than 2.5/sqrt(3) Delta
+ * - `Contact` (unsigned char): 1 where walls or gaps are thinner than the triangles can hold
  *
  * Cell arrays:
  * - `Component` (int): 0 has the largest area
- * - `ComponentArea`, `ComponentVolume` (float), `ComponentGenus` (int): of the component that the
- *   triangle belongs to, so that filters of cells can choose components
+ * - `ComponentArea`, `ComponentVolume` (float), `ComponentGenus` (int): of the triangle's component
  *
  * Field data:
- * - `Level`, `Iterations` (int, at this level), `Delta`, `Unit` (double, world units)
- * - `NumberOfComponents`, `EulerCharacteristic`, `Genus` (int, the sum over the components)
- * - `Area`, `Volume` (double)
- * - `StopReason` (string): `converged`; `limit cycle`: it gets nowhere though it does not rest, as
- *   where it merges and cuts in turn, and is finished like one that rests; `iteration limit`;
- *   `cancelled`; `time limit`; `vanished`
+ * - `Level`, `Iterations` (int): the level, and the iterations made there
+ * - `Delta`, `Unit` (double): the smallest length of an edge, and U of the level
+ * - `NumberOfComponents`, `EulerCharacteristic`, `Genus` (int): of the whole surface
+ * - `Area`, `Volume` (double): of the whole surface
+ * - `StopReason` (string): `converged`; `limit cycle`, which is finished like one that rests;
+ *   `iteration limit`; `cancelled`; `time limit`; `vanished`
  * - `ContactVertices` (int): those with `Contact`
- * - `RemainingContacts` (int): pairs of vertices nearer than 2.5/sqrt(3) Delta and at least four
- *   edges apart
+ * - `RemainingContacts` (int): pairs of vertices that are too near to each other
  * - `ResidualQuantile` (double): 98 % of the vertices have a `Residual` of at most this size
- * - `LostParts`, `RecoveredParts`, `MissingParts`, `LostCavities`, `RecoveredCavities` (int): see
- *   Recovery
- * - `MissingBoundary` (double, 0 to 1): the share of the object's boundary that belongs to parts
- *   found by Recovery, which counts them also where it is off, and lies farther than two units from
- *   any vertex of the surface at rest; smaller parts than MinimumPartSize don't count
- * - with an entry per component: `ComponentArea`, `ComponentVolume` (negative for a cavity),
- *   `ComponentGenus`, `ComponentCentroid` (3) and `ComponentInertia` (6: xx yy zz xy yz xz, of the
- *   enclosed solid of density 1 about its centroid)
- * - of a snapshot, in the place of `StopReason`: `Iteration` (int), the number of the last row that
- *   the history had then
+ * - `LostParts`, `RecoveredParts`, `LostCavities`, `RecoveredCavities` (int): see Recovery
+ * - `MissingParts` (int), `MissingBoundary` (double, 0 to 1): what Recovery found and is not there
+ * - `ComponentArea`, `ComponentVolume` (double), `ComponentGenus` (int): an entry per component
+ * - `ComponentCentroid` (3), `ComponentInertia` (6, double): of the solid that a component encloses
+ * - `Iteration` (int): of a snapshot, in the place of `StopReason`: the history's last row by then
  *
- * Columns of the history:
- * - `Iteration` (over all levels, from 1), `Level`
- * - `Vertices`, `EulerCharacteristic`, `Components`, `MeanEdgeLength` (world units; with Metric
- *   Voxels as if voxels were cubes of the smallest voxel distance of level 0): in the last row of a
- *   level those of its surface, as regularised, by `RegularisationCuts` and
- *   `RegularisationDeletions`
- * - `IterationVertices`, `IterationEulerCharacteristic`, `IterationComponents`,
- *   `IterationMeanEdgeLength`: what the iteration had left; in other rows the same
- * - `KineticEnergy`: mean over the vertices, along the normals, per unit of mass, in smallest voxel
- *   distances of level 0 and units of the simulated time, squared
+ * Columns of the history, of which a row adds up what all blocks did in the same iteration:
+ * - `Iteration`: over all levels, from 1
+ * - `Level`: that of the iteration
+ * - `Vertices`, `Components`, `EulerCharacteristic`, `MeanEdgeLength`: of the surface after it
+ * - `IterationVertices`, `IterationComponents`, `IterationEulerCharacteristic`,
+ *   `IterationMeanEdgeLength`: the same, but in the last row of a level before its regularisation
+ * - `RegularisationCuts`, `RegularisationDeletions`: what the regularisation changed of them
+ * - `KineticEnergy`: the mean over the vertices, along the normals
  * - `TimeStep`: the longest of all blocks
- * - `ActiveVertices`: those not at rest
- * - `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips`: numbers of operations in this iteration
- * - `Deletions`, `DeletedGenus`: components deleted, and the sum of their genera
- * - `RecoveredParts`: found before this iteration, see Recovery
- * - `AddedEulerCharacteristic`: of what was added before it: the start, what encloses lost parts
- * - `Seconds`, `SecondsBefore`: since the row before (voxels, division, recovery; in the first row
- *   all since the run began), and `SecondsAfter`: in the last row of a level, regularisation and
- *   output; rows add up to the run
- * - with Profile more, which tell where the time goes (Documentation/reference.md of the sources)
- *
- * Always `IterationEulerCharacteristic` = `EulerCharacteristic` of the row before (first row: 0) +
- * `AddedEulerCharacteristic` + 2 (`Cuts` - `Merges` - `Deletions` + `DeletedGenus`). Iterations are
- * made in sweeps of five, block by block: a row adds up what all blocks did in the same iteration;
- * `MeanEdgeLength` and `Components` are those at the end of its sweep, `Seconds` its share of the
- * sweep's.
+ * - `ActiveVertices`: those that are not at rest
+ * - `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips`: how many there were
+ * - `Deletions`, `DeletedGenus`: components that were deleted, and the sum of their genera
+ * - `RecoveredParts`: those that were found before this iteration
+ * - `AddedEulerCharacteristic`: of what was added before it
+ * - `Seconds`, `SecondsBefore`, `SecondsAfter`: they add up to the run
  *
  * @par Algorithm:
  * The paper's model (see Thanks) with rules that keep the mesh valid, found by experiment: wherever

@@ -16,15 +16,6 @@ namespace tool
 // with the bytes that are there and those that its header asks for.
 
 /**
- * MetaImage (.mha, .mhd): the size of the data, and the checksum of packed ones. False where that
- * was not possible: packed data in several files.
- */
-bool CheckMeta(const std::string& name);
-
-/** The part of it that looks at the header alone. */
-void CheckMetaHeader(const std::string& name);
-
-/**
  * NIfTI and Analyze: the type and the sizes of the voxels, the size of the data, and the checksum
  * of a packed file. @return the bytes of the file that holds the voxels, unpacked.
  */

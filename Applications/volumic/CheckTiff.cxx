@@ -7,8 +7,8 @@
 #include "BinaryFile.h"
 #include "ByteBudget.h"
 #include "CheckInputs.h"
-#include "Inflate.h"
 #include "ToolErrors.h"
+#include "Unpack.h"
 
 #include <algorithm>
 #include <cstdint>

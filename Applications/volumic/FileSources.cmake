@@ -5,18 +5,14 @@
 # LabelNames.h), with absolute paths. The program has them, and the reader of the ParaView plugin.
 set(volumic_reader_sources
   BinaryFile.cxx
-  Bunzip.cxx
   ByteBudget.cxx
-  CheckInputs.cxx
   CheckNetcdf.cxx
   CheckNifti.cxx
   CheckPictures.cxx
   CheckTiff.cxx
   CheckXmlInput.cxx
   DicomHeader.cxx
-  Inflate.cxx
   InputFiles.cxx
-  JsonReader.cxx
   LabelJson.cxx
   LabelNames.cxx
   LabelTable.cxx
@@ -35,9 +31,11 @@ set(volumic_reader_sources
   SlabSource.cxx
   TarFile.cxx
   Texts.cxx
+  Unpack.cxx
   VolumeImage.cxx
   VtkMessages.cxx
   VtkReaders.cxx)
+find_package(nlohmann_json REQUIRED) # headers, in Debian's nlohmann-json3-dev
 list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
@@ -50,12 +48,13 @@ set(volumic_writer_sources
   GltfDescription.cxx
   GltfScene.cxx
   JsonWriter.cxx
-  LabelColors.cxx
   OutputFiles.cxx
   ProgressLine.cxx
   Ranks.cxx
   RunWriter.cxx
   StreamedWriters.cxx
+  SurfaceFields.cxx
+  SurfaceFormats.cxx
   SurfacePieces.cxx
   WriteResults.cxx)
 list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

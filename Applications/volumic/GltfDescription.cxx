@@ -5,7 +5,7 @@
 #include "GltfLayout.h"
 
 #include "JsonWriter.h"
-#include "LabelColors.h"
+#include "SurfaceFields.h"
 
 #include <vtkPolyData.h>
 

@@ -4,7 +4,7 @@
 #define volumicGltfLayout_h
 
 #include "GltfScene.h"
-#include "LabelColors.h"
+#include "SurfaceFields.h"
 
 #include <array>
 #include <cstdint>

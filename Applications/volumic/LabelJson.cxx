@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Names of labels in JSON: what nnU-Net, TotalSegmentator, 3D Slicer and people write.
-#include "JsonReader.h"
 #include "LabelNames.h"
 #include "ParseNumbers.h"
 #include "Texts.h"
@@ -12,91 +11,132 @@
 #include <cmath>
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 namespace tool
 {
 namespace
 {
-using Kind = JsonValue::Kind;
+using Json = nlohmann::ordered_json; // members in the order of the file
 
-std::optional<int> AsLabel(const JsonValue& value)
+/** @throws Failure that names the line, if the text is no JSON or is nested too deeply. */
+Json ParseJson(const std::string& text)
 {
-  if (value.Form == Kind::Text)
+  try
   {
-    return AsNumber<int>(value.Text);
+    return Json::parse(text,
+      [](int depth, Json::parse_event_t, Json&)
+      {
+        return depth <= 64 ? true : throw Failure("the JSON is nested too deeply");
+      });
   }
-  const bool isLabel = value.Form == Kind::Number && value.Number == std::floor(value.Number) &&
-    std::abs(value.Number) <= std::numeric_limits<int>::max();
-  return isLabel ? std::optional<int>(static_cast<int>(value.Number)) : std::nullopt;
+  catch (const Json::exception& error)
+  {
+    const std::string reason = error.what(); // "[json.exception.parse_error.101] parse error ..."
+    throw Failure("it is no JSON: " + AsUtf8(reason.substr(reason.find("] ") + 2)));
+  }
 }
 
-std::optional<Vector3> ColorOf(const JsonValue& segment)
+/** The member of this name, of any case; null where there is none, or this is no object. */
+const Json* Find(const Json& object, const std::string& name)
+{
+  if (object.is_object())
+  {
+    for (const auto& member : object.items())
+    {
+      if (Lower(member.key()) == Lower(name))
+      {
+        return &member.value();
+      }
+    }
+  }
+  return nullptr;
+}
+
+std::optional<int> AsLabel(const Json& value)
+{
+  if (value.is_string())
+  {
+    return AsNumber<int>(value.get<std::string>());
+  }
+  const double number = value.is_number() ? value.get<double>() : 0.5;
+  const bool isLabel =
+    number == std::floor(number) && std::abs(number) <= std::numeric_limits<int>::max();
+  return isLabel ? std::optional<int>(static_cast<int>(number)) : std::nullopt;
+}
+
+bool AreNumbers(const Json& list)
+{
+  return list.is_array() && !list.empty() &&
+    std::all_of(list.begin(), list.end(), [](const Json& item) { return item.is_number(); });
+}
+
+std::optional<Vector3> ColorOf(const Json& segment)
 {
   for (const char* key : { "color", "colour", "rgb", "recommendedDisplayRGBValue" })
   {
-    const JsonValue* color = segment.Find(key);
-    if (color && color->Form == Kind::Text)
+    const Json* color = Find(segment, key);
+    if (color && color->is_string())
     {
-      return ParseHexColor(color->Text);
+      return ParseHexColor(color->get<std::string>());
     }
-    const bool isOne = color && color->Items.size() >= 3 &&
-      std::all_of(color->Items.begin(), color->Items.end(),
-        [](const JsonValue& item) { return item.Form == Kind::Number; });
-    if (isOne)
+    if (color && AreNumbers(*color) && color->size() >= 3)
     {
-      return Vector3{ color->Items[0].Number, color->Items[1].Number, color->Items[2].Number };
+      return Vector3{ (*color)[0].get<double>(), (*color)[1].get<double>(),
+        (*color)[2].get<double>() };
     }
   }
   return std::nullopt;
 }
 
 /** The text of the first of these members that there is. */
-std::optional<std::string> NameOf(const JsonValue& segment)
+std::optional<std::string> NameOf(const Json& segment)
 {
   for (const char* key : { "name", "labelName", "SegmentLabel", "SegmentDescription", "structure",
          "label", "text", "description" })
   {
-    const JsonValue* name = segment.Find(key);
-    if (name && name->Form == Kind::Text)
+    const Json* name = Find(segment, key);
+    if (name && name->is_string())
     {
-      return name->Text;
+      return name->get<std::string>();
     }
   }
   return std::nullopt;
 }
 
 /** {"1": "liver"}, or {"1": {"name": "liver"}}; nothing if the object is something else. */
-LabelNames NamesByLabel(const JsonValue& object)
+LabelNames NamesByLabel(const Json& object)
 {
   LabelNames names;
-  for (const auto& [key, value] : object.Members)
+  for (const auto& member : object.items())
   {
-    JsonValue label;
-    label.Form = Kind::Text;
-    label.Text = key;
+    const std::optional<int> label = AsNumber<int>(member.key());
+    const Json& value = member.value();
     const std::optional<std::string> name =
-      value.Form == Kind::Text ? std::optional<std::string>(value.Text) : NameOf(value);
-    if (!AsLabel(label) || !name)
+      value.is_string()
+      ? std::optional<std::string>(value.get<std::string>())
+      : NameOf(value);
+    if (!label || !name)
     {
       return {};
     }
-    names.push_back({ *AsLabel(label), *name, ColorOf(value) });
+    names.push_back({ *label, *name, ColorOf(value) });
   }
   return names;
 }
 
 /** {"liver": 1}. Several labels under one name (nnU-Net's regions) are the name of none of them. */
-LabelNames LabelsByName(const JsonValue& object)
+LabelNames LabelsByName(const Json& object)
 {
   LabelNames names;
-  for (const auto& [key, value] : object.Members)
+  for (const auto& member : object.items())
   {
-    const bool isRegion = value.Form == Kind::Array && !value.Items.empty() &&
-      std::all_of(value.Items.begin(), value.Items.end(),
-        [](const JsonValue& item) { return item.Form == Kind::Number; });
-    const JsonValue& label = isRegion && value.Items.size() == 1 ? value.Items[0] : value;
+    const Json& value = member.value();
+    const bool isRegion = AreNumbers(value);
+    const Json& label = isRegion && value.size() == 1 ? value[0] : value;
     if (AsLabel(label))
     {
-      names.push_back({ *AsLabel(label), key, std::nullopt });
+      names.push_back({ *AsLabel(label), member.key(), std::nullopt });
     }
     else if (!isRegion)
     {
@@ -107,12 +147,12 @@ LabelNames LabelsByName(const JsonValue& object)
 }
 
 /** [{"label": 1, "name": "liver"}, ...], also in lists within the list. */
-LabelNames NamesInList(const JsonValue& list)
+LabelNames NamesInList(const Json& list)
 {
   LabelNames names;
-  for (const JsonValue& segment : list.Items)
+  for (const Json& segment : list)
   {
-    if (segment.Form == Kind::Array)
+    if (segment.is_array())
     {
       const LabelNames more = NamesInList(segment);
       names.insert(names.end(), more.begin(), more.end());
@@ -122,7 +162,7 @@ LabelNames NamesInList(const JsonValue& list)
     for (const char* key : { "labelValue", "labelID", "label_value", "label_id", "value", "label",
            "index", "id", "number", "key" })
     {
-      const JsonValue* value = segment.Find(key);
+      const Json* value = Find(segment, key);
       label = !label && value ? AsLabel(*value) : label;
     }
     const std::optional<std::string> name = NameOf(segment);
@@ -135,11 +175,14 @@ LabelNames NamesInList(const JsonValue& list)
   return names;
 }
 
-LabelNames NamesIn(const JsonValue& value)
+LabelNames NamesIn(const Json& value)
 {
-  LabelNames names = NamesByLabel(value);
-  names = names.empty() ? LabelsByName(value) : names;
-  return names.empty() && value.Form == Kind::Array ? NamesInList(value) : names;
+  if (!value.is_object())
+  {
+    return value.is_array() ? NamesInList(value) : LabelNames();
+  }
+  const LabelNames names = NamesByLabel(value);
+  return names.empty() ? LabelsByName(value) : names;
 }
 
 bool IsUsualKey(const std::string& key)
@@ -150,19 +193,16 @@ bool IsUsualKey(const std::string& key)
 }
 
 /** What is found first: in the value itself, in members that are called so, in all others. */
-LabelNames FindNames(const JsonValue& value)
+LabelNames FindNames(const Json& value)
 {
   LabelNames names = NamesIn(value);
   for (const bool isUsual : { true, false })
   {
-    for (const auto& [key, member] : value.Members)
+    for (const auto& member : value.items())
     {
-      names = names.empty() && IsUsualKey(key) == isUsual ? FindNames(member) : names;
+      const bool isNext = names.empty() && value.is_structured();
+      names = isNext && IsUsualKey(member.key()) == isUsual ? FindNames(member.value()) : names;
     }
-  }
-  for (const JsonValue& item : value.Items)
-  {
-    names = names.empty() ? FindNames(item) : names;
   }
   return names;
 }
@@ -170,8 +210,7 @@ LabelNames FindNames(const JsonValue& value)
 
 LabelNames ParseLabelJson(const std::string& text)
 {
-  const JsonValue value = ParseJson(text);
-  const LabelNames names = FindNames(value);
+  const LabelNames names = FindNames(ParseJson(text));
   if (names.empty())
   {
     throw Failure("there are no labels in it such as {\"1\": \"liver\"} or {\"liver\": 1}");

@@ -56,18 +56,15 @@ bool ChooseCells(vtkImageData* image, const std::string& array)
 vtkSmartPointer<vtkImageData> ReadWhole(const ToolOptions& options, bool& isOfCells)
 {
   const vtkSmartPointer<vtkImageData> image = ReadVolume(options.Volume);
-  try
-  {
-    isOfCells = ChooseCells(image, options.Array);
-    if (!isOfCells)
+  Named(options.Volume,
+    [&]
     {
-      ChooseScalars(image, options.Array);
-    }
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(options.Volume + ": " + failure.what());
-  }
+      isOfCells = ChooseCells(image, options.Array);
+      if (!isOfCells)
+      {
+        ChooseScalars(image, options.Array);
+      }
+    });
   return image;
 }
 

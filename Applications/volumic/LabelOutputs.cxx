@@ -4,9 +4,9 @@
 
 #include "GltfScene.h"
 #include "InputFiles.h"
-#include "LabelColors.h"
 #include "LabelNames.h"
 #include "OutputChecks.h"
+#include "SurfaceFields.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
@@ -227,27 +227,14 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
   }
 }
 
-std::string WriteLabelSurfaces(
-  const ToolOptions& options, std::vector<LabelSurface>& surfaces, ProgressStyle style)
+void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
+  ProgressStyle style, Failures& failures)
 {
-  std::string failures;
-  // The failure of one must not take the others with it.
-  const auto attempt = [&failures](const auto& write)
-  {
-    try
-    {
-      write();
-    }
-    catch (const Failure& failure)
-    {
-      failures += (failures.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
-    }
-  };
   for (const std::string& name : options.Surfaces)
   {
     if (OutputOf(name) == LabelOutput::Blocks)
     {
-      attempt([&] { WriteTogether(surfaces, name, style); });
+      failures.Try([&] { WriteTogether(surfaces, name, style); });
       continue;
     }
     // Of many files in a folder not each has a line of its own.
@@ -260,7 +247,7 @@ std::string WriteLabelSurfaces(
       line.Show(done++ / static_cast<double>(surfaces.size()), path);
       if (surface.Surface->GetNumberOfPoints() > 0)
       {
-        attempt(
+        failures.Try(
           [&]
           {
             WriteSurface(surface.Surface, path,
@@ -270,6 +257,5 @@ std::string WriteLabelSurfaces(
       }
     }
   }
-  return failures;
 }
 }

@@ -14,6 +14,7 @@
 
 namespace tool
 {
+class Failures;
 struct ToolOptions;
 
 /** A surface about a label, or, with --merge, about several. */
@@ -71,10 +72,10 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
 /**
  * Write the surfaces that have points, as the options ask for.
  * @param surfaces get their Files here
- * @return what could not be written, a line for each; empty: nothing
+ * @param failures given what could not be written
  */
-std::string WriteLabelSurfaces(
-  const ToolOptions& options, std::vector<LabelSurface>& surfaces, ProgressStyle style);
+void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
+  ProgressStyle style, Failures& failures);
 }
 
 #endif

@@ -43,20 +43,6 @@ void WriteNames(JsonWriter& json, const LabelSurface& surface)
   }
   json.EndArray();
 }
-
-void WriteProperties(JsonWriter& json, const FilterTrio& filters)
-{
-  json.Name("properties");
-  json.BeginObject();
-  for (const PropertyOption& property : SurfaceProperties())
-  {
-    if (IsOfLabels(property))
-    {
-      json.Member(property.Property, property.Get(filters));
-    }
-  }
-  json.EndObject();
-}
 }
 
 vtkIdType WrongVoxels(vtkPolyData* surface, const char* name)
@@ -98,7 +84,7 @@ void WriteReport(std::ostream& out, const LabelReport& report)
   json.Member("reader", report.ReaderMemory);
   json.Member("peak", PeakMemory());
   json.EndObject();
-  WriteProperties(json, report.Filters);
+  WriteProperties(json, report.Filters, IsOfLabels);
   WriteEnd(json, report.Warnings);
   json.EndObject();
 }

@@ -127,14 +127,7 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
     loaded.Components = ComponentsOf(opened.Source, array);
     holder->RemoveAllInputs();
   }
-  try
-  {
-    ChooseScalars(image, array);
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(name + ": " + failure.what());
-  }
+  Named(name, [&] { ChooseScalars(image, array); });
   loaded.Components = std::max(
     loaded.Components, image->GetPointData()->GetScalars()->GetNumberOfComponents());
   return loaded;

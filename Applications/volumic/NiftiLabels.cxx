@@ -4,11 +4,11 @@
 // The table of labels that TotalSegmentator and Connectome Workbench put behind the header of NIfTI,
 // in XML:
 //   <Label Key="1" Red="1" Green="0" Blue="0.5" Alpha="1"><![CDATA[spleen]]></Label>
-#include "BinaryFile.h"
 #include "ByteBudget.h"
-#include "Inflate.h"
 #include "LabelNames.h"
+#include "NiftiHeader.h"
 #include "ParseNumbers.h"
+#include "Unpack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,34 +20,13 @@ namespace tool
 {
 namespace
 {
-/** The bytes between the header of NIfTI-1 or -2 and the voxels. */
+/** The bytes up to the voxels, if any lie between these and the header. */
 std::string Extensions(const std::string& name)
 {
-  const std::string header = HeadOf(name, 544);
-  if (header.size() < 352)
-  {
-    return "";
-  }
-  bool isBig = false;
-  std::uint64_t size = NumberOf(header.substr(0, 4), false);
-  if (size != 348 && size != 540)
-  {
-    isBig = true;
-    size = NumberOf(header.substr(0, 4), true);
-  }
-  std::uint64_t voxels = 0;
-  if (size == 348)
-  {
-    const auto bits = static_cast<std::uint32_t>(NumberOf(header.substr(108, 4), isBig));
-    float offset = 0.f;
-    std::memcpy(&offset, &bits, sizeof(offset));
-    voxels = offset > 0.f && offset < 1e9f ? static_cast<std::uint64_t>(offset) : 0;
-  }
-  else if (size == 540 && header.size() == 544)
-  {
-    voxels = NumberOf(header.substr(168, 8), isBig);
-  }
-  return voxels <= size + 4 ? "" : HeadOf(name, std::min(voxels, LargestNames));
+  const NiftiHeader header(HeadOf(name, 540));
+  return header.Start() <= header.Length()
+    ? ""
+    : HeadOf(name, std::min(header.Start(), LargestNames));
 }
 
 /** What stands for a text in XML. */

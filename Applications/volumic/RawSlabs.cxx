@@ -4,15 +4,17 @@
 
 #include "BinaryFile.h"
 #include "ByteBudget.h"
-#include "Inflate.h"
+#include "ParseNumbers.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 
 #include <vtkDataArray.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include <unistd.h>
 
@@ -24,6 +26,46 @@ std::string DirectoryOf(const std::string& directory)
 {
   const char* system = std::getenv("TMPDIR");
   return !directory.empty() ? directory : system && *system ? system : "/var/tmp";
+}
+
+/** The bytes of a data file. @throws Failure that names it if it cannot be opened. */
+std::uint64_t SizeOfData(const std::string& name)
+{
+  try
+  {
+    return BinaryFile(name).Size();
+  }
+  catch (const Failure&)
+  {
+    throw Failure("its data file " + name + " cannot be opened");
+  }
+}
+
+/** @throws Failure unless the text has just as many numbers as are wanted. */
+void ReadNumbers(std::istream& text, vtkDataArray* values)
+{
+  const int components = values->GetNumberOfComponents();
+  const vtkIdType wanted = values->GetNumberOfValues();
+  vtkIdType there = 0;
+  for (std::string word; there <= wanted && text >> word; ++there)
+  {
+    const std::optional<double> number = AsNumber<double>(word);
+    if (!number)
+    {
+      throw Failure(
+        "the file is damaged: its value " + std::to_string(there + 1) + " is no number");
+    }
+    if (there < wanted)
+    {
+      values->SetComponent(there / components, static_cast<int>(there % components), *number);
+    }
+  }
+  if (there != wanted)
+  {
+    throw Failure((there < wanted ? "the file is cut off" : "the file is too long") +
+      std::string(": it has ") + std::to_string(there) + (there > wanted ? " or more" : "") +
+      " values, its header asks for " + std::to_string(wanted));
+  }
 }
 }
 
@@ -68,31 +110,14 @@ std::string NamelessFile::Path() const
   return "/proc/self/fd/" + std::to_string(this->Descriptor);
 }
 
-std::uint64_t SizeOfData(const std::string& name)
+std::ifstream OpenData(const std::string& name, std::uint64_t start)
 {
-  try
-  {
-    return BinaryFile(name).Size();
-  }
-  catch (const Failure&)
+  std::ifstream stream(name, std::ios::binary);
+  if (!stream.seekg(static_cast<std::streamoff>(start)))
   {
     throw Failure("its data file " + name + " cannot be opened");
   }
-}
-
-std::unique_ptr<NamelessFile> Unpack(const std::string& name, std::uint64_t start,
-  const std::string& directory, std::uint64_t count)
-{
-  std::ifstream packed(name, std::ios::binary);
-  if (!packed || !packed.seekg(static_cast<std::streamoff>(start)))
-  {
-    throw Failure("its data file " + name + " cannot be opened");
-  }
-  NeedPackedBytes(SizeOfData(name), MostOfZlib, count);
-  auto file = std::make_unique<NamelessFile>(directory);
-  InflateJust(
-    packed, [&](const char* bytes, std::size_t got) { file->Append(bytes, got); }, count);
-  return file;
+  return stream;
 }
 
 std::uint64_t RawSlabs::Bytes() const
@@ -100,26 +125,103 @@ std::uint64_t RawSlabs::Bytes() const
   return BytesOfVoxels(this->Type, this->Components, this->Size);
 }
 
+std::uint64_t RawSlabs::StartIn(const std::string& file) const
+{
+  const std::uint64_t share = this->Share();
+  return this->AreLast ? SizeOfData(file) - std::min(SizeOfData(file), share) : this->Start;
+}
+
+void RawSlabs::CheckLength(const std::string& file) const
+{
+  const std::uint64_t all = SizeOfData(file);
+  const std::uint64_t there = all - std::min(all, this->StartIn(file));
+  if (this->Code != Packing::None)
+  {
+    const std::uint64_t most = this->Code == Packing::Zlib ? MostOfZlib
+      : this->Code == Packing::Bzip2                        ? MostOfBzip2
+                                                            : 8; // numbers of a digit, as doubles
+    NeedPackedBytes(there, most, this->Share());
+  }
+  else if (this->Files.size() > 1 && there != this->Share())
+  {
+    throw Failure("its data file " + file + " is " +
+      (there < this->Share() ? "cut off" : "too long") + ": it has " + std::to_string(all) +
+      " bytes, " + std::to_string(all - there + this->Share()) + " are needed");
+  }
+  else
+  {
+    NeedJustBytes(there, this->Share());
+  }
+}
+
+void RawSlabs::Prepare(const Opening& opening)
+{
+  std::for_each(this->Files.begin(), this->Files.end(),
+    [this](const std::string& file) { this->CheckLength(file); });
+  this->HasParts = this->Code != Packing::Text;
+  if (this->Code == Packing::None || opening.IsWhole || !this->HasParts)
+  {
+    return;
+  }
+  this->Unpacked = std::make_unique<NamelessFile>(opening.Scratch);
+  this->Unpack(
+    [this](const char* bytes, std::size_t count) { this->Unpacked->Append(bytes, count); });
+  this->Files = { this->Unpacked->Path() };
+  this->Code = Packing::None;
+  this->Start = 0;
+}
+
+void RawSlabs::Unpack(const UnpackedSink& sink) const
+{
+  for (const std::string& file : this->Files)
+  {
+    std::ifstream packed = OpenData(file, this->Start);
+    const std::uint64_t count = MostUnpacked(this->Share(), this->Before);
+    (this->Code == Packing::Zlib ? InflateJust : BunzipJust)(
+      packed, Without(this->Before, sink), count);
+  }
+}
+
+void RawSlabs::ReadBytes(std::uint64_t first, std::uint64_t count, char* values) const
+{
+  const std::uint64_t share = this->Share();
+  for (const std::uint64_t end = first + count; first < end;)
+  {
+    const std::string& file = this->Files[static_cast<std::size_t>(first / share)];
+    const std::uint64_t within = first % share;
+    const std::uint64_t piece = std::min(end - first, share - within);
+    if (!OpenData(file, this->StartIn(file) + within)
+           .read(values, static_cast<std::streamsize>(piece)))
+    {
+      throw Failure("its voxels cannot be read: the file is cut off, or its disk fails");
+    }
+    values += piece;
+    first += piece;
+  }
+}
+
 vtkSmartPointer<vtkDataArray> RawSlabs::Read(int first, int count)
 {
   auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
   values->SetNumberOfComponents(this->Components);
   values->SetNumberOfTuples(static_cast<vtkIdType>(this->Size[0]) * this->Size[1] * count);
-  if (!this->Stream.is_open())
+  char* bytes = static_cast<char*>(values->GetVoidPointer(0));
+  if (this->Code == Packing::Text)
   {
-    this->Stream.open(this->File, std::ios::binary);
+    std::ifstream text = OpenData(this->Files.front(), this->Start);
+    ReadNumbers(text, values);
+    return values;
   }
-  const std::uint64_t slice = this->Bytes() / static_cast<std::uint64_t>(this->Size[2]);
-  const auto start = static_cast<std::streamoff>(
-    this->Start + slice * static_cast<std::uint64_t>(first));
-  const auto bytes =
-    static_cast<std::streamsize>(slice * static_cast<std::uint64_t>(count));
-  if (!this->Stream.seekg(start) ||
-    !this->Stream.read(static_cast<char*>(values->GetVoidPointer(0)), bytes))
+  if (this->Code == Packing::None)
   {
-    throw Failure("the slices " + std::to_string(first) + " to " +
-      std::to_string(first + count - 1) +
-      " cannot be read: the file is cut off, or its disk fails");
+    const std::uint64_t slice = this->Bytes() / static_cast<std::uint64_t>(this->Size[2]);
+    this->ReadBytes(slice * static_cast<std::uint64_t>(first),
+      slice * static_cast<std::uint64_t>(count), bytes);
+  }
+  else
+  {
+    this->Unpack([bytes](const char* got, std::size_t size) mutable
+      { bytes = std::copy_n(got, size, bytes); });
   }
   ToNativeOrder(values, this->IsBig);
   return values;

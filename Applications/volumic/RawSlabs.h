@@ -4,10 +4,13 @@
 #define volumicRawSlabs_h
 
 #include "SlabReader.h"
+#include "Unpack.h"
 
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace tool
 {
@@ -32,33 +35,47 @@ private:
   int Descriptor = -1;
 };
 
-/**
- * What a file holds packed by zlib or gzip, behind its first `start` bytes.
- * @param count of bytes that it must give; no more are written
- * @throws Failure if it is damaged, cut off or of another size.
- */
-std::unique_ptr<NamelessFile> Unpack(const std::string& name, std::uint64_t start,
-  const std::string& directory, std::uint64_t count);
+/** The stream of a data file, at that byte. @throws Failure that names it if it cannot be opened. */
+std::ifstream OpenData(const std::string& name, std::uint64_t start);
 
-/** The bytes of a data file. @throws Failure that names it if it cannot be opened. */
-std::uint64_t SizeOfData(const std::string& name);
-
-/** Values as they lie in a file, x fastest. */
+/** Values one behind the other in a file, or in several, an equal share in each, x fastest. */
 class RawSlabs : public SlabReader
 {
 public:
-  std::string File;
-  std::uint64_t Start = 0; ///< bytes before the first value
-  bool IsBig = false;      ///< the most significant byte first
-  std::unique_ptr<NamelessFile> Unpacked; ///< which File is, or null
+  enum class Packing
+  {
+    None,
+    Zlib, ///< or gzip
+    Bzip2,
+    Text ///< numbers with blanks between
+  };
+
+  std::vector<std::string> Files;
+  Packing Code = Packing::None;
+  std::uint64_t Start = 0;  ///< Each file has so many bytes before its values, packed or not.
+  std::uint64_t Before = 0; ///< What is packed begins with so many bytes before the values.
+  bool AreLast = false;     ///< The values are the last bytes of a file, whatever is before.
+  bool IsBig = false;       ///< The most significant byte of a value comes first.
+
+  /**
+   * To call when all this is known. Packed values, of which parts will be wanted, are unpacked.
+   * @throws Failure, before memory is taken, if a file is too short or too long.
+   */
+  void Prepare(const Opening& opening);
 
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override;
 
-  /** Bytes of all values. */
-  std::uint64_t Bytes() const;
-
 private:
-  std::ifstream Stream;
+  /** Bytes of all values, and of those in each file. */
+  std::uint64_t Bytes() const;
+  std::uint64_t Share() const { return this->Bytes() / this->Files.size(); }
+
+  void CheckLength(const std::string& file) const;
+  std::uint64_t StartIn(const std::string& file) const;
+  void Unpack(const UnpackedSink& sink) const;
+  void ReadBytes(std::uint64_t first, std::uint64_t count, char* values) const;
+
+  std::unique_ptr<NamelessFile> Unpacked; ///< If it is there, it is the only one of Files.
 };
 }
 

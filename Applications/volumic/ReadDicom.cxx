@@ -100,19 +100,16 @@ void CheckPixels(const DicomHeader& header)
 /** The header of a slice, or of something that is no image at all. */
 DicomHeader ReadHeader(const std::string& file)
 {
-  try
-  {
-    const DicomHeader header = ReadDicomHeader(file);
-    if (!header.IsOtherThanImage())
+  return Named(file,
+    [&file]
     {
-      CheckPixels(header);
-    }
-    return header;
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(file + ": " + failure.what());
-  }
+      const DicomHeader header = ReadDicomHeader(file);
+      if (!header.IsOtherThanImage())
+      {
+        CheckPixels(header);
+      }
+      return header;
+    });
 }
 
 /** @throws Failure with a list of the series unless there is one. `files` have these headers. */
@@ -347,7 +344,8 @@ Series ReadSeries(const std::vector<std::string>& files, bool keepsImages)
 class DicomSlabs : public SlabReader
 {
 public:
-  explicit DicomSlabs(const std::vector<std::string>& files) : Held(ReadSeries(files, false))
+  DicomSlabs(const std::vector<std::string>& files, bool keepsImages)
+    : Held(ReadSeries(files, keepsImages))
   {
     this->Size = { this->Held.Size[0], this->Held.Size[1],
       static_cast<int>(this->Held.Slices.size()) };
@@ -406,19 +404,9 @@ bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices
       });
 }
 
-vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files)
+std::unique_ptr<SlabReader> OpenDicom(
+  const std::vector<std::string>& files, const Opening& opening)
 {
-  const Series series = ReadSeries(files, true);
-  const std::size_t count = series.Slices.size();
-  vtkSmartPointer<vtkImageData> image =
-    MakeImage({ series.Size[0], series.Size[1], static_cast<int>(count) },
-      StackVoxels(series, 0, count), series.Placement);
-  SetWorldAxes(image, "LPS");
-  return image;
-}
-
-std::unique_ptr<SlabReader> OpenDicom(const std::vector<std::string>& files)
-{
-  return std::make_unique<DicomSlabs>(files);
+  return std::make_unique<DicomSlabs>(files, opening.IsWhole);
 }
 }

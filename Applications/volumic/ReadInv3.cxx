@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadVolume.h"
+#include "SlabReader.h"
 
 #include "ByteBudget.h"
 #include "CheckInputs.h"
@@ -11,7 +11,6 @@
 #include "VtkMessages.h"
 
 #include <vtkDataArray.h>
-#include <vtkImageData.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
@@ -164,32 +163,49 @@ Description ReadDescription(const std::string& name)
     throw Failure(std::string("main.plist: ") + error.what());
   }
 }
+
+/** The archive is packed, and would be unpacked from its begin for each part. */
+class ProjectSlabs : public SlabReader
+{
+public:
+  explicit ProjectSlabs(const std::string& name) : Name(name)
+  {
+    const Description description = ReadDescription(name);
+    this->Size = description.Size;
+    this->Type = description.Type;
+    this->Placement = description.Placement;
+    this->File = description.File;
+    // The rows of axial slices are stored from back to front: a left-handed frame.
+    this->WorldAxes = description.IsAxial ? "LAS" : "";
+    this->HasParts = false;
+  }
+
+  vtkSmartPointer<vtkDataArray> Read(int, int count) override
+  {
+    auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+    const std::uint64_t expected = BytesOfVoxels(this->Type, 1, this->Size);
+    TarFile archive(this->Name);
+    GoTo(archive, this->File);
+    if (archive.Size() != expected)
+    {
+      throw Failure(this->File + " has " + std::to_string(archive.Size()) +
+        " bytes, the sizes in main.plist ask for " + std::to_string(expected));
+    }
+    values->SetNumberOfTuples(static_cast<vtkIdType>(this->Size[0]) * this->Size[1] * count);
+    archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
+    archive.Finish();
+    ToNativeOrder(values, false);
+    return values;
+  }
+
+private:
+  std::string Name;
+  std::string File; ///< in the archive
+};
 }
 
-vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name)
+std::unique_ptr<SlabReader> OpenInv3(const std::string& name, const Opening&)
 {
-  const Description description = ReadDescription(name);
-  auto values =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(description.Type));
-  const std::uint64_t expected = BytesOfVoxels(description.Type, 1, description.Size);
-  TarFile archive(name);
-  GoTo(archive, description.File);
-  if (archive.Size() != expected)
-  {
-    throw Failure(description.File + " has " + std::to_string(archive.Size()) +
-      " bytes, the sizes in main.plist ask for " + std::to_string(expected));
-  }
-  values->SetNumberOfTuples(
-    static_cast<vtkIdType>(description.Size[0]) * description.Size[1] * description.Size[2]);
-  archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
-  archive.Finish();
-  ToNativeOrder(values, false);
-  vtkSmartPointer<vtkImageData> image = MakeImage(description.Size, values, description.Placement);
-  if (description.IsAxial)
-  {
-    // The rows of axial slices are stored from back to front: a left-handed frame.
-    SetWorldAxes(image, "LAS");
-  }
-  return image;
+  return std::make_unique<ProjectSlabs>(name);
 }
 }

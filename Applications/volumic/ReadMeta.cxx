@@ -1,18 +1,20 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadVolume.h"
 
-#include "ByteBudget.h"
-#include "CheckInputs.h"
+// VTK's reader tells what the header says but for the directions of the axes, and where a file has
+// been cut off it gives what memory holds: the voxels are read here.
+#include "SlabReader.h"
+
 #include "InputFiles.h"
+#include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 #include "VtkReaders.h"
 
-#include <vtkImageData.h>
 #include <vtkMetaImageReader.h>
+#include <vtkType.h>
 
 #include <algorithm>
 #include <array>
@@ -20,43 +22,60 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 
 namespace tool
 {
 namespace
 {
-using Image = vtkSmartPointer<vtkImageData>;
-
-/** MetaIO prints what it misses, and goes on: an error, unless the file is known to be whole. */
-Image ReadMetaVoxels(const std::string& name, bool isWhole)
+/** The type of the values as they are in the file; VTK has other sizes for some. */
+int TypeOf(const std::string& name)
 {
-  std::ostringstream printed;
-  std::streambuf* output = std::cerr.rdbuf(printed.rdbuf());
-  Image image;
-  try
+  static const std::map<std::string, int> types = { { "MET_CHAR", VTK_SIGNED_CHAR },
+    { "MET_UCHAR", VTK_UNSIGNED_CHAR }, { "MET_SHORT", VTK_SHORT },
+    { "MET_USHORT", VTK_UNSIGNED_SHORT }, { "MET_INT", VTK_INT }, { "MET_UINT", VTK_UNSIGNED_INT },
+    { "MET_LONG", VTK_INT }, { "MET_ULONG", VTK_UNSIGNED_INT },
+    { "MET_LONG_LONG", VTK_LONG_LONG }, { "MET_ULONG_LONG", VTK_UNSIGNED_LONG_LONG },
+    { "MET_FLOAT", VTK_FLOAT }, { "MET_DOUBLE", VTK_DOUBLE } };
+  const auto found = types.find(name);
+  if (found == types.end())
   {
-    image = ReadIfItsFormat<vtkMetaImageReader>(name);
+    throw Failure("its header is damaged: the ElementType '" + name + "' is no number's");
   }
-  catch (...)
-  {
-    std::cerr.rdbuf(output);
-    throw;
-  }
-  std::cerr.rdbuf(output);
-  if (!isWhole && !printed.str().empty())
-  {
-    std::string text = printed.str();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    throw Failure("cannot be read (" + text + ")");
-  }
-  return image;
+  return found->second;
 }
 
-/** The directions of the axes that a MetaImage's header lists, axis after axis. */
-std::array<Vector3, 3> MetaAxes(const std::string& name, const std::string& key)
+/** Whether a key says yes, or, where it is not there, what is so otherwise. */
+bool IsTrue(const std::string& name, const std::string& key, bool otherwise = false)
+{
+  const std::string value = Lower(HeaderValue(name, key));
+  static const std::set<std::string> known = { "", "true", "false", "t", "f", "1", "0" };
+  if (known.count(value) == 0)
+  {
+    throw Failure("its header is damaged: " + key + " is '" + value + "'");
+  }
+  return value.empty() ? otherwise : value[0] == 't' || value[0] == '1';
+}
+
+std::vector<std::string> SizesOf(const std::string& name)
+{
+  std::istringstream sizes(HeaderValue(name, "DimSize"));
+  const std::vector<std::string> words{ std::istream_iterator<std::string>(sizes), {} };
+  const std::size_t most = 10; // for which MetaIO has room
+  if (HeaderValue(name, "NDims") != std::to_string(words.size()) || words.empty() ||
+    words.size() > most)
+  {
+    throw Failure("its header is damaged: it has no NDims, or not as many sizes");
+  }
+  return words;
+}
+
+/** The directions of the axes that the header lists, axis after axis. */
+std::array<Vector3, 3> AxesOf(const std::string& name, const std::string& key)
 {
   std::istringstream words(HeaderValue(name, key));
   std::array<Vector3, 3> axes;
@@ -70,33 +89,11 @@ std::array<Vector3, 3> MetaAxes(const std::string& name, const std::string& key)
   return axes;
 }
 
-/** The place that the header tells of, beside these. */
-VolumePlacement PlacementOf(const std::string& name, const double* spacing, const double* origin)
-{
-  VolumePlacement placement;
-  std::copy_n(spacing, 3, placement.Spacing.begin());
-  std::copy_n(origin, 3, placement.Origin.begin());
-  for (const char* key : { "TransformMatrix", "Rotation", "Orientation" })
-  {
-    if (!HeaderValue(name, key).empty())
-    {
-      placement.Axes = MetaAxes(name, key);
-      break;
-    }
-  }
-  return placement;
-}
-
 std::string WorldAxesOf(const std::string& name)
 {
   const std::string sides = HeaderValue(name, "AnatomicalOrientation");
   const bool areKnown = sides.size() == 3 && sides.find_first_not_of("LRAPSI") == std::string::npos;
   return areKnown ? "LPS" : ""; // whatever the letters, which tell of the voxels' axes
-}
-
-bool IsTrue(const std::string& value)
-{
-  return !value.empty() && (value[0] == 'T' || value[0] == 't' || value[0] == '1');
 }
 
 /** Where the data of a file with a header begin: behind the line that tells where they are. */
@@ -109,63 +106,117 @@ std::uint64_t BehindHeader(const std::string& name)
   }
   return file ? static_cast<std::uint64_t>(file.tellg()) : 0;
 }
+
+/**
+ * The files of "slice%03d.raw [FIRST [LAST [STEP]]]". @throws Failure for what gives no such number
+ * of them.
+ */
+std::vector<std::string> FilesOfPattern(
+  const std::filesystem::path& folder, const std::string& text, std::uint64_t slices)
+{
+  std::istringstream words(text);
+  std::string pattern;
+  words >> pattern;
+  std::vector<long> numbers;
+  for (std::string word; numbers.size() < 4 && words >> word;)
+  {
+    numbers.push_back(ParseNumber<int>(word));
+  }
+  const std::size_t begin = std::min(pattern.find('%'), pattern.size());
+  const std::size_t end =
+    std::min(pattern.find_first_not_of("0123456789", begin + 1), pattern.size());
+  const std::string width = pattern.substr(std::min(begin + 1, end), end - begin - 1);
+  const long most = 100000; // files; a damaged header may ask for any number
+  const long steps = static_cast<long>(std::min<std::uint64_t>(slices, most)) - 1;
+  const long first = numbers.empty() ? 1 : numbers[0];
+  const long last = numbers.size() > 1 ? numbers[1] : first + steps;
+  const long step = numbers.size() == 3 ? numbers[2]
+    : numbers.size() == 2               ? (last - first) / (steps + 1)
+                                        : 1;
+  if (end == pattern.size() || pattern.find_first_of("diu", end) != end || width.size() > 3 ||
+    pattern.find('%', end) != std::string::npos || numbers.size() > 3 || slices > most ||
+    first < 0 || step < 1 || first + steps * step > last)
+  {
+    throw Failure("its header is damaged: the ElementDataFile '" + text.substr(0, 80) +
+      "' gives no " + std::to_string(slices) + " files, as 'slice%03d.raw 1 100 1' gives 100");
+  }
+  std::vector<std::string> files;
+  for (long i = 0; i <= steps; ++i)
+  {
+    std::string digits = std::to_string(first + i * step);
+    const auto wanted = static_cast<std::size_t>(std::atoi(width.c_str()));
+    digits.insert(0, wanted - std::min(wanted, digits.size()), width[0] == '0' ? '0' : ' ');
+    files.push_back(
+      (folder / (pattern.substr(0, begin) + digits + pattern.substr(end + 1))).string());
+  }
+  return files;
 }
 
-vtkSmartPointer<vtkImageData> ReadMeta(const std::string& name)
+/** The files in the lines behind the header: one for each slice, or one for all. */
+std::vector<std::string> FilesOfList(const std::string& name, std::uint64_t slices)
 {
-  const bool isWhole = CheckMeta(name);
-  Image image = ReadMetaVoxels(name, isWhole);
-  PlaceImage(image, PlacementOf(name, image->GetSpacing(), image->GetOrigin()));
-  const std::string axes = WorldAxesOf(name);
-  if (!axes.empty())
+  std::vector<std::string> files = FilesOfVolume(name);
+  files.erase(files.begin()); // the header
+  if (files.size() < slices)
   {
-    SetWorldAxes(image, axes);
+    throw Failure("its header lists " + std::to_string(files.size()) + " files for " +
+      std::to_string(slices) + " slices");
   }
-  return image;
+  files.resize(static_cast<std::size_t>(slices));
+  return files;
 }
 
-std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const ScratchDirectory& scratch)
+/** The files that have the voxels, as much each. */
+std::vector<std::string> DataFiles(const std::string& name, const std::string& told)
 {
-  CheckMetaHeader(name);
-  const std::string dataFile = HeaderValue(name, "ElementDataFile");
-  const std::string isBinary = HeaderValue(name, "BinaryData");
-  // These have another size in VTK than in the file.
-  const bool isLong = HeaderValue(name, "ElementType").find("LONG") != std::string::npos;
-  if (dataFile.empty() || dataFile.find('%') != std::string::npos ||
-    dataFile.compare(0, 4, "LIST") == 0 || (!isBinary.empty() && !IsTrue(isBinary)) || isLong)
+  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+  const std::uint64_t slices =
+    std::max(1ULL, std::strtoull(SizesOf(name).back().c_str(), nullptr, 10));
+  if (told.find('%') != std::string::npos)
   {
-    return nullptr;
+    return FilesOfPattern(folder, told, slices);
   }
-  const auto make = [&name] { return NewReader<vtkMetaImageReader>(name); };
-  const ReaderSlabs told(name, make);
+  if (told.compare(0, 4, "LIST") == 0)
+  {
+    return FilesOfList(name, told.find('3') != std::string::npos ? 1 : slices); // "LIST 3D"
+  }
+  return { Lower(told) == "local" ? name : (folder / told).string() };
+}
+}
+
+std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& opening)
+{
+  SizesOf(name); // without which VTK's reader must not look at the header
   auto slabs = std::make_unique<RawSlabs>();
-  static_cast<SlabReader&>(*slabs) = told;
+  const int type = TypeOf(HeaderValue(name, "ElementType"));
+  const std::string told = HeaderValue(name, "ElementDataFile");
+  slabs->Files = DataFiles(name, told);
+  slabs->IsBig = IsTrue(name, "BinaryDataByteOrderMSB") || IsTrue(name, "ElementByteOrderMSB");
+  slabs->Code = !IsTrue(name, "BinaryData", true) ? RawSlabs::Packing::Text
+    : IsTrue(name, "CompressedData")              ? RawSlabs::Packing::Zlib
+                                                  : RawSlabs::Packing::None;
+  static_cast<SlabReader&>(*slabs) =
+    ReaderSlabs(name, [&name] { return NewReader<vtkMetaImageReader>(name); });
+  slabs->Type = type;
   slabs->ArrayName = "MetaImage";
-  slabs->Placement =
-    PlacementOf(name, told.Placement.Spacing.data(), told.Placement.Origin.data());
   slabs->WorldAxes = WorldAxesOf(name);
-  slabs->IsBig = IsTrue(HeaderValue(name, "BinaryDataByteOrderMSB")) ||
-    IsTrue(HeaderValue(name, "ElementByteOrderMSB"));
-  const bool isLocal = Lower(dataFile) == "local";
-  slabs->File =
-    isLocal ? name : (std::filesystem::path(name).parent_path() / dataFile).string();
-  slabs->Start = isLocal ? BehindHeader(name) : 0;
-  if (IsTrue(HeaderValue(name, "CompressedData")))
+  for (const char* key : { "TransformMatrix", "Rotation", "Orientation" })
   {
-    slabs->Unpacked = Unpack(slabs->File, slabs->Start, scratch, slabs->Bytes());
-    slabs->File = slabs->Unpacked->Path();
-    slabs->Start = 0;
+    if (!HeaderValue(name, key).empty())
+    {
+      slabs->Placement.Axes = AxesOf(name, key);
+      break;
+    }
   }
-  else
+  slabs->Start = Lower(told) == "local" ? BehindHeader(name) : 0;
+  if (slabs->Code == RawSlabs::Packing::None)
   {
     // -1: the voxels are the last bytes of the file, whatever is before.
     const long long skipped = std::atoll(HeaderValue(name, "HeaderSize").c_str());
-    const std::uint64_t there = SizeOfData(slabs->File);
-    slabs->Start = skipped < 0 ? there - std::min(there, slabs->Bytes())
-                               : slabs->Start + static_cast<std::uint64_t>(skipped);
+    slabs->AreLast = skipped < 0;
+    slabs->Start += static_cast<std::uint64_t>(std::max(skipped, 0LL));
   }
-  const std::uint64_t there = SizeOfData(slabs->File);
-  NeedJustBytes(there - std::min(there, slabs->Start), slabs->Bytes());
+  slabs->Prepare(opening);
   return slabs;
 }
 }

@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // MRC2014 (https://www.ccpem.ac.uk/mrc_format/mrc2014.php), 1024 bytes of a header, then voxels.
-#include "ReadVolume.h"
+#include "SlabReader.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "RawSlabs.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
+#include <vtkType.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -37,7 +34,7 @@ double FloatAt(BinaryFile& file, std::uint64_t place)
 }
 }
 
-std::unique_ptr<SlabReader> OpenMrc(const std::string& name)
+std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& opening)
 {
   BinaryFile file(name);
   file.Need(0, 1024);
@@ -56,7 +53,7 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name)
       " is no type of voxels");
   }
   auto slabs = std::make_unique<RawSlabs>();
-  slabs->File = name;
+  slabs->Files = { name };
   slabs->ArrayName = "ImageScalars";
   std::tie(slabs->Type, slabs->Components) = mode->second;
   slabs->IsBig = file.IsBig;
@@ -83,15 +80,7 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name)
     placement.Origin[world] = FloatAt(file, 196 + 4 * world) +
       placement.Spacing[axis] * static_cast<double>(file.Signed(16 + 4 * axis, 4));
   }
-  NeedJustBytes(file.Size() - std::min(file.Size(), slabs->Start), slabs->Bytes());
+  slabs->Prepare(opening);
   return slabs;
-}
-
-vtkSmartPointer<vtkImageData> ReadMrc(const std::string& name)
-{
-  const std::unique_ptr<SlabReader> slabs = OpenMrc(name);
-  const vtkSmartPointer<vtkDataArray> voxels = slabs->Read(0, slabs->Size[2]);
-  voxels->SetName(slabs->ArrayName.c_str());
-  return MakeImage(slabs->Size, voxels, slabs->Placement);
 }
 }

@@ -1,24 +1,23 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReadVolume.h"
+#include "SlabReader.h"
 
 #include "CheckInputs.h"
-#include "Inflate.h"
 #include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "Unpack.h"
 #include "VolumeImage.h"
 #include "VtkReaders.h"
 
-#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 
 #include <cstdint>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -67,49 +66,26 @@ bool Place(vtkNIFTIImageReader* reader, const double* spacing, VolumePlacement& 
   return false;
 }
 
-/** @return the bytes of the file that holds the voxels, unpacked. */
-std::uint64_t Check(const std::string& name)
+}
+
+std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& opening)
 {
   if (!vtkNew<vtkNIFTIImageReader>()->CanReadFile(name.c_str()))
   {
     throw Failure("not a NIfTI or Analyze file");
   }
-  return CheckNifti(name);
-}
-}
-
-vtkSmartPointer<vtkImageData> ReadNifti(const std::string& name)
-{
-  Check(name);
-  vtkNew<vtkNIFTIImageReader> reader;
-  reader->SetFileName(name.c_str());
-  // It warns where sform and qform differ in handedness, of which both are served here.
-  vtkSmartPointer<vtkImageData> image = ImageOf(reader, name, false);
-  const auto [slope, shift] = RescalingOf(reader);
-  if ((slope != 1.0 || shift != 0.0) && image->GetPointData()->GetScalars())
-  {
-    image->GetPointData()->SetScalars(Rescaled(image->GetPointData()->GetScalars(), slope, shift));
-  }
-  VolumePlacement placement;
-  if (Place(reader, image->GetSpacing(), placement))
-  {
-    PlaceImage(image, placement);
-    SetWorldAxes(image, "RAS");
-  }
-  return image;
-}
-
-std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDirectory& scratch)
-{
-  const std::uint64_t bytes = Check(name);
+  const std::uint64_t bytes = CheckNifti(name);
   const std::string lower = Lower(name);
-  if (EndsWith(lower, ".img") || EndsWith(lower, ".img.gz"))
-  {
-    return nullptr;
-  }
+  const bool isAlone = !EndsWith(lower, ".img") && !EndsWith(lower, ".img.gz");
   // Packed, it would be unpacked from its begin for each slab.
-  const std::shared_ptr<NamelessFile> unpacked =
-    IsGzip(name) ? Unpack(name, 0, scratch, bytes) : nullptr;
+  std::shared_ptr<NamelessFile> unpacked;
+  if (isAlone && !opening.IsWhole && IsGzip(name))
+  {
+    unpacked = std::make_shared<NamelessFile>(opening.Scratch);
+    std::ifstream packed(name, std::ios::binary);
+    InflateJust(packed,
+      [&](const char* some, std::size_t count) { unpacked->Append(some, count); }, bytes);
+  }
   const std::string file = unpacked ? unpacked->Path() : name;
   const auto make = [file, unpacked]
   {
@@ -121,7 +97,9 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDire
   const vtkSmartPointer<vtkNIFTIImageReader> reader = make();
   reader->UpdateInformation();
   std::tie(slabs->Slope, slabs->Shift) = RescalingOf(reader);
+  // It warns where sform and qform differ in handedness, of which both are served here.
   slabs->HasTrustedWarnings = false;
+  slabs->HasParts = isAlone;
   slabs->IsReversed = reader->GetQFac() < 0;
   if (slabs->Slope != 1.0 || slabs->Shift != 0.0)
   {

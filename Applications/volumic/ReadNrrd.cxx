@@ -3,12 +3,10 @@
 
 // vtkNrrdReader keeps neither the directions of the axes nor compressed data, so the format is read
 // here: https://teem.sourceforge.net/nrrd/format.html.
-#include "ReadVolume.h"
+#include "SlabReader.h"
 
 #include "BinaryFile.h"
-#include "Bunzip.h"
 #include "ByteBudget.h"
-#include "Inflate.h"
 #include "LabelNames.h"
 #include "ParseNumbers.h"
 #include "RawSlabs.h"
@@ -16,8 +14,6 @@
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
 #include <vtkType.h>
 
 #include <algorithm>
@@ -137,69 +133,6 @@ int TypeOf(const std::string& name)
   return found->second;
 }
 
-/** Numbers in a text. */
-void DecodeText(std::istream& data, vtkDataArray* values)
-{
-  double value = 0.0;
-  const int components = values->GetNumberOfComponents();
-  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
-  {
-    if (!(data >> value))
-    {
-      throw Failure("fewer values than the sizes ask for");
-    }
-    values->SetComponent(i / components, static_cast<int>(i % components), value);
-  }
-  std::string more;
-  if (data >> more)
-  {
-    throw Failure("more values than the sizes ask for");
-  }
-}
-
-/** Fill the array with the encoded values, which begin here in their file. */
-void Decode(std::istream& data, std::uint64_t end, const Fields& fields, vtkDataArray* values)
-{
-  constexpr auto longest = std::numeric_limits<std::streamsize>::max();
-  for (int left = ParseNumber<int>(Field(fields, "line skip", "0")); left > 0 && data; --left)
-  {
-    data.ignore(longest, '\n');
-  }
-  const std::uint64_t size = static_cast<std::uint64_t>(values->GetNumberOfValues()) *
-    static_cast<std::uint64_t>(values->GetDataTypeSize());
-  char* const voxels = static_cast<char*>(values->GetVoidPointer(0));
-  // -1: the voxels are the last bytes.
-  const int skip = ParseNumber<int>(Field(fields, "byte skip", "0"));
-  const std::uint64_t before = static_cast<std::uint64_t>(std::max(skip, 0));
-  const std::string encoding = Lower(Field(fields, "encoding", "raw"));
-  if (encoding == "text" || encoding == "txt" || encoding == "ascii")
-  {
-    DecodeText(data, values);
-    return;
-  }
-  if (encoding == "gzip" || encoding == "gz")
-  {
-    InflateJust(data, To(voxels, before), MostUnpacked(size, before));
-  }
-  else if (encoding == "bzip2" || encoding == "bz2")
-  {
-    BunzipJust(data, To(voxels, before), MostUnpacked(size, before));
-  }
-  else if (encoding == "raw")
-  {
-    const std::uint64_t at = data.good() ? static_cast<std::uint64_t>(data.tellg()) : end;
-    const std::uint64_t start = skip >= 0 ? at + before : end - std::min(size, end);
-    NeedJustBytes(end - std::min(end, start), size);
-    data.seekg(static_cast<std::streamoff>(start));
-    data.read(voxels, static_cast<std::streamsize>(size));
-  }
-  else
-  {
-    throw Failure("the encoding '" + encoding + "' is not read: raw, gzip, bzip2 and text are");
-  }
-  ToNativeOrder(values, Lower(Field(fields, "endian", "little")) == "big");
-}
-
 /** "(1,0,0) (0,1,0) (0,0,1)" as vectors. */
 std::vector<Vector3> ParseVectors(const std::string& text)
 {
@@ -281,25 +214,30 @@ struct Header
   std::uint64_t DataStart = 0; ///< bytes before the data in it
 };
 
-/** Bytes of all voxels. */
-std::uint64_t BytesOf(const Header& header)
+RawSlabs::Packing PackingOf(const std::string& encoding)
 {
-  return BytesOfVoxels(header.Type, header.Components, header.Size);
+  using Packing = RawSlabs::Packing;
+  static const std::map<std::string, Packing> packings = { { "raw", Packing::None },
+    { "gzip", Packing::Zlib }, { "gz", Packing::Zlib }, { "bzip2", Packing::Bzip2 },
+    { "bz2", Packing::Bzip2 }, { "text", Packing::Text }, { "txt", Packing::Text },
+    { "ascii", Packing::Text } };
+  const auto found = packings.find(encoding);
+  if (found == packings.end())
+  {
+    throw Failure("the encoding '" + encoding + "' is not read: raw, gzip, bzip2 and text are");
+  }
+  return found->second;
 }
 
-/**
- * @throws Failure, before memory is taken, if the data file is too short: of packed data at least
- * as many times as zlib may pack them, or text.
- */
-void CheckLength(const Header& header)
+/** Where the data are when so many lines are behind. */
+std::uint64_t BehindLines(const std::string& file, std::uint64_t start, int lines)
 {
-  const std::string encoding = Lower(Field(header.All, "encoding", "raw"));
-  const std::uint64_t most = encoding == "raw" ? 1
-    : encoding == "gzip" || encoding == "gz"   ? MostOfZlib
-    : encoding == "bzip2" || encoding == "bz2" ? MostOfBzip2
-                                               : 8;
-  const std::uint64_t there = SizeOfData(header.DataFile);
-  NeedPackedBytes(there - std::min(there, header.DataStart), most, BytesOf(header));
+  std::ifstream data = OpenData(file, start);
+  for (; lines > 0 && data; --lines)
+  {
+    data.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return data ? static_cast<std::uint64_t>(data.tellg()) : std::filesystem::file_size(file);
 }
 
 /** Whether each voxel has several numbers, one behind the other, as the layers of segmentations. */
@@ -361,72 +299,32 @@ Header ReadHeader(const std::string& name)
 }
 }
 
-vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name)
-{
-  const Header header = ReadHeader(name);
-  try
-  {
-    CheckLength(header);
-    auto values =
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(header.Type));
-    const std::array<int, 3>& size = header.Size;
-    values->SetNumberOfComponents(header.Components);
-    values->SetNumberOfTuples(static_cast<vtkIdType>(size[0]) * size[1] * size[2]);
-    const std::uint64_t end = SizeOfData(header.DataFile);
-    std::ifstream data(header.DataFile, std::ios::binary);
-    data.seekg(static_cast<std::streamoff>(header.DataStart));
-    Decode(data, end, header.All, values);
-    vtkSmartPointer<vtkImageData> image = MakeImage(size, values, header.Placement);
-    if (!header.WorldAxes.empty())
-    {
-      SetWorldAxes(image, header.WorldAxes);
-    }
-    return image;
-  }
-  catch (const UsageError& error)
-  {
-    throw Failure(name + ": the header cannot be parsed: " + error.what());
-  }
-}
-
 LabelNames NamesInNrrd(const std::string& name)
 {
   const Header header = ReadHeader(name);
   return NamesOfSegments(header.Pairs, header.Components);
 }
 
-std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirectory& scratch)
+std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& opening)
 {
   const Header header = ReadHeader(name);
-  const std::string encoding = Lower(Field(header.All, "encoding", "raw"));
-  const bool isPacked = encoding == "gzip" || encoding == "gz";
-  const bool hasLines = Field(header.All, "line skip", "0") != "0";
-  if (hasLines || header.Components > 1 || (!isPacked && encoding != "raw"))
-  {
-    return nullptr;
-  }
-  CheckLength(header);
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Size = header.Size;
+  slabs->Components = header.Components;
   slabs->Type = header.Type;
   slabs->Placement = header.Placement;
   slabs->WorldAxes = header.WorldAxes;
   slabs->IsBig = Lower(Field(header.All, "endian", "little")) == "big";
-  slabs->File = header.DataFile;
-  std::uint64_t start = header.DataStart;
-  const int skip = ParseNumber<int>(Field(header.All, "byte skip", "0"));
-  if (isPacked)
-  {
-    slabs->Unpacked = Unpack(header.DataFile, start, scratch,
-      MostUnpacked(slabs->Bytes(), static_cast<std::uint64_t>(std::max(skip, 0))));
-    slabs->File = slabs->Unpacked->Path();
-    start = 0;
-  }
-  const std::uint64_t there = SizeOfData(slabs->File);
+  slabs->Files = { header.DataFile };
+  slabs->Code = PackingOf(Lower(Field(header.All, "encoding", "raw")));
+  slabs->Start = BehindLines(header.DataFile, header.DataStart,
+    ParseNumber<int>(Field(header.All, "line skip", "0")));
   // -1: the voxels are the last bytes.
-  slabs->Start = skip >= 0 ? start + static_cast<std::uint64_t>(skip)
-                           : there - std::min(there, slabs->Bytes());
-  NeedJustBytes(there - std::min(there, slabs->Start), slabs->Bytes());
+  const int skip = ParseNumber<int>(Field(header.All, "byte skip", "0"));
+  const bool isRaw = slabs->Code == RawSlabs::Packing::None;
+  slabs->AreLast = isRaw && skip < 0;
+  (isRaw ? slabs->Start : slabs->Before) += static_cast<std::uint64_t>(std::max(skip, 0));
+  slabs->Prepare(opening);
   return slabs;
 }
 }

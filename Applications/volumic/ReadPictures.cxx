@@ -116,53 +116,11 @@ bool Matches(const std::string& name, const std::string& pattern)
 
 vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
 {
-  auto reader = vtkSmartPointer<vtkImageReader2>::Take(
-    vtkImageReader2Factory::CreateImageReader2(file.c_str()));
-  reader->SetFileName(file.c_str());
+  const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
   reader->SetDataSpacing(1.0, 1.0, 1.0);
   VtkMessages messages;
   messages.UpdateReader(reader, file);
   return reader->GetOutput();
-}
-
-/**
- * For .bmp, of whose files the reader of VTK 9.6 and 9.7 gives the first one again and again, and
- * .pgm, whose reader takes the first file's header for as long as those of the others.
- */
-vtkSmartPointer<vtkImageData> ReadOneByOne(const std::vector<std::string>& files)
-{
-  vtkNew<vtkImageAppend> stack;
-  stack->SetAppendAxis(2);
-  for (const std::string& file : files)
-  {
-    stack->AddInputData(ReadPicture(file));
-  }
-  VtkMessages messages;
-  messages.UpdateReader(stack, files.front());
-  return stack->GetOutput();
-}
-
-/** The reader of many files does not tell in which one it failed. @throws Failure that does. */
-void FindDamaged(const std::vector<std::string>& files)
-{
-  for (const std::string& file : files)
-  {
-    ReadPicture(file);
-  }
-}
-
-/** What the check throws names the file. */
-template <class Check>
-void NameFailure(const std::string& file, const Check& check)
-{
-  try
-  {
-    check();
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(file + ": " + failure.what());
-  }
 }
 
 /** @throws Failure unless they are pictures of one kind and size. */
@@ -185,7 +143,7 @@ void CheckPictures(const std::vector<std::string>& files)
   std::array<int, 4> size = { 0, 0, 0, 0 };
   for (const std::string& file : files)
   {
-    NameFailure(file,
+    Named(file,
       [&]
       {
         if (const int pages = CheckPicture(file); pages > 1)
@@ -193,18 +151,10 @@ void CheckPictures(const std::vector<std::string>& files)
           throw Failure(std::to_string(pages) + " pages; give it by its name, it is a volume");
         }
       });
-    vtkSmartPointer<vtkImageReader2> reader;
-    VtkMessages ignored; // Some of those that are asked complain of what they don't know.
-    ignored.Catch(
-      [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(file.c_str())); });
-    if (!reader)
-    {
-      throw Failure(file + ": not a picture that VTK's readers know");
-    }
-    NameFailure(file, [&] { CheckChosen(reader, file); });
+    const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
+    Named(file, [&] { CheckChosen(reader, file); });
     VtkMessages messages;
     messages.ListenTo(reader);
-    reader->SetFileName(file.c_str());
     reader->UpdateInformation();
     const int* extent = reader->GetDataExtent();
     const std::array<int, 4> own = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1,
@@ -306,50 +256,23 @@ std::vector<std::string> MatchFiles(const std::string& pattern)
   return files;
 }
 
-vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files)
-{
-  CheckPictures(files);
-  vtkNew<vtkStringArray> names;
-  for (const std::string& file : files)
-  {
-    names->InsertNextValue(file);
-  }
-  auto reader = vtkSmartPointer<vtkImageReader2>::Take(
-    vtkImageReader2Factory::CreateImageReader2(files.front().c_str()));
-  if (reader->IsA("vtkBMPReader") || reader->IsA("vtkPNMReader"))
-  {
-    return ReadOneByOne(files);
-  }
-  reader->SetFileNames(names);
-  reader->SetDataSpacing(1.0, 1.0, 1.0);
-  VtkMessages messages;
-  try
-  {
-    messages.UpdateReader(reader, files.front());
-  }
-  catch (const Failure&)
-  {
-    FindDamaged(files);
-    throw;
-  }
-  return reader->GetOutput();
-}
-
 std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files)
 {
   CheckPictures(files);
   return std::make_unique<PictureSlabs>(files);
 }
 
-std::unique_ptr<SlabReader> OpenTiff(const std::string& name)
+std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening)
 {
-  CheckPicture(name);
-  const auto make = [name]
+  CheckPicture(name); // before any reader of VTK looks at it
+  const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(name);
+  CheckChosen(reader, name);
+  if (reader->IsA("vtkNIFTIImageReader"))
   {
-    auto reader = vtkSmartPointer<vtkTIFFReader>::New();
-    reader->SetFileName(name.c_str());
-    return reader;
-  };
-  return std::make_unique<ReaderSlabs>(name, make);
+    return OpenNifti(name, opening);
+  }
+  auto slabs = std::make_unique<ReaderSlabs>(name, [name] { return ReaderOf(name); });
+  slabs->HasParts = reader->IsA("vtkTIFFReader");
+  return slabs;
 }
 }

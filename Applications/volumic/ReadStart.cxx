@@ -43,19 +43,6 @@ vtkSmartPointer<vtkPolyData> ReadWith(const std::string& name)
   return reader->GetOutput();
 }
 
-template <class Check>
-void NameFailure(const std::string& name, const Check& check)
-{
-  try
-  {
-    check();
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(name + ": " + failure.what());
-  }
-}
-
 /** Whether VTK's reader takes an STL file for text: of its begin hardly anything is binary. */
 bool IsStlText(BinaryFile& file)
 {
@@ -79,12 +66,6 @@ vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
   return ReadWith<vtkSTLReader>(name);
 }
 
-vtkSmartPointer<vtkPolyData> ReadPly(const std::string& name)
-{
-  NameFailure(name, [&] { CheckPly(name); }); // VTK's reader would go on with what memory holds
-  return ReadWith<vtkPLYReader>(name);
-}
-
 vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 {
   const std::string suffix = SuffixOf(name);
@@ -94,10 +75,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   }
   if (suffix == ".vtp")
   {
-    NameFailure(name, [&] { CheckXmlInput(name); });
-  }
-  if (suffix == ".vtp")
-  {
+    Named(name, [&] { CheckXmlInput(name); });
     return ReadWith<vtkXMLPolyDataReader>(name);
   }
   if (suffix == ".vtk")
@@ -110,11 +88,12 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
   }
   if (suffix == ".ply")
   {
-    return ReadPly(name);
+    Named(name, [&] { CheckPly(name); }); // VTK's reader would go on with what memory holds
+    return ReadWith<vtkPLYReader>(name);
   }
   if (suffix == ".obj")
   {
-    NameFailure(name, [&] { CheckObj(name); });
+    Named(name, [&] { CheckObj(name); });
     return ReadWith<vtkOBJReader>(name);
   }
   throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");

@@ -14,8 +14,6 @@
 #include <vtkDataArray.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkImageData.h>
-#include <vtkImageReader2.h>
-#include <vtkImageReader2Factory.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -32,7 +30,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <initializer_list>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <new>
@@ -45,11 +43,32 @@ namespace
 {
 using Image = vtkSmartPointer<vtkImageData>;
 
-template <class Reader>
-Image ReadXml(const std::string& name)
+/** A volume of which the header has been read at the most. */
+struct FoundVolume
 {
-  CheckXmlInput(name);
-  return ReadIfItsFormat<Reader>(name);
+  vtkSmartPointer<vtkAlgorithm> Parts; ///< null where a part costs as much as the whole
+  std::function<Image()> ReadAll;
+};
+
+FoundVolume InSlabs(std::shared_ptr<SlabReader> slabs)
+{
+  return { slabs->HasParts ? NewSlabSource(slabs) : nullptr,
+    [slabs] { return ReadAllSlabs(*slabs); } };
+}
+
+using Opener = std::function<FoundVolume(const std::string&, const Opening&)>;
+using SlabOpener = std::unique_ptr<SlabReader> (*)(const std::string&, const Opening&);
+
+Opener By(SlabOpener open)
+{
+  return [open](const std::string& name, const Opening& opening)
+  { return InSlabs(open(name, opening)); };
+}
+
+Opener By(Image (*read)(const std::string&))
+{
+  return [read](const std::string& name, const Opening&)
+  { return FoundVolume{ nullptr, [name, read] { return read(name); } }; };
 }
 
 #ifdef VOLUMIC_HAS_MINC
@@ -97,93 +116,24 @@ std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
   return slices.empty() ? std::pair{ files, false } : std::pair{ slices, true };
 }
 
-Image ReadFolder(const std::string& name)
+FoundVolume OpenSlices(
+  const std::pair<std::vector<std::string>, bool>& slices, const Opening& opening)
 {
-  const auto [slices, areDicom] = SlicesOf(name);
-  return areDicom ? ReadDicom(slices) : ReadPictures(slices);
+  return InSlabs(
+    slices.second ? OpenDicom(slices.first, opening) : OpenPictures(slices.first));
 }
 
-Image ReadDicomFile(const std::string& name)
+FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
 {
   const std::string folder = std::filesystem::path(name).parent_path().string();
-  return ReadFolder(folder.empty() ? "." : folder);
-}
-
-Image ReadByContent(const std::string& name)
-{
-  if (IsDicom(name))
-  {
-    return ReadDicomFile(name);
-  }
-  CheckPicture(name); // before any reader of VTK looks at it
-  vtkSmartPointer<vtkImageReader2> reader;
-  VtkMessages ignored; // Some of those that are asked complain of what they don't know.
-  ignored.Catch(
-    [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str())); });
-  if (!reader)
-  {
-    throw Failure(name + ": not a format that VTK's readers know");
-  }
-  CheckChosen(reader, name);
-  if (reader->IsA("vtkNIFTIImageReader"))
-  {
-    return ReadNifti(name);
-  }
-  reader->SetFileName(name.c_str());
-  return ImageOf(reader, name);
-}
-
-using Reader = Image (*)(const std::string&);
-
-Reader ChooseReader(const std::string& name)
-{
-  static const std::vector<std::pair<std::string, Reader>> readers = {
-    { ".vti", ReadXml<vtkXMLImageDataReader> },
-    { ".pvti", ReadXml<vtkXMLPImageDataReader> },
-    { ".vtk", ReadWith<vtkGenericDataObjectReader> },
-#ifdef VOLUMIC_HAS_HDF
-    { ".vtkhdf", ReadIfItsFormat<vtkHDFReader> },
-    { ".hdf", ReadIfItsFormat<vtkHDFReader> },
-#endif
-    { ".mha", ReadMeta },
-    { ".mhd", ReadMeta },
-    { ".nrrd", ReadNrrd },
-    { ".nhdr", ReadNrrd },
-    { ".nii", ReadNifti },
-    { ".nii.gz", ReadNifti },
-    { ".img", ReadNifti },
-    { ".img.gz", ReadNifti },
-#ifdef VOLUMIC_HAS_MINC
-    { ".mnc", ReadMinc },
-#endif
-    { ".inv3", ReadInv3 },
-    { ".mrc", ReadMrc },
-    { ".ccp4", ReadMrc },
-    { ".slc", ReadIfItsFormat<vtkSLCReader> },
-    { ".dcm", ReadDicomFile },
-    { ".dicom", ReadDicomFile },
-    { ".ima", ReadDicomFile },
-  };
-  const std::string lower = Lower(name);
-  for (const auto& [suffix, reader] : readers)
-  {
-    if (lower.size() > suffix.size() && EndsWith(lower, suffix))
-    {
-      return reader;
-    }
-  }
-  return ReadByContent;
-}
-
-std::unique_ptr<SlabReader> OpenSlices(const std::pair<std::vector<std::string>, bool>& slices)
-{
-  return slices.second ? OpenDicom(slices.first) : OpenPictures(slices.first);
+  return OpenSlices(SlicesOf(folder.empty() ? "." : folder), opening);
 }
 
 /** Readers of VTK that give parts; without the arrays that nobody asks for. */
 template <class Reader>
-vtkSmartPointer<vtkAlgorithm> OpenXml(const std::string& name, const std::string& array)
+FoundVolume OpenXml(const std::string& name, const Opening& opening)
 {
+  const std::string& array = opening.Array;
   CheckXmlInput(name);
   const vtkSmartPointer<Reader> reader = NewReader<Reader>(name);
   VtkMessages messages;
@@ -206,54 +156,76 @@ vtkSmartPointer<vtkAlgorithm> OpenXml(const std::string& name, const std::string
   {
     throw Failure("no point array " + array + (names.empty() ? "; there are none" : names));
   }
-  return reader;
+  return { reader, [reader, name] { return ImageOf(reader, name); } };
 }
 
-/** Null where the file can only be read as a whole. */
-vtkSmartPointer<vtkAlgorithm> OpenFile(
-  const std::string& name, const std::string& array, const std::string& scratch)
+Opener OpenerOf(const std::string& name)
 {
-  const std::string lower = Lower(name);
-  const auto ends = [&lower](std::initializer_list<const char*> suffixes)
-  {
-    return std::any_of(suffixes.begin(), suffixes.end(),
-      [&](const char* suffix) { return EndsWith(lower, suffix); });
+  static const std::vector<std::pair<std::string, Opener>> openers = {
+    { ".vti", OpenXml<vtkXMLImageDataReader> },
+    { ".pvti", OpenXml<vtkXMLPImageDataReader> },
+    { ".vtk", By(ReadWith<vtkGenericDataObjectReader>) },
+#ifdef VOLUMIC_HAS_HDF
+    { ".vtkhdf", By(ReadIfItsFormat<vtkHDFReader>) },
+    { ".hdf", By(ReadIfItsFormat<vtkHDFReader>) },
+#endif
+    { ".mha", By(OpenMeta) },
+    { ".mhd", By(OpenMeta) },
+    { ".nrrd", By(OpenNrrd) },
+    { ".nhdr", By(OpenNrrd) },
+    { ".nii", By(OpenNifti) },
+    { ".nii.gz", By(OpenNifti) },
+    { ".img", By(OpenNifti) },
+    { ".img.gz", By(OpenNifti) },
+#ifdef VOLUMIC_HAS_MINC
+    { ".mnc", By(ReadMinc) },
+#endif
+    { ".inv3", By(OpenInv3) },
+    { ".mrc", By(OpenMrc) },
+    { ".ccp4", By(OpenMrc) },
+    { ".slc", By(ReadIfItsFormat<vtkSLCReader>) },
+    { ".dcm", OpenDicomFile },
+    { ".dicom", OpenDicomFile },
+    { ".ima", OpenDicomFile },
   };
-  std::unique_ptr<SlabReader> slabs;
-  if (ends({ ".vti" }))
+  const std::string lower = Lower(name);
+  const auto found = std::find_if(openers.begin(), openers.end(),
+    [&lower](const auto& each)
+    { return lower.size() > each.first.size() && EndsWith(lower, each.first); });
+  return found != openers.end() ? found->second
+    : IsDicom(name)             ? OpenDicomFile
+                                : By(OpenByContent);
+}
+
+FoundVolume FindVolume(const std::string& name, const Opening& opening)
+{
+  NeedFilesOfVolume(name);
+  if (std::filesystem::is_directory(name))
   {
-    return OpenXml<vtkXMLImageDataReader>(name, array);
+    return OpenSlices(SlicesOf(name), opening);
   }
-  if (ends({ ".pvti" }))
+  if (std::filesystem::exists(name))
   {
-    return OpenXml<vtkXMLPImageDataReader>(name, array);
+    return OpenerOf(name)(name, opening);
   }
-  if (ends({ ".mrc", ".ccp4" }))
+  if (name.find_first_of("%*") == std::string::npos)
   {
-    slabs = OpenMrc(name);
+    throw Failure("no such file or folder");
   }
-  else if (ends({ ".mha", ".mhd" }))
+  const std::vector<std::string> files = MatchFiles(name);
+  return OpenSlices({ files, !files.empty() && IsDicom(files.front()) }, opening);
+}
+
+Image ReadAll(const FoundVolume& volume)
+{
+  Image image;
+  VtkMessages ignored; // VTK prints that there is no memory, and throws.
+  ignored.Catch([&] { image = volume.ReadAll(); });
+  if (image->GetNumberOfPoints() == 0)
   {
-    slabs = OpenMeta(name, scratch);
+    throw Failure("the image is empty");
   }
-  else if (ends({ ".nrrd", ".nhdr" }))
-  {
-    slabs = OpenNrrd(name, scratch);
-  }
-  else if (ends({ ".nii", ".nii.gz" }))
-  {
-    slabs = OpenNifti(name, scratch);
-  }
-  else if (ends({ ".tif", ".tiff" }))
-  {
-    slabs = OpenTiff(name);
-  }
-  else if (ends({ ".dcm", ".dicom", ".ima" }) || IsDicom(name))
-  {
-    const std::string folder = std::filesystem::path(name).parent_path().string();
-    slabs = OpenSlices(SlicesOf(folder.empty() ? "." : folder));
-  }
-  return slabs ? NewSlabSource(std::move(slabs)) : nullptr;
+  return image;
 }
 
 /** What the work gives; what it throws names the volume. */
@@ -290,75 +262,32 @@ auto NameFailures(const std::string& name, const Work& work) -> decltype(work())
 
 vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
 {
-  return NameFailures(name,
-    [&name]
-    {
-      NeedFilesOfVolume(name);
-      Image image;
-      if (std::filesystem::is_directory(name))
-      {
-        image = ReadFolder(name);
-      }
-      else if (std::filesystem::exists(name))
-      {
-        image = ChooseReader(name)(name);
-      }
-      else if (name.find_first_of("%*") != std::string::npos)
-      {
-        const std::vector<std::string> files = MatchFiles(name);
-        const bool isSeries = !files.empty() && IsDicom(files.front());
-        image = isSeries ? ReadDicom(files) : ReadPictures(files);
-      }
-      else
-      {
-        throw Failure("no such file or folder");
-      }
-      if (image->GetNumberOfPoints() == 0)
-      {
-        throw Failure("the image is empty");
-      }
-      return image;
-    });
+  return NameFailures(name, [&name] { return ReadAll(FindVolume(name, { "", "", true })); });
 }
 
 vtkSmartPointer<vtkAlgorithm> OpenParts(
   const std::string& name, const std::string& array, const std::string& scratch)
 {
-  return NameFailures(name,
-    [&]() -> vtkSmartPointer<vtkAlgorithm>
-    {
-      NeedFilesOfVolume(name);
-      if (std::filesystem::is_directory(name))
-      {
-        return NewSlabSource(OpenSlices(SlicesOf(name)));
-      }
-      if (std::filesystem::exists(name))
-      {
-        return OpenFile(name, array, scratch);
-      }
-      const std::vector<std::string> files =
-        name.find_first_of("%*") != std::string::npos ? MatchFiles(name)
-                                                      : std::vector<std::string>();
-      return files.empty() ? nullptr
-                           : NewSlabSource(OpenSlices({ files, IsDicom(files.front()) }));
-    });
+  return NameFailures(name, [&] { return FindVolume(name, { array, scratch }).Parts; });
 }
 
 OpenedVolume OpenVolume(
   const std::string& name, const std::string& array, const std::string& scratch)
 {
-  OpenedVolume opened;
-  opened.Source = OpenParts(name, array, scratch);
-  if (!opened.Source)
-  {
-    const vtkSmartPointer<vtkImageData> image = ReadVolume(name);
-    ChooseScalars(image, array);
-    auto holder = vtkSmartPointer<vtkTrivialProducer>::New();
-    holder->SetOutput(image);
-    opened.Source = holder;
-    opened.Whole = SuffixOf(name);
-  }
-  return opened;
+  return NameFailures(name,
+    [&]
+    {
+      const FoundVolume volume = FindVolume(name, { array, scratch });
+      if (volume.Parts)
+      {
+        return OpenedVolume{ volume.Parts, "" };
+      }
+      const Image image = ReadAll(volume);
+      ChooseScalars(image, array);
+      auto holder = vtkSmartPointer<vtkTrivialProducer>::New();
+      holder->SetOutput(image);
+      return OpenedVolume{ holder, SuffixOf(name) };
+    });
 }
 
 void ChooseScalars(vtkImageData* image, const std::string& name)

@@ -48,29 +48,6 @@ vtkSmartPointer<vtkAlgorithm> OpenParts(
  */
 void ChooseScalars(vtkImageData* image, const std::string& array);
 
-// ---- The parts, each in its file ----------------------------------------------------------------
-
-/** MetaImage (.mha, .mhd); VTK's reader drops the directions of the axes. */
-vtkSmartPointer<vtkImageData> ReadMeta(const std::string& name);
-
-/** NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails. */
-vtkSmartPointer<vtkImageData> ReadNifti(const std::string& name);
-
-/** NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`. */
-vtkSmartPointer<vtkImageData> ReadNrrd(const std::string& name);
-
-/** MRC (.mrc, .ccp4); VTK's reader takes voxels of mode 6 for twice as many. */
-vtkSmartPointer<vtkImageData> ReadMrc(const std::string& name);
-
-/**
- * The volume of an InVesalius project (.inv3), unit mm, its axes as they are stored: the world axes
- * are L, A, S.
- */
-vtkSmartPointer<vtkImageData> ReadInv3(const std::string& name);
-
-/** The slices of one series, in DICOM's patient coordinates (LPS, mm), sorted by position. */
-vtkSmartPointer<vtkImageData> ReadDicom(const std::vector<std::string>& files);
-
 bool IsDicom(const std::string& file);
 
 /**
@@ -78,9 +55,6 @@ bool IsDicom(const std::string& file);
  * one of the slices but for numbers, ends like all DICOM files do, or begins like one.
  */
 bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices);
-
-/** Pictures of one size as the slices of a volume of spacing 1, in this order. */
-vtkSmartPointer<vtkImageData> ReadPictures(const std::vector<std::string>& files);
 
 /**
  * Existing files that match a pattern: '*' in the name stands for any text, '%d' (or '%03d') for

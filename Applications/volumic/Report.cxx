@@ -3,8 +3,8 @@
 #include "Report.h"
 
 #include "JsonWriter.h"
-#include "LabelColors.h"
 #include "ParseNumbers.h"
+#include "SurfaceFields.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
@@ -166,20 +166,21 @@ void WriteSeconds(JsonWriter& json, const ReportInput& input)
   }
   json.EndObject();
 }
+}
 
-void WriteProperties(JsonWriter& json, const FilterTrio& filters)
+void WriteProperties(
+  JsonWriter& json, const FilterTrio& filters, bool (*isMeant)(const PropertyOption&))
 {
   json.Name("properties");
   json.BeginObject();
   for (const PropertyOption& property : SurfaceProperties())
   {
-    if (!IsOfLabelsOnly(property))
+    if (isMeant(property))
     {
       json.Member(property.Property, property.Get(filters));
     }
   }
   json.EndObject();
-}
 }
 
 double PeakMemory()
@@ -212,7 +213,8 @@ void WriteReport(std::ostream& out, const ReportInput& input)
       static_cast<int>(input.PeaksByRank.size()));
   }
   json.EndObject();
-  WriteProperties(json, input.Filters);
+  WriteProperties(json, input.Filters,
+    [](const PropertyOption& property) { return !IsOfLabelsOnly(property); });
   WriteEnd(json, input.Warnings);
   json.EndObject();
 }

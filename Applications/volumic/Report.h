@@ -51,6 +51,10 @@ void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize
 /** The member `component_features`: an object per component, the one of the largest area first. */
 void WriteComponents(JsonWriter& json, vtkPolyData* surface);
 
+/** The member `properties`: those that are meant, with their values. */
+void WriteProperties(
+  JsonWriter& json, const FilterTrio& filters, bool (*isMeant)(const PropertyOption&));
+
 /** The members `warnings` and `versions`. */
 void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings);
 

@@ -51,20 +51,6 @@ void SetInput(vtkAlgorithm* filter, const LabelMap& map, int layer)
     vtkDataSetAttributes::SCALARS);
 }
 
-/** What fails is told with the name of the volume. */
-template <class Work>
-auto OfVolume(const ToolOptions& options, const Work& work) -> decltype(work())
-{
-  try
-  {
-    return work();
-  }
-  catch (const Failure& failure)
-  {
-    throw Failure(options.Volume + ": " + failure.what());
-  }
-}
-
 /** @param warnings those of the filter, which are told, go here */
 std::vector<KnownLabel> KnownLabels(const ToolOptions& options, const LabelMap& map,
   const Announcer& announcer, std::vector<std::string>& warnings)
@@ -116,7 +102,7 @@ std::vector<LabelSurface> PlanSurfaces(
 {
   const std::vector<std::string> fileNames = FileNamesOf(known);
   std::vector<LabelSurface> surfaces;
-  const std::vector<std::size_t> chosen = OfVolume(options,
+  const std::vector<std::size_t> chosen = Named(options.Volume,
     [&] { return ChooseLabels(options.Labels, known, filter->GetBackgroundLabel()); });
   if (chosen.empty())
   {
@@ -165,7 +151,7 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   }
   SetInput(filter, map, layer);
   FilterRun run =
-    OfVolume(options, [&] { return RunFilter(filter, "Making surfaces", style); });
+    Named(options.Volume, [&] { return RunFilter(filter, "Making surfaces", style); });
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   auto* lost = vtkStringArray::SafeDownCast(blocks->GetFieldData()->GetAbstractArray("LostLabels"));
   const std::string told = lost ? InWordsOfOptions(lost->GetValue(0)) : std::string();
@@ -212,41 +198,19 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
   }
 }
 
-/** Print or write what --report asks for. */
-void PublishReport(const ToolOptions& options, const std::string& text)
-{
-  if (options.Report == "-")
-  {
-    std::cout << text;
-  }
-  else
-  {
-    WriteText(text, options.Report);
-  }
-}
-
 /** Write surfaces and report. @throws Failure if not all could be written. */
 void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   const LabelReport& report, ProgressStyle style)
 {
-  std::string failures = WriteLabelSurfaces(options, surfaces, style);
+  Failures failures;
+  WriteLabelSurfaces(options, surfaces, style, failures);
   if (!options.Report.empty())
   {
     std::ostringstream text;
     WriteReport(text, report);
-    try
-    {
-      PublishReport(options, text.str());
-    }
-    catch (const Failure& failure)
-    {
-      failures += (failures.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
-    }
+    failures.Try([&] { WriteText(text.str(), options.Report); });
   }
-  if (!failures.empty())
-  {
-    throw Failure(failures);
-  }
+  failures.Throw();
 }
 
 void TellEnd(const std::vector<LabelSurface>& surfaces, const Announcer& announcer)
@@ -298,7 +262,7 @@ void ListLabels(const ToolOptions& options, const LabelMap& map,
     static_cast<int>(map.Layers.size()) };
   list.Warnings = std::move(warnings);
   const std::vector<std::size_t> chosen =
-    OfVolume(options, [&] { return ChooseLabels(options.Labels, known, background); });
+    Named(options.Volume, [&] { return ChooseLabels(options.Labels, known, background); });
   for (const std::size_t i : chosen)
   {
     list.Labels.push_back(known[i]);
@@ -307,7 +271,7 @@ void ListLabels(const ToolOptions& options, const LabelMap& map,
   {
     std::ostringstream text;
     WriteReport(text, list);
-    PublishReport(options, text.str());
+    WriteText(text.str(), options.Report);
   }
   if (options.Report != "-")
   {

@@ -29,6 +29,7 @@ public:
   VolumePlacement Placement;
   std::string WorldAxes; ///< as SetWorldAxes takes them; may be empty
   std::string ArrayName; ///< of the values; empty: as Read() gives it
+  bool HasParts = true;  ///< Else some slices cost as much as all, which Read() is asked for then.
 
   /** The values of so many slices; a new array, or one that is valid until the next call. */
   virtual vtkSmartPointer<vtkDataArray> Read(int first, int count) = 0;
@@ -38,21 +39,48 @@ public:
  * A source of a pipeline that makes the slices that it is asked for. What the reader throws is an
  * error of its, with that text.
  */
-vtkSmartPointer<vtkAlgorithm> NewSlabSource(std::unique_ptr<SlabReader> reader);
+vtkSmartPointer<vtkAlgorithm> NewSlabSource(std::shared_ptr<SlabReader> reader);
 
-/** Where packed data are unpacked to: the option --scratch. */
-using ScratchDirectory = std::string;
+/** All slices. @throws Failure that the reader throws. */
+vtkSmartPointer<vtkImageData> ReadAllSlabs(SlabReader& reader);
 
-// The formats. Null where a file is of a kind that can only be read as a whole.
+/** What a volume is opened for. */
+struct Opening
+{
+  std::string Array;    ///< that is wanted; empty: as ChooseScalars has it
+  std::string Scratch;  ///< where packed voxels are unpacked to: the option --scratch
+  bool IsWhole = false; ///< All slices will be read, at once: what is packed needs no file.
+};
 
-std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const ScratchDirectory& scratch);
-std::unique_ptr<SlabReader> OpenMrc(const std::string& name);
-std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const ScratchDirectory& scratch);
-std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDirectory& scratch);
-std::unique_ptr<SlabReader> OpenDicom(const std::vector<std::string>& files);
+// The formats, which ReadVolume.cxx lists.
+
+/** MetaImage (.mha, .mhd); VTK's reader drops the directions of the axes. */
+std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& opening);
+
+/** MRC (.mrc, .ccp4); VTK's reader takes voxels of mode 6 for twice as many. */
+std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& opening);
+
+/** NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`. */
+std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& opening);
+
+/** NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails. */
+std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& opening);
+
+/**
+ * The volume of an InVesalius project (.inv3), unit mm, its axes as they are stored: the world axes
+ * are L, A, S.
+ */
+std::unique_ptr<SlabReader> OpenInv3(const std::string& name, const Opening& opening);
+
+/** The slices of one series, in DICOM's patient coordinates (LPS, mm), sorted by position. */
+std::unique_ptr<SlabReader> OpenDicom(
+  const std::vector<std::string>& files, const Opening& opening);
+
+/** Pictures of one size as the slices of a volume of spacing 1, in this order. */
 std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files);
-/** One file of several pages. */
-std::unique_ptr<SlabReader> OpenTiff(const std::string& name);
+
+/** A picture, the pages of a TIFF, or what else a reader of VTK takes for its own. */
+std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening);
 }
 
 #endif

@@ -85,13 +85,30 @@ vtkSmartPointer<vtkDataArray> ReadPart(SlabReader& reader, const int* extent)
   return part;
 }
 
+/** Give the image the voxels of an extent, their place and what is known of it. */
+void FillImage(SlabReader& reader, const int* extent, vtkImageData* image)
+{
+  const vtkSmartPointer<vtkDataArray> values = ReadPart(reader, extent);
+  image->SetExtent(const_cast<int*>(extent));
+  PlaceImage(image, reader.Placement);
+  if (!reader.ArrayName.empty() || !values->GetName())
+  {
+    values->SetName(reader.ArrayName.empty() ? "Intensity" : reader.ArrayName.c_str());
+  }
+  image->GetPointData()->SetScalars(values);
+  if (!reader.WorldAxes.empty())
+  {
+    SetWorldAxes(image, reader.WorldAxes);
+  }
+}
+
 class SlabSource : public vtkImageAlgorithm
 {
 public:
   static SlabSource* New();
   vtkTypeMacro(SlabSource, vtkImageAlgorithm);
 
-  std::unique_ptr<SlabReader> Reader;
+  std::shared_ptr<SlabReader> Reader;
 
 protected:
   SlabSource() { this->SetNumberOfInputPorts(0); }
@@ -121,20 +138,7 @@ protected:
     info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
     try
     {
-      const vtkSmartPointer<vtkDataArray> values = ReadPart(*this->Reader, extent);
-      vtkImageData* image = vtkImageData::GetData(info);
-      image->SetExtent(extent);
-      PlaceImage(image, this->Reader->Placement);
-      const std::string& name = this->Reader->ArrayName;
-      if (!name.empty() || !values->GetName())
-      {
-        values->SetName(name.empty() ? "Intensity" : name.c_str());
-      }
-      image->GetPointData()->SetScalars(values);
-      if (!this->Reader->WorldAxes.empty())
-      {
-        SetWorldAxes(image, this->Reader->WorldAxes);
-      }
+      FillImage(*this->Reader, extent, vtkImageData::GetData(info));
       return 1;
     }
     catch (const std::exception& error)
@@ -148,10 +152,19 @@ protected:
 vtkStandardNewMacro(SlabSource);
 }
 
-vtkSmartPointer<vtkAlgorithm> NewSlabSource(std::unique_ptr<SlabReader> reader)
+vtkSmartPointer<vtkAlgorithm> NewSlabSource(std::shared_ptr<SlabReader> reader)
 {
   auto source = vtkSmartPointer<SlabSource>::New();
   source->Reader = std::move(reader);
   return source;
+}
+
+vtkSmartPointer<vtkImageData> ReadAllSlabs(SlabReader& reader)
+{
+  const std::array<int, 3>& size = reader.Size;
+  const int whole[6] = { 0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1 };
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  FillImage(reader, whole, image);
+  return image;
 }
 }

@@ -75,30 +75,6 @@ std::size_t CharacterBytes(const std::string& text, std::size_t at)
   return isRefused ? 0 : count;
 }
 
-std::string Utf8Character(unsigned int code)
-{
-  const auto byte = [](unsigned int bits) { return static_cast<char>(bits); };
-  if ((code >= 0xD800 && code < 0xE000) || code > 0x10FFFF)
-  {
-    return "\xEF\xBF\xBD";
-  }
-  if (code < 0x80)
-  {
-    return { byte(code) };
-  }
-  if (code < 0x800)
-  {
-    return { byte(0xC0 | code >> 6), byte(0x80 | (code & 0x3F)) };
-  }
-  if (code < 0x10000)
-  {
-    return { byte(0xE0 | code >> 12), byte(0x80 | (code >> 6 & 0x3F)),
-      byte(0x80 | (code & 0x3F)) };
-  }
-  return { byte(0xF0 | code >> 18), byte(0x80 | (code >> 12 & 0x3F)),
-    byte(0x80 | (code >> 6 & 0x3F)), byte(0x80 | (code & 0x3F)) };
-}
-
 std::string AsUtf8(const std::string& text)
 {
   std::size_t at = 0;
@@ -113,7 +89,10 @@ std::string AsUtf8(const std::string& text)
   std::string characters;
   for (const char byte : text)
   {
-    characters += Utf8Character(static_cast<unsigned char>(byte));
+    const auto code = static_cast<unsigned char>(byte);
+    characters += code < 0x80 ? std::string(1, byte)
+                              : std::string{ static_cast<char>(0xC0 | code >> 6),
+                                  static_cast<char>(0x80 | (code & 0x3F)) };
   }
   return characters;
 }

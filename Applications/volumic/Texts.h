@@ -25,9 +25,6 @@ std::string SuffixOf(const std::string& name);
 /** Bytes of the UTF-8 character that begins at a place of the text; 0 if none does (RFC 3629). */
 std::size_t CharacterBytes(const std::string& text, std::size_t at);
 
-/** A character in UTF-8, by its code; of one that is none the replacement character. */
-std::string Utf8Character(unsigned int code);
-
 /** The text in UTF-8: as it is, or, where it is none, from Latin-1, whose bytes are characters. */
 std::string AsUtf8(const std::string& text);
 

@@ -4,6 +4,7 @@
 #define volumicToolErrors_h
 
 #include <stdexcept>
+#include <string>
 
 namespace tool
 {
@@ -26,6 +27,50 @@ struct Failure : std::runtime_error
 struct UsageError : std::runtime_error
 {
   using std::runtime_error::runtime_error;
+};
+
+/** What the work gives; of an error of this kind that it throws, the words begin with the name. */
+template <class Error = Failure, class Work>
+auto Named(const std::string& name, const Work& work) -> decltype(work())
+{
+  try
+  {
+    return work();
+  }
+  catch (const Error& error)
+  {
+    throw Error(name + ": " + error.what());
+  }
+}
+
+/** Of things that are tried one after the other, what failed: it must not take the others with it. */
+class Failures
+{
+public:
+  template <class Work>
+  void Try(const Work& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const Failure& failure)
+    {
+      this->Words += (this->Words.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
+    }
+  }
+
+  /** @throws Failure with all that failed, if anything did. */
+  void Throw() const
+  {
+    if (!this->Words.empty())
+    {
+      throw Failure(this->Words);
+    }
+  }
+
+private:
+  std::string Words;
 };
 }
 

@@ -266,14 +266,7 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
       }
       text = argv[i];
     }
-    try
-    {
-      ApplyOption(options, found, text);
-    }
-    catch (const UsageError& error)
-    {
-      throw UsageError("--" + name + ": " + error.what());
-    }
+    Named<UsageError>("--" + name, [&] { ApplyOption(options, found, text); });
   }
   if (options.ListsLabels && options.Labels.empty())
   {
@@ -285,16 +278,10 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
 
 void ApplyProperties(const ToolOptions& options, const FilterTrio& filters)
 {
-  for (const auto& [property, text] : options.Properties)
+  for (const auto& chosen : options.Properties)
   {
-    try
-    {
-      property->Set(filters, text);
-    }
-    catch (const UsageError& error)
-    {
-      throw UsageError("--" + property->Option + ": " + error.what());
-    }
+    Named<UsageError>(
+      "--" + chosen.first->Option, [&] { chosen.first->Set(filters, chosen.second); });
   }
 }
 

@@ -20,8 +20,12 @@ namespace tool
 {
 std::array<double, 2> RangeOf(vtkDataArray* values, int component)
 {
-  std::array<double, 2> range;
-  values->GetRange(range.data(), values->GetNumberOfComponents() == 1 ? 0 : component);
+  // Nothing is between these where there is no such component.
+  std::array<double, 2> range = { 1.0, 0.0 };
+  if (component < values->GetNumberOfComponents())
+  {
+    values->GetRange(range.data(), values->GetNumberOfComponents() == 1 ? 0 : component);
+  }
   return range;
 }
 
@@ -81,20 +85,6 @@ void SetWorldAxes(vtkImageData* image, const std::string& axes)
   label->SetName("Axes");
   label->InsertNextValue(axes);
   image->GetFieldData()->AddArray(label);
-}
-
-vtkSmartPointer<vtkImageData> MakeImage(
-  const std::array<int, 3>& size, vtkDataArray* scalars, const VolumePlacement& placement)
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(size[0], size[1], size[2]);
-  if (!scalars->GetName())
-  {
-    scalars->SetName("Intensity");
-  }
-  image->GetPointData()->SetScalars(scalars);
-  PlaceImage(image, placement);
-  return image;
 }
 
 void ToNativeOrder(vtkDataArray* values, bool isBig)

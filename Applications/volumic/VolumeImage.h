@@ -33,10 +33,6 @@ struct VolumePlacement
  */
 void PlaceImage(vtkImageData* image, const VolumePlacement& placement);
 
-/** An image of these scalars (x fastest), placed. @throws Failure as PlaceImage. */
-vtkSmartPointer<vtkImageData> MakeImage(
-  const std::array<int, 3>& size, vtkDataArray* scalars, const VolumePlacement& placement);
-
 /**
  * Tell which side of the body the world axes x, y, z point to, as the field data `Axes`: three
  * letters of L R, A P, S I (left, right, anterior, posterior, superior, inferior). DICOM has "LPS",
@@ -50,7 +46,10 @@ void ToNativeOrder(vtkDataArray* values, bool isBig);
 /** An array of float: slope times value plus shift. */
 vtkSmartPointer<vtkDataArray> Rescaled(vtkDataArray* values, double slope, double shift);
 
-/** The smallest and the largest of a component, or, for -1, of the magnitude. */
+/**
+ * The smallest and the largest of a component, or, for -1, of the magnitude; of a component that is
+ * not there the first of both is the larger one.
+ */
 std::array<double, 2> RangeOf(vtkDataArray* values, int component);
 
 double Dot(const Vector3& a, const Vector3& b);

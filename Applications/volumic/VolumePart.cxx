@@ -200,14 +200,7 @@ void VolumePart::Read(const int* extent, vtkImageData* image)
   messages.UpdateReader(this->Reader, this->Name, true, extent);
   image->ShallowCopy(this->Reader->GetOutputDataObject(0));
   this->Reader->GetOutputDataObject(0)->ReleaseData();
-  try
-  {
-    ChooseScalars(image, this->Array);
-  }
-  catch (const tool::Failure& failure)
-  {
-    throw tool::Failure(this->Name + ": " + failure.what());
-  }
+  Named(this->Name, [&] { ChooseScalars(image, this->Array); });
   if (this->HasSpacing)
   {
     image->SetSpacing(this->Known.Spacing.data());

@@ -7,6 +7,7 @@
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
 #include <vtkImageReader2.h>
+#include <vtkImageReader2Factory.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPointData.h>
 
@@ -17,17 +18,30 @@
 
 namespace tool
 {
-vtkSmartPointer<vtkImageData> ImageOf(
-  vtkAlgorithm* reader, const std::string& name, bool hasTrustedWarnings)
+vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name)
 {
   VtkMessages messages;
-  messages.UpdateReader(reader, name, hasTrustedWarnings);
+  messages.UpdateReader(reader, name);
   auto* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!image)
   {
     throw Failure(name + ": holds no image");
   }
   return image;
+}
+
+vtkSmartPointer<vtkImageReader2> ReaderOf(const std::string& name)
+{
+  vtkSmartPointer<vtkImageReader2> reader;
+  VtkMessages ignored; // Some of those that are asked complain of what they don't know.
+  ignored.Catch(
+    [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str())); });
+  if (!reader)
+  {
+    throw Failure(name + ": not a format that VTK's readers know");
+  }
+  reader->SetFileName(name.c_str());
+  return reader;
 }
 
 VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing)

@@ -20,8 +20,7 @@ class vtkMatrix4x4;
 namespace tool
 {
 /** The image that a reader of VTK gives. @throws Failure if it, or one within it, complains. */
-vtkSmartPointer<vtkImageData> ImageOf(
-  vtkAlgorithm* reader, const std::string& name, bool hasTrustedWarnings = true);
+vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name);
 
 template <class Reader>
 vtkSmartPointer<vtkImageData> ReadWith(const std::string& name)
@@ -30,6 +29,9 @@ vtkSmartPointer<vtkImageData> ReadWith(const std::string& name)
   reader->SetFileName(name.c_str());
   return ImageOf(reader, name);
 }
+
+/** The one of VTK's readers of images that takes the file for its own. @throws Failure for none. */
+vtkSmartPointer<vtkImageReader2> ReaderOf(const std::string& name);
 
 /** A reader for the file. @throws Failure if it is of another format. */
 template <class Reader>

@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -64,30 +63,18 @@ public:
   void Finish();
 
 private:
-  /** By the first rank. The failure of one output must not take the others with it. */
+  /** By the first rank. */
   template <class Write>
   void Attempt(const Write& write)
   {
-    Attempt(this->Failures, [&] { this->All.OnFirst(write); });
-  }
-  template <class Write>
-  static void Attempt(std::string& failures, const Write& write)
-  {
-    try
-    {
-      write();
-    }
-    catch (const Failure& failure)
-    {
-      failures += (failures.empty() ? "" : "\nvolumic: ") + std::string(failure.what());
-    }
+    this->Failed.Try([&] { this->All.OnFirst(write); });
   }
 
   const ToolOptions& Options;
   const SurfaceWriting& Writing;
   vtkDeformableSurface* Filter;
   Ranks& All;
-  std::string Failures; ///< the same on all ranks
+  Failures Failed; ///< The same on all ranks.
 };
 
 void OutputWriter::WriteSurfaces()
@@ -99,8 +86,7 @@ void OutputWriter::WriteSurfaces()
   {
     if (HasPieces(name) && !this->All.IsOne())
     {
-      Attempt(this->Failures,
-        [&] { WriteSurfaceOfRanks(part, name, this->Writing, this->All); });
+      this->Failed.Try([&] { WriteSurfaceOfRanks(part, name, this->Writing, this->All); });
       continue;
     }
     if (!std::exchange(isGathered, true))
@@ -148,27 +134,13 @@ void OutputWriter::WriteRest(const ReportInput& results)
     {
       std::ostringstream report;
       WriteReport(report, results);
-      if (this->Options.Report == "-")
-      {
-        std::cout << report.str();
-      }
-      else
-      {
-        WriteText(report.str(), this->Options.Report);
-      }
+      WriteText(report.str(), this->Options.Report);
     });
 }
 
 void OutputWriter::Finish()
 {
-  this->All.Together(
-    [this]
-    {
-      if (!this->Failures.empty())
-      {
-        throw Failure(this->Failures);
-      }
-    });
+  this->All.Together([this] { this->Failed.Throw(); });
 }
 }
 

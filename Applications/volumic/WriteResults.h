@@ -74,6 +74,7 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
 /** Write a .csv with a line of column names. */
 void WriteTable(vtkTable* table, const std::string& name);
 
+/** Write a text; "-" is the standard output. */
 void WriteText(const std::string& text, const std::string& name);
 }
 

@@ -4,20 +4,14 @@
 /**
  * vtkImagePyramid against VTK's Gaussian + resize and, where it was found, ITK's: one level and all
  * levels, with 1 and 2 threads, on the same int16 voxels, in one run with the repetitions of all in
- * random order. Times with one thread are processor time, with two the time that passed; medians.
- * Everything that a program allocates and frees for the job counts.
+ * random order. Everything that a program allocates and frees for the job counts.
+ * benchmark_pyramid.py makes the tables.
  *
- * Everything in one command, from the root of the repository:
- *
- *     bash Testing/Benchmarks/run.sh
- *
- * By hand: BenchmarkImagePyramid [--volume FILE.vti | --generate SIZE] [--repetitions N]
- * and the options of Google Benchmark; --benchmark_out=FILE.json (or with
- * --benchmark_out_format=csv) writes every repetition to a file.
+ *     BenchmarkImagePyramid [--volume FILE.vti | --generate SIZE] [--repetitions N]
+ *                           [--peak-memory THREADS | OPTION OF GOOGLE BENCHMARK]...
  */
 
 #include "BenchmarkVolume.h"
-#include "MedianReporter.h"
 #include "PeakMemory.h"
 #include "PyramidPeers.h"
 
@@ -188,83 +182,13 @@ void Register(const std::vector<Contender>& contenders, const LevelSizes& sizes,
 }
 
 //------------------------------------------------------------------------------
-double Seconds(
-  const MedianReporter& times, const std::string& contender, bool allLevels, int threads)
-{
-  const std::string name = RunName(contender, allLevels, threads);
-  return threads == 1 ? times.ProcessorSeconds(name) : times.WallSeconds(name);
-}
-
-void PrintTable(const MedianReporter& times, const std::vector<Contender>& contenders)
-{
-  std::printf("\n%-26s %-36s %-36s\n", "", "one level", "all levels");
-  std::printf("%-26s", "");
-  for (int column = 0; column < 4; ++column)
-  {
-    std::printf(" %-17s", column % 2 ? "2 threads" : "1 thread");
-  }
-  std::printf("\n");
-  for (const Contender& contender : contenders)
-  {
-    std::printf("%-26s", contender.Name.c_str());
-    for (const bool allLevels : { false, true })
-    {
-      for (const int threads : { 1, 2 })
-      {
-        if (times.Has(RunName(contender.Name, allLevels, threads)))
-        {
-          const double seconds = Seconds(times, contender.Name, allLevels, threads);
-          std::printf(" %8.2f ms %4.0f x", 1e3 * seconds,
-            seconds / Seconds(times, contenders[0].Name, false, threads));
-        }
-        else
-        {
-          std::printf(" %17s", "");
-        }
-      }
-    }
-    std::printf("\n");
-  }
-  std::printf("(x: times copying the voxels with as many threads)\n\n");
-}
-
-void PrintTarget(const char* target, double reached, const char* relation, double wanted)
-{
-  const bool met = relation[0] == '<' ? reached <= wanted : reached >= wanted;
-  std::printf(
-    "%-58s %8.4f  (%s %g)  %s\n", target, reached, relation, wanted, met ? "reached" : "MISSED");
-}
-
-void PrintTimeTargets(const MedianReporter& times, const std::vector<Contender>& contenders)
-{
-  const std::string ours = contenders[1].Name;
-  const double wanted[] = { 0.05, 0.025 };
-  const double one = Seconds(times, ours, false, 1);
-  for (std::size_t peer = 2; peer < contenders.size(); ++peer)
-  {
-    const std::string text = "P1 one level, 1 thread, relative to " + contenders[peer].Name;
-    PrintTarget(
-      text.c_str(), one / Seconds(times, contenders[peer].Name, false, 1), "<=", wanted[peer - 2]);
-  }
-  PrintTarget("P1 one level, 2 threads, times faster",
-    times.WallSeconds(RunName(ours, false, 1)) / Seconds(times, ours, false, 2), ">=", 1.7);
-  // Two threads need a processor each: where others run too, only this can show what they gain.
-  PrintTarget("P1 the same, by the quickest repetition of each",
-    times.LeastWallSeconds(RunName(ours, false, 1)) /
-      times.LeastWallSeconds(RunName(ours, false, 2)),
-    ">=", 1.7);
-  PrintTarget(
-    "P2 all levels relative to the first", Seconds(times, ours, true, 1) / one, "<=", 1.35);
-}
-
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> MakeVolume(const Options& options)
 {
   return options.Volume.empty() ? GenerateVolume(options.GeneratedSize)
                                 : ReadVolume(options.Volume);
 }
 
-/** Prints the growth of memory by the whole pyramid, and the bytes of its levels from 1 on. */
+/** Prints the growth of memory by the whole pyramid, the bytes of its levels from 1 on, the size. */
 int MeasureMemory(const Options& options)
 {
   const vtkSmartPointer<vtkImageData> volume = MakeVolume(options);
@@ -280,37 +204,9 @@ int MeasureMemory(const Options& options)
     bytes += static_cast<long long>(sizeof(float)) *
       vtkImageData::SafeDownCast(pyramid->GetOutput()->GetBlock(h))->GetNumberOfPoints();
   }
-  std::printf("%lld %lld\n", growth, bytes);
-  return growth < 0;
-}
-
-/** In a process of its own: here, memory has been used and freed already. */
-void PrintMemoryTarget(const Options& options, vtkImageData* volume, int threads)
-{
-  const std::string command = std::string("'") + options.Others[0] + "' --peak-memory " +
-    std::to_string(threads) +
-    (options.Volume.empty() ? " --generate " + std::to_string(options.GeneratedSize)
-                            : " --volume '" + options.Volume + "'");
-  FILE* pipe = popen(command.c_str(), "r");
-  long long growth = -1, pyramid = 0;
-  const bool answered = pipe && std::fscanf(pipe, "%lld %lld", &growth, &pyramid) == 2;
-  if (pipe)
-  {
-    pclose(pipe);
-  }
-  if (!answered || growth < 0)
-  {
-    std::printf("P3 could not be measured here\n");
-    return;
-  }
   const int* size = volume->GetDimensions();
-  const double plane = 1.0 * size[0] * size[1] * sizeof(float);
-  const std::string text =
-    "P3 peak memory, " + std::to_string(threads) + " threads, relative to pyramid and planes";
-  PrintTarget(text.c_str(), growth / (pyramid + threads * plane), "<=", 1.0);
-  std::printf(
-    "   grown by %.2f MB; levels from 1 on take %.2f MB, a plane %.2f MB, level 0 %.2f MB\n",
-    growth / 1e6, pyramid / 1e6, plane / 1e6, 2e-6 * volume->GetNumberOfPoints());
+  std::printf("%lld %lld %d %d %d\n", growth, bytes, size[0], size[1], size[2]);
+  return growth < 0;
 }
 
 int Main(int argc, char** argv)
@@ -341,28 +237,7 @@ int Main(int argc, char** argv)
   std::fflush(stdout);
 
   Register(contenders, sizes, options.Repetitions);
-  MedianReporter times;
-  if (benchmark::RunSpecifiedBenchmarks(&times) == 0)
-  {
-    return 1;
-  }
-  for (const Contender& contender : contenders)
-  {
-    for (const int threads : { 1, 2 })
-    {
-      if (!times.Has(RunName(contender.Name, false, threads)))
-      {
-        return 0; // a part only was asked for; there is nothing to compare
-      }
-    }
-  }
-  PrintTable(times, contenders);
-  PrintTimeTargets(times, contenders);
-  for (const int threads : { 1, 2 })
-  {
-    PrintMemoryTarget(options, volume, threads);
-  }
-  return 0;
+  return benchmark::RunSpecifiedBenchmarks() == 0;
 }
 
 } // namespace

@@ -3,8 +3,9 @@
 
 /**
  * vtkLabelsToSurfaces and its peers, side by side: on digitised shapes, whose surfaces are known,
- * on label maps, on labels made of a scan, and on a map with the size of a body. See
- * LabelBenchmarkUsage for the command line, LabelPeers.h for the peers.
+ * on label maps, on labels made of a scan, and on a map with the size of a body. Figures go to the
+ * standard output, "@row MAP<tab>LABEL<tab>RUN" before them: benchmark_labels.py, which starts this
+ * program with options that it has checked, makes tables of them. See LabelPeers.h for the peers.
  *
  * Ours is run on the whole map, and by itself on each label, cut out with some voxels about it;
  * peers have each label cut out, too, which makes them faster than they are on the whole map. All
@@ -14,8 +15,6 @@
 
 #include "LabelBenchmarkOptions.h"
 #include "LabelMaps.h"
-#include "LabelTables.h"
-#include "SurfaceBenchmarkOptions.h"
 
 #include <vtkSMPTools.h>
 
@@ -25,6 +24,10 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 using namespace volumic::bench;
 using volumic::support::LabelMap;
@@ -34,6 +37,9 @@ namespace
 {
 
 constexpr double GapOfTarget = 0.3;
+
+/** The label of a row that is about all of them together. */
+constexpr int AllLabels = -100000;
 
 /** A map, its labels to be measured, and their shapes where these are known. */
 struct Subject
@@ -53,8 +59,8 @@ struct Subject
 class Runs
 {
 public:
-  Runs(const Subject& subject, const LabelBenchmarkOptions& options, std::vector<LabelRow>& rows)
-    : Of(subject), Options(options), Rows(rows)
+  Runs(const Subject& subject, const LabelBenchmarkOptions& options)
+    : Of(subject), Options(options)
   {
   }
 
@@ -64,7 +70,7 @@ public:
     this->MakeTogether("us-gap", GapOfTarget);
     for (const std::string& run : LabelRunNames())
     {
-      if (run != "us" && run != "us-gap" && this->Options.Has(run))
+      if (run != "us" && run != "us-gap" && this->IsWanted(run))
       {
         std::fprintf(stderr, "%s %s\n", this->Of.Name.c_str(), run.c_str());
         for (const int label : this->Of.Labels)
@@ -76,20 +82,29 @@ public:
   }
 
 private:
-  /** Failures are told and are rows, too. */
-  void Try(LabelRow row, const std::function<void(RunFigures&)>& work)
+  bool IsWanted(const std::string& run) const
   {
+    const std::vector<std::string>& runs = this->Options.Runs;
+    return runs.empty() || std::count(runs.begin(), runs.end(), run) > 0;
+  }
+
+  /** Failures are told and are rows, too. */
+  void Try(int label, const std::string& run, const std::function<void(RunFigures&)>& work)
+  {
+    RunFigures figures;
     try
     {
-      work(row.Figures);
+      work(figures);
     }
     catch (const std::exception& error)
     {
-      row.Figures.SetText("Failure", error.what());
-      std::fprintf(stderr, "%s %d %s failed: %s\n", row.Map.c_str(), row.Label, row.Run.c_str(),
+      figures.SetText("Failure", error.what());
+      std::fprintf(stderr, "%s %d %s failed: %s\n", this->Of.Name.c_str(), label, run.c_str(),
         error.what());
     }
-    this->Rows.push_back(row);
+    std::cout << "@row " << this->Of.Name << '\t'
+              << (label == AllLabels ? "all" : std::to_string(label)) << '\t' << run << '\n';
+    figures.Write(std::cout);
   }
 
   void Judge(const LabelSurface& surface, RunFigures& figures)
@@ -101,14 +116,14 @@ private:
 
   void MakeTogether(const std::string& run, double gap)
   {
-    const bool isCompared = run == "us" && this->Options.Has("remeshed");
-    if (!this->Options.Has(run) && !isCompared)
+    const bool isCompared = run == "us" && this->IsWanted("remeshed");
+    if (!this->IsWanted(run) && !isCompared)
     {
       return;
     }
     std::fprintf(stderr, "%s %s\n", this->Of.Name.c_str(), run.c_str());
     std::vector<LabelSurface> surfaces;
-    this->Try({ this->Of.Name, LabelRow::AllLabels, run, {} },
+    this->Try(AllLabels, run,
       [&](RunFigures& figures)
       {
         LabelSettings settings = this->Options.Settings;
@@ -118,14 +133,14 @@ private:
       });
     for (const LabelSurface& surface : surfaces)
     {
-      this->Try({ this->Of.Name, surface.Label, run, {} },
+      this->Try(surface.Label, run,
         [&](RunFigures& figures) { this->Judge(surface, figures); });
     }
   }
 
   void MakeAlone(const std::string& run, int label)
   {
-    this->Try({ this->Of.Name, label, run, {} },
+    this->Try(label, run,
       [&](RunFigures& figures)
       {
         const double edge = this->EdgeLengths.count(label) ? this->EdgeLengths[label] : 0.0;
@@ -139,7 +154,6 @@ private:
 
   const Subject& Of;
   const LabelBenchmarkOptions& Options;
-  std::vector<LabelRow>& Rows;
   std::map<int, double> EdgeLengths; ///< of us, world; what the remeshed peer is told
 };
 
@@ -161,8 +175,13 @@ std::vector<Subject> ShapesToMeasure(const LabelBenchmarkOptions& options)
       {
         Subject subject;
         volumic::support::DigitisedShapes shapes = Digitise(kind, size, stretch);
-        subject.Name = name + " " + std::to_string(size) + (stretch > 1.0 ? " 1:" : "") +
-          (stretch > 1.0 ? ShortText(stretch) : "");
+        std::ostringstream words;
+        words << name << ' ' << size;
+        if (stretch > 1.0)
+        {
+          words << " 1:" << stretch;
+        }
+        subject.Name = words.str();
         subject.Map = std::move(shapes.Map);
         for (const LabelShape& shape : shapes.Shapes)
         {
@@ -208,7 +227,7 @@ Subject MapToMeasure(const LabelBenchmarkOptions& options)
   }
   if (subject.Labels.empty())
   {
-    throw UsageError(subject.Name + " has none of these labels, or too few voxels of them");
+    throw std::invalid_argument(subject.Name + " has none of these labels, or too few voxels of them");
   }
   const std::array<int, 3>& size = subject.Map.Size;
   std::printf("%s: %d x %d x %d voxels, %zu labels; %d smaller ones left out\n\n",
@@ -217,65 +236,96 @@ Subject MapToMeasure(const LabelBenchmarkOptions& options)
   return subject;
 }
 
-void PrintTogether(const std::vector<LabelRow>& rows)
+//------------------------------------------------------------------------------
+std::vector<std::string> Words(const std::string& text)
 {
-  std::printf("\nAll labels together:\n\n");
-  TextRows table(1,
-    { "map", "run", "s of the clock", "processor s", "MB", "neighbours", "vertices inside",
-      "mean depth", "largest", "crossing" });
-  for (const LabelRow& row : rows)
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');)
   {
-    if (row.Label == LabelRow::AllLabels)
-    {
-      table.push_back({ row.Map, row.Run });
-      for (const char* name :
-        { "Seconds", "ProcessorSeconds", "PeakMegabytes", "OverlapPairs", "OverlapVertices",
-          "OverlapMean", "OverlapLargest", "OverlapIntersections" })
-      {
-        table.back().push_back(ShortText(row.Figures.Get(name)));
-      }
-    }
+    words.push_back(word);
   }
-  PrintTable(table, 2);
+  return words;
 }
 
-int Main(int argc, char** argv)
+std::vector<double> Numbers(const std::string& text)
 {
-  const LabelBenchmarkOptions options = ParseLabelOptions(argc, argv);
-  if (options.Help)
+  std::vector<double> numbers;
+  for (const std::string& word : Words(text))
   {
-    std::printf("%s", LabelBenchmarkUsage);
-    return 0;
+    numbers.push_back(std::stod(word));
   }
-  vtkSMPTools::Initialize(1);
-  std::vector<LabelRow> rows;
-  const std::vector<Subject> subjects = options.IsOfShapes()
-    ? ShapesToMeasure(options)
-    : std::vector<Subject>(1, MapToMeasure(options));
-  for (const Subject& subject : subjects)
+  return numbers;
+}
+
+std::vector<int> Integers(const std::string& text)
+{
+  const std::vector<double> numbers = Numbers(text);
+  return { numbers.begin(), numbers.end() };
+}
+
+/** @throws std::invalid_argument for a name that is not known in this build. */
+std::vector<std::string> Names(const std::string& text, const std::vector<std::string>& known)
+{
+  const std::vector<std::string> names = Words(text);
+  for (const std::string& name : names)
   {
-    Runs(subject, options, rows).Make();
+    if (std::count(known.begin(), known.end(), name) == 0)
+    {
+      std::string all;
+      for (const std::string& one : known)
+      {
+        all += (all.empty() ? "" : ", ") + one;
+      }
+      throw std::invalid_argument("no \"" + name + "\" in this build; there are " + all);
+    }
   }
-  if (options.IsOfShapes())
+  return names;
+}
+
+std::vector<std::string> ShapeNames()
+{
+  std::vector<std::string> names;
+  for (const auto kind : volumic::support::AllLabelShapeKinds())
   {
-    PrintLabelRows(rows);
+    names.push_back(volumic::support::LabelShapeName(kind));
   }
-  else
+  return names;
+}
+
+LabelBenchmarkOptions ParseOptions(int argc, char** argv)
+{
+  LabelBenchmarkOptions o;
+  using Text = const std::string&;
+  const std::map<std::string, std::function<void(Text)>> takers = {
+    { "--map", [&o](Text text) { o.Map = text; } },
+    { "--mask", [&o](Text text) { o.Mask = text == "1"; } },
+    { "--scan", [&o](Text text) { o.Scan = text; } },
+    { "--thresholds", [&o](Text text) { o.Thresholds = Numbers(text); } },
+    { "--body",
+      [&o](Text text)
+      {
+        const std::vector<int> size = Integers(text);
+        std::copy_n(size.begin(), 3, o.Body.begin());
+      } },
+    { "--body-labels", [&o](Text text) { o.BodyLabels = std::stoi(text); } },
+    { "--shapes", [&o](Text text) { o.Shapes = Names(text, ShapeNames()); } },
+    { "--sizes", [&o](Text text) { o.Sizes = Integers(text); } },
+    { "--stretches", [&o](Text text) { o.Stretches = Numbers(text); } },
+    { "--labels", [&o](Text text) { o.Labels = Integers(text); } },
+    { "--least", [&o](Text text) { o.LeastVoxels = std::stoi(text); } },
+    { "--runs", [&o](Text text) { o.Runs = Names(text, LabelRunNames()); } },
+    { "--threads", [&o](Text text) { o.Settings.Threads = std::stoi(text); } },
+    { "--repetitions", [&o](Text text) { o.Settings.Repetitions = std::stoi(text); } },
+    { "--finest", [&o](Text text) { o.Settings.FinestLevel = std::stoi(text); } },
+    { "--smoothing", [&o](Text text) { o.Settings.Smoothing = std::stod(text); } },
+    { "--voxel-tolerance", [&o](Text text) { o.Settings.VoxelTolerance = std::stod(text); } },
+  };
+  for (int i = 1; i + 1 < argc; i += 2)
   {
-    PrintLabelSummary(rows);
+    takers.at(argv[i])(argv[i + 1]);
   }
-  PrintTogether(rows);
-  const TextRows targets = LabelTargetRows(rows);
-  std::printf("\nTargets (the worst of us):\n\n");
-  PrintTable(targets, 2);
-  if (!options.Csv.empty())
-  {
-    WriteCsv(options.Csv, LabelCsvRows(rows));
-    WriteCsv(CsvNameOf(options.Csv, "targets"), targets);
-  }
-  const bool isMade = std::all_of(rows.begin(), rows.end(),
-    [](const LabelRow& row) { return row.Figures.GetText("Failure").empty(); });
-  return isMade ? 0 : 1;
+  return o;
 }
 
 } // namespace
@@ -284,9 +334,18 @@ int main(int argc, char** argv)
 {
   try
   {
-    return Main(argc, argv);
+    const LabelBenchmarkOptions options = ParseOptions(argc, argv);
+    vtkSMPTools::Initialize(1);
+    const std::vector<Subject> subjects = options.IsOfShapes()
+      ? ShapesToMeasure(options)
+      : std::vector<Subject>(1, MapToMeasure(options));
+    for (const Subject& subject : subjects)
+    {
+      Runs(subject, options).Make();
+    }
+    return 0;
   }
-  catch (const UsageError& error)
+  catch (const std::invalid_argument& error)
   {
     std::cerr << "BenchmarkLabels: " << error.what() << "\nTry --help." << std::endl;
     return 2;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** The command line of BenchmarkLabels. */
+/** What BenchmarkLabels is told. */
 
 #ifndef volumicLabelBenchmarkOptions_h
 #define volumicLabelBenchmarkOptions_h
@@ -19,7 +19,6 @@ namespace bench
 
 struct LabelBenchmarkOptions
 {
-  bool Help = false;
   std::string Map;                         ///< a file that is a label map, or
   std::string Scan;                        ///< one to make labels of, or
   std::array<int, 3> Body = { 0, 0, 0 };   ///< voxels of a map to be made; else shapes
@@ -32,17 +31,10 @@ struct LabelBenchmarkOptions
   std::vector<int> Labels;                 ///< none: all
   long long LeastVoxels = 64;              ///< of a label, to be measured
   std::vector<std::string> Runs;           ///< none: all
-  std::string Csv;
   LabelSettings Settings;
 
   bool IsOfShapes() const { return this->Map.empty() && this->Scan.empty() && this->Body[0] == 0; }
-  bool Has(const std::string& run) const;
 };
-
-extern const char* const LabelBenchmarkUsage;
-
-/** Throws UsageError. */
-LabelBenchmarkOptions ParseLabelOptions(int argc, char** argv);
 
 } // namespace bench
 } // namespace volumic

@@ -3,8 +3,6 @@
 
 #include "SurfaceRuns.h"
 
-#include "SurfaceModel.h"
-#include "SurfaceTables.h"
 #include "WorkModel.h"
 
 #include "Host/HostThreads.h"
@@ -66,9 +64,8 @@ std::vector<std::string> PhaseColumns(vtkTable* history)
 /** Whether it is no part of another one. */
 bool AddsUp(const std::string& phase)
 {
-  return phase.find("Serial") == std::string::npos &&
-    std::find(PartsBetweenIterations.begin(), PartsBetweenIterations.end(), phase) ==
-    PartsBetweenIterations.end();
+  return phase.find("Serial") == std::string::npos && phase != "RecoverySeconds" &&
+    phase != "RegularisationSeconds";
 }
 
 void SetEfforts(vtkTable* history, int numberOfLevels, RunFigures& figures)
@@ -155,6 +152,32 @@ int CoarsestLevelWithObject(const BenchmarkedVolume& volume)
     }
   }
   return level;
+}
+
+/** The phases as figures `model.i.NAME`. */
+void SetModel(const WorkModel& model, RunFigures& figures)
+{
+  const ThreadOverhead overhead;
+  figures.Set("ModelSecondsOfCall", overhead.SecondsOfCall);
+  figures.Set("ModelSecondsOfChunk", overhead.SecondsOfChunk);
+  const std::vector<WorkModel::Phase>& phases = model.Phases();
+  figures.Set("ModelPhases", static_cast<double>(phases.size()));
+  for (std::size_t i = 0; i < phases.size(); ++i)
+  {
+    const auto name = [i](const std::string& what)
+    { return RunFigures::Indexed("model", static_cast<int>(i), what); };
+    figures.SetText(name("Name"), phases[i].Name);
+    figures.Set(name("Serial"), phases[i].Serial);
+    figures.Set(name("Small"), phases[i].Small);
+    figures.Set(name("Parallel"), phases[i].Parallel);
+    figures.Set(name("Calls"), phases[i].Calls);
+    figures.Set(name("Chunks"), phases[i].Chunks);
+    for (std::size_t t = 0; t < ModelledThreads.size(); ++t)
+    {
+      figures.Set(
+        name("Scheduled" + std::to_string(ModelledThreads[t])), phases[i].Scheduled[t]);
+    }
+  }
 }
 
 int ThreadsOf(const std::string& run)

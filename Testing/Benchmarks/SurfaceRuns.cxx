@@ -27,19 +27,9 @@ namespace bench
 namespace
 {
 
-SurfaceRunKind Ours(const char* name, const char* description, bool onDemand = false)
+double RadiusOf(const SurfaceBenchmarkOptions& options)
 {
-  SurfaceRunKind kind{ name, description };
-  kind.Ours = true;
-  kind.OnDemand = onDemand;
-  return kind;
-}
-
-SurfaceRunKind Peer(const char* name, const char* description, bool needsOurs = false)
-{
-  SurfaceRunKind kind{ name, description };
-  kind.NeedsOurs = needsOurs;
-  return kind;
+  return options.Radius > 0.0 ? options.Radius : MesherRadius(options.EdgeLength);
 }
 
 SurfaceJob MakePeerJob(const std::string& name, vtkImageData* image,
@@ -63,7 +53,7 @@ SurfaceJob MakePeerJob(const std::string& name, vtkImageData* image,
   }
   if (name == "mesher")
   {
-    return MesherJob(image, volume.IsoValue, volume.ObjectIsBright, options.Radius);
+    return MesherJob(image, volume.IsoValue, volume.ObjectIsBright, RadiusOf(options));
   }
 #if defined(VOLUMIC_BENCHMARK_ITK)
   if (name == "levelset")
@@ -71,7 +61,7 @@ SurfaceJob MakePeerJob(const std::string& name, vtkImageData* image,
     return LevelSetJob(image, volume.IsoValue, volume.ObjectIsBright);
   }
 #endif
-  throw std::logic_error("no run " + name);
+  throw std::invalid_argument("no run " + name + " in this build");
 }
 
 /** What follows the values of the volume upward points outward where the object is bright. */
@@ -109,39 +99,6 @@ std::size_t UsedPoints(const support::TriangleSurface& surface, const support::T
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<SurfaceRunKind> SurfaceRunKinds()
-{
-  std::vector<SurfaceRunKind> kinds = {
-    Ours("us-1", "vtkDeformableSurface with its pyramid, one thread"),
-    Ours("us-2", "the same with two threads"),
-    Ours("us-flat", "the same, one thread, without the pyramid (CoarsestLevel 0)"),
-    Ours("us-paper", "the same as us-1 with Recovery off", true),
-    Peer("flying", "vtkFlyingEdges3D"),
-    Peer("smoothed", "the same, largest component, vtkWindowedSincPolyDataFilter"),
-    Peer("decimated", "the same, vtkQuadricDecimation to as many vertices as us-1", true),
-    Peer("remeshed", "smoothed, CGAL isotropic_remeshing to the mean edge of us-1", true),
-    Peer("mesher", "CGAL make_surface_mesh to about as many vertices as us-1", true),
-  };
-#if defined(VOLUMIC_BENCHMARK_ITK)
-  kinds.push_back(Peer("levelset", "ITK threshold segmentation level set from the border inward"));
-  kinds.back().Slow = true;
-#endif
-  return kinds;
-}
-
-bool IsSurfaceRun(const std::string& name)
-{
-  for (const SurfaceRunKind& kind : SurfaceRunKinds())
-  {
-    if (kind.Name == name)
-    {
-      return true;
-    }
-  }
-  return name.size() > 3 && name.size() < 7 && name.compare(0, 3, "us-") == 0 && name[3] != '0' &&
-    name.find_first_not_of("0123456789", 3) == std::string::npos;
-}
-
 void MeasureCost(const std::function<void()>& work, RunFigures& figures)
 {
   double wall = 0.0, processor = 0.0;
@@ -322,6 +279,7 @@ RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options)
     const support::TriangleSurface inVoxels = Stretched(surface, back);
     SetFit(inVoxels, ToJudgedVolume(values, volume), options.Metric, world, "", figures);
   }
+  figures.Set("Radius", options.Run == "mesher" ? RadiusOf(options) : 0.0);
   figures.SetText("Fingerprint", Fingerprint(surface));
   return figures;
 }

@@ -20,22 +20,6 @@ namespace volumic
 namespace bench
 {
 
-struct SurfaceRunKind
-{
-  std::string Name;
-  std::string Description;
-  bool Ours = false;
-  bool Slow = false;      ///< with --slow only
-  bool OnDemand = false;  ///< when asked for only
-  bool NeedsOurs = false; ///< is told how fine our surface is
-};
-
-/** Those that this build has, in the order of the table. */
-std::vector<SurfaceRunKind> SurfaceRunKinds();
-
-/** Any of these, or us-N. */
-bool IsSurfaceRun(const std::string& name);
-
 /** The run options.Run. Figures, with lengths in the metric of the run:
    - WallSeconds, ProcessorSeconds, BaseMegabytes (resident before), PeakMegabytes;
    - those of SetVerdict and SetFit, and Fingerprint (text), the same for the same bits;
@@ -44,7 +28,8 @@ bool IsSurfaceRun(const std::string& name);
    `level.h.NAME`, what there is of each level: Iterations, Seconds, VertexIterations, Delta,
    LostParts, RecoveredParts, the verdict, and the columns of the history that hold the seconds of
    phases
-     (`Phases`: their names in one text, with commas).
+     (`Phases`: their names in one text, with commas); with Model what SetModel sets;
+   - the mesher's: Radius.
    Throws what the libraries throw, std::runtime_error where there is no surface. */
 RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options);
 

@@ -107,6 +107,7 @@ parse_options "$@"
 [ -z "$volume" ] || [ -n "$iso" ] || fail "--volume needs --iso VALUE"
 [ -z "$iso" ] || [ -n "$volume" ] || fail "--iso needs --volume FILE.vti"
 
+folder=$root/Testing/Benchmarks
 results=$build/benchmarks
 mkdir -p "$results"
 
@@ -136,14 +137,15 @@ list_scans()
 failed=
 measure_surface()
 {
-  local program=$build/vtk/bin/BenchmarkSurface
+  local program=(python3 "$folder/benchmark_surface.py"
+    --program "$build/vtk/bin/BenchmarkSurface")
   say ""
-  "$program" --volume "$2" --iso "$3" --repetitions "${repetitions:-1}" --profile \
+  "${program[@]}" --volume "$2" --iso "$3" --repetitions "${repetitions:-1}" --profile \
     --csv "$results/surface-$1.csv" --output "$results/surface-$1.vtp" "${surface_options[@]}" \
     || failed=yes
   if [ -n "$growth" ]; then
     say ""
-    "$program" --volume "$2" --iso "$3" --growth --csv "$results/growth-$1.csv" \
+    "${program[@]}" --volume "$2" --iso "$3" --growth --csv "$results/growth-$1.csv" \
       "${growth_options[@]}" || failed=yes
   fi
   local what options
@@ -154,11 +156,11 @@ measure_surface()
       memory) options=(--memory) ;;
     esac
     say ""
-    "$program" --volume "$2" --iso "$3" "${options[@]}" --csv "$results/$what-$1.csv" || failed=yes
+    "${program[@]}" --volume "$2" --iso "$3" "${options[@]}" --csv "$results/$what-$1.csv" || failed=yes
   done
   if [ -n "$limits" ]; then
     say ""
-    python3 "$root/Testing/Benchmarks/measure_limit.py" --program "$build/vtk/bin/volumic" \
+    python3 "$folder/measure_limit.py" --program "$build/vtk/bin/volumic" \
       --memory "$limits" --csv "$results/limit-$1.csv" "$2" --iso "$3" || failed=yes
   fi
 }
@@ -169,7 +171,8 @@ measure_labels()
   local name=$1
   shift
   say ""
-  "$build/vtk/bin/BenchmarkLabels" --repetitions "${repetitions:-1}" "$@" \
+  python3 "$folder/benchmark_labels.py" --program "$build/vtk/bin/BenchmarkLabels" \
+    --repetitions "${repetitions:-1}" "$@" \
     --csv "$results/labels-$name.csv" || failed=yes
 }
 
@@ -193,11 +196,13 @@ measure_all_labels()
 
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
 if [ -n "$with_pyramid" ]; then
-  "$build/vtk/bin/BenchmarkImagePyramid" --volume "$results/skull.vti" \
-    --repetitions "${repetitions:-15}" --benchmark_out="$results/pyramid-skull.json"
+  pyramid=(python3 "$folder/benchmark_pyramid.py"
+    --program "$build/vtk/bin/BenchmarkImagePyramid")
+  "${pyramid[@]}" --volume "$results/skull.vti" --repetitions "${repetitions:-15}" \
+    --json "$results/pyramid-skull.json"
   if [ "$generated_size" -gt 0 ]; then
-    "$build/vtk/bin/BenchmarkImagePyramid" --generate "$generated_size" \
-      --repetitions "${repetitions:-5}" --benchmark_out="$results/pyramid-generated.json"
+    "${pyramid[@]}" --generate "$generated_size" --repetitions "${repetitions:-5}" \
+      --json "$results/pyramid-generated.json"
   fi
 fi
 if [ -n "$with_surface" ]; then

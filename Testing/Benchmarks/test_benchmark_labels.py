@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""BenchmarkLabels on small shapes and maps: its tables are whole and its figures make sense.
+"""benchmark_labels.py on small shapes and maps: its tables are whole and its figures make sense.
 
 Nothing here depends on how fast the machine is. VOLUMIC_BENCHMARK_LABELS names the program.
 """
@@ -11,16 +11,18 @@ import math
 import os
 import struct
 import subprocess
+import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ["VOLUMIC_BENCHMARK_LABELS"]
+PROGRAM = [sys.executable, os.path.join(os.path.dirname(__file__), "benchmark_labels.py"),
+           "--program", os.environ["VOLUMIC_BENCHMARK_LABELS"]]
 OURS = ["us", "us-gap", "us-alone"]
 PEERS = ["windowed", "windowed-more", "remeshed"]  # nets and antialiased are not in all builds
 
 
 def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
+    return subprocess.run([*PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
 
 
 def read_csv(path):
@@ -198,7 +200,7 @@ class CommandLine(unittest.TestCase):
                 (["--map", "map.vti", "--body", "64,64,64"], "alone"),
                 (["--body", "64"], "three numbers"),
                 (["--mask"], "--map"),
-                (["--csv"], "needs a value"),
+                (["--csv"], "expected one argument"),
                 (["--frobnicate"], "--frobnicate")):
             with self.subTest(arguments=arguments):
                 done = run(*arguments)

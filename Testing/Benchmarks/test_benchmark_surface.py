@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""BenchmarkSurface on small synthetic volumes: its tables are whole and its figures make sense.
+"""benchmark_surface.py on small synthetic volumes: its tables are whole and its figures make sense.
 
 Nothing here depends on how fast the machine is. VOLUMIC_BENCHMARK_SURFACE names the program.
 """
@@ -11,16 +11,18 @@ import math
 import os
 import statistics
 import subprocess
+import sys
 import tempfile
 import unittest
 
-PROGRAM = os.environ["VOLUMIC_BENCHMARK_SURFACE"]
+PROGRAM = [sys.executable, os.path.join(os.path.dirname(__file__), "benchmark_surface.py"),
+           "--program", os.environ["VOLUMIC_BENCHMARK_SURFACE"]]
 OURS = ["us-1", "us-2", "us-flat", "us-paper"]
 PEERS = ["flying", "smoothed", "decimated", "remeshed", "mesher"]
 
 
 def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
+    return subprocess.run([*PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
 
 
 def read_csv(path):
@@ -266,7 +268,7 @@ class Scaling(unittest.TestCase):
 
     def test_nothing_is_left_behind(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([PROGRAM, "--scene", "Torus", "--memory", "--sizes", "0"],
+            done = subprocess.run([*PROGRAM, "--scene", "Torus", "--memory", "--sizes", "0"],
                                   capture_output=True, text=True, timeout=250,
                                   env={**os.environ, "TMPDIR": folder})
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -293,7 +295,7 @@ class CommandLine(unittest.TestCase):
                 (["--scene", "Torus", "--runs", "us-1,nobody"], "nobody"),
                 (["--scene", "Torus", "--runs", "mesher"], "--edge-length"),
                 (["--scene", "Torus", "--size", "many"], "many"),
-                (["--scene", "Torus", "--csv"], "needs a value"),
+                (["--scene", "Torus", "--csv"], "expected one argument"),
                 (["--scene", "Torus", "--threads", "1,none"], "none"),
                 (["--scene", "Torus", "--threads", "1,2", "--model"], "alone"),
                 (["--scene", "Torus", "--memory", "--slow"], "--slow"),

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`volumic` refuses a volume that has been cut off or damaged, and names the file."""
 
+import bz2
 import gzip
 import importlib.util
 import io
@@ -21,7 +22,6 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 from tool_test_case import ISO, ORIGIN, SIZE, SPACING, ToolTestCase, ball, make_image
 
 import medical_files
-from damage_test_case import DamageTestCase
 
 
 def noisy_ball(dtype="i2"):
@@ -30,7 +30,7 @@ def noisy_ball(dtype="i2"):
     return (ball() + noise).astype(dtype)
 
 
-class DamageTest(ToolTestCase, DamageTestCase):
+class DamageTest(ToolTestCase):
     def bytes_of(self, writer, name, image=None):
         """What the writer writes of the image, of a ball if there is none."""
         self.write(writer, name, image or make_image(noisy_ball()))
@@ -45,6 +45,24 @@ class DamageTest(ToolTestCase, DamageTestCase):
 
     def accepted_file(self, name, content):
         self.run_tool(self.write_bytes(name, content), self.path("ok.stl"), "--iso", ISO)
+
+    def cut(self, name, content, reason, rests=(0.5, -10)):
+        """The whole file is taken, but not this share, or all but so many bytes."""
+        self.accepted_file(name, content)
+        for rest in rests:
+            with self.subTest(name, rest=rest):
+                count = int(len(content) * rest) if 0 < rest < 1 else rest
+                self.refused_file(name, content[:count], reason)
+
+    def flipped(self, name, content, reason, start, times=25):
+        """With one bit of the data turned over it is refused, wherever that is."""
+        generator = np.random.default_rng(6)
+        for _ in range(times):
+            damaged = bytearray(content)
+            place = int(generator.integers(start, len(content)))
+            damaged[place] ^= 1 << int(generator.integers(8))
+            with self.subTest(name, place=place):
+                self.refused_file(name, bytes(damaged), reason)
 
 
 class FilesTest(DamageTest):
@@ -106,16 +124,16 @@ class FilesTest(DamageTest):
         self.cut("a.vti", content, "cannot be read", rests=(0.5, -100))
 
     def test_nrrd(self):
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
-        packed = gzip.compress(noisy_ball().tobytes())
-        content = header + b"\n" + packed
-        self.cut("a.nrrd", content, "packed data are cut off", rests=(0.5, -10, -1))
-        self.flipped("a.nrrd", content, "packed data", len(header) + 11, times=25)
-        more = header + b"\n" + gzip.compress(noisy_ball().tobytes() + b"more")
-        self.refused_file("a.nrrd", more, "give more than the 20592 bytes")
         data = noisy_ball().tobytes()
-        self.accepted_file("b.nrrd", header + b"\n" + gzip.compress(data[:99])
-                           + gzip.compress(data[99:]))
+        for encoding, pack, start in (("gzip", gzip.compress, 11), ("bzip2", bz2.compress, 1)):
+            header = medical_files.nrrd_header(
+                ball(), SPACING, ORIGIN, np.eye(3), encoding, "little")
+            content = header + b"\n" + pack(data)
+            self.cut("a.nrrd", content, "packed data are cut off", rests=(0.5, -10, -1))
+            self.flipped("a.nrrd", content, "packed data", len(header) + start, times=25)
+            more = header + b"\n" + pack(data + b"more")
+            self.refused_file("a.nrrd", more, "give more than the 20592 bytes")
+            self.accepted_file("b.nrrd", header + b"\n" + pack(data[:99]) + pack(data[99:]))
         raw = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "raw", "little")
         self.cut("c.nrrd", raw + b"\n" + data, "bytes of voxels, its header asks for 20592")
 
@@ -350,6 +368,10 @@ class SeriesTest(DamageTest):
         more = content[:rows] + struct.pack("<H", 40) + content[rows + 2:]
         self.write_bytes("series/IM07", more)
         self.refused_series("IM07: the pixels are cut off: 1144 bytes, 2080 needed")
+        place = content.index(struct.pack("<HH", 0x7FE0, 0x10)) + 8
+        short = struct.pack("<I", 572)
+        self.write_bytes("series/IM07", content[:place] + short + content[place + 4:])
+        self.refused_series("IM07: is damaged: it does not end behind its pixels")
 
     def test_two_series_of_one_study(self):
         self.series()
@@ -366,7 +388,9 @@ class SeriesTest(DamageTest):
     def test_headers_that_make_no_sense(self):
         self.series()
         for changes, reason in (({"bits": 32}, "32 bits per pixel"), ({"bits": 0}, "0 bits per"),
-                                ({"frames": "1A"}, "the number of frames is '1A'")):
+                                ({"frames": "1A"}, "the number of frames is '1A'"),
+                                ({"slope": "1A"}, "slope '1A'"),
+                                ({"intercept": "1A"}, "intercept '1A'")):
             self.write_bytes("series/IM03", self.slice(3, **changes))
             self.refused_series("IM03: .*" + reason)
 

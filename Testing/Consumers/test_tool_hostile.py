@@ -9,13 +9,12 @@ import base64
 import gzip
 import importlib.util
 import io
-import os
 import re
 import resource
+import signal
 import struct
 import subprocess
 import tarfile
-import time
 import unittest
 import zlib
 
@@ -28,27 +27,30 @@ import medical_files
 from test_tool_label_names import labelled_nifti
 from test_tool_structure import tiff
 
-SECONDS, MEMORY, DISK = 20, 2 << 30, 64 << 20  # that a run may take
+# Seconds of the processor, memory and disk that a run may take; the clock of a busy machine may go on.
+SECONDS, MEMORY, DISK = 20, 2 << 30, 64 << 20
+PATIENCE = 10 * SECONDS
 
 
 def limit():
-    """Of memory, of the size of a file, and of what a crash leaves."""
+    """Of time, of memory, of the size of a file, and of what a crash leaves."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_FSIZE, (DISK, DISK))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
 
 class HostileTest(ToolTestCase):
     def run_limited(self, *arguments):
         """The finished process; a failure if it hangs."""
         command = [PROGRAM, *map(str, arguments)]
-        started = time.monotonic()
         try:
             process = subprocess.run(command, capture_output=True, text=True, errors="replace",
-                                     timeout=SECONDS, check=False, preexec_fn=limit)
+                                     timeout=PATIENCE, check=False, preexec_fn=limit)
         except subprocess.TimeoutExpired:
             self.fail(f"{command} hangs")
-        self.assertLess(time.monotonic() - started, SECONDS)
+        self.assertNotIn(process.returncode, (-signal.SIGKILL, -signal.SIGXCPU),
+                         f"{command} takes too long")
         return process
 
     def refused(self, name, reason, *options, modes=((), ("--memory", "300M"))):

@@ -3,6 +3,7 @@
 """With --memory the program reads volumes slab by slab: the same voxels, bit for bit, in little
 memory."""
 
+import bz2
 import gzip
 import json
 import os
@@ -63,17 +64,26 @@ class MemoryTest(ToolTestCase):
         big = header.replace(b"MSB = False", b"MSB = True").replace(b"LOCAL", b"a.raw")
         self.write_bytes("a.raw", large_ball(">i2").tobytes())
         self.check(self.write_bytes("b.mhd", big))
+        for k, plane in enumerate(large_ball()):
+            self.write_bytes(f"{k}.raw", b"skip" + plane.tobytes())
+        several = header.replace(b"ElementDataFile = LOCAL", b"HeaderSize = 4\nElementDataFile = "
+                                 b"%%d.raw 0 %d 1" % (SIZE[0] - 1))
+        self.assertNotIn("whole", self.check(self.write_bytes("d.mhd", several)))
+        voxels = self.content("slabs.vti")
+        self.check(self.path("a.mha"))
+        self.assertEqual(self.content("slabs.vti"), voxels)
         packed = zlib.compress(large_ball().tobytes(), 1)
         header = header.replace(b"CompressedData = False", b"CompressedData = True\n"
                                 b"CompressedDataSize = %d" % len(packed))
         self.check(self.write_bytes("c.mha", header + packed))
 
     def test_nrrd(self):
-        for encoding, code in (("raw", bytes), ("gzip", lambda data: gzip.compress(data, 1))):
+        for encoding, code in (("raw", bytes), ("gzip", lambda data: gzip.compress(data, 1)),
+                               ("bzip2", lambda data: bz2.compress(data, 1))):
             header = medical_files.nrrd_header(
                 large_ball(), SPACING, ORIGIN, TURNED, encoding, "big")
-            self.check(self.write_bytes(
-                "a.nrrd", header + b"\n" + code(large_ball(">i2").tobytes())))
+            self.assertNotIn("whole", self.check(self.write_bytes(
+                "a.nrrd", header + b"\n" + code(large_ball(">i2").tobytes()))))
 
     def test_nifti(self):
         for qfac in (1, -1):

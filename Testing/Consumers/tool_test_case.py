@@ -7,8 +7,11 @@ VOLUMIC_PROGRAM names the program, VOLUMIC_MANUAL its manual page.
 
 import json
 import os
+import re
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -62,6 +65,27 @@ class ToolTestCase(FolderTestCase):
         if status is not None:
             self.assertEqual(process.returncode, status, process.stdout + process.stderr)
         return process
+
+    def interrupted(self, pattern, *arguments, status=3, pause=0.0):
+        """What the program says after Ctrl-C, which comes when a line begins like the pattern."""
+        command = [PROGRAM, *map(str, arguments), "--progress"]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            for line in process.stderr:
+                if re.match(pattern, line):
+                    break
+            time.sleep(pause)
+            process.send_signal(signal.SIGINT)
+            rest = process.stderr.read()
+            self.assertEqual(process.wait(timeout=60), status, rest)
+        return rest
+
+    def many_labels(self, count):
+        """A file with as many balls along each axis, each a label of its own."""
+        z, y, x = np.mgrid[0:15 * count, 0:15 * count, 0:15 * count]
+        voxels = 1 + (x // 15) + count * (y // 15) + count ** 2 * (z // 15)
+        voxels[((x % 15 - 7) ** 2 + (y % 15 - 7) ** 2 + (z % 15 - 7) ** 2) > 50] = 0
+        return self.write(vtkXMLImageDataWriter(), "many.vti",
+                          make_image(voxels.astype("u1"), (1, 1, 1)))
 
     def report(self, *arguments, status=0):
         """The report of a run, parsed."""

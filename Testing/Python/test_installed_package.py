@@ -17,7 +17,6 @@ from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet
-from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from volumic import vtkImagePyramid
@@ -113,12 +112,6 @@ class PyramidTest(unittest.TestCase):
         self.pyramid.Update()
         return self.pyramid.GetOutput()
 
-    def test_defaults(self):
-        self.assertAlmostEqual(self.pyramid.GetReductionFactor(), 3 ** 0.5, places=15)
-        self.assertEqual(self.pyramid.GetNumberOfLevels(), 0)
-        self.assertEqual(self.pyramid.GetMinimumLevelSize(), 10)
-        self.assertEqual(self.pyramid.GetNumberOfThreads(), 0)
-
     def test_output_is_a_multiblock_before_and_after_update(self):
         self.pyramid.SetInputData(image_of(np.zeros((30, 30, 30), "f4")))
         self.pyramid.Update()
@@ -206,42 +199,6 @@ class PyramidTest(unittest.TestCase):
         reason = output.GetFieldData().GetAbstractArray("StopReason").GetValue(0)
         self.assertEqual(reason, "cancelled")
 
-    def refused(self, voxels, reason, **settings):
-        errors = collect_errors(self.pyramid)
-        output = self.output_of(voxels, **settings)
-        self.assertEqual(len(errors), 1, errors)
-        self.assertRegex(errors[0], reason)
-        self.assertEqual(output.GetNumberOfBlocks(), 0)
-
-    def test_nan_is_refused_with_its_place(self):
-        voxels = np.zeros((20, 20, 20), "f4")
-        voxels[4, 3, 2] = voxels[9, 9, 9] = np.nan
-        self.refused(voxels, r"2 NaN voxels.*\(2, 3, 4\)", NaNIsBackground=False)
-
-    def test_nan_is_background(self):
-        voxels = np.ones((20, 20, 20), "f4")
-        voxels[:, :, 10:] = np.nan
-        self.pyramid.AddObserver("WarningEvent", lambda *_: None)
-        output = self.output_of(voxels)
-        self.assertEqual(output.GetFieldData().GetArray("NaNVoxels").GetValue(0), 4000)
-        row = vtk_to_numpy(output.GetBlock(1).GetPointData().GetScalars())[:11]
-        np.testing.assert_allclose(row[:5], 1.0, atol=1e-6)
-        self.assertTrue(np.isnan(row[-4:]).all())
-
-    def test_factor_of_two_is_refused(self):
-        self.refused(np.zeros((20, 20, 20), "f4"), "Reduction Factor.*2", ReductionFactor=2.0)
-
-    def test_too_many_levels_are_refused(self):
-        self.refused(np.zeros((20, 20, 20), "f4"), "levels", NumberOfLevels=30)
-
-    def test_an_error_is_followed_by_a_good_run(self):
-        errors = collect_errors(self.pyramid)
-        self.output_of(np.zeros((20, 20, 20), "f4"), ReductionFactor=2.5)
-        self.assertEqual(len(errors), 1)
-        output = self.output_of(np.zeros((20, 20, 20), "f4"), ReductionFactor=1.5)
-        self.assertEqual(len(errors), 1)
-        self.assertGreater(output.GetNumberOfBlocks(), 1)
-
     def test_the_error_code_is_that_of_the_last_run(self):
         collect_errors(self.pyramid)
         codes = []
@@ -249,22 +206,6 @@ class PyramidTest(unittest.TestCase):
             self.output_of(np.zeros((20, 20, 20), "f4"), ReductionFactor=factor)
             codes.append(self.pyramid.GetErrorCode())
         self.assertEqual(codes, [0, vtkErrorCode.UserError, 0])
-
-    def test_no_input(self):
-        # The pipeline itself reports it, through the executive.
-        errors = collect_errors(self.pyramid.GetExecutive())
-        self.pyramid.Update()
-        self.assertEqual(len(errors), 1)
-        self.assertIn("has 0 connections", errors[0])
-
-    def test_empty_image(self):
-        errors = collect_errors(self.pyramid)
-        producer = vtkTrivialProducer()
-        producer.SetOutput(vtkImageData())
-        self.pyramid.SetInputConnection(producer.GetOutputPort())
-        self.pyramid.Update()
-        self.assertEqual(len(errors), 1)
-        self.assertIn("empty", errors[0])
 
 
 if __name__ == "__main__":

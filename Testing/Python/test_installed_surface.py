@@ -14,7 +14,6 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
 from vtkmodules.vtkCommonMisc import vtkErrorCode
-from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from volumic import (
     vtkDeformableSurface, vtkImagePyramid, vtkOtsuThreshold, vtkVolumeToSurface)
 
@@ -176,12 +175,6 @@ class UseTest(SurfaceTest):
         through = vtk_to_numpy(self.surface.GetOutput().GetPoints().GetData())
         np.testing.assert_array_equal(direct, through)
 
-    def test_dark_objects(self):
-        self.surface.ObjectIsBrightOff()
-        output = self.run_on(ball(bright=0, dark=200))
-        self.assertEqual(field(output, "Genus"), 0)
-        self.assertAlmostEqual(field(output, "Area") / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
-
     def test_seeds_at_points(self):
         seeds = vtkPolyData()
         points = vtkPoints()
@@ -226,11 +219,6 @@ class UseTest(SurfaceTest):
         self.assertGreater(output.GetNumberOfPolys(), 0)
         self.assertEqual(field(output, "Level"), 1)
 
-    def refused(self, reason):
-        self.assertEqual(len(self.errors), 1, self.errors)
-        self.assertRegex(self.errors[0], reason)
-        self.assertEqual(self.surface.GetOutput().GetNumberOfPoints(), 0)
-
     def test_the_error_code_is_that_of_the_last_run(self):
         image = ball()
         for iso, code, blocks in ((ISO, 0, 3), (1000, vtkErrorCode.UserError, 0), (ISO, 0, 3)):
@@ -240,21 +228,6 @@ class UseTest(SurfaceTest):
             self.assertEqual(self.surface.GetLevels().GetNumberOfBlocks(), blocks)
             self.assertEqual(self.surface.GetHistory().GetNumberOfRows() > 0, code == 0)
         self.assertEqual(len(self.errors), 1, self.errors)
-
-    def test_no_iso_value(self):
-        self.run_on(ball(), iso=None)
-        self.refused("Iso Value")
-
-    def test_iso_value_out_of_range(self):
-        self.run_on(ball(), iso=1000)
-        self.refused("200")
-
-    def test_open_initial_surface(self):
-        plane = vtkPlaneSource()
-        self.surface.SetInitializationToInputSurface()
-        self.surface.SetInitialSurfaceConnection(plane.GetOutputPort())
-        self.run_on(ball())
-        self.refused("closed|open|border")
 
 
 class OneStepTest(unittest.TestCase):

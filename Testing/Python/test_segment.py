@@ -3,9 +3,7 @@
 """Examples/Python/segment.py: what it writes, its bar, its errors and exit codes."""
 
 import os
-import pty
 import re
-import signal
 import subprocess
 import sys
 import tempfile
@@ -19,6 +17,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from examples_path import EXAMPLES
+from folder_test_case import run_on_terminal
 from sample_volumes import (
     RING_ISO, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
 
@@ -79,14 +78,10 @@ class FormatsTest(SegmentTest):
         self.assertEqual(2 * surface.GetNumberOfPoints(), surface.GetNumberOfPolys())
         return run, surface
 
-    def test_stl(self):
-        self.check_format("stl")
-
-    def test_ply(self):
-        self.check_format("ply")
-
-    def test_obj(self):
-        self.check_format("obj")
+    def test_formats_of_meshes(self):
+        for suffix in ("stl", "ply", "obj"):
+            with self.subTest(suffix):
+                self.check_format(suffix)
 
     def test_vtp_holds_all_that_the_filter_tells(self):
         run, surface = self.check_format("vtp")
@@ -145,35 +140,24 @@ class RefusedTest(SegmentTest):
         self.assertRegex(run.stderr, reason)
         self.assertNotIn("Traceback", run.stderr)
 
-    def test_missing_volume(self):
-        self.refused("no such file", self.path("none.mha"), self.path("a.stl"))
-
-    def test_unknown_format_is_told_before_reading(self):
-        self.refused(r"\.stl, \.ply", self.path("none.mha"), self.path("a.dwg"))
-
-    def test_missing_folder_is_told_before_reading(self):
-        self.refused("no such folder", self.path("none.mha"), self.path("none/a.stl"))
-
-    def test_file_that_cannot_be_written(self):
+    def test_what_is_refused(self):
         os.mkdir(self.path("folder.stl"))
-        self.refused("cannot be written", self.ring, self.path("folder.stl"))
-
-    def test_unknown_property(self):
-        self.refused("no property Isovalue; it has .*IsoValue", self.ring, self.path("a.stl"),
-                     "--set", "Isovalue=3")
-
-    def test_property_of_another_kind(self):
-        self.refused("a whole number, not '0.5'", self.ring, self.path("a.stl"), "--set",
-                     "FinestLevel=0.5")
-        self.refused("on or off, not 'maybe'", self.ring, self.path("a.stl"), "--set",
-                     "SnapToIsoValue=maybe")
-        self.refused("NAME=VALUE", self.ring, self.path("a.stl"), "--set", "FinestLevel")
-
-    def test_what_the_filter_refuses(self):
-        self.refused("1e\\+?06|1000000", self.ring, self.path("a.stl"), "--iso", "1e6")
-        self.assertFalse(os.path.exists(self.path("a.stl")))
-
-    def test_wrong_command_line(self):
+        none, output = self.path("none.mha"), self.path("a.stl")
+        for reason, *arguments in (
+                ("no such file", none, output),
+                # These are told before the volume is read.
+                (r"\.stl, \.ply", none, self.path("a.dwg")),
+                ("no such folder", none, self.path("none/a.stl")),
+                ("cannot be written", self.ring, self.path("folder.stl")),
+                ("no property Isovalue; it has .*IsoValue", self.ring, output, "--set",
+                 "Isovalue=3"),
+                ("a whole number, not '0.5'", self.ring, output, "--set", "FinestLevel=0.5"),
+                ("on or off, not 'maybe'", self.ring, output, "--set", "SnapToIsoValue=maybe"),
+                ("NAME=VALUE", self.ring, output, "--set", "FinestLevel"),
+                ("1e\\+?06|1000000", self.ring, output, "--iso", "1e6")):
+            with self.subTest(reason):
+                self.refused(reason, *arguments)
+        self.assertFalse(os.path.exists(output))
         self.refused("usage", self.ring, code=2)
 
     def test_package_that_is_not_there(self):
@@ -189,27 +173,10 @@ class RefusedTest(SegmentTest):
 
 
 class TerminalTest(SegmentTest):
-    def run_on_terminal(self, volume, output, interrupt_at=None):
-        """All that a terminal shows, and the exit code; Ctrl-C when the text has come."""
-        leader, follower = pty.openpty()
-        arguments = [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume,
-                     self.path(output), "--iso", str(RING_ISO)]
-        with subprocess.Popen(arguments, stdout=follower, stderr=follower) as process:
-            os.close(follower)
-            shown = ""
-            while True:
-                try:
-                    piece = os.read(leader, 4096)
-                except OSError:  # Linux's way to say that the other end is closed
-                    piece = b""
-                if not piece:
-                    break
-                shown += piece.decode()
-                if interrupt_at and re.search(interrupt_at, shown):
-                    process.send_signal(signal.SIGINT)
-                    interrupt_at = None
-            os.close(leader)
-        return shown, process.returncode
+    def segment_on_terminal(self, volume, output, interrupt_at=None):
+        return run_on_terminal(
+            [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume, self.path(output),
+             "--iso", str(RING_ISO)], interrupt_at)
 
     def slow_volume(self):
         """Large enough to take a second, so that there is time to stop it."""
@@ -217,13 +184,13 @@ class TerminalTest(SegmentTest):
         return write_volume(self.path("slow.mha"), large)
 
     def test_a_bar_grows_and_is_replaced_by_the_time(self):
-        shown, code = self.run_on_terminal(self.ring, "a.stl")
+        shown, code = self.segment_on_terminal(self.ring, "a.stl")
         self.assertEqual(code, 0, shown)
         self.assertRegex(shown, r"\rEvolving the surface \[#*\.*\] +\d+ % .*")
         self.assertRegex(shown, r"\rEvolving the surface: \d+\.\d\d s")
 
     def test_control_c_hands_over_a_closed_surface(self):
-        shown, code = self.run_on_terminal(self.slow_volume(), "b.vtp", r"Level \d, iteration")
+        shown, code = self.segment_on_terminal(self.slow_volume(), "b.vtp", r"Level \d, iteration")
         self.assertEqual(code, 3, shown)
         self.assertIn("interrupted", shown)
         self.assertIn("(not finished)", shown)

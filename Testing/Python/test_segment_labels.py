@@ -3,10 +3,6 @@
 """Examples/Python/segment.py --labels: what it writes, which labels it takes, errors, Ctrl-C."""
 
 import os
-import pty
-import re
-import signal
-import subprocess
 import sys
 import unittest
 
@@ -18,7 +14,7 @@ from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
 
 from examples_path import EXAMPLES
-from folder_test_case import FolderTestCase
+from folder_test_case import FolderTestCase, run_on_terminal
 from sample_volumes import run_script, write_volume
 
 sys.path.insert(0, EXAMPLES)
@@ -180,26 +176,11 @@ class ErrorsTest(LabelsTest):
 class InterruptTest(LabelsTest):
     def test_control_c_keeps_what_is_finished(self):
         volume = write_volume(self.path("many.mha"), label_voxels(50))
-        leader, follower = pty.openpty()
-        arguments = [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume,
-                     self.path("o/"), "--labels", "all", "--set", "FinestLevel=-1", "--set",
-                     "NumberOfThreads=1"]
-        with subprocess.Popen(arguments, stdout=follower, stderr=follower) as process:
-            os.close(follower)
-            shown, is_stopped = "", False
-            while True:
-                try:
-                    piece = os.read(leader, 4096)
-                except OSError:  # Linux's way to say that the other end is closed
-                    piece = b""
-                if not piece:
-                    break
-                shown += piece.decode()
-                if not is_stopped and re.search(r" [2-9]\d % ", shown):
-                    process.send_signal(signal.SIGINT)
-                    is_stopped = True
-            os.close(leader)
-        self.assertEqual(process.returncode, 3, shown)
+        shown, code = run_on_terminal(
+            [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume, self.path("o/"),
+             "--labels", "all", "--set", "FinestLevel=-1", "--set", "NumberOfThreads=1"],
+            r" [2-9]\d % ")
+        self.assertEqual(code, 3, shown)
         self.assertIn("(not finished)", shown)
         self.assertTrue(0 < len(os.listdir(self.path("o"))) < 150)
 

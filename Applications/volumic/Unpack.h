@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicInflate_h
-#define volumicInflate_h
+#ifndef volumicUnpack_h
+#define volumicUnpack_h
 
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +17,13 @@ using UnpackedSink = std::function<void(const char* bytes, std::size_t count)>;
 /** Lets them go: only the checksum is wanted. */
 inline const UnpackedSink Nowhere = [](const char*, std::size_t) {};
 
-/** Puts them to a place, without those that come before. */
-UnpackedSink To(char* place, std::uint64_t before = 0);
+/** Hands them on without so many at the begin. */
+UnpackedSink Without(std::uint64_t before, const UnpackedSink& sink);
 
 /**
  * Unpack zlib or gzip data to their end, which alone tells whether they are what was packed: the
- * checksum stands there. @return how many bytes there were.
+ * checksum stands there. Several members, one behind the other, are one file.
+ * @return how many bytes there were
  * @throws Failure, without a name, if they are damaged or cut off, or as soon as they give more.
  */
 std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint64_t most);
@@ -30,8 +31,8 @@ std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint6
 /** The same of data that must give just so many bytes. @throws Failure if they don't. */
 void InflateJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
 
-/** @throws Failure unless packed data gave as many bytes as are needed. */
-void NeedUnpacked(std::uint64_t got, std::uint64_t needed);
+/** Likewise of bzip2. @throws Failure as well if the program was built without libbz2. */
+void BunzipJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
 
 /** Whether a file begins as those of gzip do. */
 bool IsGzip(const std::string& name);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LabelColors.h"
+#include "SurfaceFields.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicLabelColors_h
-#define volumicLabelColors_h
+#ifndef volumicSurfaceFields_h
+#define volumicSurfaceFields_h
 
 #include "VolumeImage.h"
 
