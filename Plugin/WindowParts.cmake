@@ -27,6 +27,7 @@ if (PARAVIEW_USE_QT)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
   volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
   list(APPEND volumic_window_sources
+    Widgets/HistogramWidget.cxx Widgets/HistogramWidget.h
     Widgets/LabelBelow.cxx Widgets/LabelBelow.h
     Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
     Widgets/PointHandles.cxx Widgets/PointHandles.h
