@@ -132,6 +132,14 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   return true;
 }
 
+void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
+{
+  // Who presses twice may be heard after the run has ended.
+  const vtkMTimeType before = this->GetMTime();
+  this->Superclass::SetAbortExecute(abort);
+  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
+}
+
 void vtkDeformableSurface::GoOn()
 {
   const vtkMTimeType before = this->GetMTime();

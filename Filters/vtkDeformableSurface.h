@@ -719,6 +719,9 @@ public:
    */
   void GoOn();
 
+  /** As of all algorithms; what is kept of the last run stays. */
+  void SetAbortExecute(vtkTypeBool abort) override;
+
   /** Frees what is kept of the last run, see Going on. */
   void ForgetRun();
 

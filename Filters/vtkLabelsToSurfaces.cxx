@@ -187,6 +187,13 @@ void vtkLabelsToSurfaces::GoOn()
   this->Internals->StoppedTime = isSame ? this->GetMTime() : 0;
 }
 
+void vtkLabelsToSurfaces::SetAbortExecute(vtkTypeBool abort)
+{
+  const bool isSame = this->Internals->StoppedTime == this->GetMTime();
+  this->Superclass::SetAbortExecute(abort);
+  this->Internals->StoppedTime = isSame ? this->GetMTime() : 0;
+}
+
 //------------------------------------------------------------------------------
 int vtkLabelsToSurfaces::FillInputPortInformation(int, vtkInformation* info)
 {

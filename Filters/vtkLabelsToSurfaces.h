@@ -239,6 +239,9 @@ public:
   /** After a run that was stopped: the next Update() goes on, see Cancelling. */
   void GoOn();
 
+  /** As of all algorithms; what is kept of a run that was stopped stays. */
+  void SetAbortExecute(vtkTypeBool abort) override;
+
 protected:
   vtkLabelsToSurfaces();
   ~vtkLabelsToSurfaces() override;

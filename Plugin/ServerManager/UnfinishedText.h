@@ -3,6 +3,8 @@
 #ifndef volumicUnfinishedText_h
 #define volumicUnfinishedText_h
 
+#include "vtkServerManagerVolumicModule.h" // For export macro
+
 #include <vtkNew.h>
 #include <vtkTextActor.h>
 #include <vtkWeakPointer.h>
@@ -16,7 +18,7 @@ class vtkSMProxy;
 namespace volumic
 {
 /** Why a run was stopped on its way that has given this: its StopReason; empty: it was not. */
-std::string WhyUnfinished(vtkPVDataInformation* surfaces);
+VTKSERVERMANAGERVOLUMIC_EXPORT std::string WhyUnfinished(vtkPVDataInformation* surfaces);
 
 /**
  * What a view says of a surface that has been stopped on its way, such as "unfinished (cancelled,

@@ -8,12 +8,35 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace volumic
 {
 namespace
 {
 constexpr int Height = 56;
+
+/** Their heights: as many as there is room for, or fewer, where integers leave bins empty. */
+std::vector<double> BarsOf(const std::vector<double>& counts, int most)
+{
+  const auto bins = static_cast<int>(counts.size());
+  std::vector<double> bars;
+  for (int number = std::min(most, bins); number > 8; number /= 2)
+  {
+    bars.assign(static_cast<std::size_t>(number), 0.0);
+    for (int bar = 0; bar < number; ++bar)
+    {
+      const auto first = counts.begin() + bar * bins / number;
+      const auto end = counts.begin() + (bar + 1) * bins / number;
+      bars[static_cast<std::size_t>(bar)] = std::log1p(std::accumulate(first, end, 0.0));
+    }
+    if (2 * std::count(bars.begin(), bars.end(), 0.0) < number)
+    {
+      break;
+    }
+  }
+  return bars;
+}
 }
 
 //------------------------------------------------------------------------------
@@ -73,27 +96,21 @@ void HistogramWidget::paintEvent(QPaintEvent*)
   QPainter painter(this);
   const QPalette& colors = this->palette();
   painter.fillRect(this->rect(), colors.color(QPalette::Base));
-  const auto bins = static_cast<int>(this->Counts.size());
-  if (bins == 0 || this->width() < 2)
+  const std::vector<double> bars = BarsOf(this->Counts, this->width());
+  if (bars.empty())
   {
     return;
   }
-  // A column has the largest of its bins, so that a narrow peak is seen.
-  std::vector<double> columns(static_cast<std::size_t>(this->width()), 0.0);
-  for (int column = 0; column < this->width(); ++column)
-  {
-    const int first = column * bins / this->width();
-    const int end = std::max(first + 1, (column + 1) * bins / this->width());
-    columns[static_cast<std::size_t>(column)] =
-      std::log1p(*std::max_element(this->Counts.begin() + first, this->Counts.begin() + end));
-  }
-  const double most = *std::max_element(columns.begin(), columns.end());
+  const double most = *std::max_element(bars.begin(), bars.end());
+  const auto count = static_cast<int>(bars.size());
   const int below = this->height();
-  for (int column = 0; column < this->width(); ++column)
+  for (int bar = 0; bar < count; ++bar)
   {
-    const double share = columns[static_cast<std::size_t>(column)] / most;
-    painter.fillRect(column, below - static_cast<int>(std::lround(share * (below - 4))), 1, below,
-      colors.color(QPalette::Mid));
+    const int left = bar * this->width() / count;
+    const int right = (bar + 1) * this->width() / count;
+    const auto high = static_cast<int>(
+      std::lround(bars[static_cast<std::size_t>(bar)] / most * (below - 4)));
+    painter.fillRect(left, below - high, right - left, high, colors.color(QPalette::Mid));
   }
   if (!std::isnan(this->Threshold))
   {
