@@ -34,8 +34,8 @@ if (PARAVIEW_USE_QT)
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   foreach (behavior IN ITEMS
-    pqAbortButtonBehavior pqExportSurfacesBehavior pqSurfaceColorBehavior
-    pqUnfinishedBehavior)
+    pqAbortButtonBehavior pqExportSurfacesBehavior pqPanelWidthBehavior
+    pqSurfaceColorBehavior pqUnfinishedBehavior)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"
       INTERFACES interfaces
