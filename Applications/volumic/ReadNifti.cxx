@@ -9,6 +9,7 @@
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
+#include "VtkMessages.h"
 #include "VtkReaders.h"
 
 #include <vtkDataArray.h>
@@ -119,6 +120,8 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const ScratchDire
   };
   auto slabs = std::make_unique<ReaderSlabs>(name, make);
   const vtkSmartPointer<vtkNIFTIImageReader> reader = make();
+  VtkMessages known; // Errors have been told; of sform and qform see above.
+  known.ListenTo(reader);
   reader->UpdateInformation();
   std::tie(slabs->Slope, slabs->Shift) = RescalingOf(reader);
   slabs->HasTrustedWarnings = false;

@@ -20,10 +20,10 @@
 
 namespace
 {
-/** Whether these are the Hounsfield units of a CT of a body: from air to bone. */
+/** Whether these may be the Hounsfield units of a CT of a body: from air, -1000, to bone. */
 bool areHounsfieldUnits(double low, double high)
 {
-  return low <= -500.0 && low >= -4096.0 && high >= 300.0 && high <= 32767.0;
+  return low <= -800.0 && low >= -4096.0 && high >= 300.0 && high <= 32767.0;
 }
 }
 
