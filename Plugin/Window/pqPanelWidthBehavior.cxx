@@ -8,6 +8,7 @@
 #include <pqCoreUtilities.h>
 #include <pqPropertiesPanel.h>
 
+#include <QApplication>
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QScrollArea>
@@ -16,7 +17,7 @@
 
 namespace
 {
-/** ParaView has the display in the panel soon after Apply, in milliseconds. */
+/** Milliseconds in which ParaView has all in the panel. */
 constexpr int Delay = 300;
 
 QDockWidget* dockOf(QWidget* widget)
@@ -49,28 +50,31 @@ void pqPanelWidthBehavior::watchPanels()
   for (auto* panel : window ? window->findChildren<pqPropertiesPanel*>()
                             : QList<pqPropertiesPanel*>())
   {
-    this->connect(panel, qOverload<>(&pqPropertiesPanel::applied), this,
-      [this, panel] { QTimer::singleShot(Delay, panel, [this, panel] { this->widen(panel); }); });
+    if (auto* area = panel->findChild<QScrollArea*>("scrollArea"))
+    {
+      this->connect(area->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
+        [this, area] { QTimer::singleShot(Delay, area, [this, area] { this->widen(area); }); });
+    }
   }
 }
 
 //------------------------------------------------------------------------------
-void pqPanelWidthBehavior::widen(pqPropertiesPanel* panel)
+void pqPanelWidthBehavior::widen(QScrollArea* area)
 {
   pqPipelineSource* shown = pqActiveObjects::instance().activeSource();
-  auto* area = panel->findChild<QScrollArea*>("scrollArea");
-  QDockWidget* dock = dockOf(panel);
+  QDockWidget* dock = dockOf(area);
   auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
-  if (this->HasWidened || !shown || !volumic::GivesSurfaces(shown) || !area || !area->widget() ||
-    !dock || !window || dock->isFloating())
+  // A hand at the mouse may just be giving it another width.
+  if (!shown || !volumic::GivesSurfaces(shown) || !dock || !window || dock->isFloating() ||
+    dock->width() < this->Given || QApplication::mouseButtons() != Qt::NoButton)
   {
     return;
   }
-  const int missing = area->horizontalScrollBar()->maximum();
+  const int wanted = dock->width() + area->horizontalScrollBar()->maximum();
   // Of a view that is no wider than its panel nobody has anything.
-  if (missing > 0 && 3 * (dock->width() + missing) < window->width())
+  if (wanted > dock->width() && 3 * wanted < window->width())
   {
-    window->resizeDocks({ dock }, { dock->width() + missing }, Qt::Horizontal);
-    this->HasWidened = true;
+    window->resizeDocks({ dock }, { wanted }, Qt::Horizontal);
+    this->Given = wanted;
   }
 }

@@ -5,12 +5,12 @@
 
 #include <QObject>
 
-class pqPropertiesPanel;
+class QScrollArea;
 
 /**
- * When a surface of ours is applied first, its display joins the properties in the panel, and needs
- * more width than ParaView's dock has in a small window: the dock is made as wide, once. Who makes
- * it narrower again is left alone.
+ * When a surface of ours has been applied its display joins the properties in the panel, and needs
+ * more width than ParaView's dock has in a small window, as advanced properties do: the dock is made
+ * as wide. Who makes it narrower again is left alone.
  */
 class pqPanelWidthBehavior : public QObject
 {
@@ -28,9 +28,9 @@ private Q_SLOTS:
   void watchPanels();
 
 private:
-  void widen(pqPropertiesPanel* panel);
+  void widen(QScrollArea* area);
 
-  bool HasWidened = false;
+  int Given = 0; ///< width
 
   Q_DISABLE_COPY(pqPanelWidthBehavior)
 };

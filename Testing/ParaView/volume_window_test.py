@@ -117,7 +117,8 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.pause(300), window.shown("MinimumComponentVolume", True),
             gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "All"),
             APPLY, *save, gui.pause(1500),
-            # The display below wants more than the dock has at first.
+            # The display below wants more than the dock has at first, and so do these.
+            window.as_wide_as_the_panel(), SHOW_ADVANCED, gui.pause(1000),
             window.as_wide_as_the_panel()], "volume-applied")
         state = window.proxies_of(path)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
