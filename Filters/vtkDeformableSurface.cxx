@@ -128,10 +128,23 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   internals.IsOnTheWay = false;
   // The run of level 0 is not kept: level -1 is not reached from there.
   internals.GoesToTheEnd = !internals.Cache.CanGoOn();
+  this->GoOn();
+  return true;
+}
+
+void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
+{
+  // Who presses twice may be heard after the run has ended.
+  const vtkMTimeType before = this->GetMTime();
+  this->Superclass::SetAbortExecute(abort);
+  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
+}
+
+void vtkDeformableSurface::GoOn()
+{
   const vtkMTimeType before = this->GetMTime();
   this->Modified();
-  internals.Cache.IgnoreChange(before, this->GetMTime());
-  return true;
+  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
 }
 
 void vtkDeformableSurface::ForgetRun()

@@ -122,7 +122,7 @@
  * then is handed over, valid, with `StopReason` `cancelled`; an empty one if there is none yet. It
  * counts as up to date, so that what follows in the pipeline can show or write it: another Update()
  * gives it again. The request to stop is forgotten then, or filters behind this one would stop at
- * it, too. To run anew call Modified() first, or change an input or a property.
+ * it, too. To go on call GoOn() first, to run anew Modified(), or change an input or a property.
  *
  * @par Going on:
  * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,
@@ -135,8 +135,10 @@
  * The outputs are the same bits as those of a run from the start, but for the seconds in History. To
  * go on it holds the surface and the levels of the pyramid that it has not left, and these only where
  * the run has ended at level 1 or above, so that no memory of level 0 is held; else no more than
- * the surfaces of the levels. A run that was cancelled or ran out of time begins anew. ForgetRun()
- * frees all of it; nothing is kept after an error, where ReleaseDataFlag is on, or where an input's
+ * the surfaces of the levels. A run that was cancelled or ran out of time goes on, by GoOn() or with
+ * another TimeLimit, from the last level at which the surface rested: until then it holds what was
+ * there (some 280 bytes for each of its vertices) and the levels from there on. ForgetRun() frees
+ * all of it; nothing is kept after an error, where ReleaseDataFlag is on, or where an input's
  * data are released.
  *
  * @par Memory:
@@ -252,7 +254,8 @@ public:
     AllComponents = 0,
     LargestComponent = 1,
     ComponentsAtPoints = 2,
-    LargeComponents = 3
+    LargeComponents = 3,
+    ComponentsNotAtSeeds = 4
   };
 
   ///@{
@@ -312,7 +315,8 @@ public:
    * ComponentsAtPoints: those that enclose a seed of port 1, a point of port 2, or one of the
    * SeedPositions or AttractingPositions, or pass it within the length of an edge (2.5 Delta);
    * LargeComponents: those that enclose at least MinimumComponentVolume (world units cubed, default
-   * 0). Cavities go with the component about them: they are kept if it is.
+   * 0); ComponentsNotAtSeeds: all but those that ComponentsAtPoints finds at a seed of port 1 or at
+   * one of the SeedPositions. Cavities go with the component about them: they are kept if it is.
    */
   virtual void SetKeepComponents(int value);
   virtual int GetKeepComponents();
@@ -320,6 +324,7 @@ public:
   void SetKeepComponentsToLargestComponent() { this->SetKeepComponents(LargestComponent); }
   void SetKeepComponentsToComponentsAtPoints() { this->SetKeepComponents(ComponentsAtPoints); }
   void SetKeepComponentsToLargeComponents() { this->SetKeepComponents(LargeComponents); }
+  void SetKeepComponentsToComponentsNotAtSeeds() { this->SetKeepComponents(ComponentsNotAtSeeds); }
   ///@}
 
   ///@{
@@ -690,6 +695,15 @@ public:
    * gets the levels one by one.
    */
   bool GetNeedsUpdate();
+
+  /**
+   * After a run that was stopped: the next Update() goes on from the last level at which the surface
+   * rested, or begins anew where there is none. Of a run that was not it gives the same again.
+   */
+  void GoOn();
+
+  /** As of all algorithms; what is kept of the last run stays. */
+  void SetAbortExecute(vtkTypeBool abort) override;
 
   /** Frees what is kept of the last run, see Going on. */
   void ForgetRun();

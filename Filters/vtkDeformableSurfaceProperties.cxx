@@ -44,7 +44,8 @@ using volumic::KeepComponentsType;
 static_assert(AreEqual(Class::AllComponents, KeepComponentsType::AllComponents) &&
   AreEqual(Class::LargestComponent, KeepComponentsType::LargestComponent) &&
   AreEqual(Class::ComponentsAtPoints, KeepComponentsType::ComponentsAtPoints) &&
-  AreEqual(Class::LargeComponents, KeepComponentsType::LargeComponents));
+  AreEqual(Class::LargeComponents, KeepComponentsType::LargeComponents) &&
+  AreEqual(Class::ComponentsNotAtSeeds, KeepComponentsType::ComponentsNotAtSeeds));
 
 /** What a property decides on, see PropertyTable.h. */
 enum class Change

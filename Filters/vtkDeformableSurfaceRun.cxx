@@ -192,6 +192,7 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   request.EdgeSelection = this->GetInputArrayInformation(1);
   request.Checkpoints.AreLeft =
     request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
+  request.MayGoOn = volumic::SegmentationCache::MayKeep(this);
   // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
   request.KeepsWhole = internals.IsWatched && !request.Checkpoints.AreLeft;
   request.Checkpoints.Directory = request.End.ScratchDirectory;

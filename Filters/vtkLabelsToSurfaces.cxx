@@ -17,6 +17,7 @@
 #include "Labels/LabelNames.h"
 #include "Labels/LabelSurface.h"
 #include "Labels/LabelSurfaces.h"
+#include "Run/SegmentationCache.h"
 #include "Settings/PropertyValues.h"
 
 #include <vtkDataObject.h>
@@ -32,6 +33,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkLabelsToSurfaces);
@@ -50,6 +52,10 @@ public:
   volumic::LabelNames Names;
   volumic::LimitedMemory Memory;
   std::vector<double> Seconds; ///< of each block
+  /** Of a run that was stopped, for one of the same filter and the same input; else empty. */
+  std::vector<volumic::LabelSurface> Stopped;
+  vtkMTimeType StoppedTime = 0;
+  volumic::SegmentationCache::Inputs StoppedInputs;
 };
 
 //------------------------------------------------------------------------------
@@ -174,6 +180,21 @@ void vtkLabelsToSurfaces::ClearLabelColors()
 }
 
 //------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::GoOn()
+{
+  const bool isSame = this->Internals->StoppedTime == this->GetMTime();
+  this->Modified();
+  this->Internals->StoppedTime = isSame ? this->GetMTime() : 0;
+}
+
+void vtkLabelsToSurfaces::SetAbortExecute(vtkTypeBool abort)
+{
+  const bool isSame = this->Internals->StoppedTime == this->GetMTime();
+  this->Superclass::SetAbortExecute(abort);
+  this->Internals->StoppedTime = isSame ? this->GetMTime() : 0;
+}
+
+//------------------------------------------------------------------------------
 int vtkLabelsToSurfaces::FillInputPortInformation(int, vtkInformation* info)
 {
   // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
@@ -227,11 +248,16 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
       bricks.emplace(map, threads);
     });
   volumic::LabelSurfaceMaker maker(*bricks, image->Image(), internals.Settings);
-  const std::vector<volumic::LabelSurface> surfaces = volumic::MakeLabelSurfaces(
-    maker, *bricks, choice.SurfaceNames(), internals.NumberOfThreads, threads, show);
+  const std::vector<volumic::LabelSurface> surfaces =
+    volumic::MakeLabelSurfaces(maker, *bricks, choice.SurfaceNames(), internals.NumberOfThreads,
+      threads, show, std::move(this->Internals->Stopped));
   for (const volumic::LabelSurface& surface : surfaces)
   {
     this->Internals->Seconds.push_back(surface.Seconds);
+  }
+  if (volumic::IsAbortRequested(this) && volumic::SegmentationCache::MayKeep(this))
+  {
+    this->Internals->Stopped = surfaces;
   }
   const std::string warning =
     volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output);
@@ -263,6 +289,11 @@ int vtkLabelsToSurfaces::RequestData(
     return 1;
   }
   this->Internals->Seconds.clear();
+  const volumic::SegmentationCache::Inputs inputs = volumic::SegmentationCache::InputsOf(this);
+  if (this->Internals->StoppedTime != this->GetMTime() || this->Internals->StoppedInputs != inputs)
+  {
+    this->Internals->Stopped.clear();
+  }
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   // The other ranks wait for the blocks.
@@ -287,6 +318,8 @@ int vtkLabelsToSurfaces::RequestData(
   }
   volumic::ShareBlocks(*ranks, output);
   volumic::ForgetAbort(this);
+  this->Internals->StoppedTime = this->Internals->Stopped.empty() ? 0 : this->GetMTime();
+  this->Internals->StoppedInputs = inputs;
   volumic::GiveBackFreeMemory();
   return 1;
 }

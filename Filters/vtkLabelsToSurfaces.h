@@ -60,6 +60,8 @@
  * @par Cancelling:
  * AbortExecute is looked at several times a second: surfaces that are finished then are handed
  * over, that under way has `StopReason` `cancelled`, others are empty blocks with that reason.
+ * GoOn() has the next Update() make what is missing, and keep the finished ones, where neither the
+ * filter nor its input has changed (without Gap; with it all are made again).
  *
  * @sa
  * vtkVolumeToSurface vtkLabelTable
@@ -233,6 +235,12 @@ public:
    * run. 0 for a block that is none.
    */
   double GetSeconds(int block);
+
+  /** After a run that was stopped: the next Update() goes on, see Cancelling. */
+  void GoOn();
+
+  /** As of all algorithms; what is kept of a run that was stopped stays. */
+  void SetAbortExecute(vtkTypeBool abort) override;
 
 protected:
   vtkLabelsToSurfaces();

@@ -51,6 +51,12 @@ vtkMultiProcessController* vtkOtsuThreshold::GetController()
 }
 
 //------------------------------------------------------------------------------
+vtkDoubleArray* vtkOtsuThreshold::GetHistogram()
+{
+  return this->Histogram;
+}
+
+//------------------------------------------------------------------------------
 int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
 {
   // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
@@ -77,6 +83,7 @@ int vtkOtsuThreshold::RequestData(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   this->Threshold = vtkMath::Nan();
+  this->Histogram->SetNumberOfTuples(0);
   this->SetErrorCode(vtkErrorCode::NoError);
   const auto ranks = volumic::RanksOf(this->Controller, request, output);
   if (ranks->NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, output))
@@ -90,16 +97,22 @@ int vtkOtsuThreshold::RequestData(
       const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
         volumic::PieceOfImage(*ranks, vtkDataObject::GetData(input[0])),
         this->GetInputArrayInformation(0));
-      const double threshold = volumic::FindOtsuThreshold(
+      const volumic::VoxelHistogram found = volumic::FindOtsuThreshold(
         *ranks, voxels.Image, voxels.Selection, this->SelectedComponent);
       ranks->IsAny(false); // Whoever has failed tells it here at last.
       vtkNew<vtkDoubleArray> column;
       column->SetName("Threshold");
       // One row of them all.
       column->SetNumberOfTuples(ranks->Rank() == 0 ? 1 : 0);
-      column->FillValue(threshold);
+      column->FillValue(found.Threshold);
       vtkTable::GetData(output)->AddColumn(column);
-      this->Threshold = threshold;
+      this->Threshold = found.Threshold;
+      this->Histogram->InsertNextValue(found.Range[0]);
+      this->Histogram->InsertNextValue(found.Range[1]);
+      for (const vtkIdType count : found.Counts)
+      {
+        this->Histogram->InsertNextValue(static_cast<double>(count));
+      }
     });
   if (error.Code != vtkErrorCode::NoError)
   {

@@ -44,7 +44,9 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkTableAlgorithm.h"
 
+#include <vtkDoubleArray.h>
 #include <vtkMultiProcessController.h>
+#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
 class VTKFILTERSVOLUMIC_EXPORT vtkOtsuThreshold : public vtkTableAlgorithm
@@ -77,6 +79,12 @@ public:
    */
   vtkGetMacro(Threshold, double);
 
+  /**
+   * The histogram that it was found by: the smallest and the largest voxel, and how many voxels each
+   * of the 1024 bins between them has; empty if there is none.
+   */
+  vtkDoubleArray* GetHistogram();
+
 protected:
   vtkOtsuThreshold();
   ~vtkOtsuThreshold() override;
@@ -89,6 +97,7 @@ protected:
 
   int SelectedComponent;
   double Threshold;
+  vtkNew<vtkDoubleArray> Histogram;
   vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:

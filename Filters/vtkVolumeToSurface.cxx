@@ -56,7 +56,7 @@ volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* inp
         [&]
         {
           return volumic::FindOtsuThreshold(
-            ranks, voxels.Image, voxels.Selection, volume.Settings.SelectedComponent);
+            ranks, voxels.Image, voxels.Selection, volume.Settings.SelectedComponent).Threshold;
         });
   }
   if (ranks.NumberOfRanks() == 1)

@@ -27,14 +27,15 @@ if (PARAVIEW_USE_QT)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
   volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
   list(APPEND volumic_window_sources
+    Widgets/HistogramWidget.cxx Widgets/HistogramWidget.h
     Widgets/LabelBelow.cxx Widgets/LabelBelow.h
     Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
     Widgets/PointHandles.cxx Widgets/PointHandles.h
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   foreach (behavior IN ITEMS
-    pqAbortButtonBehavior pqExportSurfacesBehavior pqSurfaceColorBehavior
-    pqUnfinishedBehavior)
+    pqAbortButtonBehavior pqExportSurfacesBehavior pqPanelWidthBehavior
+    pqSurfaceColorBehavior pqUnfinishedBehavior)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"
       INTERFACES interfaces

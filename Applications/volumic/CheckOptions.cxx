@@ -76,9 +76,9 @@ void CheckWithLabels(const ToolOptions& options)
     {
       throw UsageError("--" + property->Option + " and " + asked + " exclude each other");
     }
-    if (property->Property == "KeepComponents" && text == "at-points")
+    if (property->Property == "KeepComponents" && (text == "at-points" || text == "not-at-seeds"))
     {
-      throw UsageError("--keep at-points and --labels exclude each other");
+      throw UsageError("--keep " + text + " and --labels exclude each other");
     }
   }
   bool hasFolder = false;

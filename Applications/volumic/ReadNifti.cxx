@@ -9,6 +9,7 @@
 #include "ToolErrors.h"
 #include "Unpack.h"
 #include "VolumeImage.h"
+#include "VtkMessages.h"
 #include "VtkReaders.h"
 
 #include <vtkImageData.h>
@@ -95,6 +96,8 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& op
   };
   auto slabs = std::make_unique<ReaderSlabs>(name, make);
   const vtkSmartPointer<vtkNIFTIImageReader> reader = make();
+  VtkMessages known; // Errors have been told; of sform and qform see above.
+  known.ListenTo(reader);
   reader->UpdateInformation();
   std::tie(slabs->Slope, slabs->Shift) = RescalingOf(reader);
   // It warns where sform and qform differ in handedness, of which both are served here.

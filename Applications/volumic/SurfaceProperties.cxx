@@ -165,9 +165,9 @@ std::vector<PropertyOption> MakeProperties()
       "don't move vertices onto the iso-value at the end of a level"),
     SURFACE_MENU(KeepComponents, "keep",
       "which components are written: all; the one of the largest area; those at seeds or "
-      "points known to belong to the object (--seeds, --attracting-points and so on); or "
-      "those of --minimum-component-volume; cavities stay with theirs",
-      "all", "largest", "at-points", "large"),
+      "points known to belong to the object (--seeds, --attracting-points and so on); "
+      "those of --minimum-component-volume; or all but those at seeds; cavities stay with theirs",
+      "all", "largest", "at-points", "large", "not-at-seeds"),
     SURFACE_NUMBER(MinimumComponentVolume, "minimum-component-volume", "VOLUME",
       "what a component must enclose to be large, in world units cubed"),
     SURFACE_NUMBER(TimeLimit, "time-limit", "SECONDS",

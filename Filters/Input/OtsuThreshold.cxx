@@ -137,7 +137,7 @@ std::array<double, 2> FindNeighbours(
 }
 }
 
-double FindOtsuThreshold(
+VoxelHistogram FindOtsuThreshold(
   Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component)
 {
   vtkSmartPointer<vtkDataArray> chosen;
@@ -177,7 +177,8 @@ double FindOtsuThreshold(
       [&](const auto* values)
       { threads.Run([&] { CountVoxels(values, held, box, valid, range, threads, counts); }); });
   }
-  const double value = range[0] + BestSplit(AddUp(ranks, counts)) * size / Bins;
+  VoxelHistogram found{ range, AddUp(ranks, counts), 0.0 };
+  const double value = range[0] + BestSplit(found.Counts) * size / Bins;
   std::array<double, 2> neighbours = range;
   visit([&](const auto* values)
     { neighbours = FindNeighbours(values, voxels->GetNumberOfTuples(), valid, value); });
@@ -187,6 +188,7 @@ double FindOtsuThreshold(
   }
   const double middle = 0.5 * (neighbours[0] + neighbours[1]);
   const bool areReal = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataType() == VTK_DOUBLE;
-  return areReal ? middle : std::floor(middle) + 0.5;
+  found.Threshold = areReal ? middle : std::floor(middle) + 0.5;
+  return found;
 }
 }

@@ -5,18 +5,31 @@
 
 #include "Core/Common/Communicator.h"
 
+#include <vtkType.h>
+
+#include <array>
+#include <vector>
+
 class vtkImageData;
 class vtkInformation;
 
 namespace volumic
 {
+/** The values of an image's voxels, and what parts them best. */
+struct VoxelHistogram
+{
+  std::array<double, 2> Range = { 0.0, 0.0 }; ///< of the voxels
+  std::vector<vtkIdType> Counts;              ///< voxels of each bin of it
+  double Threshold = 0.0;
+};
+
 /**
  * What vtkOtsuThreshold finds. By all ranks together: the same on all, however many they are.
  * @param image     this rank's piece; null: none
  * @param selection of the voxels, as GetInputArrayInformation()
  * @throws std::invalid_argument where there is no such value.
  */
-double FindOtsuThreshold(
+VoxelHistogram FindOtsuThreshold(
   Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component);
 }
 

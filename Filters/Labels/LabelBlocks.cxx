@@ -170,12 +170,13 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     output->SetBlock(block, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
     sought += static_cast<double>(voxels);
-    if (isThere && surface->GetNumberOfCells() == 0)
+    // What is not finished may still come.
+    if (surfaces[i].IsFinished && surface->GetNumberOfCells() == 0)
     {
       empty.push_back(name);
       missing += static_cast<double>(voxels);
     }
-    else if (isThere && 2 * surfaces[i].WrongVoxels > voxels)
+    else if (surfaces[i].IsFinished && 2 * surfaces[i].WrongVoxels > voxels)
     {
       lost.push_back(name);
       missing += settings.KeepComponents == 0 ? static_cast<double>(surfaces[i].WrongVoxels) : 0.0;

@@ -31,6 +31,7 @@ struct LabelSurface
   vtkIdType WrongVoxels = 0;
   vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance
   vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
+  bool IsFinished = false;     ///< It was not stopped on its way.
 };
 
 /** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */

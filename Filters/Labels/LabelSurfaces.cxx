@@ -46,7 +46,7 @@ public:
     this->Expected = static_cast<std::size_t>(std::count(isDue.begin(), isDue.end(), 1));
     for (std::size_t i = 0; i < isDue.size(); ++i)
     {
-      this->Shares[i] = isDue[i] != 0 ? 0.f : this->Shares[i].load();
+      this->Shares[i] = isDue[i] != 0 ? 0.f : 1.f;
     }
   }
 
@@ -131,7 +131,7 @@ public:
   }
 
   void AddClaims();
-  void MakeSurfaces();
+  void MakeSurfaces(std::vector<LabelSurface> finished);
   std::vector<LabelSurface> Take();
 
 private:
@@ -264,12 +264,20 @@ void Making::MakeDue(const std::string& title)
       if (made.Surface) // else it was stopped, and what there is stays
       {
         this->Surfaces[item] = made;
+        this->Surfaces[item].IsFinished = !this->State.IsStopped;
       }
     });
 }
 
-void Making::MakeSurfaces()
+void Making::MakeSurfaces(std::vector<LabelSurface> finished)
 {
+  // With a gap those that are drawn apart later count as well.
+  if (finished.size() == this->Surfaces.size() && !this->Maker.KeepsApart())
+  {
+    this->Surfaces = std::move(finished);
+    std::transform(this->Surfaces.begin(), this->Surfaces.end(), this->IsDue.begin(),
+      [](const LabelSurface& surface) { return surface.IsFinished ? 0 : 1; });
+  }
   const double afterwards = this->Maker.KeepsApart() ? 0.3 * this->Whole : 0.0;
   this->Whole -= afterwards;
   this->MakeDue("");
@@ -303,14 +311,14 @@ std::vector<LabelSurface> Making::Take()
 
 std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
   const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
-  const LabelSurfaceMaker::Progress& progress)
+  const LabelSurfaceMaker::Progress& progress, std::vector<LabelSurface> finished)
 {
   Making making(maker, bricks, names, numberOfThreads, threads, progress);
   if (maker.HasClaims())
   {
     making.AddClaims();
   }
-  making.MakeSurfaces();
+  making.MakeSurfaces(std::move(finished));
   return making.Take();
 }
 }

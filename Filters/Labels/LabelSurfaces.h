@@ -20,11 +20,12 @@ namespace volumic
  * @param numberOfThreads 0: all
  * @param progress        called on the calling thread, with a text such as `12 of 39, liver`; after
  *                        false, what is not finished is stopped
+ * @param finished        surfaces that a run of the same that was stopped has given; empty: none
  * @return one for each of them
  */
 std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
   const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
-  const LabelSurfaceMaker::Progress& progress);
+  const LabelSurfaceMaker::Progress& progress, std::vector<LabelSurface> finished = {});
 }
 
 #endif

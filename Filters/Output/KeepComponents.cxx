@@ -267,7 +267,8 @@ ComponentChoice ChoiceOf(const SegmentationSettings& settings, const Segmentatio
   const Workspace& space, const std::array<int, 3>& size)
 {
   const SegmentationEnd& end = settings.End;
-  CheckEnumeration("Keep Components", end.KeepComponents, KeepComponentsType::LargeComponents);
+  CheckEnumeration(
+    "Keep Components", end.KeepComponents, KeepComponentsType::ComponentsNotAtSeeds);
   if (!(end.MinimumComponentVolume >= 0.0))
   {
     Refuse("Minimum Component Volume is ", end.MinimumComponentVolume, "; it must be 0 or more.");
@@ -290,6 +291,14 @@ ComponentChoice ChoiceOf(const SegmentationSettings& settings, const Segmentatio
              "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
              "known to belong to the object to input port 2 (Attracting Points).");
     }
+  }
+  else if (choice.Mode == KeepComponentsType::ComponentsNotAtSeeds)
+  {
+    // Points known to belong to the object mark nothing that is to go; of no seeds nothing is.
+    choice.Places = PlacesOf(request.InitialSurface, nullptr, space);
+    const std::vector<Point> more =
+      PositionsOf(end.SeedPositions, "Seed Positions", space, size);
+    choice.Places.insert(choice.Places.end(), more.begin(), more.end());
   }
   return choice;
 }
@@ -318,9 +327,14 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
           : choice.Mode == KeepComponentsType::LargestComponent && !hasLargest);
     hasLargest = hasLargest || isSolid;
   }
-  if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
+  const bool dropsMarked = choice.Mode == KeepComponentsType::ComponentsNotAtSeeds;
+  if (dropsMarked || choice.Mode == KeepComponentsType::ComponentsAtPoints)
   {
     MarkTouching(surface, features, choice.Places, hosts, isKept, executor);
+  }
+  if (dropsMarked)
+  {
+    isKept.flip();
   }
   for (std::size_t c = 0; c < n; ++c)
   {

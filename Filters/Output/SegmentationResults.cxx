@@ -88,6 +88,15 @@ void SegmentationResults::MakeSurface(
   result.Surface = MakePolyData(std::move(kept), result.Description, this->Space, threads);
 }
 
+void SegmentationResults::Forget(int level)
+{
+  this->ByLevel.erase(level);
+  const auto isOfLevel = [level](const Snapshot& snapshot) { return snapshot.Level == level; };
+  this->Snapshots.erase(
+    std::remove_if(this->Snapshots.begin(), this->Snapshots.end(), isOfLevel),
+    this->Snapshots.end());
+}
+
 void SegmentationResults::AddSnapshot(int level, const std::string& name, vtkPolyData* surface)
 {
   this->Snapshots.push_back({ level, name, surface });

@@ -72,6 +72,8 @@ public:
   void MakeSurface(Level& result, SurfaceResult surface, Executor& threads) const;
 
   void SetLevel(int level, const Level& result) { this->ByLevel[level] = result; }
+  /** What there is of a level, its snapshots included. */
+  void Forget(int level);
   void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
   void AddSnapshot(int level, const std::string& name, vtkPolyData* surface);
   /** Output 0 of a run that was cut off, instead of the surface of a level; null: none. */

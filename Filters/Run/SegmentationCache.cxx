@@ -66,18 +66,23 @@ SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
   return inputs;
 }
 
-void SegmentationCache::Keep(
-  std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks)
+bool SegmentationCache::MayKeep(vtkAlgorithm* filter)
 {
-  this->Drop();
   bool areReleased = filter->GetReleaseDataFlag() != 0;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
     areReleased = areReleased || AreReleased(filter, port);
   }
-  if (areReleased)
+  return !areReleased; // They must not stay because of us.
+}
+
+void SegmentationCache::Keep(
+  std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks)
+{
+  this->Drop();
+  if (!MayKeep(filter))
   {
-    return; // They must not stay because of us.
+    return;
   }
   this->Time = filter->GetMTime();
   this->Ranks = ranks;
@@ -132,7 +137,12 @@ const SegmentationResults* SegmentationCache::ResultsFor(
 {
   SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
   const bool isThere = results.HasAtRest(this->EndOf(request.End));
-  return isThere && results.Choose(settings, request) ? &results : nullptr;
+  if (!isThere || !results.Choose(settings, request))
+  {
+    return nullptr;
+  }
+  results.SetStoppedSurface(nullptr); // That was on the way to a finer one.
+  return &results;
 }
 
 int SegmentationCache::EndOfRun() const

@@ -29,6 +29,9 @@ public:
   SegmentationCache();
   ~SegmentationCache();
 
+  /** Whether a run of it may be kept: not where data are released. */
+  static bool MayKeep(vtkAlgorithm* filter);
+
   /**
    * It is valid until the filter, or one of its inputs, is modified.
    * @param run   null on ranks whose results another one has; these ask for IsValidFor() only
@@ -58,10 +61,11 @@ public:
   /** The run, where it can go on from what it has; else null. It is kept no longer. */
   std::unique_ptr<SurfaceSegmentation> TakeRun();
 
-private:
+  /** What comes to a filter, and when it was changed last. */
   using Inputs = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
   static Inputs InputsOf(vtkAlgorithm* filter);
 
+private:
   std::unique_ptr<SurfaceSegmentation> Run;
   std::unique_ptr<SegmentationResults> Results; ///< Those of Run where there is one.
   vtkMTimeType Time = 0; ///< 0: nothing is kept

@@ -200,7 +200,8 @@ bool SurfaceSegmentation::CanServe() const
 
 bool SurfaceSegmentation::CanGoOn() const
 {
-  return this->GoesOn && this->Reached > 0 && !this->Evolution->IsStopped();
+  const bool holdsImage = this->Reached <= 0 && this->Found.HasAtRest(this->Choice.Last);
+  return this->GoesOn && !holdsImage && !this->Evolution->IsStopped();
 }
 
 void SurfaceSegmentation::Begin()
@@ -217,13 +218,7 @@ void SurfaceSegmentation::RunLevels()
 {
   if (!this->Evolution)
   {
-    Executor* threads = &*this->Threads;
-    if (this->Settings.Profile)
-    {
-      threads = &*this->Measured;
-    }
-    this->Evolution =
-      std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
+    this->MakeEvolution();
     this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
     this->Resume();
@@ -237,7 +232,9 @@ void SurfaceSegmentation::RunLevels()
       this->KeepStoppedSurface(level);
       break;
     }
-    // The surface leaves the level that it is on: a stop from here on is for good.
+    // The surface leaves the level that it is on.
+    this->KeepRest();
+    this->Found.Forget(level); // Of a run that was stopped there.
     this->Levels.ReleaseCoarserThan(level);
     if (this->Levels.IsInPieces(level) && !this->MayBeShared(level))
     {
@@ -268,6 +265,43 @@ void SurfaceSegmentation::RunLevels()
     this->LeaveCheckpoint(level);
   }
   this->Found.SetRows(this->Evolution->History());
+  this->ReturnToRest();
+}
+
+void SurfaceSegmentation::MakeEvolution()
+{
+  Executor* threads = &*this->Threads;
+  if (this->Settings.Profile)
+  {
+    threads = &*this->Measured;
+  }
+  this->Evolution =
+    std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
+}
+
+void SurfaceSegmentation::KeepRest()
+{
+  FileInMemory().swap(this->Rest);
+  if (this->Request.MayGoOn && this->Reached <= this->Choice.Coarsest)
+  {
+    CheckedWriter file(this->Rest);
+    this->Evolution->Save(file);
+    file.Commit();
+  }
+}
+
+void SurfaceSegmentation::ReturnToRest()
+{
+  if (this->Evolution->IsStopped() && !this->Rest.empty())
+  {
+    this->Evolution.reset(); // Not both at a time.
+    this->MakeEvolution();
+    CheckedReader file(this->Rest);
+    this->Evolution->Load(file);
+    this->Reached += this->Found.HasAtRest(this->Reached) ? 0 : 1;
+    this->GoesOn = true;
+  }
+  FileInMemory().swap(this->Rest);
 }
 
 bool SurfaceSegmentation::PreviewMissesParts(int level) const

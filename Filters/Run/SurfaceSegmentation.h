@@ -3,6 +3,7 @@
 #ifndef volumicSurfaceSegmentation_h
 #define volumicSurfaceSegmentation_h
 
+#include "Core/Common/CheckedFile.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/MeasuredExecutor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
@@ -30,7 +31,7 @@ class RankLevel;
 /**
  * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
  * outputs of vtkDeformableSurface hold. One that has ended at a level can go on from there, as if
- * it had never ended.
+ * it had never ended; one that was stopped, from the last level at which the surface rested.
  */
 class SurfaceSegmentation
 {
@@ -54,12 +55,13 @@ public:
 
   /**
    * Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
-   * it is empty where there is none yet.
+   * it is empty where there is none yet. Another Run() takes up the level that was under way from
+   * its begin.
    * @throws std::invalid_argument if settings and image do not fit.
    */
   void Run();
 
-  /** Whether Run() would go on from a level at rest that is not the image itself. */
+  /** Whether Run() would go on from a level at rest: of the image itself only after a stop. */
   bool CanGoOn() const;
 
   const SegmentationSettings& GetSettings() const { return this->Settings; }
@@ -73,6 +75,9 @@ private:
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   void Begin();
   void RunLevels();
+  void MakeEvolution();
+  void KeepRest();
+  void ReturnToRest();
   /** Whether a preview that has come to this level must go on, as too much is missing. */
   bool PreviewMissesParts(int level) const;
   bool MayBeShared(int level) const;
@@ -98,6 +103,7 @@ private:
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
+  FileInMemory Rest; ///< The evolution as it rested there, while it is at a finer one.
   bool HasChosen = true; ///< The components of what is there are those that are wanted.
   std::shared_ptr<SegmentationCheckpoint> Left;
   std::unique_ptr<RankLevel> Shared; ///< what the evolution refers to, after a level on all ranks

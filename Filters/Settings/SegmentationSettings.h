@@ -36,7 +36,8 @@ enum class KeepComponentsType
   AllComponents = 0,
   LargestComponent = 1,
   ComponentsAtPoints = 2,
-  LargeComponents = 3
+  LargeComponents = 3,
+  ComponentsNotAtSeeds = 4
 };
 
 /**

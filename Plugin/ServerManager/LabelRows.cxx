@@ -2,44 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelRows.h"
 
-#include <vtkPVDataInformation.h>
+#include "Helpers.h"
+
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSmartPointer.h>
 
 namespace
 {
-/** The helper, where the producer is, and after it; null: there is none. */
-vtkSmartPointer<vtkSMSourceProxy> NewHelper(
-  const char* name, vtkSMSourceProxy* producer, unsigned int port)
-{
-  auto proxy = vtkSmartPointer<vtkSMProxy>::Take(
-    producer->GetSessionProxyManager()->NewProxy("internal_filters", name));
-  vtkSmartPointer<vtkSMSourceProxy> helper = vtkSMSourceProxy::SafeDownCast(proxy);
-  if (helper)
-  {
-    helper->SetLocation(producer->GetLocation());
-    vtkSMPropertyHelper(helper, "Input").Set(producer, port);
-  }
-  return helper;
-}
-
-/** At the time that is shown, so that nothing before the helper has to run again. */
-void Run(vtkSMSourceProxy* helper, vtkPVDataInformation* data)
-{
-  helper->UpdateVTKObjects();
-  if (data && data->GetHasTime())
-  {
-    helper->UpdatePipeline(data->GetTime());
-  }
-  else
-  {
-    helper->UpdatePipeline();
-  }
-  helper->UpdatePropertyInformation();
-}
-
 std::vector<volumic::LabelRow> RowsOf(vtkSMSourceProxy* helper, bool hasVoxels)
 {
   vtkSMPropertyHelper labels(helper, "Labels");
@@ -85,7 +55,7 @@ LabelRows FetchLabelsOfMap(
         selection.Set(i, array[i].c_str());
       }
     }
-    Run(helper, producer->GetDataInformation(port));
+    RunHelper(helper, producer->GetDataInformation(port));
     labels.Rows = RowsOf(helper, true);
     labels.Problem = vtkSMPropertyHelper(helper, "Problem").GetAsString();
   }
@@ -98,7 +68,7 @@ LabelRows FetchLabelsOfSurfaces(vtkSMSourceProxy* producer, unsigned int port)
   LabelRows labels;
   if (const auto helper = NewHelper("LabelLegend", producer, port))
   {
-    Run(helper, producer->GetDataInformation(port));
+    RunHelper(helper, producer->GetDataInformation(port));
     labels.Rows = RowsOf(helper, false);
   }
   return labels;

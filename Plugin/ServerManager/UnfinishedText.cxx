@@ -15,19 +15,33 @@
 namespace volumic
 {
 //------------------------------------------------------------------------------
-std::string TellUnfinished(vtkPVDataInformation* surface, vtkSMProxy* filter)
+std::string WhyUnfinished(vtkPVDataInformation* surfaces)
 {
+  // Of blocks there is one each.
   vtkPVArrayInformation* reasons =
-    surface->GetArrayInformation("StopReason", vtkDataObject::FIELD);
-  const std::string reason =
-    reasons && reasons->GetNumberOfStringValues() == 1 ? reasons->GetStringValue(0) : "";
-  if (reason != "cancelled" && reason != "time limit")
+    surfaces->GetArrayInformation("StopReason", vtkDataObject::FIELD);
+  for (int i = 0; reasons && i < reasons->GetNumberOfStringValues(); ++i)
+  {
+    const std::string reason = reasons->GetStringValue(i);
+    if (reason == "cancelled" || reason == "time limit")
+    {
+      return reason;
+    }
+  }
+  return "";
+}
+
+//------------------------------------------------------------------------------
+std::string TellUnfinished(vtkPVDataInformation* surfaces, vtkSMProxy* filter)
+{
+  const std::string reason = WhyUnfinished(surfaces);
+  if (reason.empty())
   {
     return "";
   }
-  vtkPVArrayInformation* level = surface->GetArrayInformation("Level", vtkDataObject::FIELD);
+  vtkPVArrayInformation* level = surfaces->GetArrayInformation("Level", vtkDataObject::FIELD);
   std::string text = "unfinished (" + reason;
-  if (level && surface->GetNumberOfCells() > 0)
+  if (level && surfaces->GetNumberOfCells() > 0 && !surfaces->IsCompositeDataSet())
   {
     text += ", level " + std::to_string(static_cast<int>(level->GetComponentRange(0)[0]));
     const bool isPlanned = filter && filter->GetProperty("EdgeLength") &&

@@ -3,6 +3,8 @@
 #ifndef volumicUnfinishedText_h
 #define volumicUnfinishedText_h
 
+#include "vtkServerManagerVolumicModule.h" // For export macro
+
 #include <vtkNew.h>
 #include <vtkTextActor.h>
 #include <vtkWeakPointer.h>
@@ -15,12 +17,15 @@ class vtkSMProxy;
 
 namespace volumic
 {
+/** Why a run was stopped on its way that has given this: its StopReason; empty: it was not. */
+VTKSERVERMANAGERVOLUMIC_EXPORT std::string WhyUnfinished(vtkPVDataInformation* surfaces);
+
 /**
  * What a view says of a surface that has been stopped on its way, such as "unfinished (cancelled,
  * level 1 of 0)"; empty for one that is finished.
  * @param filter that has made it, whose FinestLevel tells where it was to end
  */
-std::string TellUnfinished(vtkPVDataInformation* surface, vtkSMProxy* filter);
+std::string TellUnfinished(vtkPVDataInformation* surfaces, vtkSMProxy* filter);
 
 /** A text at the upper left corner of a view, for as long as this object lives. */
 class UnfinishedText

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMOtsuThresholdDomain.h"
 
+#include "Helpers.h"
+
 #include <vtkMath.h>
 #include <vtkObjectFactory.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMInputProperty.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
 #include <vtkSmartPointer.h>
@@ -90,41 +91,52 @@ vtkSMOtsuThresholdDomain::Choice vtkSMOtsuThresholdDomain::CurrentChoice(bool us
 }
 
 //------------------------------------------------------------------------------
-double vtkSMOtsuThresholdDomain::ComputeThreshold(const Choice& choice)
+const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::FindHistogram(
+  const Choice& choice, vtkPVDataInformation* data)
 {
-  vtkPVDataInformation* data =
-    choice.HasArray() ? DataOf(choice.Producer, choice.Port) : nullptr;
-  if (!data)
+  if (choice == this->Found && data && data->GetMTime() == this->FoundTime)
   {
-    return vtkMath::Nan();
+    return this->Voxels;
   }
-  auto otsu = vtkSmartPointer<vtkSMProxy>::Take(
-    choice.Producer->GetSessionProxyManager()->NewProxy("internal_filters", "OtsuThreshold"));
-  auto* filter = vtkSMSourceProxy::SafeDownCast(otsu);
-  if (!filter)
+  this->Voxels = Histogram();
+  this->Voxels.Threshold = vtkMath::Nan();
+  this->Found = choice;
+  this->FoundTime = data ? data->GetMTime() : 0;
+  vtkSmartPointer<vtkSMSourceProxy> otsu;
+  if (data)
   {
-    return vtkMath::Nan();
+    otsu = volumic::NewHelper("OtsuThreshold", choice.Producer, choice.Port);
   }
-  filter->SetLocation(choice.Producer->GetLocation());
-  vtkSMPropertyHelper(filter, "Input").Set(choice.Producer, choice.Port);
-  vtkSMPropertyHelper array(filter, "SetInputArrayToProcess");
+  if (!otsu)
+  {
+    return this->Voxels;
+  }
+  vtkSMPropertyHelper array(otsu, "SetInputArrayToProcess");
   for (unsigned int i = 0; i < 5; ++i)
   {
     array.Set(i, choice.Array[i].c_str());
   }
-  vtkSMPropertyHelper(filter, "SelectedComponent").Set(choice.Component);
-  filter->UpdateVTKObjects();
-  // At the time that is shown, so that nothing before has to run again.
-  if (data->GetHasTime())
+  vtkSMPropertyHelper(otsu, "SelectedComponent").Set(choice.Component);
+  volumic::RunHelper(otsu, data);
+  this->Voxels.Threshold = vtkSMPropertyHelper(otsu, "Threshold").GetAsDouble();
+  const std::vector<double> values = vtkSMPropertyHelper(otsu, "Histogram").GetDoubleArray();
+  if (values.size() > 2)
   {
-    filter->UpdatePipeline(data->GetTime());
+    this->Voxels.Low = values[0];
+    this->Voxels.High = values[1];
+    this->Voxels.Counts.assign(values.begin() + 2, values.end());
   }
-  else
-  {
-    filter->UpdatePipeline();
-  }
-  filter->UpdatePropertyInformation();
-  return vtkSMPropertyHelper(filter, "Threshold").GetAsDouble();
+  return this->Voxels;
+}
+
+//------------------------------------------------------------------------------
+const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::GetHistogram()
+{
+  const Choice choice = this->CurrentChoice();
+  vtkPVDataInformation* data =
+    choice.HasArray() ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
+  const bool isThere = data && data->GetNumberOfPoints() > 0 && ArrayOf(data, choice.Array);
+  return this->FindHistogram(choice, isThere ? data : nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -151,7 +163,9 @@ int vtkSMOtsuThresholdDomain::SetDefaultValues(vtkSMProperty* property, bool use
     this->ChooseArray(false);
   }
   const Choice choice = this->CurrentChoice();
-  const double threshold = this->ComputeThreshold(choice);
+  const double threshold =
+    this->FindHistogram(choice, choice.HasArray() ? DataOf(choice.Producer, choice.Port) : nullptr)
+      .Threshold;
   vtkSMPropertyHelper value(property);
   value.SetUseUnchecked(useUncheckedValues);
   int isSet = 1;
@@ -231,6 +245,13 @@ void vtkSMOtsuThresholdDomain::Update(vtkSMProperty*)
     this->Following = true;
     this->Follow(this->CurrentChoice());
     this->Following = false;
+    // The range of another array may be the same.
+    const Choice choice = this->CurrentChoice();
+    if (!(choice == this->Seen))
+    {
+      this->Seen = choice;
+      this->DomainModified();
+    }
   }
 }
 

@@ -14,6 +14,8 @@
  * OtsuThreshold). Where it can't be, as for voxels that are all equal, the middle of the range is
  * the default, as of vtkSMArrayRangeDomain, whose required properties are those of this one: Input,
  * ArraySelection and ComponentSelection, of which -1 is the magnitude.
+ *
+ * The histogram that the threshold is found by is there for who shows it (GetHistogram()).
  */
 #ifndef vtkSMOtsuThresholdDomain_h
 #define vtkSMOtsuThresholdDomain_h
@@ -22,7 +24,9 @@
 #include "vtkServerManagerVolumicModule.h" // For export macro
 
 #include <string> // For the key of the preset
+#include <vector> // For the histogram
 
+class vtkPVDataInformation;
 class vtkSMSourceProxy;
 
 class VTKSERVERMANAGERVOLUMIC_EXPORT vtkSMOtsuThresholdDomain : public vtkSMArrayRangeDomain
@@ -34,6 +38,17 @@ public:
 
   void Update(vtkSMProperty* requestingProperty) override;
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
+
+  /** Of the voxels of an array; Threshold is NaN, and the rest empty, where there is none. */
+  struct Histogram
+  {
+    double Low = 0.0; ///< smallest and largest voxel
+    double High = 0.0;
+    std::vector<double> Counts;
+    double Threshold;
+  };
+  /** Of what is chosen now; empty before its data are there. They are looked at once. */
+  const Histogram& GetHistogram();
 
 protected:
   vtkSMOtsuThresholdDomain();
@@ -57,14 +72,17 @@ private:
   Choice CurrentChoice(bool useUnchecked = true);
   /** Where none is chosen, as of data that was never updated, or none that a new input has. */
   void ChooseArray(bool isNewInput);
-  /** NaN if there is none. */
-  double ComputeThreshold(const Choice& choice);
+  const Histogram& FindHistogram(const Choice& choice, vtkPVDataInformation* data);
   void UpdateRange(const Choice& choice);
   void Follow(const Choice& choice);
 
   Choice Preset;      ///< what was chosen when the property was preset
   double PresetValue; ///< NaN: it never was
   bool Following = false;
+  Choice Seen;  ///< as all have been told
+  Choice Found; ///< what the histogram is of, and since when
+  vtkMTimeType FoundTime = 0;
+  Histogram Voxels;
 };
 
 #endif

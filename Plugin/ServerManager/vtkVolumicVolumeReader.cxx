@@ -73,7 +73,7 @@ int vtkVolumicVolumeReader::RequestInformation(
 {
   if (!this->Open())
   {
-    return 0;
+    return 1; // The error has been told; ParaView would tell of its own readers that they failed.
   }
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* from = this->Source->GetOutputInformation(0);
@@ -92,7 +92,7 @@ int vtkVolumicVolumeReader::RequestData(
 {
   if (!this->Open())
   {
-    return 0;
+    return 1;
   }
   int extent[6];
   output->GetInformationObject(0)->Get(
@@ -102,7 +102,7 @@ int vtkVolumicVolumeReader::RequestData(
   image->ShallowCopy(this->Source->GetOutputDataObject(0));
   if (image->GetNumberOfPoints() == 0)
   {
-    return 0; // The source has told why.
+    return 1; // The source has told why.
   }
   if (!std::equal(extent, extent + 6, image->GetExtent()))
   {

@@ -3,7 +3,34 @@
 #include "LabelBelow.h"
 
 #include <QBoxLayout>
+#include <QGridLayout>
 #include <QLabel>
+#include <QTimer>
+
+namespace
+{
+/** Has the label on the left of a property's widget stay beside its first row. */
+void alignLabel(QWidget* widget, int heightOfRow)
+{
+  auto* grid = widget->parentWidget()
+    ? qobject_cast<QGridLayout*>(widget->parentWidget()->layout())
+    : nullptr;
+  const int place = grid ? grid->indexOf(widget) : -1;
+  int row = 0;
+  int column = 0;
+  int spans[2] = { 0, 0 };
+  if (place >= 0)
+  {
+    grid->getItemPosition(place, &row, &column, &spans[0], &spans[1]);
+  }
+  QLayoutItem* left = column > 0 ? grid->itemAtPosition(row, column - 1) : nullptr;
+  if (left && left->widget())
+  {
+    left->widget()->setMinimumHeight(heightOfRow);
+    left->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  }
+}
+}
 
 namespace volumic
 {
@@ -28,6 +55,9 @@ QLabel* AddLabelBelow(QWidget* widget, const char* name)
   column->setSpacing(2);
   column->addLayout(row);
   column->addWidget(label);
+  // Once the panel has it.
+  QTimer::singleShot(
+    0, widget, [widget, row] { alignLabel(widget, row->sizeHint().height()); });
   return label;
 }
 }

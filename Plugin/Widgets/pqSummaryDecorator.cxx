@@ -3,6 +3,7 @@
 #include "pqSummaryDecorator.h"
 
 #include "LabelBelow.h"
+#include "UnfinishedText.h"
 
 #include <pqApplicationCore.h>
 #include <pqPropertyWidget.h>
@@ -37,28 +38,27 @@ QStringList TextsOf(vtkPVDataInformation* data, const char* name)
 }
 
 /** Of blocks of labels. */
-QString SummaryOfLabels(vtkPVDataInformation* data)
+QString SummaryOfLabels(vtkPVDataInformation* data, const QString& why)
 {
-  const bool isUnfinished = TextsOf(data, "StopReason").contains("cancelled");
   const QStringList lost = TextsOf(data, "LostLabels");
-  return (isUnfinished ? QObject::tr("<b>Unfinished</b> (cancelled)") : QObject::tr("<b>Surfaces</b>")) +
+  return (why.isEmpty() ? QObject::tr("<b>Surfaces</b>")
+                        : QObject::tr("<b>Unfinished</b> (%1)").arg(why)) +
     QObject::tr(": %1 vertices<br>no self-intersections").arg(data->GetNumberOfPoints()) +
     (lost.isEmpty() ? QString() : "<br>" + lost.first().toHtmlEscaped());
 }
 
 QString SummaryOf(vtkPVDataInformation* data)
 {
-  const QStringList reasons = TextsOf(data, "StopReason");
-  if (reasons.isEmpty())
+  if (!data->GetArrayInformation("StopReason", vtkDataObject::FIELD))
   {
     return QString();
   }
+  const QString why = QString::fromStdString(volumic::WhyUnfinished(data));
   if (data->IsCompositeDataSet())
   {
-    return SummaryOfLabels(data);
+    return SummaryOfLabels(data, why);
   }
-  const QString& why = reasons.first();
-  const bool isUnfinished = why == "cancelled" || why == "time limit";
+  const bool isUnfinished = !why.isEmpty();
   const QString level = QString::number(NumberOf(data, "Level"));
   const QString head = isUnfinished
     ? QObject::tr("<b>Unfinished</b> (%1): level %2").arg(why, level)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqValueRangeDecorator.h"
 
+#include "HistogramWidget.h"
 #include "LabelBelow.h"
 
 #include <pqCoreUtilities.h>
@@ -9,6 +10,7 @@
 
 #include <vtkCommand.h>
 #include <vtkSMDoubleRangeDomain.h>
+#include <vtkSMOtsuThresholdDomain.h>
 #include <vtkSMProperty.h>
 #include <vtkSMUncheckedPropertyHelper.h>
 
@@ -18,10 +20,10 @@
 
 namespace
 {
-/** Whether these are the Hounsfield units of a CT of a body: from air to bone. */
+/** Whether these may be the Hounsfield units of a CT of a body: from air, -1000, to bone. */
 bool areHounsfieldUnits(double low, double high)
 {
-  return low <= -500.0 && low >= -4096.0 && high >= 300.0 && high <= 32767.0;
+  return low <= -800.0 && low >= -4096.0 && high >= 300.0 && high <= 32767.0;
 }
 }
 
@@ -29,6 +31,7 @@ bool areHounsfieldUnits(double low, double high)
 pqValueRangeDecorator::pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWidget* parent)
   : pqPropertyWidgetDecorator(xml, parent)
   , Label(volumic::AddLabelBelow(parent, "ValueRange"))
+  , Histogram(new volumic::HistogramWidget(parent))
 {
   // Beside the number, a slider is too short at the width that the panel has at first.
   auto* slider = parent->findChild<QSlider*>();
@@ -37,11 +40,16 @@ pqValueRangeDecorator::pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWid
   {
     slider->parentWidget()->layout()->removeWidget(slider);
     column->insertWidget(column->indexOf(this->Label), slider);
+    column->insertWidget(column->indexOf(slider), this->Histogram);
   }
+  this->Histogram->Dragged = [this](double value, bool isDone) { this->give(value, isDone); };
   this->connect(this->Label, SIGNAL(linkActivated(const QString&)), SLOT(take(const QString&)));
   this->showRange();
+  this->showValue();
   pqCoreUtilities::connect(
     parent->property(), vtkCommand::DomainModifiedEvent, this, SLOT(showRange()));
+  pqCoreUtilities::connect(
+    parent->property(), vtkCommand::UncheckedPropertyModifiedEvent, this, SLOT(showValue()));
 }
 
 pqValueRangeDecorator::~pqValueRangeDecorator() = default;
@@ -61,13 +69,37 @@ void pqValueRangeDecorator::showRange()
           ? tr("<br>CT: <a href='226'>bone 226</a>, <a href='-300'>skin -300</a>")
           : QString()));
   }
+  auto* voxels = this->parentWidget()->property()->FindDomain<vtkSMOtsuThresholdDomain>();
+  if (voxels)
+  {
+    const vtkSMOtsuThresholdDomain::Histogram& histogram = voxels->GetHistogram();
+    this->Histogram->SetCounts(
+      histogram.Low, histogram.High, histogram.Counts, histogram.Threshold);
+  }
+  this->Histogram->setVisible(voxels && !voxels->GetHistogram().Counts.empty());
+}
+
+//------------------------------------------------------------------------------
+void pqValueRangeDecorator::showValue()
+{
+  this->Histogram->SetValue(
+    vtkSMUncheckedPropertyHelper(this->parentWidget()->property()).GetAsDouble());
 }
 
 //------------------------------------------------------------------------------
 void pqValueRangeDecorator::take(const QString& value)
 {
+  this->give(value.toDouble(), true);
+}
+
+//------------------------------------------------------------------------------
+void pqValueRangeDecorator::give(double value, bool isDone)
+{
   pqPropertyWidget* widget = this->parentWidget();
-  vtkSMUncheckedPropertyHelper(widget->property()).Set(0, value.toDouble());
+  vtkSMUncheckedPropertyHelper(widget->property()).Set(0, value);
   Q_EMIT widget->changeAvailable();
-  Q_EMIT widget->changeFinished();
+  if (isDone)
+  {
+    Q_EMIT widget->changeFinished();
+  }
 }

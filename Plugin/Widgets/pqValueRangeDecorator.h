@@ -6,11 +6,16 @@
 #include "pqPropertyWidgetDecorator.h"
 
 class QLabel;
+namespace volumic
+{
+class HistogramWidget;
+}
 
 /**
  * Shows the range of a property of one number below its widget, as Contour does: "Value Range:
  * [0, 1300]". It is that of the property's domain, and follows it. Where it is that of Hounsfield
- * units, values of bone and skin are offered. The slider, if there is one, gets a row of its own.
+ * units, values of bone and skin are offered. The slider, if there is one, gets a row of its own,
+ * below the histogram of the voxels, if the domain (vtkSMOtsuThresholdDomain) has one.
  *
  *   <PropertyWidgetDecorator type="ValueRange"/>
  */
@@ -24,12 +29,17 @@ public:
 
 private Q_SLOTS:
   void showRange();
+  void showValue();
   void take(const QString& value);
 
 private:
   Q_DISABLE_COPY(pqValueRangeDecorator)
 
-  QLabel* Label; ///< the property's widget owns it
+  /** To the panel; done: for Auto Apply, too. */
+  void give(double value, bool isDone);
+
+  QLabel* Label; ///< the property's widget owns both
+  volumic::HistogramWidget* Histogram;
 };
 
 #endif

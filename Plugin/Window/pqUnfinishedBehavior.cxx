@@ -3,42 +3,19 @@
 #include "pqUnfinishedBehavior.h"
 
 #include "SurfaceSources.h"
+#include "UnfinishedText.h"
 
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
 #include <pqPropertiesPanel.h>
 #include <pqServerManagerModel.h>
 
-#include <vtkAlgorithm.h>
-#include <vtkDataObject.h>
-#include <vtkPVArrayInformation.h>
-#include <vtkPVDataInformation.h>
 #include <vtkPVGeneralSettings.h>
 #include <vtkSMOutputPort.h>
 #include <vtkSMSourceProxy.h>
 
 #include <QTimer>
 #include <QWidget>
-
-#include <string>
-
-namespace
-{
-bool isUnfinished(vtkSMSourceProxy* source)
-{
-  vtkPVDataInformation* data = source->GetOutputPort(0u)->GetDataInformation();
-  vtkPVArrayInformation* reasons = data->GetArrayInformation("StopReason", vtkDataObject::FIELD);
-  for (int i = 0; reasons && i < reasons->GetNumberOfStringValues(); ++i)
-  {
-    const std::string reason = reasons->GetStringValue(i);
-    if (reason == "cancelled" || reason == "time limit")
-    {
-      return true;
-    }
-  }
-  return false;
-}
-}
 
 //------------------------------------------------------------------------------
 pqUnfinishedBehavior::pqUnfinishedBehavior() = default;
@@ -69,7 +46,7 @@ void pqUnfinishedBehavior::watchPanels()
   for (auto* panel : window ? window->findChildren<pqPropertiesPanel*>()
                             : QList<pqPropertiesPanel*>())
   {
-    this->connect(panel, SIGNAL(applied(pqProxy*)), SLOT(runAgain(pqProxy*)));
+    this->connect(panel, SIGNAL(applied(pqProxy*)), SLOT(goOn(pqProxy*)));
   }
 }
 
@@ -84,7 +61,8 @@ void pqUnfinishedBehavior::look(pqPipelineSource* source)
       auto* proxy = vtkSMSourceProxy::SafeDownCast(seen ? seen->getProxy() : nullptr);
       this->Unfinished.removeAll(seen);
       if (proxy && proxy->GetOutputPortsCreated() && volumic::GivesSurfaces(seen) &&
-        !vtkPVGeneralSettings::GetInstance()->GetAutoApply() && isUnfinished(proxy))
+        !vtkPVGeneralSettings::GetInstance()->GetAutoApply() &&
+        !volumic::WhyUnfinished(proxy->GetOutputPort(0u)->GetDataInformation()).empty())
       {
         this->Unfinished.append(seen);
         seen->setModifiedState(pqProxy::MODIFIED);
@@ -93,15 +71,12 @@ void pqUnfinishedBehavior::look(pqPipelineSource* source)
 }
 
 //------------------------------------------------------------------------------
-void pqUnfinishedBehavior::runAgain(pqProxy* applied)
+void pqUnfinishedBehavior::goOn(pqProxy* applied)
 {
   auto* source = qobject_cast<pqPipelineSource*>(applied);
-  auto* filter = source
-    ? vtkAlgorithm::SafeDownCast(source->getProxy()->GetClientSideObject())
-    : nullptr;
-  if (filter && this->Unfinished.removeAll(source) > 0)
+  if (source && this->Unfinished.removeAll(source) > 0)
   {
-    filter->Modified();
+    source->getProxy()->InvokeCommand("GoOn");
     source->getProxy()->MarkModified(source->getProxy());
     source->renderAllViews();
   }

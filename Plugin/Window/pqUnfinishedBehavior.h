@@ -10,8 +10,8 @@
 #include <pqPipelineSource.h>
 
 /**
- * After a run that was stopped Apply stays active, and runs the filter again, though no property has
- * changed. Not with Auto Apply, with which nothing could stop it.
+ * After a run that was stopped Apply stays active, and goes on, though no property has changed. Not
+ * with Auto Apply, with which nothing could stop it.
  */
 class pqUnfinishedBehavior : public QObject
 {
@@ -28,7 +28,7 @@ public:
 private Q_SLOTS:
   void watchPanels();
   void look(pqPipelineSource* source);
-  void runAgain(pqProxy* source);
+  void goOn(pqProxy* source);
 
 private:
   QList<QPointer<pqPipelineSource>> Unfinished;

@@ -374,10 +374,10 @@ class OptionsTest(LabelsTest):
                 ("--attracting-points", "p"), ("--attracting-position", "1,2,3"),
                 ("--levels", "2"), ("--preview", None), ("--resume", None),
                 ("--time-limit", "3"), ("--tension", "3"), ("--no-snap", None),
-                ("--keep", "at-points"), ("--profile", None), ("--border", "replicate")):
+                ("--keep", "at-points"), ("--keep", "not-at-seeds"), ("--profile", None), ("--border", "replicate")):
             with self.subTest(option):
                 arguments = [option] if value is None else [option, value]
-                self.refused(f"{option}( at-points)? and --labels exclude each other", "a.vti",
+                self.refused(f"{option}( at-points| not-at-seeds)? and --labels exclude each other", "a.vti",
                              "out/", "--labels", "1", *arguments, status=2)
         for option in (("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--background", "1"),
                        ("--voxel-tolerance", "0.5"),

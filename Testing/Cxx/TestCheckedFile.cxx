@@ -32,9 +32,8 @@ std::vector<int> LongList()
   return list;
 }
 
-void WriteSome(const std::string& name)
+void WriteTo(CheckedWriter& file)
 {
-  CheckedWriter file(name);
   file.Put(2.5);
   file.PutText("a text");
   file.PutList(LongList());
@@ -42,15 +41,26 @@ void WriteSome(const std::string& name)
   file.Commit();
 }
 
-void ExpectSome(const std::string& name)
+void WriteSome(const std::string& name)
 {
-  CheckedReader file(name);
+  CheckedWriter file(name);
+  WriteTo(file);
+}
+
+void ReadSome(CheckedReader& file)
+{
   EXPECT_EQ(file.Get<double>(), 2.5);
   EXPECT_EQ(file.GetText(), "a text");
   std::vector<int> list;
   file.GetList(list);
   EXPECT_EQ(list, LongList());
   EXPECT_EQ(file.GetText(), "");
+}
+
+void ExpectSome(const std::string& name)
+{
+  CheckedReader file(name);
+  ReadSome(file);
 }
 
 std::string BytesOf(const std::string& name)
@@ -85,6 +95,19 @@ TEST(CheckedFile, GivesBackWhatWasWritten)
   WriteSome(name);
   ExpectSome(name);
   EXPECT_EQ(folder.Names(), std::set<std::string>{ "some" });
+}
+
+TEST(CheckedFile, MayBeInMemory)
+{
+  FileInMemory memory;
+  CheckedWriter writer(memory);
+  WriteTo(writer);
+  CheckedReader reader(memory);
+  ReadSome(reader);
+  EXPECT_THROW(reader.Get<int>(), FileError);
+  memory.pop_back();
+  CheckedReader cut(memory);
+  EXPECT_THROW(ReadSome(cut); cut.Get<int>(), FileError);
 }
 
 TEST(CheckedFile, ReadsNoMoreThanWasWritten)

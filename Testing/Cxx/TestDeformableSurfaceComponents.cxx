@@ -201,6 +201,20 @@ TEST_F(DeformableSurfaceComponents, PointsChooseTheInnermostThatEnclosesThem)
   ExpectVolumes(this->Volumes(), { this->Beside });
 }
 
+TEST_F(DeformableSurfaceComponents, SeedsDropWhatTheyMark)
+{
+  this->Filter->SetKeepComponentsToComponentsNotAtSeeds();
+  const std::vector<double> all{ this->Outside, this->Cavity, this->Beside, this->Inner };
+  ExpectVolumes(this->Volumes(), all);
+  this->Filter->SetPointAttractionWeight(0.0);
+  this->Filter->AddAttractingPosition(38, 16, 16);
+  ExpectVolumes(this->Volumes(), all);
+  this->SetSeed(38.3, 15.7, 16.2);
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity, this->Inner });
+  this->Filter->AddSeedPosition(6, 16, 16);
+  ExpectVolumes(this->Volumes(), { this->Inner });
+}
+
 TEST_F(DeformableSurfaceComponents, PointsKnownToBelongToTheObjectChooseToo)
 {
   this->Filter->SetKeepComponentsToComponentsAtPoints();
@@ -302,8 +316,8 @@ TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
     this->Filter->Update();
     EXPECT_TRUE(errors.Has(part)) << errors.Get();
   };
-  this->Filter->SetKeepComponents(4);
-  refused("Keep Components is 4");
+  this->Filter->SetKeepComponents(5);
+  refused("Keep Components is 5");
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   refused("input port 1");
   this->Filter->SetKeepComponentsToLargeComponents();

@@ -64,30 +64,6 @@ TEST(DeformableSurfaceProgress, CancellingHandsOverAValidSurface)
 
 namespace
 {
-/** Asks to stop at the n-th progress whose text has a part. */
-struct StopAtText
-{
-  int Left;
-  int After = 0; ///< Progress events after the request.
-
-  StopAtText(vtkAlgorithm* algorithm, const std::string& part, int left)
-    : Left(left)
-    , Hook(algorithm,
-        [this, part](vtkAlgorithm* filter, const std::string& text, double share)
-        {
-          // VTK 9.2 tells of the end, 1, where a filter was stopped, too.
-          this->After += this->Left <= 0 && share < 1.0;
-          if (text.find(part) != std::string::npos && --this->Left == 0)
-          {
-            filter->SetAbortExecute(1);
-          }
-        })
-  {
-  }
-
-  ProgressHook Hook;
-};
-
 vtkSmartPointer<vtkDeformableSurface> Cancelled(const std::string& part, int n)
 {
   auto filter = vtkSmartPointer<vtkDeformableSurface>::New();

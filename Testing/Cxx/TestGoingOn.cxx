@@ -227,6 +227,66 @@ TEST_F(GoingOn, HoldsNoOtherComponentsWhereNobodyWatchesOrMemoryIsShort)
   }
 }
 
+TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
+{
+  const Choice choose = [](vtkDeformableSurface* filter)
+  {
+    filter->SetSnapshotInterval(7);
+    filter->SetProfile(true);
+  };
+  struct Case
+  {
+    const char* Part;
+    int Number;
+    int Level; ///< that is under way
+    int Finest;
+    int Stops = 2;
+  };
+  for (const Case& test : { Case{ "Level 3 is done", 1, 2, 0, 1 }, Case{ "Level 2, division", 1, 2, 0 },
+         Case{ "Level 1, search for lost parts", 1, 1, 0 }, Case{ "Level 0, division", 1, 0, 0 },
+         Case{ "Level 0, iteration", 2, 0, 0 }, Case{ "Level 0, regularisation", 3, 0, 0 },
+         Case{ "Level -1, iteration", 2, -1, -1 } })
+  {
+    SCOPED_TRACE(test.Part);
+    auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+    filter->SetInputData(this->Image);
+    filter->SetIsoValue(50.0);
+    choose(filter);
+    filter->SetFinestLevel(test.Finest);
+    for (int stops = 0; stops < test.Stops; ++stops)
+    {
+      filter->SetProgressText(""); // The last one stays.
+      const StopAtText stop(filter, test.Part, test.Number);
+      filter->Update();
+      ASSERT_LE(stop.Left, 0) << "heard nothing of it";
+      ASSERT_EQ(StopReason(filter->GetOutput()), "cancelled");
+      filter->GoOn();
+    }
+    EXPECT_FALSE(Reruns(filter, test.Level));
+    ExpectSameOutputs(filter, FromTheStart(this->Image, choose, test.Finest));
+  }
+}
+
+TEST_F(GoingOn, ShowsCoarserLevelsAfterAStop)
+{
+  const StopAtText stop(this->Filter, "Level 0, division", 1);
+  this->Filter->Update();
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(ShowsAtOnce(this->Filter));
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, 1));
+}
+
+TEST_F(GoingOn, BeginsAnewAfterAStopWhereTheSurfaceIsToBeAnother)
+{
+  {
+    const StopAtText stop(this->Filter, "Level 0, iteration", 2);
+    this->Filter->Update();
+  }
+  this->Filter->GoOn();
+  this->Filter->SetIsoValue(45.0);
+  EXPECT_TRUE(Reruns(this->Filter, 0));
+}
+
 TEST_F(GoingOn, BeginsAnewWithOtherSeedsToStartFrom)
 {
   this->Filter->GetNeedsUpdate();

@@ -8,6 +8,7 @@
 
 #include <vtkCell.h>
 #include <vtkCellData.h>
+#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -467,6 +468,45 @@ TEST(LabelsToSurfaces, TellsWhichIsUnderWay)
   ProgressListener listener(filter);
   filter->Update();
   EXPECT_EQ(listener.Texts.count("0 of 2"), 1u);
+}
+
+TEST(LabelsToSurfaces, GoesOnWithWhatIsMissingAfterAStop)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(BallsImage());
+  filter->SetNumberOfThreads(2); // The first is so large that one comes after the other.
+  vtkNew<vtkLabelsToSurfaces> whole;
+  whole->SetInputData(filter->GetInputDataObject(0, 0));
+  whole->Update();
+  const auto stopAndGoOn = [&]
+  {
+    {
+      const StopAtText stop(filter, "1 of 2, ", 2);
+      const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+      filter->Modified();
+      filter->Update();
+      EXPECT_LE(stop.Left, 0);
+      EXPECT_EQ(warnings.Get(), "") << "what was not finished is not lost";
+    }
+    filter->GoOn();
+    return [&]
+    {
+      ProgressListener listener(filter);
+      filter->Update();
+      for (const unsigned int block : { 0u, 1u })
+      {
+        EXPECT_TRUE(AreSameSurfaces(BlockOf(filter, block), BlockOf(whole, block)));
+      }
+      EXPECT_EQ(listener.Texts.count("0 of 1") + listener.Texts.count("0 of 2"), 1u);
+      return listener.Texts.count("0 of 2") > 0;
+    };
+  };
+  EXPECT_FALSE(stopAndGoOn()());
+  const auto afterChange = stopAndGoOn();
+  whole->SetSmoothing(0.9);
+  whole->Update();
+  filter->SetSmoothing(0.9);
+  EXPECT_TRUE(afterChange());
 }
 
 TEST(LabelsToSurfaces, TellsProgressAndCanBeStopped)

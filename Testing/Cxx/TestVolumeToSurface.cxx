@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <vector>
 
@@ -108,6 +109,27 @@ TEST(OtsuThreshold, IsTheSplitOfTheLargestVariance)
     best = std::max(best, variance(percent));
   }
   EXPECT_GT(variance(threshold), 0.999 * best);
+}
+
+TEST(OtsuThreshold, HasTheHistogramThatItIsFoundBy)
+{
+  vtkNew<vtkOtsuThreshold> otsu;
+  otsu->SetInputData(RowOf<vtkIntArray>(std::vector<int>{ 10, 10, 11, 90, 110, 110 }));
+  otsu->Update();
+  vtkDoubleArray* histogram = otsu->GetHistogram();
+  ASSERT_EQ(histogram->GetNumberOfTuples(), 2 + 1024);
+  EXPECT_EQ(histogram->GetValue(0), 10.0);
+  EXPECT_EQ(histogram->GetValue(1), 110.0);
+  const double* counts = histogram->GetPointer(2);
+  EXPECT_EQ(std::accumulate(counts, counts + 1024, 0.0), 6.0);
+  EXPECT_EQ(counts[0], 2.0);
+  EXPECT_EQ(counts[10], 1.0);
+  EXPECT_EQ(counts[819], 1.0);
+  EXPECT_EQ(counts[1023], 2.0);
+  otsu->SetInputData(RowOf<vtkIntArray>(std::vector<int>{ 3, 3 }));
+  const MessagesOf errors(otsu);
+  otsu->Update();
+  EXPECT_EQ(otsu->GetHistogram()->GetNumberOfTuples(), 0);
 }
 
 TEST(OtsuThreshold, LeavesOutNaN)

@@ -8,6 +8,7 @@ import sys
 import unittest
 
 import numpy
+from paraview import servermanager
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import (vtkMultiBlockDataSet, vtkPartitionedDataSet,
@@ -91,6 +92,20 @@ class InputsTest(unittest.TestCase):
                     self.assertEqual(list(filter_.Voxels), ["POINTS", "RTData"])
                     self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
         self.assertTrue(100.0 < wanted < 200.0, wanted)
+
+    def test_output_that_is_not_there(self):
+        """Of data that could not be made ParaView has no information at all, and nobody crashes."""
+        source = simple.Wavelet()
+        source.UpdatePipeline()
+        manager = servermanager.ProxyManager().SMProxyManager
+        for name in ("LabelsToSurfaces", "VolumeToSurface", "DeformableSurface", "ImagePyramid"):
+            with self.subTest(filter=name), testing.CapturedMessages():
+                proxy = manager.NewProxy("filters", name)
+                proxy.GetProperty("Input").AddInputConnection(source.SMProxy, 7)
+                for property_ in ("Labels", "IsoValue"):
+                    if proxy.GetProperty(property_):
+                        proxy.GetProperty(property_).ResetToDomainDefaults()
+                proxy.UpdateVTKObjects()
 
     def test_input_that_comes_later(self):
         source = simple.Wavelet()

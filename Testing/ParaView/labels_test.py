@@ -204,6 +204,26 @@ class LabelsTest(LabelsTestCase):
         reasons = [testing.field(surface, "StopReason") for surface in stopped]
         self.assertEqual(reasons, ["cancelled"] * 3)
         algorithm.RemoveObserver(tag)
+        texts = []
+        tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: (
+            texts.append(caller.GetProgressText()),
+            caller.SetAbortExecute(int((texts[-1] or "").startswith("1 of 2, ")))))
+        # One of these is so large that they come one after the other.
+        filter_.Labels = [3, 7]
+        filter_.NumberOfThreads = 2
+        testing.fetch(filter_)
+        algorithm.RemoveObserver(tag)
+        self.assertEqual({text.split(", ")[1] for text in texts if " of 2, " in (text or "")},
+                         {"Label 3", "Label 7"})
+        # As Apply does then.
+        filter_.SMProxy.InvokeCommand("GoOn")
+        tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: texts.append(
+            caller.GetProgressText()))
+        for label, surface in zip((3, 7), self.blocks(filter_).values()):
+            self.check_ball(surface, label)
+        self.assertIn("0 of 1", texts)
+        filter_.Labels = []
+        algorithm.RemoveObserver(tag)
         filter_.Smoothing = 1.9
         for label, surface in zip(BALLS, self.blocks(filter_).values()):
             self.check_ball(surface, label)

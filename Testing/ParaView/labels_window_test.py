@@ -88,7 +88,8 @@ class LabelsWindowTest(window.WindowTestCase):
             FILTER, gui.pause(500), rows(4), note("3 of 4 labels"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED], window.as_wide_as_the_panel(),
-            APPLY, gui.pause(1000), *save, gui.pause(1000)], "labels-applied")
+            APPLY, gui.pause(1000), *save, gui.pause(1000), window.as_wide_as_the_panel()],
+            "labels-applied")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
         self.assertEqual(window.proxies_of(path).count("VolumicLabelsRepresentation"), 1)
         # All three in their colours.

@@ -165,10 +165,19 @@ class PointsWindowTest(window.WindowTestCase):
         self.picture("points-picked-applied")
 
     @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
-    def test_a_component_is_chosen_in_the_view(self):
+    def test_a_component_is_kept_or_dropped_in_the_view(self):
+        for choice, name in (("At Points", "kept"), ("Not At Seeds", "dropped")):
+            with self.subTest(choice):
+                low, high = self.bounds_of_chosen(choice, name)
+                self.assertEqual(low < 8.0, name == "kept")
+                self.assertEqual(high < 25.0, name == "kept", "the other ball is left out")
+            self.session.close_window()
+
+    def bounds_of_chosen(self, choice, name):
+        """Of what there is along x when the left ball has been pointed at."""
         self.play(a_slice_of(two_balls()) + [
             filter_of_the_menu("VolumeToSurface"), APPLY, gui.pause(1500),
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "At Points"),
+            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", choice),
             gui.pause(1000)], "points-components", python=TELL_OF_RUNS)
         hand = x_input.Input(self.session.display)
         hand.move(*LEFT_BALL)
@@ -178,10 +187,8 @@ class PointsWindowTest(window.WindowTestCase):
         button = self.apply_button(picked)
         hand.drag(button, button)
         told = self.session.wait_for(" .\n", timeout=180)
-        low, high = [float(n) for n in re.search(r"surface: (\S+) (\S+)", told).groups()]
-        self.assertLess(low, 8.0)
-        self.assertLess(high, 25.0, "the other ball is left out")
-        self.picture("points-component-kept")
+        self.picture(f"points-component-{name}")
+        return [float(n) for n in re.search(r"surface: (\S+) (\S+)", told).groups()]
 
     def picture(self, name):
         time.sleep(1.5)

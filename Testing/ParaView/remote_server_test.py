@@ -126,6 +126,29 @@ class RemoteServerTest(unittest.TestCase):
         for there, local in zip(testing.levels(snapshots), testing.levels(here[3])):
             self.assertEqual(points(there), points(local))
 
+    def test_histogram_beside_iso_value(self):
+        source = simple.Wavelet()
+        source.UpdatePipeline()
+        helper = servermanager.ProxyManager().SMProxyManager.NewProxy(
+            "internal_filters", "OtsuThreshold")
+        helper.GetProperty("Input").AddInputConnection(source.SMProxy, 0)
+        helper.UpdateVTKObjects()
+        helper.UpdatePipeline()
+        helper.UpdatePropertyInformation()
+        histogram = servermanager.vtkSMPropertyHelper(helper, "Histogram")
+        values = [histogram.GetAsDouble(i) for i in range(histogram.GetNumberOfElements())]
+        self.assertEqual(tuple(values[:2]), source.PointData["RTData"].GetRange())
+        self.assertEqual(sum(values[2:]), 21 ** 3)
+
+    def test_goes_on_after_a_stop(self):
+        filter_ = wavelet_to_surface()
+        filter_.TimeLimit = 1e-9
+        self.assertEqual(testing.field(testing.fetch(filter_), "StopReason"), "time limit")
+        filter_.SMProxy.InvokeCommand("GoOn")
+        self.assertEqual(testing.field(testing.fetch(filter_), "StopReason"), "time limit")
+        filter_.TimeLimit = 0
+        self.assertEqual(points(testing.fetch(filter_)), points(self.local_outputs[0]))
+
     def test_same_labels_as_without_a_server(self):
         filter_ = labels_to_surfaces(self.label_map)
         self.assertIsNone(filter_.GetClientSideObject(), "the filter runs on the server")

@@ -139,10 +139,11 @@ class SurfaceWindowTest(window.WindowTestCase):
             SURFACE, APPLY, gui.pause(500),
             filter_of_the_menu("Clip", "Alphabetical"), APPLY, gui.pause(500), tell,
             filter_of_the_menu("Clip", "Alphabetical"), APPLY, gui.pause(500), tell,
-            window.in_the_pipeline(0), filter_of_the_menu("Contour", "Alphabetical"), APPLY,
+            window.in_the_pipeline(0, 0), filter_of_the_menu("Threshold", "Alphabetical"), APPLY,
+            gui.pause(500), tell, window.in_the_pipeline(0), filter_of_the_menu("Contour", "Alphabetical"), APPLY,
             gui.pause(500), tell, gui.pause(500)], "surface-clipped")
         self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
-                         ["[0.89, 0.85, 0.76]"] * 2 + ["[1.0, 1.0, 1.0]"])
+                         ["[0.89, 0.85, 0.76]"] * 3 + ["[1.0, 1.0, 1.0]"])
 
     def test_button_that_finds_the_iso_value_again(self):
         for before in ([], [filter_of_the_menu("ImagePyramid"), APPLY]):

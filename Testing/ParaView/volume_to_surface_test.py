@@ -157,6 +157,38 @@ class VolumeToSurfaceTest(unittest.TestCase):
         testing.fetch(filter_)
         self.assertEqual(levels, {1, 2}, "anew")
 
+    def test_goes_on_after_a_stop(self):
+        """By the command behind Apply: from the last level at which the surface rested."""
+        levels = set()
+        filter_ = simple.VolumetoSurface(self.ball)
+        algorithm = filter_.GetClientSideObject()
+
+        def progress(caller, _):
+            words = (caller.GetProgressText() or "").split()
+            if "iteration" in words:
+                levels.add(int(words[1].strip(",")))
+
+        def stop(caller, _):
+            caller.SetAbortExecute(int("Level 0, iteration" in (caller.GetProgressText() or "")))
+        whole = testing.fetch(simple.VolumetoSurface(self.ball))
+        for goes_on in (True, False):
+            tag = algorithm.AddObserver("ProgressEvent", stop)
+            stopped = testing.fetch(filter_)
+            self.assertEqual(testing.field(stopped, "StopReason"), "cancelled")
+            self.assertEqual(testing.field(stopped, "Level"), 0)
+            algorithm.RemoveObserver(tag)
+            filter_.SMProxy.InvokeCommand("GoOn")
+            if not goes_on:
+                filter_.Friction = 2.9
+            tag = algorithm.AddObserver("ProgressEvent", progress)
+            surface = testing.fetch(filter_)
+            algorithm.RemoveObserver(tag)
+            self.assertEqual(levels, {0} if goes_on else {0, 1, 2})
+            self.assertEqual(testing.field(surface, "StopReason"), "converged")
+            if goes_on:
+                self.assertEqual(points(surface).tobytes(), points(whole).tobytes())
+            filter_.Friction = 3.1
+
     def test_time_limit(self):
         filter_ = simple.VolumetoSurface(self.ball, TimeLimit=1e-6)
         surface = testing.fetch(filter_)

@@ -68,6 +68,7 @@ def iso_of_the_wavelet():
     wavelet.UpdatePipeline()
     return repr(simple.VolumetoSurface(wavelet).IsoValue)
 
+
 STOP_ONE_RUN = window.WATCH_FILTERS + """
 def attend(proxy, algorithm):
     runs = []
@@ -79,6 +80,24 @@ def attend(proxy, algorithm):
             caller.SetAbortExecute(1)
     algorithm.AddObserver("StartEvent", start)
     algorithm.AddObserver("ProgressEvent", progress)
+"""
+
+# The first run is stopped at its last level.
+STOP_AT_LEVEL_0 = window.WATCH_FILTERS + """
+def attend(proxy, algorithm):
+    runs = []
+    def progress(caller, event):
+        text = caller.GetProgressText() or ""
+        if ", iteration" in text:
+            print("Run", len(runs), text, flush=True)
+        if len(runs) == 1 and "Level 0, iteration" in text:
+            caller.SetAbortExecute(1)
+    def end(caller, event):
+        surface = caller.GetOutputDataObject(0)
+        print("End of run", len(runs), surface.GetNumberOfPoints(), surface.GetBounds(), flush=True)
+    algorithm.AddObserver("StartEvent", lambda *_: runs.append(1))
+    algorithm.AddObserver("ProgressEvent", progress)
+    algorithm.AddObserver("EndEvent", end)
 """
 
 
@@ -97,7 +116,10 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
             gui.pause(300), window.shown("MinimumComponentVolume", True),
             gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "All"),
-            APPLY, *save, gui.pause(1500)], "volume-applied")
+            APPLY, *save, gui.pause(1500),
+            # The display below wants more than the dock has at first, and so do these.
+            window.as_wide_as_the_panel(), SHOW_ADVANCED, gui.pause(1000),
+            window.as_wide_as_the_panel()], "volume-applied")
         state = window.proxies_of(path)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
         # The surface has the window for itself.
@@ -183,6 +205,62 @@ class VolumeWindowTest(window.WindowTestCase):
             APPLY, gui.pause(1000), gui.check(apply, "enabled", "false")],
             "volume-again", python=STOP_ONE_RUN)
         self.assertEqual(self.session.output.count("Run begins"), 2)
+
+    def test_apply_goes_on_after_a_stop(self):
+        testing.load_plugin()
+        whole = testing.fetch(simple.VolumetoSurface(simple.Wavelet()))
+        apply = f"{gui.PANEL}/Accept"
+        summary = f"{PROPERTIES}/KeepComponents/Summary"
+        self.play(VOLUME + [
+            FILTER, gui.pause(500), APPLY, gui.pause(1000), gui.check(apply, "enabled", "true"),
+            APPLY, gui.pause(1000), gui.check(apply, "enabled", "false"),
+            gui.check(summary, "visible", "true")], "volume-goes-on", python=STOP_AT_LEVEL_0)
+        self.assertIn("Run 1 Level 1, iteration", self.session.output)
+        self.assertIn("Run 2 Level 0, iteration", self.session.output)
+        self.assertNotIn("Run 2 Level 1, iteration", self.session.output)
+        self.assertIn(f"End of run 2 {whole.GetNumberOfPoints()} {whole.GetBounds()}",
+                      self.session.output)
+        self.session.close_window()
+        # With another value that would be a wrong surface.
+        self.play(VOLUME + [
+            FILTER, gui.pause(500), APPLY, gui.pause(1000),
+            gui.event(ISO_VALUE, "set_string", "140"), APPLY, gui.pause(1000),
+            gui.check(apply, "enabled", "false")], "volume-begins-anew", python=STOP_AT_LEVEL_0)
+        self.assertIn("Run 2 Level 1, iteration", self.session.output)
+
+    def test_histogram(self):
+        values = numpy.mgrid[0:12, 0:14, 0:16].sum(axis=0).astype(float)
+        image = testing.make_image(values, name="a")
+        testing.add_array(image, 100.0 - values, "b")
+        path = testing.write_volume("histogram.vti", image)
+        histogram = f"{PROPERTIES}/IsoValue/Histogram"
+
+        def drag(x, to):
+            """With the left button."""
+            return [gui.event(histogram, what, f"1,{buttons},0,{place},9")
+                    for what, buttons, place in (("mousePress", 1, x), ("mouseMove", 1, to),
+                                                 ("mouseRelease", 0, to))] + [gui.pause(300)]
+        pixels = self.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+            gui.pause(1000), FILTER, gui.pause(500), gui.check(histogram, "visible", "true"),
+            *drag(9, -5), gui.check(ISO_VALUE, "text", "0"),
+            *drag(9, 5000), gui.check(ISO_VALUE, "text", "39"),
+            gui.event(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "set_string", "b"),
+            gui.pause(500), *drag(9, 5000), gui.check(ISO_VALUE, "text", "100"),
+            gui.event(ISO_VALUE, "set_string", "80"), gui.pause(300)], "volume-histogram")
+        # The line is about the middle of the bars.
+        red, green, blue = (pixels[..., colour].astype(int) for colour in range(3))
+        line = numpy.nonzero(((red == 208) & (green == 32) & (blue == 32)).sum(axis=0) > 40)[0]
+        self.assertEqual(len(line), 2, line)
+        self.session.close_window()
+        # No value parts these voxels.
+        flat = testing.write_volume("flat.vti", testing.make_image(values * 0 + 7, name="a"))
+        self.assertTrue(self.session.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", flat), APPLY,
+            gui.pause(1000), FILTER, gui.pause(500), gui.check(histogram, "visible", "false")]),
+            self.session.output)
 
     def test_a_warning_waits_for_the_end(self):
         voxels = numpy.zeros((40, 40, 40), numpy.int16)

@@ -99,6 +99,11 @@ CheckedWriter::CheckedWriter(const std::string& name)
   this->Block.reserve(BlockSize);
 }
 
+CheckedWriter::CheckedWriter(FileInMemory& memory)
+  : Memory(&memory)
+{
+}
+
 CheckedWriter::~CheckedWriter()
 {
   if (this->File)
@@ -114,6 +119,17 @@ void CheckedWriter::Fail()
   throw FileError(Join(this->Name, " cannot be written (", ReasonOf(error), ")"));
 }
 
+bool CheckedWriter::Append(const void* bytes, std::size_t count)
+{
+  if (this->Memory)
+  {
+    const auto* first = static_cast<const unsigned char*>(bytes);
+    this->Memory->insert(this->Memory->end(), first, first + count);
+    return true;
+  }
+  return std::fwrite(bytes, 1, count, this->File) == count;
+}
+
 void CheckedWriter::WriteBlock()
 {
   const std::size_t count = this->Block.size();
@@ -121,8 +137,7 @@ void CheckedWriter::WriteBlock()
     CombineHashes(this->Hash, CombineHashes(count, ContentHash(this->Block.data(), count)));
   const BlockHead head = { count, this->Hash };
   errno = 0;
-  if (std::fwrite(&head, sizeof(head), 1, this->File) != 1 ||
-    std::fwrite(this->Block.data(), 1, count, this->File) != count)
+  if (!this->Append(&head, sizeof(head)) || !this->Append(this->Block.data(), count))
   {
     this->Fail();
   }
@@ -158,6 +173,10 @@ void CheckedWriter::Commit()
     this->WriteBlock();
   }
   this->WriteBlock(); // The end.
+  if (this->Memory)
+  {
+    return;
+  }
   errno = 0;
   if (!Flush(this->File))
   {
@@ -196,6 +215,11 @@ CheckedReader::CheckedReader(const std::string& name)
   std::setvbuf(this->File, nullptr, _IONBF, 0);
 }
 
+CheckedReader::CheckedReader(const FileInMemory& memory)
+  : Memory(&memory), Left(memory.size())
+{
+}
+
 CheckedReader::~CheckedReader()
 {
   if (this->File)
@@ -209,18 +233,29 @@ void CheckedReader::Refuse(const std::string& reason) const
   throw FileError(Join(this->Name, " ", reason));
 }
 
+bool CheckedReader::Fetch(void* bytes, std::size_t count)
+{
+  const std::uint64_t left = this->Left;
+  this->Left -= std::min<std::uint64_t>(left, count);
+  if (this->Memory)
+  {
+    const std::size_t part = static_cast<std::size_t>(left - this->Left);
+    std::memcpy(bytes, this->Memory->data() + (this->Memory->size() - left), part);
+    return part == count;
+  }
+  return std::fread(bytes, 1, count, this->File) == count;
+}
+
 void CheckedReader::ReadBlock()
 {
   BlockHead head;
-  if (std::fread(&head, sizeof(head), 1, this->File) != 1 || head.Count > BlockSize)
+  if (!this->Fetch(&head, sizeof(head)) || head.Count > BlockSize)
   {
     this->Refuse("is damaged");
   }
-  this->Left -= std::min(this->Left, sizeof(head) + head.Count);
   this->Block.resize(head.Count);
   this->Taken = 0;
-  const bool isWhole =
-    std::fread(this->Block.data(), 1, head.Count, this->File) == head.Count;
+  const bool isWhole = this->Fetch(this->Block.data(), head.Count);
   this->Hash = CombineHashes(
     this->Hash, CombineHashes(head.Count, ContentHash(this->Block.data(), head.Count)));
   if (!isWhole || this->Hash != head.Hash || head.Count == 0)

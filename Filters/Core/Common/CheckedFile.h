@@ -3,6 +3,8 @@
 #ifndef volumicCheckedFile_h
 #define volumicCheckedFile_h
 
+#include "Core/Common/ScratchMemory.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +15,7 @@
 
 // Files of numbers, texts and lists for a program to read again on the same machine, after a crash
 // too: each is there as a whole or not at all, and what is not as it was written is not believed.
+// Where it is this process that goes on, memory does instead.
 
 namespace volumic
 {
@@ -22,6 +25,9 @@ struct FileError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/** What stands for a file in memory, which may be limited. */
+using FileInMemory = LargeVector<unsigned char>;
+
 /**
  * Writes a file beside its place, `NAME.new`, and moves it there when it is whole and on the disk.
  * All throw FileError.
@@ -30,6 +36,8 @@ class CheckedWriter
 {
 public:
   explicit CheckedWriter(const std::string& name);
+  /** Behind what is there, which must outlive it. */
+  explicit CheckedWriter(FileInMemory& memory);
   /** What was not committed leaves nothing. */
   ~CheckedWriter();
   CheckedWriter(const CheckedWriter&) = delete;
@@ -57,9 +65,11 @@ public:
 private:
   [[noreturn]] void Fail();
   void WriteBlock();
+  bool Append(const void* bytes, std::size_t count);
 
   std::string Name;
-  std::FILE* File;
+  FileInMemory* Memory = nullptr; ///< null: a file
+  std::FILE* File = nullptr;
   std::vector<unsigned char> Block;
   std::uint64_t Hash = 0; ///< Of all blocks so far.
 };
@@ -73,6 +83,8 @@ class CheckedReader
 {
 public:
   explicit CheckedReader(const std::string& name);
+  /** From its begin; it must outlive the reader. */
+  explicit CheckedReader(const FileInMemory& memory);
   ~CheckedReader();
   CheckedReader(const CheckedReader&) = delete;
   CheckedReader& operator=(const CheckedReader&) = delete;
@@ -105,9 +117,11 @@ public:
 
 private:
   void ReadBlock();
+  bool Fetch(void* bytes, std::size_t count);
 
   std::string Name;
-  std::FILE* File;
+  const FileInMemory* Memory = nullptr; ///< null: a file
+  std::FILE* File = nullptr;
   std::vector<unsigned char> Block;
   std::size_t Taken = 0;  ///< Of the block.
   std::uint64_t Left = 0; ///< Bytes of the file that have not been read.
