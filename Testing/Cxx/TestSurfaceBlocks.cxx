@@ -152,7 +152,7 @@ TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  blocks.AddPlaces({ 0, 5, 0 });
+  blocks.AddPlaces({ 0, 5, 0 }, OnThisThread());
   const int before = state.Mesh.NumberOfVertices();
   BlockVisit visit = blocks.Open(1);
   visit.Share.Region = visit.Share.Region.Grown(1000.f);
@@ -237,7 +237,7 @@ TEST(SurfaceBlocks, KeepTheirPlacesForThemselves)
     BlockVisit again = blocks.Open(1);
     EXPECT_EQ(again.Share.NumberOfPlaces(), 1);
     blocks.Close(std::move(again));
-    blocks.AddPlaces({ 7, 0, 0 });
+    blocks.AddPlaces({ 7, 0, 0 }, OnThisThread());
     EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
   }
   EXPECT_EQ(state.Mesh.FreePlaces().size(), 8u) << "given back";
@@ -249,7 +249,7 @@ TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  blocks.AddPlaces({ 0, 50, 0 });
+  blocks.AddPlaces({ 0, 50, 0 }, OnThisThread());
   BlockVisit visit = blocks.Open(1);
   SurfaceEditor editor(state, &visit.Share);
   const float end = blocks.BoxOf(1).High.X;

@@ -190,7 +190,7 @@ struct Wilderness
     this->Blocks = std::make_unique<SurfaceBlocks>(
       this->State, SurfaceBlocks::FrameOf({ 110., 110., 110. }, SurfaceBlocks::SideInDelta), this->Thread);
     std::vector<int> places(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 2000);
-    this->Blocks->AddPlaces(places);
+    this->Blocks->AddPlaces(places, OnThisThread());
   }
 
   /** Visits the block in the middle, for many iterations. @return what the edits were */

@@ -277,7 +277,7 @@ void RankBlocks::Append(const IndexedSurface& surface, Executor& executor)
   SurfaceState& s = this->State;
   SurfaceMesh added;
   added.Append(surface, executor);
-  const int first = s.AddUnusedPlaces(added.Size()).Next;
+  const int first = s.AddUnusedPlaces(added.Size(), executor).Next;
   std::vector<int> near;
   for (int v = 0; v < added.Size(); ++v)
   {
@@ -394,7 +394,8 @@ void RankBlocks::AddPlaces(Executor& executor)
       const int block = static_cast<int>(b);
       counts[b] = this->IsOwn(block) ? this->Blocks.MissingPlaces(block) : 0;
     });
-  this->Blocks.AddPlaces(this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(counts))));
+  this->Blocks.AddPlaces(
+    this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(counts))), executor);
 }
 
 double RankBlocks::AddUp(const std::vector<double>& ofBlocks)

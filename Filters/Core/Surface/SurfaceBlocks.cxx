@@ -230,7 +230,7 @@ int SurfaceBlocks::MissingPlaces(int block) const
   return has < wanted / 2 ? wanted : 0;
 }
 
-void SurfaceBlocks::AddPlaces(const std::vector<int>& counts)
+void SurfaceBlocks::AddPlaces(const std::vector<int>& counts, Executor& executor)
 {
   int total = 0;
   for (const int count : counts)
@@ -241,7 +241,7 @@ void SurfaceBlocks::AddPlaces(const std::vector<int>& counts)
   {
     return;
   }
-  int next = this->State.AddUnusedPlaces(total).Next;
+  int next = this->State.AddUnusedPlaces(total, executor).Next;
   for (std::size_t block = 0; block < counts.size(); ++block)
   {
     if (counts[block] > 0)

@@ -115,7 +115,7 @@ public:
   /** Places that a block would like to have for new vertices beyond those that it has. */
   int MissingPlaces(int block) const;
   /** Gives them, to each block as many; between sweeps. */
-  void AddPlaces(const std::vector<int>& counts);
+  void AddPlaces(const std::vector<int>& counts, Executor& executor);
 
   int BlockAt(const Vector& position) const;
   /** What a block fills; those at the border go on without end. */

@@ -49,10 +49,10 @@ void SurfaceState::Prefetch(int first, int last) const
   this->Properties.Prefetch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
 }
 
-UnusedPlaces SurfaceState::AddUnusedPlaces(int n)
+UnusedPlaces SurfaceState::AddUnusedPlaces(int n, Executor& executor)
 {
   const UnusedPlaces places = this->Mesh.AddUnusedPlaces(n);
-  this->Properties.Lengthen(static_cast<std::size_t>(places.End));
+  this->Properties.Lengthen(static_cast<std::size_t>(places.End), executor);
   this->Grid.Lengthen(static_cast<std::size_t>(places.End));
   return places;
 }

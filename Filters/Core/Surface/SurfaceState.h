@@ -160,7 +160,7 @@ public:
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
   /** SurfaceMesh::AddUnusedPlaces, with room for what their vertices will know. */
-  UnusedPlaces AddUnusedPlaces(int n);
+  UnusedPlaces AddUnusedPlaces(int n, Executor& executor);
   /**
    * Forgets all vertices and lays the grid; there is room for n, without memory, of which so many
    * are said to be vertices (some are on other ranks).

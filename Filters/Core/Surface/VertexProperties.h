@@ -62,12 +62,16 @@ public:
       property->Resize(n);
     }
   }
-  void Lengthen(std::size_t n)
+  void Lengthen(std::size_t n, Executor& executor)
   {
-    for (VertexPropertyBase* property : this->All)
-    {
-      property->Lengthen(n);
-    }
+    executor.For(this->All.size(), 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          this->All[i]->Lengthen(n);
+        }
+      });
   }
   void Remake(std::size_t n)
   {
