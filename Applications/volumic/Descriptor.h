@@ -18,7 +18,7 @@ inline std::string SystemReason(int error = errno)
   return std::generic_category().message(error);
 }
 
-/** An open file that closes itself. What fails leaves its reason in errno. */
+/** An open file, by its name or its number, that closes itself. What fails leaves its reason in errno. */
 class Descriptor
 {
 public:
@@ -26,6 +26,7 @@ public:
     : Number(open(path.c_str(), flags | O_CLOEXEC, 0666))
   {
   }
+  explicit Descriptor(int number) : Number(number) {}
   ~Descriptor() { this->Close(); }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;

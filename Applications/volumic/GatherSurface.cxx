@@ -204,14 +204,8 @@ vtkSmartPointer<vtkPolyData> Whole::Take()
     throw Failure("the pieces of the ranks are no whole surface: " + std::to_string(missing) +
       " points are in none of them");
   }
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfValues(this->Size.Triangles + 1);
-  for (vtkIdType t = 0; t <= this->Size.Triangles; ++t)
-  {
-    offsets->SetValue(t, 3 * t);
-  }
   vtkNew<vtkCellArray> triangles;
-  triangles->SetData(offsets, this->Corners);
+  triangles->SetData(3, this->Corners);
   this->Surface->SetPolys(triangles);
   return this->Surface;
 }

@@ -11,9 +11,7 @@
 #include <vtkDataArray.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
 
 #include <unistd.h>
@@ -26,6 +24,18 @@ std::string DirectoryOf(const std::string& directory)
 {
   const char* system = std::getenv("TMPDIR");
   return !directory.empty() ? directory : system && *system ? system : "/var/tmp";
+}
+
+/** The number of a new file, which has no name any more; -1 if there can be none. */
+int OpenNameless(const std::string& directory)
+{
+  std::string name = directory + "/volumic-XXXXXX";
+  const int number = mkstemp(name.data());
+  if (number >= 0)
+  {
+    unlink(name.c_str());
+  }
+  return number;
 }
 
 /** The bytes of a data file. @throws Failure that names it if it cannot be opened. */
@@ -69,45 +79,28 @@ void ReadNumbers(std::istream& text, vtkDataArray* values)
 }
 }
 
-NamelessFile::NamelessFile(const std::string& directory) : Directory(DirectoryOf(directory))
+NamelessFile::NamelessFile(const std::string& directory)
+  : NamelessFile(DirectoryOf(directory), OpenNameless(DirectoryOf(directory)))
 {
-  std::string name = this->Directory + "/volumic-XXXXXX";
-  this->Descriptor = mkstemp(name.data());
-  if (this->Descriptor < 0)
-  {
-    throw Failure("no file can be made in " + this->Directory + " to unpack the voxels to (" +
-      std::strerror(errno) + "); choose another folder with --scratch");
-  }
-  unlink(name.c_str());
 }
 
-NamelessFile::~NamelessFile()
+NamelessFile::NamelessFile(const std::string& directory, int number)
+  : Directory(directory), Link("/proc/self/fd/" + std::to_string(number)), File(number)
 {
-  close(this->Descriptor);
+  if (number < 0)
+  {
+    throw Failure("no file can be made in " + this->Directory + " to unpack the voxels to (" +
+      SystemReason() + "); choose another folder with --scratch");
+  }
 }
 
 void NamelessFile::Append(const char* bytes, std::size_t count)
 {
-  while (count > 0)
+  if (!this->File.Write(bytes, count))
   {
-    const ssize_t done = write(this->Descriptor, bytes, count);
-    if (done < 0 && errno == EINTR)
-    {
-      continue;
-    }
-    if (done <= 0)
-    {
-      throw Failure("the voxels cannot be unpacked to " + this->Directory + " (" +
-        std::strerror(errno) + "); choose another folder with --scratch");
-    }
-    bytes += done;
-    count -= static_cast<std::size_t>(done);
+    throw Failure("the voxels cannot be unpacked to " + this->Directory + " (" + SystemReason() +
+      "); choose another folder with --scratch");
   }
-}
-
-std::string NamelessFile::Path() const
-{
-  return "/proc/self/fd/" + std::to_string(this->Descriptor);
 }
 
 std::ifstream OpenData(const std::string& name, std::uint64_t start)

@@ -3,6 +3,7 @@
 #ifndef volumicRawSlabs_h
 #define volumicRawSlabs_h
 
+#include "Descriptor.h"
 #include "SlabReader.h"
 #include "Unpack.h"
 
@@ -20,19 +21,19 @@ class NamelessFile
 public:
   /** @param directory empty: TMPDIR, or /var/tmp. @throws Failure if there can be none. */
   explicit NamelessFile(const std::string& directory);
-  ~NamelessFile();
-  NamelessFile(const NamelessFile&) = delete;
-  NamelessFile& operator=(const NamelessFile&) = delete;
 
   /** @throws Failure if the disk is full. */
   void Append(const char* bytes, std::size_t count);
 
   /** By which it can be opened, in this process. */
-  std::string Path() const;
+  const std::string& Path() const { return this->Link; }
 
 private:
+  NamelessFile(const std::string& directory, int number);
+
   std::string Directory;
-  int Descriptor = -1;
+  std::string Link;
+  Descriptor File;
 };
 
 /** The stream of a data file, at that byte. @throws Failure that names it if it cannot be opened. */

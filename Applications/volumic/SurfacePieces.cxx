@@ -66,12 +66,6 @@ void SetTriangles(
   const auto size = static_cast<vtkIdType>(corners.size());
   const vtkIdType* points = pointsOfPiece->GetPointer(0);
   const vtkIdType* pointsEnd = points + pointsOfPiece->GetNumberOfTuples();
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfTuples(size / 3 + 1);
-  for (vtkIdType t = 0; t <= size / 3; ++t)
-  {
-    offsets->SetValue(t, 3 * t);
-  }
   vtkNew<vtkIdTypeArray> connectivity;
   connectivity->SetNumberOfTuples(size);
   for (vtkIdType i = 0; i < size; ++i)
@@ -79,7 +73,7 @@ void SetTriangles(
     connectivity->SetValue(i, std::lower_bound(points, pointsEnd, corners[i]) - points);
   }
   vtkNew<vtkCellArray> triangles;
-  triangles->SetData(offsets, connectivity);
+  triangles->SetData(3, connectivity);
   piece->SetPolys(triangles);
 }
 

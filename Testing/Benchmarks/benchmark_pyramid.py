@@ -112,7 +112,7 @@ def main():
     # Repetitions of all are in random order.
     process = subprocess.run(
         [options.program, *volume, "--repetitions", str(options.repetitions),
-         f"--benchmark_out={options.json}"],
+         f"--benchmark_out={options.json}", "--benchmark_format=json"],
         stdout=subprocess.PIPE, text=True, check=False)
     if process.returncode:
         return process.returncode
