@@ -33,23 +33,18 @@ bool Always(std::size_t)
   return true;
 }
 
-/** Items in a row, each of which touches the one before it, so that one thread visits at a time. */
-VisitSchedule ChainOf(int n)
+/** Items in rows, each of which touches the one before it: so many threads visit at a time. */
+VisitSchedule ChainsOf(int n, int rows = 1)
 {
   std::vector<int> order(static_cast<std::size_t>(n));
   std::iota(order.begin(), order.end(), 0);
   return VisitSchedule(order,
-    [n](int item)
+    [=](int item)
     {
-      std::vector<int> touched;
-      if (item > 0)
-      {
-        touched.push_back(item - 1);
-      }
-      if (item + 1 < n)
-      {
-        touched.push_back(item + 1);
-      }
+      std::vector<int> touched = { item - rows, item + rows };
+      touched.erase(std::remove_if(touched.begin(), touched.end(),
+                      [n](int other) { return other < 0 || other >= n; }),
+        touched.end());
       return touched;
     });
 }
@@ -63,7 +58,7 @@ TEST(SharedVisits, ThreadsWithoutAVisitTakePartsOfOthers)
   std::set<std::thread::id> parts;
   std::mutex mutex;
   const auto start = std::chrono::steady_clock::now();
-  ChainOf(1).Run(threads,
+  ChainsOf(1).Run(threads,
     [&](int, std::size_t, Executor& idle)
     {
       // Until others have come: before, it makes all parts itself.
@@ -91,24 +86,8 @@ TEST(SharedVisits, EachPartIsMadeOnceAndBeforeTheVisitGoesOn)
     StandardThreads threads(count);
     std::vector<std::vector<int>> made(visits, std::vector<int>(n, 0));
     std::atomic<int> wrong{ 0 };
-    // Two chains, so that more than one visit shares at a time.
-    std::vector<int> order(visits);
-    std::iota(order.begin(), order.end(), 0);
-    const VisitSchedule schedule(order,
-      [](int item)
-      {
-        std::vector<int> touched;
-        if (item > 1)
-        {
-          touched.push_back(item - 2);
-        }
-        if (item + 2 < visits)
-        {
-          touched.push_back(item + 2);
-        }
-        return touched;
-      });
-    EXPECT_TRUE(schedule.Run(threads,
+    // Two rows, so that more than one visit shares at a time.
+    EXPECT_TRUE(ChainsOf(visits, 2).Run(threads,
       [&](int item, std::size_t, Executor& idle)
       {
         std::vector<int>& own = made[item];
@@ -135,7 +114,7 @@ TEST(SharedVisits, WhatIsSmallStaysWithTheVisit)
 {
   StandardThreads threads(4);
   std::atomic<int> others{ 0 };
-  ChainOf(1).Run(threads,
+  ChainsOf(1).Run(threads,
     [&](int, std::size_t, Executor& idle)
     {
       const std::thread::id own = std::this_thread::get_id();
@@ -159,7 +138,7 @@ TEST(SharedVisits, WhatAPartThrowsLeavesTheVisit)
     StandardThreads threads(count);
     int caught = 0;
     std::atomic<int> underWay{ 0 };
-    EXPECT_THROW(ChainOf(5).Run(threads,
+    EXPECT_THROW(ChainsOf(5).Run(threads,
                    [&](int item, std::size_t, Executor& idle)
                    {
                      try
@@ -192,14 +171,14 @@ TEST(SharedVisits, WhatAPartThrowsLeavesTheVisit)
 
 TEST(SharedVisits, AreModelledWithTheThreadsThatAreFree)
 {
-  const VisitSchedule one = ChainOf(1);
+  const VisitSchedule one = ChainsOf(1);
   const Visits shared = { { { 1., { 2., 2., 2., 2. } }, { 3., {} } } };
   EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 1), 12.);
   EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 2), 8.);
   EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 3), 8.) << "four parts for three";
   EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 64), 6.);
   // Two of a chain never share with each other.
-  const VisitSchedule two = ChainOf(2);
+  const VisitSchedule two = ChainsOf(2);
   EXPECT_DOUBLE_EQ(ScheduledSeconds(two, { shared[0], shared[0] }, 2), 16.);
   // Where all threads have visits nobody is free to share.
   const VisitSchedule apart({ 0, 1 }, [](int) { return std::vector<int>(); });

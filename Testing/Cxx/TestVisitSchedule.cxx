@@ -331,17 +331,17 @@ TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
       body(1, n);
     }
   } late;
-  int questions = 0;
+  std::atomic<std::size_t> visits{ 0 };
+  std::vector<std::size_t> asked; // More than once only where the machine is slow.
   const auto goOn = [&](std::size_t done)
   {
-    EXPECT_EQ(done, 9u);
-    ++questions;
+    EXPECT_EQ(done, visits);
+    asked.push_back(done);
     return true;
   };
-  std::atomic<int> visits{ 0 };
   EXPECT_TRUE(Apart(9).Run(late, [&](int, std::size_t, Executor&) { ++visits; }, goOn));
-  EXPECT_EQ(visits, 9);
-  EXPECT_EQ(questions, 1);
+  ASSERT_FALSE(asked.empty());
+  EXPECT_EQ(asked.back(), 9u);
 }
 
 TEST(VisitSchedule, HandsOnWhatAVisitThrows)
