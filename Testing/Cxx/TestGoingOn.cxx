@@ -260,6 +260,7 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
       filter->Update();
       ASSERT_LE(stop.Left, 0) << "heard nothing of it";
       ASSERT_EQ(StopReason(filter->GetOutput()), "cancelled");
+      filter->SetAbortExecute(1); // Who presses twice.
       filter->GoOn();
     }
     EXPECT_FALSE(Reruns(filter, test.Level));
