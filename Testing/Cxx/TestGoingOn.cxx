@@ -270,7 +270,7 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
 
 TEST_F(GoingOn, ShowsCoarserLevelsAfterAStop)
 {
-  const StopAtText stop(this->Filter, "Level 0, division", 1);
+  const StopAtText stop(this->Filter, "Level 1 is done", 1);
   this->Filter->Update();
   this->Filter->SetFinestLevel(1);
   EXPECT_TRUE(ShowsAtOnce(this->Filter));
