@@ -702,8 +702,10 @@ public:
    */
   void GoOn();
 
+#ifndef __VTK_WRAP__ // It is no property of ours.
   /** As of all algorithms; what is kept of the last run stays. */
   void SetAbortExecute(vtkTypeBool abort) override;
+#endif
 
   /** Frees what is kept of the last run, see Going on. */
   void ForgetRun();

@@ -239,8 +239,10 @@ public:
   /** After a run that was stopped: the next Update() goes on, see Cancelling. */
   void GoOn();
 
+#ifndef __VTK_WRAP__ // It is no property of ours.
   /** As of all algorithms; what is kept of a run that was stopped stays. */
   void SetAbortExecute(vtkTypeBool abort) override;
+#endif
 
 protected:
   vtkLabelsToSurfaces();

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceSources.h"
 
+#include <pqCoreUtilities.h>
 #include <pqPipelineFilter.h>
+#include <pqPropertiesPanel.h>
 
 #include <vtkSMProxy.h>
 
@@ -23,5 +25,12 @@ bool IsOfSurface(pqPipelineSource* source)
   auto* filter = qobject_cast<pqPipelineFilter*>(source);
   return GivesSurfaces(source) ||
     (filter && filter->getInput(0) && IsOfSurface(filter->getInput(0)));
+}
+
+//------------------------------------------------------------------------------
+QList<pqPropertiesPanel*> PropertiesPanels()
+{
+  QWidget* window = pqCoreUtilities::mainWidget();
+  return window ? window->findChildren<pqPropertiesPanel*>() : QList<pqPropertiesPanel*>();
 }
 }

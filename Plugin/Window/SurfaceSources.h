@@ -3,7 +3,10 @@
 #ifndef volumicSurfaceSources_h
 #define volumicSurfaceSources_h
 
+#include <QList>
+
 class pqPipelineSource;
+class pqPropertiesPanel;
 
 namespace volumic
 {
@@ -12,6 +15,9 @@ bool GivesSurfaces(pqPipelineSource* source);
 
 /** Whether it is one, or comes after one. */
 bool IsOfSurface(pqPipelineSource* source);
+
+/** Those of the window, which has none yet when a plugin is loaded at the start. */
+QList<pqPropertiesPanel*> PropertiesPanels();
 }
 
 #endif

@@ -37,7 +37,6 @@ pqPanelWidthBehavior::~pqPanelWidthBehavior() = default;
 //------------------------------------------------------------------------------
 void pqPanelWidthBehavior::startup()
 {
-  // Of a plugin that is loaded at the start the window has no panels yet.
   QTimer::singleShot(0, this, SLOT(watchPanels()));
 }
 
@@ -46,9 +45,7 @@ void pqPanelWidthBehavior::shutdown() {}
 //------------------------------------------------------------------------------
 void pqPanelWidthBehavior::watchPanels()
 {
-  QWidget* window = pqCoreUtilities::mainWidget();
-  for (auto* panel : window ? window->findChildren<pqPropertiesPanel*>()
-                            : QList<pqPropertiesPanel*>())
+  for (pqPropertiesPanel* panel : volumic::PropertiesPanels())
   {
     if (auto* area = panel->findChild<QScrollArea*>("scrollArea"))
     {

@@ -6,7 +6,6 @@
 #include "UnfinishedText.h"
 
 #include <pqApplicationCore.h>
-#include <pqCoreUtilities.h>
 #include <pqPropertiesPanel.h>
 #include <pqServerManagerModel.h>
 
@@ -15,7 +14,6 @@
 #include <vtkSMSourceProxy.h>
 
 #include <QTimer>
-#include <QWidget>
 
 //------------------------------------------------------------------------------
 pqUnfinishedBehavior::pqUnfinishedBehavior() = default;
@@ -26,7 +24,6 @@ void pqUnfinishedBehavior::startup()
 {
   this->connect(pqApplicationCore::instance()->getServerManagerModel(),
     SIGNAL(dataUpdated(pqPipelineSource*)), SLOT(look(pqPipelineSource*)));
-  // Of a plugin that is loaded at the start the window has no panels yet.
   QTimer::singleShot(0, this, SLOT(watchPanels()));
 }
 
@@ -42,9 +39,7 @@ void pqUnfinishedBehavior::shutdown()
 //------------------------------------------------------------------------------
 void pqUnfinishedBehavior::watchPanels()
 {
-  QWidget* window = pqCoreUtilities::mainWidget();
-  for (auto* panel : window ? window->findChildren<pqPropertiesPanel*>()
-                            : QList<pqPropertiesPanel*>())
+  for (pqPropertiesPanel* panel : volumic::PropertiesPanels())
   {
     this->connect(panel, SIGNAL(applied(pqProxy*)), SLOT(goOn(pqProxy*)));
   }

@@ -307,8 +307,8 @@ class RunTest(ToolTestCase):
         self.assertEqual(kept["component_features"], [found])
         dropped = self.report(self.ball_file(), "--iso", ISO, "--levels", "1", "--keep",
                               "not-at-seeds", "--minimum-part-size", "5", "--attracting-points",
-                              self.path("points.txt"), "--seed-position",
-                              ",".join(map(str, point)))
+                              self.path("points.txt"), "--initialization", "icosahedron",
+                              "--seed-position", ",".join(map(str, point)))
         self.assertEqual(dropped["component_features"], report["component_features"][:1])
         np.testing.assert_allclose(found["centroid"], point, atol=0.3)
         whole = 4 / 3 * np.pi * radius ** 3

@@ -260,6 +260,7 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
       filter->Update();
       ASSERT_LE(stop.Left, 0) << "heard nothing of it";
       ASSERT_EQ(StopReason(filter->GetOutput()), "cancelled");
+      filter->SetAbortExecute(1); // Who presses twice.
       filter->GoOn();
     }
     EXPECT_FALSE(Reruns(filter, test.Level));
@@ -269,7 +270,7 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
 
 TEST_F(GoingOn, ShowsCoarserLevelsAfterAStop)
 {
-  const StopAtText stop(this->Filter, "Level 0, division", 1);
+  const StopAtText stop(this->Filter, "Level 1 is done", 1);
   this->Filter->Update();
   this->Filter->SetFinestLevel(1);
   EXPECT_TRUE(ShowsAtOnce(this->Filter));

@@ -103,6 +103,13 @@ class Hand(x_input.Input):
             self._xtst.XTestFakeButtonEvent(self._display, 1, down, ctypes.c_ulong(0))
         self._x11.XSync(self._display, 0)
 
+    def scroll(self, place, notches):
+        """Down, with the wheel."""
+        self.move(*place)
+        for down in (1, 0) * notches:
+            self._xtst.XTestFakeButtonEvent(self._display, 5, down, ctypes.c_ulong(0))
+            self._flush()
+
     def shortcut(self, name):
         """With the control key."""
         control = self._x11.XKeysymToKeycode(
@@ -231,7 +238,9 @@ class AbortWindowTest(unittest.TestCase):
         return place
 
     def place_of_preview(self):
-        """Its box: what looks different when a script ticks it."""
+        """Its box: what looks different when a script ticks it. It is below the histogram."""
+        self.hand.scroll((20, 640), 3)
+        time.sleep(1)
         before = self.picture("box").astype(int)
         self.session.ask("setattr(simple.GetActiveSource(), 'Preview', 1)")
         time.sleep(1)

@@ -5,6 +5,8 @@
 import os
 import re
 import sys
+import time
+import unittest
 
 import numpy
 
@@ -12,6 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
+import x_input
 from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
 from paraview import simple
 
@@ -176,6 +179,33 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.check(ISO_VALUE, "text", "226"),
             gui.check(f"{PROPERTIES}/IsoValue/Slider", "visible", "true"), APPLY,
             gui.pause(1000)], "volume-ct")
+        self.session.close_window()
+        # A magnetic resonance image, though some of its voxels are below 0.
+        path = testing.write_volume("mr.vti", testing.make_image(
+            numpy.maximum(voxels, -610), name="MR"))
+        self.play([
+            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+            FILTER, gui.pause(500), window.value_range(-610, 1500)], "volume-mr")
+
+    @staticmethod
+    def left_of_view(pixels):
+        """Where the blue frame of the view begins."""
+        row = pixels[600].astype(int)
+        return int(numpy.nonzero((row[:, 2] > 200) & (row[:, :2].max(axis=1) < 60))[0][0])
+
+    @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
+    def test_a_panel_that_is_made_narrower_stays_so(self):
+        before = self.left_of_view(self.play(VOLUME + [FILTER, gui.pause(1000)], "volume-dock"))
+        self.session.close_window()
+        wide = self.left_of_view(
+            self.play(VOLUME + [FILTER, APPLY, gui.pause(2000)], "volume-dock-wide"))
+        self.assertGreater(wide, before + 10)
+        x_input.Input(self.session.display).drag((wide - 4, 650), (wide - 34, 650))
+        time.sleep(2)
+        narrow = self.left_of_view(
+            self.session.screenshot(testing.output_path("volume-dock-narrow.png")))
+        self.assertLess(narrow, wide - 10)
 
     def test_summary(self):
         testing.load_plugin()
