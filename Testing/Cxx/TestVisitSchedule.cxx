@@ -344,6 +344,46 @@ TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
   EXPECT_EQ(asked.back(), 9u);
 }
 
+TEST(VisitSchedule, AsksWhileOthersAreInLongVisits)
+{
+  // Another thread makes the one visit that there is, until the host has been asked twice.
+  std::atomic<bool> hasBegun{ false };
+  std::atomic<int> questions{ 0 };
+  struct Waiting final : Executor
+  {
+    explicit Waiting(const std::atomic<bool>& hasBegun)
+      : HasBegun(hasBegun)
+    {
+    }
+    void For(std::size_t n, std::size_t,
+      const std::function<void(std::size_t, std::size_t)>& body) override
+    {
+      std::thread other([&] { body(0, 1); });
+      while (!this->HasBegun)
+      {
+        std::this_thread::yield();
+      }
+      body(1, n);
+      other.join();
+    }
+    const std::atomic<bool>& HasBegun;
+  } waiting(hasBegun);
+  bool isLate = false;
+  EXPECT_TRUE(Apart(1).Run(waiting,
+    [&](int, std::size_t, Executor&)
+    {
+      hasBegun = true;
+      const auto start = std::chrono::steady_clock::now();
+      while (questions < 2 && !isLate)
+      {
+        isLate = std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
+        std::this_thread::yield();
+      }
+    },
+    [&](std::size_t) { return ++questions > 0; }));
+  EXPECT_FALSE(isLate);
+}
+
 TEST(VisitSchedule, HandsOnWhatAVisitThrows)
 {
   // Each is before the next one, or none touches another: others wait, or are at work, or both.

@@ -97,15 +97,12 @@ public:
     while (true)
     {
       SharedWork* shared = nullptr;
-      ++this->Idle;
-      this->HasChanged.wait(lock,
-        [&]
-        {
-          shared = this->FindShared();
-          return !this->Ready.empty() || shared || this->UnderWay == 0 || this->IsOver();
-        });
-      --this->Idle;
-      if (this->Ready.empty() && shared)
+      if (!this->WaitForWork(shared, isCaller, lock))
+      {
+        this->Ask(lock);
+        continue;
+      }
+      if (shared && (this->Ready.empty() || this->IsOver()))
       {
         this->TakeParts(*shared, lock);
         continue;
@@ -136,7 +133,7 @@ public:
       }
       lock.lock();
       --this->UnderWay;
-      const std::size_t done = ++this->Done;
+      ++this->Done;
       for (const int later : this->Schedule.Later[item])
       {
         if (--this->Waits[later] == 0)
@@ -147,11 +144,7 @@ public:
       this->HasChanged.notify_all();
       if (isCaller && !this->IsOver())
       {
-        this->HasAsked = true;
-        lock.unlock();
-        const bool goesOn = this->GoOn(done);
-        lock.lock();
-        this->Stopped = this->Stopped || !goesOn;
+        this->Ask(lock);
       }
     }
   }
@@ -169,6 +162,45 @@ private:
   };
 
   bool IsOver() const { return this->HasFailed || this->Stopped; }
+
+  /**
+   * @param shared what threads may share in, or null
+   * @return false where the calling thread has found no visit to make for a round, and must ask
+   */
+  bool WaitForWork(
+    SharedWork*& shared, bool isCaller, std::unique_lock<std::mutex>& lock)
+  {
+    const auto hasWork = [&]
+    {
+      shared = this->FindShared();
+      return !this->Ready.empty() || shared || this->UnderWay == 0 || this->IsOver();
+    };
+    ++this->Idle;
+    bool isInTime = true;
+    if (isCaller)
+    {
+      isInTime = this->HasChanged.wait_until(lock, this->End, hasWork) &&
+        (!shared || this->IsOver() || std::chrono::steady_clock::now() < this->End);
+    }
+    else
+    {
+      this->HasChanged.wait(lock, hasWork);
+    }
+    --this->Idle;
+    return isInTime;
+  }
+
+  /** On the calling thread. */
+  void Ask(std::unique_lock<std::mutex>& lock)
+  {
+    const std::size_t done = this->Done;
+    this->HasAsked = true;
+    lock.unlock();
+    const bool goesOn = this->GoOn(done);
+    lock.lock();
+    this->Stopped = this->Stopped || !goesOn;
+    this->End = std::chrono::steady_clock::now() + Round;
+  }
 
   /** The first of which any part is left, or null. */
   SharedWork* FindShared() const

@@ -101,7 +101,8 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
       this->Parts->BeginVisit(block);
     }
     ForBlocks(this->Threads, own.size(), 1,
-      [&](std::size_t i, std::size_t, std::size_t) { this->VisitBlock(own[i], visits, OnThisThread()); });
+      [&](std::size_t i, std::size_t, std::size_t)
+      { this->VisitBlock(own[i], visits, OnThisThread()); });
     for (const int block : own)
     {
       this->Parts->EndVisit(block);

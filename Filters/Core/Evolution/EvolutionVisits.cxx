@@ -256,7 +256,7 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
   std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic, double inside)
 {
   // As if all blocks had been in the same iteration: what has changed in each, added up. The
-  // threads' seconds are shared out as they were spent.
+  // seconds are shared out as the threads that make the visits have spent them.
   const double meanEdge = this->MeanEdgeLength();
   const double seconds = this->Lap();
   const double serial = seconds > 0. ? std::max(1. - inside / seconds, 0.) : 0.;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 namespace volumic
 {
@@ -473,6 +474,6 @@ std::vector<Proximity::FacePair> Proximity::FindIntersections(
 {
   Proximity all;
   all.Examine(state, vertices, executor);
-  return all.AllIntersections;
+  return std::move(all.AllIntersections);
 }
 }

@@ -28,7 +28,8 @@ struct BlockVisit
   Box Moving;                ///< Vertices that lie in it may move; EditShare::Region is for edits.
   Box Written;               ///< Beyond it nothing is changed.
   EditShare Share;
-  Executor* Idle = &OnThisThread(); ///< Threads that may share in what only reads the mesh.
+  /** Threads that may share in what writes to its own vertex only, and reads nothing written so. */
+  Executor* Idle = &OnThisThread();
 
   std::ptrdiff_t OldOnes = 0; ///< Of the vertices, those that there were when it was opened.
   int PlacesBefore = 0;       ///< As many as the share had then.

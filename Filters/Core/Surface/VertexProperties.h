@@ -64,7 +64,8 @@ public:
   }
   void Lengthen(std::size_t n, Executor& executor)
   {
-    executor.For(this->All.size(), 1,
+    // An array that is lengthened is there twice for a moment: a few at a time.
+    executor.For(this->All.size(), this->All.size() / 4,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
