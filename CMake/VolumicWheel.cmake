@@ -20,9 +20,9 @@ if (NOT VTK_FOUND)
   string(APPEND missing "\n  VTK 9.1 or later, with its header files, CMake files and Python "
     "package (Debian: libvtk9-dev python3-vtk9)")
 endif ()
-find_package(nlohmann_json QUIET)
+find_package(nlohmann_json 3.9 QUIET)
 if (NOT nlohmann_json_FOUND)
-  string(APPEND missing "\n  nlohmann_json (Debian: nlohmann-json3-dev)")
+  string(APPEND missing "\n  nlohmann_json 3.9 (Debian: nlohmann-json3-dev)")
 endif ()
 if (missing)
   message(FATAL_ERROR "volumic is compiled for the VTK of this machine, and here is missing:"

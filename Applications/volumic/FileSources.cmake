@@ -35,7 +35,7 @@ set(volumic_reader_sources
   VolumeImage.cxx
   VtkMessages.cxx
   VtkReaders.cxx)
-find_package(nlohmann_json REQUIRED) # headers, in Debian's nlohmann-json3-dev
+find_package(nlohmann_json 3.9 REQUIRED) # headers, in Debian's nlohmann-json3-dev
 list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.

@@ -41,11 +41,7 @@ std::vector<std::string> HeaderLines(const std::string& name)
 std::size_t FindKey(const std::vector<std::string>& lines, const std::string& key)
 {
   const auto found = std::find_if(lines.begin(), lines.end(),
-    [&](const std::string& line)
-    {
-      const std::size_t sign = line.find_first_of("=:");
-      return sign != std::string::npos && Lower(Trimmed(line.substr(0, sign))) == Lower(key);
-    });
+    [&key](const std::string& line) { return IsOfKey(line, key); });
   return static_cast<std::size_t>(found - lines.begin());
 }
 
@@ -125,6 +121,12 @@ std::vector<std::string> FilesOfFolder(const std::string& folder)
   std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
   return slices.empty() ? files : slices;
 }
+}
+
+bool IsOfKey(const std::string& line, const std::string& key)
+{
+  const std::size_t sign = line.find_first_of("=:");
+  return sign != std::string::npos && Lower(Trimmed(line.substr(0, sign))) == Lower(key);
 }
 
 std::string HeaderValue(const std::string& name, const std::string& key)

@@ -23,6 +23,9 @@ void NeedFilesOfVolume(const std::string& name);
  * a.raw"), without blanks at its ends; empty if there is none.
  */
 std::string HeaderValue(const std::string& name, const std::string& key);
+
+/** Whether a line of a text header is "key = value" or "key: value", of any case. */
+bool IsOfKey(const std::string& line, const std::string& key);
 }
 
 #endif

@@ -19,21 +19,28 @@ namespace
 {
 using Json = nlohmann::ordered_json; // members in the order of the file
 
-/** @throws Failure that names the line, if the text is no JSON or is nested too deeply. */
+/** @throws Failure, which names the line if the text is no JSON, or if it is too deep or large. */
 Json ParseJson(const std::string& text)
 {
+  constexpr std::size_t most = 30000; // Each new member is looked for among those before it.
+  std::size_t members = 0;
   try
   {
     return Json::parse(text,
-      [](int depth, Json::parse_event_t, Json&)
+      [&members](int depth, Json::parse_event_t event, Json&)
       {
+        members += event == Json::parse_event_t::key ? 1 : 0;
+        if (members > most)
+        {
+          throw Failure("the JSON has more than " + std::to_string(most) + " members");
+        }
         return depth <= 64 ? true : throw Failure("the JSON is nested too deeply");
       });
   }
   catch (const Json::exception& error)
   {
     const std::string reason = error.what(); // "[json.exception.parse_error.101] parse error ..."
-    throw Failure("it is no JSON: " + AsUtf8(reason.substr(reason.find("] ") + 2)));
+    throw Failure("it is no JSON: " + AsUtf8(reason.substr(reason.find("] ") + 2, 200)));
   }
 }
 
@@ -196,12 +203,18 @@ bool IsUsualKey(const std::string& key)
 LabelNames FindNames(const Json& value)
 {
   LabelNames names = NamesIn(value);
+  if (!names.empty() || !value.is_structured())
+  {
+    return names;
+  }
   for (const bool isUsual : { true, false })
   {
     for (const auto& member : value.items())
     {
-      const bool isNext = names.empty() && value.is_structured();
-      names = isNext && IsUsualKey(member.key()) == isUsual ? FindNames(member.value()) : names;
+      if (names.empty() && IsUsualKey(member.key()) == isUsual)
+      {
+        names = FindNames(member.value());
+      }
     }
   }
   return names;

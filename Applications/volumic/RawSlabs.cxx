@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iomanip>
 #include <optional>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace tool
@@ -30,7 +32,7 @@ std::string DirectoryOf(const std::string& directory)
 int OpenNameless(const std::string& directory)
 {
   std::string name = directory + "/volumic-XXXXXX";
-  const int number = mkstemp(name.data());
+  const int number = mkostemp(name.data(), O_CLOEXEC);
   if (number >= 0)
   {
     unlink(name.c_str());
@@ -56,11 +58,12 @@ void ReadNumbers(std::istream& text, vtkDataArray* values)
 {
   const int components = values->GetNumberOfComponents();
   const vtkIdType wanted = values->GetNumberOfValues();
+  constexpr int longest = 512; // No number is as long, and nothing longer is kept.
   vtkIdType there = 0;
-  for (std::string word; there <= wanted && text >> word; ++there)
+  for (std::string word; there <= wanted && text >> std::setw(longest) >> word; ++there)
   {
     const std::optional<double> number = AsNumber<double>(word);
-    if (!number)
+    if (!number || word.size() == longest)
     {
       throw Failure(
         "the file is damaged: its value " + std::to_string(there + 1) + " is no number");
@@ -149,6 +152,14 @@ void RawSlabs::CheckLength(const std::string& file) const
 
 void RawSlabs::Prepare(const Opening& opening)
 {
+  if (this->Components < 1 || this->Bytes() == 0 || this->Bytes() % this->Files.size() != 0)
+  {
+    throw Failure("its header is damaged: its voxels are none, or not as many in each file");
+  }
+  if (this->Code == Packing::Text && this->Files.size() > 1)
+  {
+    throw Failure("voxels as text in several files are not read");
+  }
   std::for_each(this->Files.begin(), this->Files.end(),
     [this](const std::string& file) { this->CheckLength(file); });
   this->HasParts = this->Code != Packing::Text;
@@ -213,8 +224,9 @@ vtkSmartPointer<vtkDataArray> RawSlabs::Read(int first, int count)
   }
   else
   {
-    this->Unpack([bytes](const char* got, std::size_t size) mutable
-      { bytes = std::copy_n(got, size, bytes); });
+    char* next = bytes; // goes on from file to file
+    this->Unpack(
+      [&next](const char* got, std::size_t size) { next = std::copy_n(got, size, next); });
   }
   ToNativeOrder(values, this->IsBig);
   return values;

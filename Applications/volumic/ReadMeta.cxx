@@ -5,6 +5,8 @@
 // been cut off it gives what memory holds: the voxels are read here.
 #include "SlabReader.h"
 
+#include "BinaryFile.h"
+#include "ByteBudget.h"
 #include "InputFiles.h"
 #include "ParseNumbers.h"
 #include "RawSlabs.h"
@@ -21,7 +23,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <iostream>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -99,12 +101,22 @@ std::string WorldAxesOf(const std::string& name)
 /** Where the data of a file with a header begin: behind the line that tells where they are. */
 std::uint64_t BehindHeader(const std::string& name)
 {
-  std::ifstream file(name, std::ios::binary);
+  BinaryFile file(name);
+  std::istringstream head(file.Text(0, std::min(LargestText, file.Size())));
   std::string line;
-  while (std::getline(file, line) && line.compare(0, 15, "ElementDataFile") != 0)
+  while (std::getline(head, line) && !IsOfKey(line, "ElementDataFile"))
   {
   }
-  return file ? static_cast<std::uint64_t>(file.tellg()) : 0;
+  return head.good() ? static_cast<std::uint64_t>(head.tellg()) : file.Size();
+}
+
+/** What VTK's reader tells; what MetaIO prints on std::cerr of a damaged header is dropped. */
+ReaderSlabs ReadHeader(const std::string& name)
+{
+  std::ostringstream dropped;
+  const std::unique_ptr<std::streambuf, void (*)(std::streambuf*)> printed(
+    std::cerr.rdbuf(dropped.rdbuf()), [](std::streambuf* output) { std::cerr.rdbuf(output); });
+  return ReaderSlabs(name, [&name] { return NewReader<vtkMetaImageReader>(name); });
 }
 
 /**
@@ -195,8 +207,7 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
   slabs->Code = !IsTrue(name, "BinaryData", true) ? RawSlabs::Packing::Text
     : IsTrue(name, "CompressedData")              ? RawSlabs::Packing::Zlib
                                                   : RawSlabs::Packing::None;
-  static_cast<SlabReader&>(*slabs) =
-    ReaderSlabs(name, [&name] { return NewReader<vtkMetaImageReader>(name); });
+  static_cast<SlabReader&>(*slabs) = ReadHeader(name);
   slabs->Type = type;
   slabs->ArrayName = "MetaImage";
   slabs->WorldAxes = WorldAxesOf(name);

@@ -237,7 +237,7 @@ std::uint64_t BehindLines(const std::string& file, std::uint64_t start, int line
   {
     data.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
-  return data ? static_cast<std::uint64_t>(data.tellg()) : std::filesystem::file_size(file);
+  return data.good() ? static_cast<std::uint64_t>(data.tellg()) : std::filesystem::file_size(file);
 }
 
 /** Whether each voxel has several numbers, one behind the other, as the layers of segmentations. */

@@ -52,6 +52,7 @@ struct FoundVolume
 
 FoundVolume InSlabs(std::shared_ptr<SlabReader> slabs)
 {
+  PlaceImage(vtkNew<vtkImageData>(), slabs->Placement); // fails here rather than in a pipeline
   return { slabs->HasParts ? NewSlabSource(slabs) : nullptr,
     [slabs] { return ReadAllSlabs(*slabs); } };
 }

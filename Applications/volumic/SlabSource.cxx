@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <utility>
 
 namespace tool
@@ -140,6 +141,11 @@ protected:
     {
       FillImage(*this->Reader, extent, vtkImageData::GetData(info));
       return 1;
+    }
+    catch (const std::bad_alloc&)
+    {
+      vtkErrorMacro(<< "not enough memory to read it; crop it, or resample it to fewer voxels");
+      return 0;
     }
     catch (const std::exception& error)
     {

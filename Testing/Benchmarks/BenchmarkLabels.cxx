@@ -321,8 +321,12 @@ LabelBenchmarkOptions ParseOptions(int argc, char** argv)
     { "--smoothing", [&o](Text text) { o.Settings.Smoothing = std::stod(text); } },
     { "--voxel-tolerance", [&o](Text text) { o.Settings.VoxelTolerance = std::stod(text); } },
   };
-  for (int i = 1; i + 1 < argc; i += 2)
+  for (int i = 1; i < argc; i += 2)
   {
+    if (takers.count(argv[i]) == 0 || i + 1 == argc)
+    {
+      throw std::invalid_argument(std::string("no option, or one without a value: ") + argv[i]);
+    }
     takers.at(argv[i])(argv[i + 1]);
   }
   return o;
@@ -347,7 +351,7 @@ int main(int argc, char** argv)
   }
   catch (const std::invalid_argument& error)
   {
-    std::cerr << "BenchmarkLabels: " << error.what() << "\nTry --help." << std::endl;
+    std::cerr << "BenchmarkLabels: " << error.what() << "\nbenchmark_labels.py --help tells of the options." << std::endl;
     return 2;
   }
   catch (const std::exception& error)

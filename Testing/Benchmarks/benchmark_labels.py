@@ -9,6 +9,7 @@ Exit code: 0 all was run (targets may be missed), 1 a run failed, 2 the command 
 
 import argparse
 import math
+import signal
 import subprocess
 import sys
 
@@ -41,18 +42,22 @@ CSV_COLUMNS = """Seconds ProcessorSeconds PeakMegabytes LabelVoxels Vertices Tri
     OverlapIntersections""".split()
 
 
-def list_of(kind, least, what):
+def list_of(kind, least, what, most=math.inf):
     def parse(text):
         numbers = [kind(word) for word in text.split(",")]
-        if min(numbers) < least:
+        if min(numbers) < least or len(numbers) > most:
             raise argparse.ArgumentTypeError(f"needs {what} of at least {least}, not \"{text}\"")
         return text
-    parse.__name__ = "list of " + what
+    parse.__name__ = what
     return parse
 
 
-def integer(least):
+def integers(least):
     return list_of(int, least, "whole numbers")
+
+
+def integer(least):
+    return list_of(int, least, "one whole number", 1)
 
 
 def parse_options():
@@ -66,13 +71,13 @@ def parse_options():
     told.add_argument("--scan", metavar="FILE")
     told.add_argument("--thresholds", type=list_of(float, -math.inf, "numbers"), metavar="LIST",
                       help="that make labels of the scan")
-    told.add_argument("--body", type=integer(16), metavar="X,Y,Z", help="voxels of a map to be made")
+    told.add_argument("--body", type=integers(16), metavar="X,Y,Z", help="voxels of a map to be made")
     told.add_argument("--body-labels", type=integer(1), metavar="N")
     told.add_argument("--shapes", metavar="LIST", help="of these shapes (default: all)")
-    told.add_argument("--sizes", type=integer(32), metavar="LIST", help="voxels of shapes (64,128)")
+    told.add_argument("--sizes", type=integers(32), metavar="LIST", help="voxels of shapes (64,128)")
     told.add_argument("--stretches", type=list_of(float, 1, "numbers"), metavar="LIST",
                       help="lengths of voxels of shapes (1,3)")
-    told.add_argument("--labels", type=integer(-32768), metavar="LIST", help="these (all but 0)")
+    told.add_argument("--labels", type=integers(-32768), metavar="LIST", help="these (all but 0)")
     told.add_argument("--least", type=integer(1), metavar="N", help="voxels of a label (64)")
     told.add_argument("--runs", metavar="LIST", help="these (all that this build has)")
     told.add_argument("--threads", type=integer(1), metavar="N", help="of us; peers have one (1)")
@@ -252,8 +257,13 @@ def target_rows(rows):
 def main():
     options = parse_options()
     rows, status = run(options)
+    if status == 2:
+        return 2
     if status:
-        return status if status == 2 else 1
+        end = signal.strsignal(-status) if status < 0 else f"exit code {status}"
+        print(f"{options.program} has failed ({end}); it told {len(rows)} rows", file=sys.stderr)
+        if not rows:
+            return 1
     if options.map or options.scan or options.body:
         print_summary(rows)
     else:
@@ -265,7 +275,7 @@ def main():
     write_tables(options.csv, [["Map", "Label", "Run", *CSV_COLUMNS, "Failure"]] + [
         [row.map, row.label, row.run, *(exact_text(row.figures[name]) for name in CSV_COLUMNS),
          row.figures.failure] for row in rows], targets=targets)
-    return 1 if any(row.figures.failure for row in rows) else 0
+    return 1 if status or any(row.figures.failure for row in rows) else 0
 
 
 if __name__ == "__main__":

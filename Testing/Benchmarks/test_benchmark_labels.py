@@ -200,6 +200,7 @@ class CommandLine(unittest.TestCase):
                 (["--map", "map.vti", "--body", "64,64,64"], "alone"),
                 (["--body", "64"], "three numbers"),
                 (["--mask"], "--map"),
+                (["--threads", "1,2"], "one whole number"),
                 (["--csv"], "expected one argument"),
                 (["--frobnicate"], "--frobnicate")):
             with self.subTest(arguments=arguments):
@@ -211,6 +212,24 @@ class CommandLine(unittest.TestCase):
         done = run("--body", "48,48,48", "--body-labels", "2", "--labels", "77")
         self.assertEqual(done.returncode, 2)
         self.assertIn("none of these labels", done.stderr)
+
+    def test_a_program_that_is_killed_is_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program, path = os.path.join(folder, "program"), os.path.join(folder, "runs.csv")
+            with open(program, "w") as file:
+                file.write('#!/bin/sh\nprintf "@row a\\t1\\tus\\n@number Triangles 8\\n"\nkill -9 $$\n')
+            os.chmod(program, 0o755)
+            done = run("--program", program, "--csv", path)
+            rows = read_csv(path)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("has failed (Killed); it told 1 rows", done.stderr)
+        self.assertEqual([number(row, "Triangles") for row in rows], [8])
+
+    def test_the_program_names_what_is_no_option(self):
+        for arguments in (["--frobnicate", "1"], ["--map"]):
+            done = subprocess.run([PROGRAM[-1], *arguments], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(arguments[0], done.stderr)
 
     def test_help(self):
         done = run("--help")

@@ -112,6 +112,11 @@ class FilesTest(DamageTest):
         text = " ".join(map(str, ball().ravel())).encode()
         header = header.replace(b"BinaryData = True", b"BinaryData = False")
         self.cut("a.mha", header + text + b"\n", "it has [0-9]+ values, its header asks for 10296")
+        self.refused_file("b.mha", header + b"0" * 600 + text, "its value 1 is no number")
+        for k, plane in enumerate(ball()):
+            self.write_bytes(f"{k}.txt", " ".join(map(str, plane.ravel())).encode())
+        self.refused_file("c.mhd", header.replace(b"LOCAL", b"%%d.txt 0 %d 1" % (SIZE[2] - 1)),
+                          "voxels as text in several files are not read")
 
     def test_legacy_vtk(self):
         for name in ("FileTypeToBinary", "FileTypeToASCII"):

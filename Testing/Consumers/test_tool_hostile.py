@@ -132,6 +132,22 @@ class HeaderTest(HostileTest):
             self.refused_bytes("a.mhd", header.replace(b"LOCAL", word),
                                "gives no 18 files|cannot be opened")
 
+    def test_sizes_that_are_not_those_of_the_files(self):
+        """Keys of another case or told twice, of which VTK's reader takes others."""
+        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        listed = header.replace(b"LOCAL", b"%d.raw 0 17 1")
+        for sizes, share in ((b"1 1 19", 2), (b"1 1 2", 0)):
+            for k in range(18):
+                self.write_bytes(f"{k}.raw", bytes(share))
+            content = listed.replace(b"DimSize = 26 22 18", b"dimsize = 1 1 18\nDimSize = " + sizes)
+            self.refused_bytes("a.mhd", content, "header is damaged")
+        for content in (header + ball().tobytes(), listed):
+            self.refused_bytes("b.mhd", content.replace(
+                b"ElementType", b"ElementNumberOfChannels = 0\nElementType"), "header is damaged")
+        self.write_bytes("c.mha", header.replace(b"DimSize", b"dimsize"))
+        said = self.run_limited(self.path("c.mha"), self.path("x.stl"), "--iso", ISO).stderr
+        self.assertRegex(said, r"\Avolumic: .*cannot parse file.*\n\Z")
+
     def test_more_slices_than_a_list_has(self):
         header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
         listed = header.replace(b"26 22 18", b"26 22 18446744073709551615")
@@ -352,6 +368,15 @@ class NamesTest(HostileTest):
                         b'{"a":' * (most // 5), b"[1," * (most // 10)):
             with self.subTest(content[:10]):
                 self.assertIn(self.names("names.txt", content).returncode, (0, 1))
+
+    def test_members_and_names_of_json(self):
+        """Each member is looked for among all others; the names that were found, copied for each."""
+        members = b"{" + b",".join(b'"%d":1' % k for k in range(1200000)) + b"}"
+        process = self.names("names.json", members)
+        self.assertRegex(process.stderr, "volumic: .*names.json: .*more than 30000 members")
+        names = b",".join([b'{"label":1,"name":"a"}'] * 10000)
+        process = self.names("names.json", b"[[" + names + b"]" + b",0" * (7 << 20) + b"]")
+        self.assertIn(process.returncode, (0, 1))
 
     def test_many_names_twice(self):
         """Those of the map and those of the file are put together."""

@@ -73,9 +73,16 @@ class MemoryTest(ToolTestCase):
         self.check(self.path("a.mha"))
         self.assertEqual(self.content("slabs.vti"), voxels)
         packed = zlib.compress(large_ball().tobytes(), 1)
-        header = header.replace(b"CompressedData = False", b"CompressedData = True\n"
+        zipped = header.replace(b"CompressedData = False", b"CompressedData = True\n"
                                 b"CompressedDataSize = %d" % len(packed))
-        self.check(self.write_bytes("c.mha", header + packed))
+        self.check(self.write_bytes("c.mha", zipped + packed))
+        for k, plane in enumerate(large_ball()):
+            self.write_bytes(f"{k}.zraw", zlib.compress(plane.tobytes(), 1))
+        zipped = header.replace(b"CompressedData = False", b"CompressedData = True")
+        names = "".join(f"{k}.zraw\n" for k in range(SIZE[0])).encode()
+        for data in (b"%%d.zraw 0 %d 1" % (SIZE[0] - 1), b"LIST\n" + names):
+            self.check(self.write_bytes("e.mhd", zipped.replace(b"LOCAL", data)))
+            self.assertEqual(self.content("slabs.vti"), voxels)
 
     def test_nrrd(self):
         for encoding, code in (("raw", bytes), ("gzip", lambda data: gzip.compress(data, 1)),
