@@ -134,10 +134,9 @@ bool vtkDeformableSurface::GetNeedsUpdate()
 
 void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
-  // Who presses twice may be heard after the run has ended.
-  const vtkMTimeType before = this->GetMTime();
-  this->Superclass::SetAbortExecute(abort);
-  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
+  // Who presses twice may be heard after the run has ended: that neither makes the filter run again
+  // nor others stop.
+  this->AbortExecute = abort && this->Internals->Alone;
 }
 
 void vtkDeformableSurface::GoOn()
@@ -285,8 +284,7 @@ int vtkDeformableSurface::RequestData(
   this->TellWarnings();
   this->Internals->InitialSurface = nullptr;
   this->Internals->AttractingPoints = nullptr;
-  const vtkMTimeType before = this->GetMTime();
   volumic::ForgetAbort(this);
-  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
+  this->Internals->Alone.reset();
   return 1;
 }

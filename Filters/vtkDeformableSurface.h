@@ -81,13 +81,13 @@
  * Columns of the history, of which a row adds up what all blocks did in the same iteration:
  * - `Iteration`: over all levels, from 1
  * - `Level`: that of the iteration
- * - `Vertices`, `Components`, `EulerCharacteristic`, `MeanEdgeLength`: of the surface after it
+ * - `Vertices`, `EulerCharacteristic`: of the surface after it
+ * - `Components`, `MeanEdgeLength`: of that at the end of the sweep of several iterations it is in
  * - `IterationVertices`, `IterationComponents`, `IterationEulerCharacteristic`,
  *   `IterationMeanEdgeLength`: the same, but in the last row of a level before its regularisation
  * - `RegularisationCuts`, `RegularisationDeletions`: what the regularisation changed of them
  * - `KineticEnergy`: the mean over the vertices, along the normals
- * - `TimeStep`: the longest of all blocks
- * - `ActiveVertices`: those that are not at rest
+ * - `TimeStep`: the longest of all blocks; `ActiveVertices`: those that are not at rest
  * - `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips`: how many there were
  * - `Deletions`, `DeletedGenus`: components that were deleted, and the sum of their genera
  * - `RecoveredParts`: those that were found before this iteration
@@ -703,7 +703,7 @@ public:
   void GoOn();
 
 #ifndef __VTK_WRAP__ // It is no property of ours.
-  /** As of all algorithms; what is kept of the last run stays. */
+  /** As of all algorithms, but while no run is under way it asks for nothing, and changes nothing. */
   void SetAbortExecute(vtkTypeBool abort) override;
 #endif
 

@@ -232,8 +232,9 @@ void vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, boo
     request.IsStep = !settings.End.Preview;
     return;
   }
-  const int next = cache.EndOfRun() - 1;
-  if (settings.EdgeLength != 0.0 || next <= std::max(settings.End.FinestLevel, 0))
+  const int next = cache.NextLevel();
+  if (settings.End.Preview || settings.EdgeLength != 0.0 ||
+    next <= std::max(settings.End.FinestLevel, 0))
   {
     return;
   }

@@ -51,6 +51,7 @@ public:
   std::string ScratchDirectory;
   volumic::LabelNames Names;
   volumic::LimitedMemory Memory;
+  bool IsRunning = false;
   std::vector<double> Seconds; ///< of each block
   /** Of a run that was stopped, for one of the same filter and the same input; else empty. */
   std::vector<volumic::LabelSurface> Stopped;
@@ -189,9 +190,7 @@ void vtkLabelsToSurfaces::GoOn()
 
 void vtkLabelsToSurfaces::SetAbortExecute(vtkTypeBool abort)
 {
-  const bool isSame = this->Internals->StoppedTime == this->GetMTime();
-  this->Superclass::SetAbortExecute(abort);
-  this->Internals->StoppedTime = isSame ? this->GetMTime() : 0;
+  this->AbortExecute = abort && this->Internals->IsRunning; // See vtkDeformableSurface.
 }
 
 //------------------------------------------------------------------------------
@@ -255,7 +254,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
   {
     this->Internals->Seconds.push_back(surface.Seconds);
   }
-  if (volumic::IsAbortRequested(this) && volumic::SegmentationCache::MayKeep(this))
+  if (volumic::IsAbortRequested(this) && volumic::SegmentationCache::MayKeep(this) &&
+    !maker.KeepsApart())
   {
     this->Internals->Stopped = surfaces;
   }
@@ -288,6 +288,7 @@ int vtkLabelsToSurfaces::RequestData(
     }
     return 1;
   }
+  this->Internals->IsRunning = true;
   this->Internals->Seconds.clear();
   const volumic::SegmentationCache::Inputs inputs = volumic::SegmentationCache::InputsOf(this);
   if (this->Internals->StoppedTime != this->GetMTime() || this->Internals->StoppedInputs != inputs)
@@ -318,6 +319,7 @@ int vtkLabelsToSurfaces::RequestData(
   }
   volumic::ShareBlocks(*ranks, output);
   volumic::ForgetAbort(this);
+  this->Internals->IsRunning = false;
   this->Internals->StoppedTime = this->Internals->Stopped.empty() ? 0 : this->GetMTime();
   this->Internals->StoppedInputs = inputs;
   volumic::GiveBackFreeMemory();

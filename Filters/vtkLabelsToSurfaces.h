@@ -240,7 +240,7 @@ public:
   void GoOn();
 
 #ifndef __VTK_WRAP__ // It is no property of ours.
-  /** As of all algorithms; what is kept of a run that was stopped stays. */
+  /** As of all algorithms, but while no run is under way it asks for nothing, and changes nothing. */
   void SetAbortExecute(vtkTypeBool abort) override;
 #endif
 

@@ -303,7 +303,7 @@ std::vector<LabelSurface> Making::Take()
 {
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
-    this->Surfaces[i].Seconds = this->Seconds[i];
+    this->Surfaces[i].Seconds += this->Seconds[i]; // Those that are kept have some.
   }
   return std::move(this->Surfaces);
 }

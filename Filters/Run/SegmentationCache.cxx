@@ -145,9 +145,10 @@ const SegmentationResults* SegmentationCache::ResultsFor(
   return &results;
 }
 
-int SegmentationCache::EndOfRun() const
+int SegmentationCache::NextLevel() const
 {
-  return this->Run->EndsAt();
+  const int end = this->Run->EndsAt();
+  return this->Run->Results().HasAtRest(end) ? end - 1 : end;
 }
 
 std::unique_ptr<SurfaceSegmentation> SegmentationCache::TakeRun()

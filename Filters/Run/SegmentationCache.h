@@ -56,8 +56,8 @@ public:
   int EndOf(const SegmentationEnd& end) const;
   /** Whether there is a run that can. */
   bool CanGoOn() const { return this->Run != nullptr; }
-  /** The level at which it has ended. */
-  int EndOfRun() const;
+  /** The one after the level at which it has ended, or, where it was stopped before, that level. */
+  int NextLevel() const;
   /** The run, where it can go on from what it has; else null. It is kept no longer. */
   std::unique_ptr<SurfaceSegmentation> TakeRun();
 

@@ -18,10 +18,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 namespace volumic
 {
+namespace
+{
+/** Does what a run can do without. @return whether the memory has sufficed for it. */
+template <typename Work>
+bool HasRoomFor(const Work& work)
+{
+  try
+  {
+    work();
+    return true;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return false;
+  }
+  catch (const ScratchFull&)
+  {
+    return false;
+  }
+}
+}
+
 SurfaceSegmentation::SurfaceSegmentation(
   const SegmentationVolume& volume, const SegmentationRequest& request)
   : Settings(volume.Settings), Levels(volume),
@@ -284,9 +307,17 @@ void SurfaceSegmentation::KeepRest()
   FileInMemory().swap(this->Rest);
   if (this->Request.MayGoOn && this->Reached <= this->Choice.Coarsest)
   {
-    CheckedWriter file(this->Rest);
-    this->Evolution->Save(file);
-    file.Commit();
+    const bool isKept = HasRoomFor(
+      [this]
+      {
+        CheckedWriter file(this->Rest);
+        this->Evolution->Save(file);
+        file.Commit();
+      });
+    if (!isKept)
+    {
+      FileInMemory().swap(this->Rest);
+    }
   }
 }
 
@@ -295,11 +326,21 @@ void SurfaceSegmentation::ReturnToRest()
   if (this->Evolution->IsStopped() && !this->Rest.empty())
   {
     this->Evolution.reset(); // Not both at a time.
-    this->MakeEvolution();
-    CheckedReader file(this->Rest);
-    this->Evolution->Load(file);
-    this->Reached += this->Found.HasAtRest(this->Reached) ? 0 : 1;
-    this->GoesOn = true;
+    this->GoesOn = HasRoomFor(
+      [this]
+      {
+        this->MakeEvolution();
+        CheckedReader file(this->Rest);
+        this->Evolution->Load(file);
+      });
+    if (this->GoesOn)
+    {
+      this->Reached += this->Found.HasAtRest(this->Reached) ? 0 : 1;
+    }
+    else
+    {
+      this->Evolution.reset(); // The surface as it was stopped stays.
+    }
   }
   FileInMemory().swap(this->Rest);
 }

@@ -268,6 +268,17 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
   }
 }
 
+TEST_F(GoingOn, IsNotMadeToByALateRequestToStop)
+{
+  {
+    const StopAtText stop(this->Filter, "Level 0, iteration", 2);
+    this->Filter->Update();
+  }
+  this->Filter->SetAbortExecute(1);
+  EXPECT_TRUE(ShowsAtOnce(this->Filter));
+  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
+}
+
 TEST_F(GoingOn, ShowsCoarserLevelsAfterAStop)
 {
   const StopAtText stop(this->Filter, "Level 1 is done", 1);

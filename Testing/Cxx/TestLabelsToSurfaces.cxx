@@ -488,6 +488,11 @@ TEST(LabelsToSurfaces, GoesOnWithWhatIsMissingAfterAStop)
       EXPECT_LE(stop.Left, 0);
       EXPECT_EQ(warnings.Get(), "") << "what was not finished is not lost";
     }
+    filter->SetAbortExecute(1); // Heard after the run has ended.
+    ProgressListener late(filter);
+    filter->Update();
+    filter->RemoveAllObservers();
+    EXPECT_EQ(late.Texts.count("0 of 1"), 0u);
     filter->GoOn();
     return [&]
     {
@@ -496,6 +501,7 @@ TEST(LabelsToSurfaces, GoesOnWithWhatIsMissingAfterAStop)
       for (const unsigned int block : { 0u, 1u })
       {
         EXPECT_TRUE(AreSameSurfaces(BlockOf(filter, block), BlockOf(whole, block)));
+        EXPECT_GT(filter->GetSeconds(static_cast<int>(block)), 0.0);
       }
       EXPECT_EQ(listener.Texts.count("0 of 1") + listener.Texts.count("0 of 2"), 1u);
       return listener.Texts.count("0 of 2") > 0;

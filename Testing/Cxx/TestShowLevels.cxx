@@ -59,6 +59,24 @@ TEST(ShowLevels, GivesThemOneByOneToWhoAsks)
   EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 0 });
 }
 
+TEST(ShowLevels, ShowsTheLevelThatWasStopped)
+{
+  for (const bool isPreview : { false, true })
+  {
+    const auto filter = FilterOf(LargeBall());
+    filter->SetPreview(isPreview);
+    filter->GetNeedsUpdate();
+    {
+      const StopAtText stop(filter, "Level 1, iteration", 1);
+      filter->Update();
+      ASSERT_EQ(StopReason(filter->GetOutput()), "cancelled");
+    }
+    EXPECT_FALSE(filter->GetNeedsUpdate());
+    filter->GoOn();
+    EXPECT_EQ(LevelsShown(filter), isPreview ? std::vector<int>{ 1 } : (std::vector<int>{ 1, 0 }));
+  }
+}
+
 TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
 {
   const auto filter = FilterOf(LargeBall());

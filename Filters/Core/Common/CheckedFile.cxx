@@ -124,7 +124,7 @@ bool CheckedWriter::Append(const void* bytes, std::size_t count)
   if (this->Memory)
   {
     const auto* first = static_cast<const unsigned char*>(bytes);
-    this->Memory->insert(this->Memory->end(), first, first + count);
+    this->Memory->emplace_back(first, first + count);
     return true;
   }
   return std::fwrite(bytes, 1, count, this->File) == count;
@@ -216,8 +216,12 @@ CheckedReader::CheckedReader(const std::string& name)
 }
 
 CheckedReader::CheckedReader(const FileInMemory& memory)
-  : Memory(&memory), Left(memory.size())
+  : Memory(&memory)
 {
+  for (const auto& piece : memory)
+  {
+    this->Left += piece.size();
+  }
 }
 
 CheckedReader::~CheckedReader()
@@ -239,9 +243,13 @@ bool CheckedReader::Fetch(void* bytes, std::size_t count)
   this->Left -= std::min<std::uint64_t>(left, count);
   if (this->Memory)
   {
-    const std::size_t part = static_cast<std::size_t>(left - this->Left);
-    std::memcpy(bytes, this->Memory->data() + (this->Memory->size() - left), part);
-    return part == count;
+    // A piece is what was appended at a time.
+    if (this->Pieces == this->Memory->size() || (*this->Memory)[this->Pieces].size() != count)
+    {
+      return false;
+    }
+    std::copy_n((*this->Memory)[this->Pieces++].data(), count, static_cast<unsigned char*>(bytes));
+    return true;
   }
   return std::fread(bytes, 1, count, this->File) == count;
 }

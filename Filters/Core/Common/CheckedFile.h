@@ -25,8 +25,8 @@ struct FileError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** What stands for a file in memory, which may be limited. */
-using FileInMemory = LargeVector<unsigned char>;
+/** What stands for a file in memory, which may be limited: in pieces, so that it grows in place. */
+using FileInMemory = std::vector<LargeVector<unsigned char>>;
 
 /**
  * Writes a file beside its place, `NAME.new`, and moves it there when it is whole and on the disk.
@@ -36,9 +36,9 @@ class CheckedWriter
 {
 public:
   explicit CheckedWriter(const std::string& name);
-  /** Behind what is there, which must outlive it. */
+  /** It writes behind what the memory holds, which must outlive it. */
   explicit CheckedWriter(FileInMemory& memory);
-  /** What was not committed leaves nothing. */
+  /** Where nothing was committed, no file is left. */
   ~CheckedWriter();
   CheckedWriter(const CheckedWriter&) = delete;
   CheckedWriter& operator=(const CheckedWriter&) = delete;
@@ -83,7 +83,7 @@ class CheckedReader
 {
 public:
   explicit CheckedReader(const std::string& name);
-  /** From its begin; it must outlive the reader. */
+  /** It reads from the begin of the memory, which must outlive it. */
   explicit CheckedReader(const FileInMemory& memory);
   ~CheckedReader();
   CheckedReader(const CheckedReader&) = delete;
@@ -121,6 +121,7 @@ private:
 
   std::string Name;
   const FileInMemory* Memory = nullptr; ///< null: a file
+  std::size_t Pieces = 0;               ///< So many of it have been read.
   std::FILE* File = nullptr;
   std::vector<unsigned char> Block;
   std::size_t Taken = 0;  ///< Of the block.
