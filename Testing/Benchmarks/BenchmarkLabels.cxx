@@ -351,7 +351,8 @@ int main(int argc, char** argv)
   }
   catch (const std::invalid_argument& error)
   {
-    std::cerr << "BenchmarkLabels: " << error.what() << "\nbenchmark_labels.py --help tells of the options." << std::endl;
+    std::cerr << "BenchmarkLabels: " << error.what()
+              << "\nbenchmark_labels.py --help tells of the options." << std::endl;
     return 2;
   }
   catch (const std::exception& error)

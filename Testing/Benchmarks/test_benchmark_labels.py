@@ -217,7 +217,8 @@ class CommandLine(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             program, path = os.path.join(folder, "program"), os.path.join(folder, "runs.csv")
             with open(program, "w") as file:
-                file.write('#!/bin/sh\nprintf "@row a\\t1\\tus\\n@number Triangles 8\\n"\nkill -9 $$\n')
+                file.write('#!/bin/sh\nprintf "@row a\\t1\\tus\\n@number Triangles 8\\n"\n'
+                           "kill -9 $$\n")
             os.chmod(program, 0o755)
             done = run("--program", program, "--csv", path)
             rows = read_csv(path)
