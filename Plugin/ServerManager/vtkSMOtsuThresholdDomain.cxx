@@ -245,11 +245,15 @@ void vtkSMOtsuThresholdDomain::Update(vtkSMProperty*)
     this->Following = true;
     this->Follow(this->CurrentChoice());
     this->Following = false;
-    // The range of another array may be the same.
+    // The range of another array, or of other data, may be the same.
     const Choice choice = this->CurrentChoice();
-    if (!(choice == this->Seen))
+    vtkPVDataInformation* data =
+      choice.HasArray() ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
+    const vtkMTimeType time = data ? data->GetMTime() : 0;
+    if (!(choice == this->Seen) || time != this->SeenTime)
     {
       this->Seen = choice;
+      this->SeenTime = time;
       this->DomainModified();
     }
   }

@@ -79,7 +79,8 @@ private:
   Choice Preset;      ///< what was chosen when the property was preset
   double PresetValue; ///< NaN: it never was
   bool Following = false;
-  Choice Seen;  ///< as all have been told
+  Choice Seen;  ///< as all have been told, and since when its data are so
+  vtkMTimeType SeenTime = 0;
   Choice Found; ///< what the histogram is of, and since when
   vtkMTimeType FoundTime = 0;
   Histogram Voxels;

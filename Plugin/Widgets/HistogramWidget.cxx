@@ -125,7 +125,9 @@ void HistogramWidget::paintEvent(QPaintEvent*)
 //------------------------------------------------------------------------------
 void HistogramWidget::Drag(const QMouseEvent* event, bool isDone)
 {
-  if (this->Counts.empty() || this->width() < 2)
+  // The buttons that are down, and the one that goes up.
+  const bool isLeft = (event->buttons() | event->button()).testFlag(Qt::LeftButton);
+  if (!isLeft || this->Counts.empty() || this->width() < 2)
   {
     return;
   }

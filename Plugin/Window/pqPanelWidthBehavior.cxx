@@ -11,6 +11,7 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QPointer>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTimer>
@@ -50,7 +51,17 @@ void pqPanelWidthBehavior::watchPanels()
     if (auto* area = panel->findChild<QScrollArea*>("scrollArea"))
     {
       this->connect(area->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
-        [this, area] { QTimer::singleShot(Delay, area, [this, area] { this->widen(area); }); });
+        [this, shown = QPointer<QScrollArea>(area)]
+        {
+          QTimer::singleShot(Delay, this,
+            [this, shown]
+            {
+              if (shown)
+              {
+                this->widen(shown);
+              }
+            });
+        });
     }
   }
 }
@@ -68,7 +79,7 @@ void pqPanelWidthBehavior::widen(QScrollArea* area)
     return;
   }
   const int wanted = dock->width() + area->horizontalScrollBar()->maximum();
-  // Of a view that is no wider than its panel nobody has anything.
+  // Most of the window is for the view: a panel that would take a third of it stays as it is.
   if (wanted > dock->width() && 3 * wanted < window->width())
   {
     window->resizeDocks({ dock }, { wanted }, Qt::Horizontal);

@@ -10,7 +10,8 @@ class QScrollArea;
 /**
  * When a surface of ours has been applied its display joins the properties in the panel, and needs
  * more width than ParaView's dock has in a small window, as advanced properties do: the dock is made
- * as wide. Who makes it narrower again is left alone.
+ * as wide, where that is less than a third of the window. Who makes it narrower afterwards is left
+ * alone.
  */
 class pqPanelWidthBehavior : public QObject
 {

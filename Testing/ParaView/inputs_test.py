@@ -106,6 +106,34 @@ class InputsTest(unittest.TestCase):
                     if proxy.GetProperty(property_):
                         proxy.GetProperty(property_).ResetToDomainDefaults()
                 proxy.UpdateVTKObjects()
+                if proxy.GetProperty("IsoValue"):
+                    proxy.GetProperty("Input").SetInputConnection(0, source.SMProxy, 0)
+                    proxy.GetProperty("SetInputArrayToProcess").ResetToDomainDefaults()
+                    proxy.GetProperty("IsoValue").ResetToDomainDefaults()
+                    value = servermanager.vtkSMPropertyHelper(proxy, "IsoValue").GetAsDouble()
+                    self.assertTrue(100.0 < value < 200.0, value)
+                elif proxy.GetProperty("Labels"):
+                    self.assertEqual(proxy.GetProperty("Labels").GetNumberOfElements(), 0)
+                else:
+                    self.assertEqual(proxy.GetObjectsCreated(), 1)
+
+    def test_data_that_become_others(self):
+        """Who shows the histogram hears of them, though their range is the same."""
+        values = numpy.zeros((8, 8, 8))
+        values[2:6, 2:6, 2:6] = 100.0
+        source = testing.produce(testing.make_image(values, name="v"))
+        filter_ = simple.VolumetoSurface(source)
+        domain = filter_.SMProxy.GetProperty("IsoValue").FindDomain("vtkSMOtsuThresholdDomain")
+        heard = []
+        domain.AddObserver("DomainModifiedEvent", lambda *_: heard.append(1))
+        source.UpdatePipeline()
+        values[1:3] = 50.0
+        source.GetClientSideObject().SetOutput(testing.make_image(values, name="v"))
+        source.GetClientSideObject().Modified()
+        source.MarkModified(source.SMProxy)
+        source.UpdatePipeline()
+        self.assertEqual(filter_.SMProxy.GetProperty("Input").GetNumberOfProxies(), 1)
+        self.assertGreater(len(heard), 0)
 
     def test_input_that_comes_later(self):
         source = simple.Wavelet()

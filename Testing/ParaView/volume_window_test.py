@@ -265,10 +265,11 @@ class VolumeWindowTest(window.WindowTestCase):
         path = testing.write_volume("histogram.vti", image)
         histogram = f"{PROPERTIES}/IsoValue/Histogram"
 
-        def drag(x, to):
-            """With the left button."""
-            return [gui.event(histogram, what, f"1,{buttons},0,{place},9")
-                    for what, buttons, place in (("mousePress", 1, x), ("mouseMove", 1, to),
+        def drag(x, to, button=1):
+            """With the left one, or another."""
+            return [gui.event(histogram, what, f"{button},{buttons},0,{place},9")
+                    for what, buttons, place in (("mousePress", button, x),
+                                                 ("mouseMove", button, to),
                                                  ("mouseRelease", 0, to))] + [gui.pause(300)]
         pixels = self.play([
             gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
@@ -276,6 +277,7 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.pause(1000), FILTER, gui.pause(500), gui.check(histogram, "visible", "true"),
             *drag(9, -5), gui.check(ISO_VALUE, "text", "0"),
             *drag(9, 5000), gui.check(ISO_VALUE, "text", "39"),
+            *drag(9, -5, button=2), gui.check(ISO_VALUE, "text", "39"),
             gui.event(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "set_string", "b"),
             gui.pause(500), *drag(9, 5000), gui.check(ISO_VALUE, "text", "100"),
             gui.event(ISO_VALUE, "set_string", "80"), gui.pause(300)], "volume-histogram")
