@@ -18,33 +18,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 
 namespace volumic
 {
-namespace
-{
-/** Does what a run can do without. @return whether the memory has sufficed for it. */
-template <typename Work>
-bool HasRoomFor(const Work& work)
-{
-  try
-  {
-    work();
-    return true;
-  }
-  catch (const std::bad_alloc&)
-  {
-    return false;
-  }
-  catch (const ScratchFull&)
-  {
-    return false;
-  }
-}
-}
-
 SurfaceSegmentation::SurfaceSegmentation(
   const SegmentationVolume& volume, const SegmentationRequest& request)
   : Settings(volume.Settings), Levels(volume),
@@ -302,49 +279,6 @@ void SurfaceSegmentation::MakeEvolution()
     std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
 }
 
-void SurfaceSegmentation::KeepRest()
-{
-  FileInMemory().swap(this->Rest);
-  if (this->Request.MayGoOn && this->Reached <= this->Choice.Coarsest)
-  {
-    const bool isKept = HasRoomFor(
-      [this]
-      {
-        CheckedWriter file(this->Rest);
-        this->Evolution->Save(file);
-        file.Commit();
-      });
-    if (!isKept)
-    {
-      FileInMemory().swap(this->Rest);
-    }
-  }
-}
-
-void SurfaceSegmentation::ReturnToRest()
-{
-  if (this->Evolution->IsStopped() && !this->Rest.empty())
-  {
-    this->Evolution.reset(); // Not both at a time.
-    this->GoesOn = HasRoomFor(
-      [this]
-      {
-        this->MakeEvolution();
-        CheckedReader file(this->Rest);
-        this->Evolution->Load(file);
-      });
-    if (this->GoesOn)
-    {
-      this->Reached += this->Found.HasAtRest(this->Reached) ? 0 : 1;
-    }
-    else
-    {
-      this->Evolution.reset(); // The surface as it was stopped stays.
-    }
-  }
-  FileInMemory().swap(this->Rest);
-}
-
 bool SurfaceSegmentation::PreviewMissesParts(int level) const
 {
   return this->Settings.End.Preview && this->GoesOn &&
@@ -423,66 +357,6 @@ bool SurfaceSegmentation::EvolveOn(
   }
   reason = evolution.IsStopped() ? StopReason::Cancelled : reason;
   return true;
-}
-
-void SurfaceSegmentation::PrepareCheckpoint()
-{
-  const CheckpointRequest& wanted = this->Request.Checkpoints;
-  if (!wanted.AreLeft && !wanted.Resumes)
-  {
-    this->Left.reset();
-  }
-  else if (this->Evolution)
-  {
-    // It goes on with the one that it has: levels that it has let go of tell nothing any more.
-    this->Request.Checkpoints.Prepared(this->Left);
-  }
-  else
-  {
-    HostThreads threads(this->Settings.End.NumberOfThreads);
-    threads.Run(
-      [&]
-      {
-        SegmentationSettings settings = this->Settings;
-        settings.CoarsestLevel = this->Choice.Coarsest;
-        this->Left = std::make_shared<SegmentationCheckpoint>(
-          wanted.Directory, RunFingerprint(settings, this->Request, this->Levels, threads));
-      });
-  }
-}
-
-void SurfaceSegmentation::Resume()
-{
-  if (!this->Left)
-  {
-    return;
-  }
-  if (this->Request.Checkpoints.Resumes)
-  {
-    const auto place = this->Left->Load(this->Found, *this->Evolution);
-    if (place)
-    {
-      this->Reached = place->Level;
-      this->GoesOn = place->GoesOn;
-    }
-  }
-  this->Request.Checkpoints.Prepared(this->Left);
-}
-
-void SurfaceSegmentation::LeaveCheckpoint(int level)
-{
-  const CheckpointRequest& wanted = this->Request.Checkpoints;
-  const bool isLast = level <= this->Choice.Last && !this->Request.IsStep;
-  if (!this->Left || !wanted.AreLeft || !this->Found.HasAtRest(level) || (isLast && !wanted.Stay))
-  {
-    return;
-  }
-  const std::string warning =
-    this->Left->Save(this->Found, *this->Evolution, { level, this->GoesOn });
-  if (!warning.empty())
-  {
-    this->Request.Warn(warning);
-  }
 }
 
 bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult surface)
