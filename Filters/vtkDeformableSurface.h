@@ -415,6 +415,45 @@ public:
 
   ///@{
   /**
+   * Graded triangles: how far a face of the finest level's surface may be from the isopotential, in
+   * world units; 0, the default: edges of one length, delta to 2.5 delta, everywhere. Where the
+   * surface has come to rest, edges become longer wherever the faces stay within the tolerance, up
+   * to MaximumEdgeLength, by the same verified steps: it stays closed, manifold and free of
+   * self-intersections. No edge becomes shorter than without it, so where the uniform surface is
+   * further away (it is too coarse there, or held by a contact) so is this one: the field data
+   * `WithinTolerance` and `LargestDistance` tell. About a fifth of a voxel halves the number of
+   * vertices of a scan, or better. Not with EdgeLength, and not without SnapToIsoValue. Coarser
+   * levels are not graded; on several ranks the finest level is rank 0's.
+   *
+   * The peers take the curvature (CGAL's adaptive remeshing, MMG's hausd); here distances are
+   * measured, see Documentation/differences.md. No part of the paper.
+   */
+  virtual void SetTolerance(double value);
+  virtual double GetTolerance();
+  ///@}
+
+  ///@{
+  /**
+   * With Tolerance: the longest edge that there may be, in world units; 0, the default: automatic,
+   * 10 delta, which is about six times the mean without Tolerance. Less than 2.5 delta, which edges
+   * may be anywhere, is as 2.5 delta.
+   */
+  virtual void SetMaximumEdgeLength(double value);
+  virtual double GetMaximumEdgeLength();
+  ///@}
+
+  ///@{
+  /**
+   * With Tolerance: by how much the wanted length of edges, in delta, grows for each length that is
+   * walked, along the surface or across a wall; more than 0, at most 0.5. Little makes triangles
+   * even, much makes few of them. Default: 0.2.
+   */
+  virtual void SetGradation(double value);
+  virtual double GetGradation();
+  ///@}
+
+  ///@{
+  /**
    * delta_h / U_h (eq. 7): the smallest edge of the surface in units of the level, between
    * sqrt(3)/2.5 = 0.693 and 1. Level -1 has its share of it, see FinestLevel. Default: 0.85.
    */
@@ -681,7 +720,7 @@ public:
   /**
    * In ParaView's window: show the surface of each level as soon as it rests, from the one of
    * Preview on, while finer ones go on. Each is a run of its own that goes on from the last one,
-   * also for TimeLimit; with EdgeLength there are two. Elsewhere it has no effect: a run goes to
+   * also for TimeLimit; with EdgeLength or Tolerance there are two. Elsewhere it has no effect: a run goes to
    * its end at once. Default: off.
    */
   void SetShowLevels(bool show);

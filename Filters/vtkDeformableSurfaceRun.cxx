@@ -233,7 +233,7 @@ void vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, boo
     return;
   }
   const int next = cache.NextLevel();
-  if (settings.End.Preview || settings.EdgeLength != 0.0 ||
+  if (settings.End.Preview || settings.EdgeLength != 0.0 || settings.Grading.IsWanted() ||
     next <= std::max(settings.End.FinestLevel, 0))
   {
     return;
@@ -291,12 +291,13 @@ vtkDeformableSurface::Course vtkDeformableSurface::ChooseCourse(bool isKept,
   volumic::SegmentationRequest& request, std::unique_ptr<volumic::SurfaceSegmentation>& run,
   vtkInformationVector* output)
 {
+  volumic::SegmentationCache& cache = this->Internals->Cache;
+  isKept = isKept && cache.GradesFor(request.End);
   if (isKept && this->ShowKept(request, output))
   {
     return Course::IsShown;
   }
   this->ChooseStep(request, isKept);
-  volumic::SegmentationCache& cache = this->Internals->Cache;
   run = isKept ? cache.TakeRun() : nullptr;
   cache.Drop();
   if (run)

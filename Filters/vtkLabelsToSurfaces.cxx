@@ -79,6 +79,9 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(Gap, double, Settings.Gap)                                       \
   MADE(Metric, int, Settings.Metric)                                    \
   MADE(EdgeLength, double, Settings.EdgeLength)                         \
+  MADE(Tolerance, double, Settings.Grading.Tolerance)                   \
+  MADE(MaximumEdgeLength, double, Settings.Grading.MaximumEdgeLength)   \
+  MADE(Gradation, double, Settings.Grading.Gradation)                   \
   MADE(FinestLevel, int, Settings.FinestLevel)                          \
   MADE(KeepComponents, int, Settings.KeepComponents)                    \
   MADE(MinimumComponentVolume, double, Settings.MinimumComponentVolume) \

@@ -170,6 +170,16 @@ public:
   ///@}
 
   ///@{
+  /** As vtkDeformableSurface: graded triangles, world units. Defaults: 0 (none), 0 and 0.2. */
+  void SetTolerance(double value);
+  double GetTolerance();
+  void SetMaximumEdgeLength(double value);
+  double GetMaximumEdgeLength();
+  void SetGradation(double value);
+  double GetGradation();
+  ///@}
+
+  ///@{
   /**
    * As vtkDeformableSurface: 0, the default: triangles as large as voxels; 1, 2, ...: each sqrt(3)
    * times larger; -1: sqrt(3) times smaller, from the start: for what is a voxel thin. With 0 a

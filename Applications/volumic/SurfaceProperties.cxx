@@ -136,6 +136,14 @@ std::vector<PropertyOption> MakeProperties()
       "voxels", "world"),
     SURFACE_NUMBER(EdgeLength, "edge-length", "LENGTH",
       "mean edge that is wanted, in world units; 0: as --finest and --sampling-ratio have it"),
+    SURFACE_NUMBER(Tolerance, "tolerance", "LENGTH",
+      "longer edges where the surface stays so near to the iso-value, in world units: fewer "
+      "triangles; 0: all edges of one length"),
+    SURFACE_NUMBER(MaximumEdgeLength, "maximum-edge-length", "LENGTH",
+      "with --tolerance: no edge is longer, in world units; 0: automatic, about six times as long "
+      "as without"),
+    SURFACE_NUMBER(Gradation, "gradation", "SLOPE",
+      "with --tolerance: by how much edges grow per length walked, at most 0.5"),
     SURFACE_NUMBER(SamplingRatio, "sampling-ratio", "RATIO",
       "shortest edge of the surface in voxels of the level, 0.693 to 1; edges are up to 2.5 times "
       "as long"),
@@ -157,7 +165,7 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_SWITCH(TopologyChanges, false, "no-topology-changes",
       "no merges and cuts: the surface keeps its topology, contacts stop it"),
     SURFACE_NUMBER(MaximumNumberOfIterations, "iterations", "N", "iterations per level at most"),
-    SURFACE_NUMBER(ConvergenceTolerance, "tolerance", "SHARE",
+    SURFACE_NUMBER(ConvergenceTolerance, "convergence", "SHARE",
       "a level rests when the enclosed volume changes by less than this share of it"),
     SURFACE_SWITCH(
       FreezeMotionlessVertices, false, "no-freeze", "compute vertices at rest too (slower)"),
@@ -251,7 +259,8 @@ bool IsOfLabelsOnly(const PropertyOption& option)
 #define SHARED(PROPERTY) \
   { #PROPERTY, [](const FilterTrio& f) { f.Labels->Set##PROPERTY(f.Surface->Get##PROPERTY()); } }
 static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
-  SHARED(Metric), SHARED(EdgeLength), SHARED(FinestLevel), SHARED(KeepComponents),
+  SHARED(Metric), SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength), SHARED(Gradation),
+  SHARED(FinestLevel), SHARED(KeepComponents),
   SHARED(MinimumComponentVolume), SHARED(NumberOfThreads), SHARED(MemoryLimit),
   SHARED(ScratchDirectory)
 };

@@ -82,6 +82,7 @@ set(volumic_core_sources
   Evolution/EdgeLengthPlan.cxx
   Evolution/EvolutionCheckpoint.cxx
   Evolution/EvolutionDivision.cxx
+  Evolution/EvolutionGrading.cxx
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRanks.cxx
   Evolution/EvolutionRun.cxx
@@ -89,6 +90,7 @@ set(volumic_core_sources
   Evolution/EvolutionVerification.cxx
   Evolution/EvolutionVisits.cxx
   Evolution/GivenSurface.cxx
+  Evolution/GradedSizes.cxx
   Evolution/InitialSurface.cxx
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
@@ -204,6 +206,8 @@ set(volumic_core_headers
   Evolution/Dynamics.h
   Evolution/EdgeLengthPlan.h
   Evolution/EvolutionImplementation.h
+  Evolution/GradedSizes.h
+  Evolution/Grading.h
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h

@@ -4,6 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Labels/LabelField.h"
+#include "Settings/CheckGrading.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <cmath>
@@ -47,6 +48,7 @@ void LabelSettings::Check(double unit) const
       ", eight times the smallest distance of voxels: fields of labels reach no further.");
   }
   CheckNumber("Edge Length", this->EdgeLength);
+  CheckGrading(this->Grading, this->EdgeLength);
   CheckNumber("Minimum Component Volume", this->MinimumComponentVolume);
   if (this->FinestLevel < -1)
   {

@@ -3,6 +3,8 @@
 #ifndef volumicLabelSettings_h
 #define volumicLabelSettings_h
 
+#include "Core/Evolution/Grading.h"
+
 namespace volumic
 {
 /** What vtkLabelsToSurfaces is asked for, but for which labels. Numbers may be out of range. */
@@ -13,6 +15,7 @@ struct LabelSettings
   double Gap = 0.0;            ///< world units
   int Metric = 1;
   double EdgeLength = 0.0;
+  volumic::Grading Grading;
   int FinestLevel = 0;
   int KeepComponents = 0;
   double MinimumComponentVolume = 0.0;

@@ -152,6 +152,7 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   settings.Recovery = RecoveryType::NoRecovery;
   settings.Metric = static_cast<Metric>(this->Settings.Metric);
   settings.EdgeLength = this->Settings.EdgeLength;
+  settings.Grading = this->Settings.Grading;
   settings.End.KeepComponents = static_cast<KeepComponentsType>(this->Settings.KeepComponents);
   settings.End.MinimumComponentVolume = this->Settings.MinimumComponentVolume;
   settings.Initialization = InitializationType::IsoSurface;

@@ -221,6 +221,7 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
 {
   SurfaceResult part;
   part.Delta = surface.Delta;
+  part.FitToTolerance = surface.FitToTolerance;
   LargeVector<int> index(surface.Points.size(), -1);
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
   {
@@ -243,6 +244,10 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
       part.Residual.push_back(surface.Residual[p]);
       part.Motionless.push_back(surface.Motionless[p]);
       part.Held.push_back(surface.Held[p]);
+      if (!surface.Size.empty())
+      {
+        part.Size.push_back(surface.Size[p]);
+      }
     }
   }
   for (const std::array<int, 2>& pair : surface.Contacts)

@@ -3,6 +3,7 @@
 #include "Output/SurfaceOutput.h"
 
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/SizingField.h"
 #include "Host/LargeArray.h"
 #include "Output/SurfaceTransform.h"
 
@@ -190,6 +191,15 @@ void TakePointArrays(
     contact->SetValue(pair[1], 1);
   }
   polyData->GetPointData()->AddArray(contact);
+  if (!surface.Size.empty())
+  {
+    const auto size = NewLargeArray<vtkFloatArray>(n);
+    size->SetName("EdgeSize");
+    const auto rest = static_cast<float>(SizingField::RestLengthInDelta * space.WorldUnit());
+    std::transform(surface.Size.begin(), surface.Size.end(), size->GetPointer(0),
+      [rest](float delta) { return rest * delta; });
+    polyData->GetPointData()->AddArray(size);
+  }
 }
 
 void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executor& executor)
@@ -234,6 +244,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   const auto numberOfPoints = static_cast<std::ptrdiff_t>(shape.Points.size());
   TakePoints(polyData, shape.Points, executor);
   TakeTriangles(polyData, shape.Triangles, executor);
+  const bool isGraded = !surface.Size.empty();
   TakePointArrays(polyData, surface, space, executor);
   AddField<vtkIntArray>(polyData, "Level", description.Level);
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
@@ -248,6 +259,13 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
     static_cast<int>(std::count(contacts, contacts + numberOfPoints, 1)));
   AddField<vtkDoubleArray>(
     polyData, "ResidualQuantile", ResidualQuantile(std::move(surface.Residual)));
+  if (isGraded)
+  {
+    AddField<vtkDoubleArray>(
+      polyData, "LargestDistance", surface.FitToTolerance.LargestDistance * space.WorldUnit());
+    AddField<vtkDoubleArray>(
+      polyData, "WithinTolerance", surface.FitToTolerance.WithinTolerance);
+  }
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
   AddField<vtkIntArray>(polyData, "MissingParts", description.MissingParts);

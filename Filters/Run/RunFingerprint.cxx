@@ -168,6 +168,10 @@ void RunFingerprint::AddSettings(const SegmentationSettings& settings)
   }
   VOLUMIC_SURFACE_PROPERTIES(VolumicEntry, VolumicEntry)
 #undef VolumicEntry
+  if (settings.Grading.IsWanted())
+  {
+    this->Add("Finest Level", TextOf(settings.End.FinestLevel), Kind::Told); // It alone is graded.
+  }
 }
 
 void RunFingerprint::AddInputs(

@@ -91,6 +91,7 @@ void SegmentationCache::Keep(
   {
     return;
   }
+  this->IsGraded = run->GetSettings().Grading.IsWanted();
   this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
   this->PlannedEnd = run->GetSettings().End.FinestLevel;
   if (run->CanGoOn())

@@ -58,6 +58,11 @@ public:
   bool CanGoOn() const { return this->Run != nullptr; }
   /** The one after the level at which it has ended, or, where it was stopped before, that level. */
   int NextLevel() const;
+  /** Whether the level at which a run is to end is one that this one grades, or it grades none. */
+  bool GradesFor(const SegmentationEnd& end) const
+  {
+    return !this->IsGraded || end.FinestLevel == this->PlannedEnd;
+  }
   /** The run, where it can go on from what it has; else null. It is kept no longer. */
   std::unique_ptr<SurfaceSegmentation> TakeRun();
 
@@ -72,6 +77,7 @@ private:
   int Ranks = 1;
   Inputs InputsOfRun;
   bool EndIsPlanned = false;
+  bool IsGraded = false;
   int PlannedEnd = 0;
 };
 }

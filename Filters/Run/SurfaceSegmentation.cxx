@@ -12,6 +12,7 @@
 #include "Run/InitialSurfaces.h"
 #include "Run/RankLevel.h"
 #include "Settings/CheckEnumeration.h"
+#include "Settings/CheckGrading.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -47,6 +48,7 @@ SurfaceSegmentation::SurfaceSegmentation(
   {
     Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
+  this->CheckGrading();
   options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
   options.RecoverCavities = this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities;
   options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
@@ -56,6 +58,23 @@ SurfaceSegmentation::SurfaceSegmentation(
 }
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
+
+void SurfaceSegmentation::CheckGrading() const
+{
+  const Grading& grading = this->Settings.Grading;
+  const SurfaceOptions& options = this->Settings.Options;
+  volumic::CheckGrading(grading, this->Settings.EdgeLength);
+  if (grading.IsWanted() &&
+    (!(options.IsopotentialWeight > options.EdgeAttractionWeight) || !options.SnapToIsoValue))
+  {
+    Refuse("Tolerance is ", grading.Tolerance, ", but ",
+      options.SnapToIsoValue
+        ? "Isopotential Weight is not more than Edge Attraction Weight"
+        : "Snap To Iso Value is off",
+      ": the surface does not lie at the iso-value, from which a tolerance is measured. Set it to "
+      "0, or change that.");
+  }
+}
 
 void SurfaceSegmentation::ChooseEdgeLength(const SegmentationVolume& volume)
 {
@@ -246,6 +265,10 @@ void SurfaceSegmentation::RunLevels()
     {
       this->Evolution->SetMeanEdgeLength(
         this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit());
+      Grading grading = this->Settings.Grading;
+      grading.Tolerance /= this->Levels.GetWorkspace().WorldUnit();
+      grading.MaximumEdgeLength /= this->Levels.GetWorkspace().WorldUnit();
+      this->Evolution->SetGrading(grading);
     }
     StopReason reason = StopReason::Cancelled;
     SurfaceResult surface;
@@ -290,11 +313,12 @@ bool SurfaceSegmentation::PreviewMissesParts(int level) const
 
 bool SurfaceSegmentation::MayBeShared(int level) const
 {
-  // Snapshots, mean edges, and what attracts are for the whole surface, on one rank.
+  // Snapshots, mean or graded edges, and what attracts are for the whole surface, on one rank.
   return this->Request.Together && level < this->Choice.Coarsest && level >= 0 &&
     SurfaceEvolution::AreShared(
       this->Settings.Options, this->Levels.Pyramid().SizeOf(level)) &&
     this->Settings.SnapshotInterval == 0 && this->Settings.EdgeLength == 0.0 &&
+    !(this->Settings.Grading.IsWanted() && level == this->Settings.End.FinestLevel) &&
     !this->Levels.HasPoints() && !this->Levels.HasEdges();
 }
 

@@ -71,6 +71,7 @@ public:
   int EndsAt() const { return this->Choice.Last; }
 
 private:
+  void CheckGrading() const;
   void ChooseEdgeLength(const SegmentationVolume& volume);
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
   void Begin();

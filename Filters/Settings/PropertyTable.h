@@ -22,6 +22,9 @@
   MADE(NaNIsBackground, bool, NaNIsBackground, Run, Told)                            \
   MADE(Metric, int, Metric, Run, Hidden)                                             \
   MADE(EdgeLength, double, EdgeLength, Run, Told)                                    \
+  MADE(Tolerance, double, Grading.Tolerance, Run, Told)                              \
+  MADE(MaximumEdgeLength, double, Grading.MaximumEdgeLength, Run, Told)              \
+  MADE(Gradation, double, Grading.Gradation, Run, Told)                              \
   MADE(IsoValue, double, Options.IsoValue, Run, Told)                                \
   MADE(ObjectIsBright, bool, Options.ObjectIsBright, Run, Told)                      \
   MADE(Initialization, int, Initialization, Run, Hidden)                             \

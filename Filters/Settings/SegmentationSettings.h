@@ -4,6 +4,7 @@
 #define volumicSegmentationSettings_h
 
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Evolution/Grading.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Input/Workspace.h"
 
@@ -76,6 +77,7 @@ struct SegmentationSettings
   int SelectedComponent = -1;
   bool NaNIsBackground = true;
   volumic::Metric Metric = volumic::Metric::World;
+  volumic::Grading Grading; ///< at the finest level, world units
   double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
   InitializationType Initialization = InitializationType::EnclosingIcosahedron;
   int CoarsestLevel = -1;        ///< -1: the last that serves

@@ -27,7 +27,7 @@ TEST(SizingField, LooksAsFarAsTrianglesReach)
   // Two that intersect may have their nearest corners no further apart than this: an edge of one
   // through the middle of the other, both as large as they may be.
   EXPECT_GE(sizing.Reach(0), sizing.Clearance(0, 1));
-  EXPECT_GE(sizing.LargestReach(), sizing.Reach(0));
+  EXPECT_GE(sizing.SmallestReach(), sizing.Reach(0));
   EXPECT_LT(sizing.Reach(0), sizing.LongestEdge(0, 1));
   EXPECT_LT(sizing.Contact(0), 1e-3 * sizing.ShortestEdge(0, 1));
 }

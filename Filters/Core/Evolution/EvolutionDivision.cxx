@@ -214,7 +214,7 @@ void SurfaceEvolution::Implementation::LayGridOfPart()
 {
   SurfaceState& s = this->State;
   const std::size_t n = s.Mesh.Rings.size();
-  s.Grid.Reset(this->GridLow, this->GridHigh, s.Sizing.LargestReach());
+  s.Grid.Reset(this->GridLow, this->GridHigh, s.Sizing.SmallestReach());
   s.Grid.Lengthen(n);
   std::vector<int> here; // With all their neighbours: others' shape is theirs to know.
   for (int v = 0; v < s.Mesh.Size(); ++v)

@@ -30,7 +30,8 @@ namespace volumic
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
  * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx makes the visits
  * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
- * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
+ * EvolutionGrading.cxx gives
+ * it longer edges where it is flat, EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -55,6 +56,7 @@ struct SurfaceEvolution::Implementation
   RestCriterion Rest;
   CycleCriterion Cycle;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
+  Grading WantedGrading;      ///< See SurfaceEvolution::SetGrading.
   HistoryRow Preparing; ///< Phases before the first iteration of a level: start or division.
   std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< Of all laps since the last level.
@@ -198,6 +200,9 @@ struct SurfaceEvolution::Implementation
   double MeanEdgeLength();
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(const Dynamics& dynamics);
+  // EvolutionGrading.cxx:
+  void Grade(const Dynamics& dynamics);
+  void ApplySizes(const std::vector<int>& changed);
   void DeleteInsideOut();
   void DeleteThoseInsideOut();
   void DeleteDegenerate();

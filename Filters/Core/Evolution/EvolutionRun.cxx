@@ -371,6 +371,10 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->BeginVisits();
     this->AgreeOnStop();
   }
+  if (this->WantedGrading.IsWanted() && this->State.Mesh.NumberOfVertices() > 0)
+  {
+    this->Grade(dynamics);
+  }
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
   this->AddUpSinceEvolved();

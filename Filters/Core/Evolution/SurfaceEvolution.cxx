@@ -5,6 +5,7 @@
 #include "Core/Common/Blocks.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/GradedSizes.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/Stopwatch.h"
 #include "Core/Mesh/SurfaceCheck.h"
@@ -166,6 +167,11 @@ void SurfaceEvolution::SetMeanEdgeLength(double length)
   this->Self->WantedMeanEdge = length;
 }
 
+void SurfaceEvolution::SetGrading(const Grading& grading)
+{
+  this->Self->WantedGrading = grading;
+}
+
 bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
@@ -239,6 +245,8 @@ SurfaceResult SurfaceEvolution::Result() const
   result.Residual.resize(first.back());
   result.Motionless.resize(first.back());
   result.Held.resize(first.back());
+  const bool isGraded = s.Sizing.IsGraded();
+  result.Size.resize(isGraded ? first.back() : 0);
   LargeVector<int> index(n, -1); // As ToIndexed numbers them.
   ForBlocks(threads, n, ResultBlock,
     [&](std::size_t block, std::size_t begin, std::size_t end)
@@ -253,10 +261,19 @@ SurfaceResult SurfaceEvolution::Result() const
           result.Residual[point] = sign * field.ValueAt(s.Mesh.Position[v]);
           result.Motionless[point] = !s.Active[v];
           result.Held[point] = contacts.Held[v];
+          if (isGraded)
+          {
+            result.Size[point] = s.Sizing.At(static_cast<int>(v));
+          }
           index[v] = static_cast<int>(point++);
         }
       }
     });
+  if (isGraded)
+  {
+    result.FitToTolerance =
+      GradedSizes(this->Self->State, field, this->Self->WantedGrading, threads).Measure();
+  }
   result.Contacts = std::move(contacts.Pairs);
   for (std::array<int, 2>& pair : result.Contacts)
   {

@@ -8,6 +8,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
+#include "Core/Evolution/Grading.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/VoxelBox.h"
@@ -115,6 +116,8 @@ struct SurfaceResult : IndexedSurface
   LargeVector<unsigned char> Held;            ///< Per point, see RemainingContacts.
   LargeVector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
   double Delta = 0.;                          ///< delta_h, workspace.
+  LargeVector<float> Size; ///< Of a graded surface delta per point, workspace; else empty.
+  Fit FitToTolerance;      ///< Of a graded surface.
 };
 
 /**
@@ -197,6 +200,13 @@ public:
    * change). Within 3 % where eq. (7) does not end it.
    */
   void SetMeanEdgeLength(double length);
+
+  /**
+   * For the next level, which must be the last one, and of one rank: where the surface rests its
+   * edges become longer, as far as it stays within a tolerance of the isopotential. Lengths:
+   * workspace.
+   */
+  void SetGrading(const Grading& grading);
 
   /**
    * Global division down to delta of a finer level; lost parts are enclosed again.

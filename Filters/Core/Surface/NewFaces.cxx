@@ -144,8 +144,15 @@ bool NewFacesIntersect(
     return true;
   }
   // A face that intersects one of the new ones has a corner this near to the box of those.
-  const Box visited =
-    all.Grown(state.Sizing.LargestClearance(faces[0].Vertex[0], ReachShare));
+  float reach = 0.f;
+  for (const MeshTriangle& face : faces)
+  {
+    for (const int v : face.Vertex)
+    {
+      reach = std::max(reach, state.Sizing.LargestClearance(v, ReachShare));
+    }
+  }
+  const Box visited = all.Grown(reach * state.Sizing.Growth());
   const SurfaceMesh& mesh = state.Mesh;
   const auto isVisited = [&](int w) { return visited.Contains(mesh.Position[w]); };
   bool intersects = false;

@@ -204,7 +204,7 @@ public:
 private:
   bool IsWithinReach(int x, int y) const
   {
-    const float reach = this->State.Sizing.Reach(x);
+    const float reach = std::min(this->State.Sizing.Reach(x), this->State.Sizing.Reach(y));
     return SquaredDistance(this->State.Mesh.Position[x], this->State.Mesh.Position[y]) <=
       RoundedReach * reach * reach;
   }

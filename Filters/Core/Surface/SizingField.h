@@ -3,14 +3,22 @@
 #ifndef volumicSizingField_h
 #define volumicSizingField_h
 
+#include "Core/Common/ScratchMemory.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace volumic
 {
 /**
  * The lengths that the paper's eq. (1) and what we build on it allow, and the only one who knows
- * the invariant delta. It holds one delta for the whole surface; whoever asks names the vertices it
- * wants to know about, so that it may hold a delta for each of them without anybody noticing.
+ * the invariant delta: one for the whole surface, or, where it is graded, one for each vertex. Of an
+ * edge it is the mean of its ends'; edges then lie in [1, 2.5] of that.
+ *
+ * The delta of a graded surface grows by at most the gradation g for each length walked, along the
+ * surface and across space. The longest legal edge about a vertex u is then
+ * delta_u (exp(2.5 g) - 1) / g, which is Growth() times 2.5 delta_u: as much further must be looked
+ * for what may intersect.
  *
  * Where nothing else is said a method's `share` is a factor of its length. Lengths: workspace.
  */
@@ -50,44 +58,74 @@ public:
     return SizingField(std::max(this->LevelDelta, length / LongestEdgeInDelta));
   }
 
+  /**
+   * The same, graded: a vertex has a delta of its own, from that of the level to `most`.
+   * @param sizes by vertex, which stay where they are
+   */
+  SizingField Graded(const LargeVector<float>& sizes, float most, float gradation) const
+  {
+    SizingField graded(this->LevelDelta);
+    graded.OfVertices = &sizes;
+    graded.Most = std::max(most, this->LevelDelta);
+    const float length = LongestEdgeInDelta * gradation;
+    graded.LongerEdges = (std::exp(length) - 1.f) / length;
+    return graded;
+  }
+  bool IsGraded() const { return this->OfVertices != nullptr; }
+  /** Longest legal edge about a vertex, of what it would be were the surface not graded. */
+  float Growth() const { return this->LongerEdges; }
+
   /** Of the level as a whole: where there is no vertex yet, and for what is told of it. */
   float OfLevel() const { return this->LevelDelta; }
   float Smallest() const { return this->LevelDelta; }
-  float Largest() const { return this->LevelDelta; }
+  float Largest() const { return this->OfVertices ? this->Most : this->LevelDelta; }
 
   /** delta about a vertex: what forces, steps and tolerances there are measured in. */
-  float At(int) const { return this->LevelDelta; }
-
-  /** Eq. (1): bounds of the edge (u, v), which need not be there yet. */
-  float ShortestEdge(int, int) const { return this->LevelDelta; }
-  float LongestEdge(int, int, float share = 1) const
+  float At(int v) const
   {
-    return share * LongestEdgeInDelta * this->LevelDelta;
+    return this->OfVertices
+      ? std::clamp((*this->OfVertices)[v], this->LevelDelta, this->Most)
+      : this->LevelDelta;
+  }
+  /** delta of an edge (u, v), which need not be there yet. */
+  float OfEdge(int u, int v) const
+  {
+    return this->OfVertices ? 0.5f * (this->At(u) + this->At(v)) : this->LevelDelta;
+  }
+
+  /** Eq. (1): bounds of the edge (u, v). */
+  float ShortestEdge(int u, int v) const { return this->OfEdge(u, v); }
+  float LongestEdge(int u, int v, float share = 1) const
+  {
+    return share * LongestEdgeInDelta * this->OfEdge(u, v);
   }
   /** Length of the edge (u, v) in delta: eq. (1) allows 1 to LongestEdgeInDelta. */
-  float InDelta(int, int, float length) const { return length / this->LevelDelta; }
-  float RestLength(int, int) const { return RestLengthInDelta * this->LevelDelta; }
+  float InDelta(int u, int v, float length) const { return length / this->OfEdge(u, v); }
+  float RestLength(int u, int v) const { return RestLengthInDelta * this->OfEdge(u, v); }
 
   /** Eq. (1): lambda delta, how near two vertices may be that are far apart on the surface. */
-  float Clearance(int, int, float share = 1) const
+  float Clearance(int u, int v, float share = 1) const
   {
-    return share * LambdaInDelta * this->LevelDelta;
+    return share * LambdaInDelta * std::min(this->At(u), this->At(v));
   }
   /** The largest that Clearance(v, w) is for any w. */
-  float LargestClearance(int, float share = 1) const
+  float LargestClearance(int v, float share = 1) const
   {
-    return share * LambdaInDelta * this->LevelDelta;
+    return share * LambdaInDelta * this->At(v);
   }
 
   /** Two intersecting triangles, one of them at v, have corners nearer than this. */
-  float Reach(int) const { return ReachInDelta * this->LevelDelta; }
-  float LargestReach() const { return ReachInDelta * this->LevelDelta; }
+  float Reach(int v) const { return ReachInDelta * this->LongerEdges * this->At(v); }
+  float SmallestReach() const { return ReachInDelta * this->LevelDelta; }
 
   /** Triangles with v as a corner that are nearer than this to others count as intersecting. */
   double Contact(int) const { return ContactInDelta * this->LevelDelta; }
 
 private:
   float LevelDelta = 1;
+  float Most = 1;
+  float LongerEdges = 1;
+  const LargeVector<float>* OfVertices = nullptr; ///< Null: all have that of the level.
 };
 }
 

@@ -110,6 +110,7 @@ Edit SurfaceEditor::Split(int u, int v)
   s.PreviousPosition[m] = (before(u) + before(v)) * 0.5f;
   s.NearOthers[m] = s.NearOthers[u] | s.NearOthers[v];
   s.FieldValue[m] = 0.5f * (s.FieldValue[u] + s.FieldValue[v]);
+  s.Size[m] = 0.5f * (s.Size[u] + s.Size[v]);
   ++this->Counts().Splits;
   this->TouchStar(m);
   return this->Done(first, m);

@@ -27,7 +27,7 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->Properties.Reset(this->Mesh.Rings.size(), executor);
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
-  this->Grid.Reset(low, high, this->Sizing.LargestReach());
+  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
   this->Grid.InsertAll(
     this->Mesh.Position, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   executor.For(static_cast<std::size_t>(this->Mesh.Size()), AliveGrain,
@@ -61,7 +61,7 @@ void SurfaceState::Remake(std::size_t n, int vertices, const Vector& low, const 
 {
   this->Mesh.Remake(n, vertices);
   this->Properties.Remake(n);
-  this->Grid.Reset(low, high, this->Sizing.LargestReach());
+  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
   this->Grid.Lengthen(n);
 }
 
@@ -195,7 +195,7 @@ void SurfaceState::UpdateShape(int v)
       float four[Lanes::Count];
       for (int k = 0; k < Lanes::Count; ++k)
       {
-        four[k] = of(star.Item[i + k]);
+        four[k] = of(i + k < star.Count ? star.Item[i + k] : v);
       }
       return Lanes::Load(four);
     };

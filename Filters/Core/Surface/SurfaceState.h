@@ -145,6 +145,10 @@ public:
   /** Something that is not the smooth surface about it lies within reach. */
   VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
 
+  // Grading: GradedSizes. An edge's middle gets the mean of its ends'.
+  /** delta about it, workspace, where the surface is graded: see SizingField. */
+  VertexProperty<float> Size{ this->Properties, 0.f };
+
   VertexProperty<std::uint8_t> Marks{ this->Properties, 0, 0 }; ///< Bits of VertexMark.
 
   VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.

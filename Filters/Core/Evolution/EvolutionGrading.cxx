@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A surface at rest gets longer edges where a tolerance allows, in the same visits, with the same
+// verified displacements and edits as everything else.
+
+#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/GradedSizes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+/**
+ * By what the sizes may grow at most, round by round: what is measured tells of twice the length
+ * little, so not by much at once. The last ones mend what has grown too far.
+ */
+constexpr float Growths[] = { 1.6f, 1.6f, 1.5f, 1.3f, 1.1f, 1.f };
+/** Passes in each block after the sizes have changed. */
+constexpr int Passes = 3;
+constexpr std::size_t VertexGrain = 2048;
+}
+
+void SurfaceEvolution::Implementation::ApplySizes(const std::vector<int>& changed)
+{
+  // What is known of a star that has another size now was found within another reach.
+  SurfaceState& s = this->State;
+  std::vector<int> stars;
+  for (const int v : changed)
+  {
+    const Ring& ring = s.Mesh.Rings[v];
+    stars.push_back(v);
+    stars.insert(stars.end(), ring.Item, ring.Item + ring.Count);
+  }
+  std::sort(stars.begin(), stars.end());
+  stars.erase(std::unique(stars.begin(), stars.end()), stars.end());
+  for (const int v : stars)
+  {
+    s.Active[v] = 1;
+    s.Drift[v] = SurfaceState::NotExamined;
+  }
+  s.UpdateShape(stars, this->Threads);
+  if (this->HasEdgeTooLong())
+  {
+    this->SplitLongEdges();
+  }
+}
+
+void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
+{
+  SurfaceState& s = this->State;
+  GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
+  sizes.Begin();
+  this->MakeBlocks(); // As wide as the longest edges that there may be want them.
+  this->LabelComponents();
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.WasActive[v] = s.Active[v];
+    s.Velocity[v] = Vector();
+  }
+  for (const float growth : Growths)
+  {
+    this->ApplySizes(sizes.Adjust(growth));
+    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, Passes,
+      Monitor::Activity::Regularising, 0., 0.);
+    if (this->Stopped)
+    {
+      break;
+    }
+  }
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    s.Active[v] = s.WasActive[v];
+  }
+}
+}

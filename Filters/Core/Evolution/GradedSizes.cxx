@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/GradedSizes.h"
+
+#include "Core/Common/Blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+/** Vertices that one thread looks at at a time. */
+constexpr std::size_t VertexGrain = 2048;
+/** Share of the tolerance that is aimed at: the regularisation moves vertices along the surface. */
+constexpr float AimedShare = 0.8f;
+/** The least factor of a change: a level's, so that an edge is split into two or three. */
+constexpr float LeastChange = 0.57735f;
+/** Changes of a size that are worth no visit, as a share of it. */
+constexpr float SmallChange = 0.02f;
+/**
+ * Thickness of a wall in delta of its vertices, at least: with edges up to 3.24 delta on both of
+ * its sides, faces that are no neighbours can only meet if vertices are within 3.75 delta.
+ */
+constexpr float WallInDelta = 3.75f;
+/** Of what is looked through for walls, in the least delta. */
+constexpr float WallStep = 0.5f;
+/** How far the isopotential is looked for, and in what steps, in units of the level. */
+constexpr float FurthestInUnits = 2.f;
+constexpr float DistanceStep = 0.1f;
+}
+
+GradedSizes::GradedSizes(
+  SurfaceState& state, const Field& field, const Grading& grading, Executor& executor)
+  : State(state)
+  , TheField(field)
+  , Wanted(grading)
+  , Threads(executor)
+  , Least(state.Sizing.OfLevel())
+  , Most(grading.MaximumEdgeLength > 0.
+        ? static_cast<float>(grading.MaximumEdgeLength) / SizingField::LongestEdgeInDelta
+        : Grading::AutomaticGrowth * state.Sizing.OfLevel())
+{
+}
+
+void GradedSizes::Begin()
+{
+  this->State.Size.Fill(this->Least);
+  this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), this->Most,
+    static_cast<float>(this->Wanted.Gradation));
+}
+
+float GradedSizes::Furthest() const
+{
+  return FurthestInUnits * static_cast<float>(this->TheField.Image().Unit);
+}
+
+float GradedSizes::DistanceAt(const Vector& position, const Vector& normal) const
+{
+  const Field::Sample sample = this->TheField.At(position);
+  const float near = std::abs(sample.Value) / this->TheField.SlopeOf(sample);
+  if (near <= static_cast<float>(this->Wanted.Tolerance))
+  {
+    return near;
+  }
+  // Where the image is steeper, or flatter, than here that is a guess: look.
+  const float furthest = this->Furthest();
+  const float step = DistanceStep * static_cast<float>(this->TheField.Image().Unit);
+  float before[2] = { sample.Value, sample.Value };
+  for (float way = step; way < furthest; way += step)
+  {
+    for (int side = 0; side < 2; ++side)
+    {
+      const float value =
+        this->TheField.ValueAt(position + normal * (side == 0 ? way : -way));
+      if ((value > 0) != (sample.Value > 0))
+      {
+        return way - step * value / (value - before[side]);
+      }
+      before[side] = value;
+    }
+  }
+  return furthest;
+}
+
+float GradedSizes::LargestDistanceAbout(int v, float enough) const
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const Ring& ring = mesh.Rings[v];
+  const Vector p = mesh.Position[v];
+  const Vector normal = this->State.Normal[v].Axis();
+  float largest = 0.f;
+  for (int i = 0; i < ring.Count && largest < enough; ++i)
+  {
+    const Vector a = mesh.Position[ring.Item[i]];
+    const Vector b = mesh.Position[ring.Next(i)];
+    largest = std::max({ largest, this->DistanceAt((p + a + b) * (1.f / 3.f), normal),
+      this->DistanceAt((p + a) * 0.5f, normal) });
+  }
+  return largest;
+}
+
+float GradedSizes::MostBetweenWalls(int v, float size) const
+{
+  const Vector p = this->State.Mesh.Position[v];
+  const Vector normal = this->State.Normal[v].Axis();
+  const float step = WallStep * this->Least;
+  for (const float side : { -1.f, 1.f })
+  {
+    const bool isInside = this->TheField.ValueAt(p + normal * (side * this->Least)) > 0;
+    for (float way = this->Least + step; way < WallInDelta * size; way += step)
+    {
+      if ((this->TheField.ValueAt(p + normal * (side * way)) > 0) != isInside)
+      {
+        size = std::max(this->Least, way / WallInDelta);
+        break;
+      }
+    }
+  }
+  return size;
+}
+
+float GradedSizes::WantedSize(int v, float growth) const
+{
+  const float now = this->State.Sizing.At(v);
+  const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
+  // By more than LeastChange no size shrinks, and the least not at all.
+  const float enough = now > this->Least ? aimed / (LeastChange * LeastChange) : aimed;
+  const float distance = this->LargestDistanceAbout(v, enough);
+  const float change = distance > 0.f ? std::sqrt(aimed / distance) : growth;
+  const float size =
+    std::clamp(now * std::clamp(change, LeastChange, growth), this->Least, this->Most);
+  return size > this->Least ? this->MostBetweenWalls(v, size) : size;
+}
+
+void GradedSizes::LimitGrowth(LargeVector<float>& sizes) const
+{
+  // To and fro, until nothing changes: which end that has does not depend on the order.
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const float gradation = static_cast<float>(this->Wanted.Gradation);
+  bool changes = false;
+  const auto limit = [&](int v)
+  {
+    const Ring& ring = mesh.Rings[v];
+    float& size = sizes[v];
+    for (int i = 0; i < ring.Count && size > this->Least; ++i)
+    {
+      const int w = ring.Item[i];
+      if (sizes[w] < size)
+      {
+        const float most = sizes[w] +
+          gradation * std::sqrt(SquaredDistance(mesh.Position[v], mesh.Position[w]));
+        changes = changes || size > most;
+        size = std::min(size, most);
+      }
+    }
+  };
+  do
+  {
+    changes = false;
+    for (int v = 0; v < mesh.Size(); ++v)
+    {
+      limit(v);
+    }
+    for (int v = mesh.Size() - 1; v >= 0; --v)
+    {
+      limit(v);
+    }
+  } while (changes);
+}
+
+std::vector<int> GradedSizes::Adjust(float growth)
+{
+  SurfaceState& s = this->State;
+  LargeVector<float> sizes(s.Mesh.Rings.size(), this->Least);
+  this->Threads.For(sizes.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (s.Mesh.IsAlive(v))
+        {
+          sizes[v] = this->WantedSize(v, growth);
+        }
+      }
+    });
+  this->LimitGrowth(sizes);
+  std::vector<int> changed;
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      const float before = s.Size[v];
+      s.Size[v] = sizes[v];
+      if (std::abs(sizes[v] - before) > SmallChange * before)
+      {
+        changed.push_back(v);
+      }
+    }
+  }
+  return changed;
+}
+
+Fit GradedSizes::Measure() const
+{
+  struct Sum
+  {
+    float Largest = 0.f;
+    std::size_t Within = 0;
+    std::size_t All = 0;
+  };
+  const SurfaceState& s = this->State;
+  const float tolerance = static_cast<float>(this->Wanted.Tolerance);
+  const std::size_t n = s.Mesh.Rings.size();
+  std::vector<Sum> sums((n + VertexGrain - 1) / VertexGrain);
+  ForBlocks(this->Threads, n, VertexGrain,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      Sum& sum = sums[block];
+      const auto look = [&](const Vector& place, int v)
+      {
+        const float distance = this->DistanceAt(place, s.Normal[v].Axis());
+        sum.Largest = std::max(sum.Largest, distance);
+        sum.Within += distance <= tolerance;
+        ++sum.All;
+      };
+      s.Mesh.VisitFaces(begin, end,
+        [&](int a, int b, int c)
+        {
+          const LargeVector<Vector>& place = s.Mesh.Position;
+          look((place[a] + place[b] + place[c]) * (1.f / 3.f), a);
+          for (const auto& [u, v] : { std::pair<int, int>{ a, b }, { b, c }, { c, a } })
+          {
+            if (u < v) // Of the two faces at an edge one.
+            {
+              look((place[u] + place[v]) * 0.5f, u);
+            }
+          }
+        });
+    });
+  Sum all;
+  for (const Sum& sum : sums)
+  {
+    all.Largest = std::max(all.Largest, sum.Largest);
+    all.Within += sum.Within;
+    all.All += sum.All;
+  }
+  Fit fit;
+  fit.LargestDistance = all.Largest;
+  fit.WithinTolerance =
+    all.All > 0 ? static_cast<double>(all.Within) / static_cast<double>(all.All) : 1.;
+  return fit;
+}
+}

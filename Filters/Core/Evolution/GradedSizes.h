@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicGradedSizes_h
+#define volumicGradedSizes_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Evolution/Grading.h"
+#include "Core/Image/Field.h"
+#include "Core/Surface/SurfaceState.h"
+
+#include <vector>
+
+namespace volumic
+{
+/**
+ * The delta that each vertex of a surface at rest should have, so that its faces keep a tolerance:
+ * found from how far they are from the isopotential as they are. The distance of a face's middle
+ * grows with the square of its edges. Lengths: workspace.
+ *
+ * The peers take the curvature alone (CGAL's Adaptive_sizing_field, MMG's hausd); what is measured
+ * holds where the curvature is that of noise, too.
+ */
+class GradedSizes
+{
+public:
+  GradedSizes(SurfaceState& state, const Field& field, const Grading& grading, Executor& executor);
+
+  /** All begin with the delta of the level. */
+  void Begin();
+
+  /**
+   * Changes the sizes towards what keeps the tolerance, each by a factor of at most `growth`, and
+   * at least 1 / sqrt 3; none beyond what walls and the gradation allow. @return whose has changed
+   */
+  std::vector<int> Adjust(float growth);
+
+  /** What faces are from the isopotential, at their centroids and the middles of their edges. */
+  Fit Measure() const;
+
+private:
+  /** From a point of the surface with this normal, at most Furthest(). */
+  float DistanceAt(const Vector& position, const Vector& normal) const;
+  float Furthest() const;
+  /** Of the faces about a vertex, and its edges; no more are looked at where it is enough. */
+  float LargestDistanceAbout(int v, float enough) const;
+  /** What the thickness of the object, or of the air in it, allows. */
+  float MostBetweenWalls(int v, float size) const;
+  float WantedSize(int v, float growth) const;
+  /** Until nowhere it grows by more than the gradation along an edge. */
+  void LimitGrowth(LargeVector<float>& sizes) const;
+
+  SurfaceState& State;
+  const Field& TheField;
+  const Grading Wanted;
+  Executor& Threads;
+  const float Least;
+  const float Most;
+};
+}
+
+#endif

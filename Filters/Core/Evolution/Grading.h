@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicGrading_h
+#define volumicGrading_h
+
+namespace volumic
+{
+/**
+ * How the edges of a surface may differ: as long as a tolerance allows where the isopotential is
+ * flat, no shorter than elsewhere where it is not.
+ */
+struct Grading
+{
+  /** How far a face may be from the isopotential; 0: all edges are of one length. */
+  double Tolerance = 0.0;
+  double MaximumEdgeLength = 0.0; ///< 0: AutomaticGrowth times what edges may be elsewhere.
+  double Gradation = 0.2;         ///< By how much delta grows per length walked.
+
+  static constexpr double MostGradation = 0.5;
+  static constexpr float AutomaticGrowth = 4.f;
+
+  bool IsWanted() const { return this->Tolerance != 0.0; }
+};
+
+/** How far a surface is from the isopotential. */
+struct Fit
+{
+  double LargestDistance = 0.0; ///< No further is looked than two voxels of the level.
+  double WithinTolerance = 1.0; ///< Share of the points that are looked at.
+};
+}
+
+#endif
