@@ -191,7 +191,7 @@ class RandomRun:
             *self.now_and_then(.1, "--isopotential", self.number(.1, 3)),
             *self.now_and_then(.1, "--gradient", self.number(0, 2)),
             *self.now_and_then(.1, "--friction", self.number(.2, 6)),
-            *self.now_and_then(.1, "--tolerance", f"{10 ** self.rng.uniform(-5, -1):.3g}"),
+            *self.now_and_then(.1, "--convergence", f"{10 ** self.rng.uniform(-5, -1):.3g}"),
             *self.now_and_then(.1, "--no-topology-changes"),
             *self.now_and_then(.1, "--no-freeze"),
             *self.now_and_then(.1, "--no-snap")]

@@ -317,6 +317,8 @@ class OptionsTest(LabelsTest):
                   "Smoothing": ("--smoothing", "0.5"),
                   "VoxelTolerance": ("--voxel-tolerance", "0.25"),
                   "Metric": ("--metric", "voxels"),
+                  "Tolerance": ("--tolerance", "0.1"), "Gradation": ("--gradation", "0.3"),
+                  "MaximumEdgeLength": ("--maximum-edge-length", "9"),
                   "EdgeLength": ("--edge-length", "1.2"), "FinestLevel": ("--finest", "1"),
                   "KeepComponents": ("--keep", "large"),
                   "MinimumComponentVolume": ("--minimum-component-volume", "2"),

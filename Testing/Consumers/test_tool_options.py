@@ -28,10 +28,10 @@ NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurf
                                         "AttractingPointsConnection", "AttractingPointsData",
                                         "Controller", "ShowLevels"},
                # Those that it has in common with vtkDeformableSurface.
-               "vtkLabelsToSurfaces": {"EdgeLength", "FinestLevel", "KeepComponents", "LabelColor",
-                                       "LabelName", "MemoryLimit", "Metric",
-                                       "MinimumComponentVolume", "NumberOfThreads",
-                                       "ScratchDirectory"},
+               "vtkLabelsToSurfaces": {"EdgeLength", "FinestLevel", "Gradation", "KeepComponents",
+                                       "LabelColor", "LabelName", "MaximumEdgeLength",
+                                       "MemoryLimit", "Metric", "MinimumComponentVolume",
+                                       "NumberOfThreads", "ScratchDirectory", "Tolerance"},
                "vtkImagePyramid": {"Controller", "MemoryLimit", "NaNIsBackground",
                                    "NumberOfThreads", "ScratchDirectory", "SelectedComponent"}}
 
@@ -338,7 +338,7 @@ class RunTest(ToolTestCase):
 
     def test_time_limit_is_marked(self):
         volume = self.waves_file()
-        run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--tolerance", "0",
+        run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--convergence", "0",
                             "--time-limit", "0.6", status=3)
         self.assertIn("unfinished (time limit); the surface as it is was written", run.stderr)
         with open(self.path("limited.stl"), "rb") as file:
@@ -370,7 +370,7 @@ class RunTest(ToolTestCase):
     def test_interrupt_writes_what_there_is(self):
         rest = self.interrupted(
             "Evolving.*iteration", self.waves_file(), self.path("a.vtp"), "--iso", "0",
-            "--tolerance", "0", "--report", self.path("r.json"), pause=0.2)
+            "--convergence", "0", "--report", self.path("r.json"), pause=0.2)
         self.assertIn("unfinished (cancelled)", rest)
         with open(self.path("r.json"), encoding="utf-8") as file:
             report = json.load(file)

@@ -165,7 +165,8 @@ TEST_F(Checkpoints, GiveTheBitsOfARunThatWasNeverStopped)
     [](vtkDeformableSurface* filter) { filter->SetKeepComponentsToLargestComponent(); },
     [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); },
     [](vtkDeformableSurface* filter) { filter->SetMetricToVoxels(); },
-    [](vtkDeformableSurface* filter) { filter->SetEdgeLength(1.6); } };
+    [](vtkDeformableSurface* filter) { filter->SetEdgeLength(1.6); },
+    [](vtkDeformableSurface* filter) { filter->SetTolerance(0.2); } };
   int number = 0;
   for (const Choice& choose : choices)
   {

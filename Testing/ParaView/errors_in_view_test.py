@@ -20,8 +20,9 @@ OF_SURFACE = {"IsoValue": (-5.0, 1000.0, float("inf"), float("nan")), "CoarsestL
               "ElasticityWeight": (-0.1,), "IsopotentialWeight": (-1.0,),
               "GradientWeight": (float("nan"),), "PointAttractionWeight": (-1.0,),
               "EdgeAttractionWeight": (-1.0,), "Friction": (0.0, -1.0), "SeedRadius": (-2.0,),
-              "EdgeLength": (-1.0,), "ConvergenceTolerance": (-1.0,), "Initialization": (3, 4),
-              "BorderValue": (2,), "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
+              "EdgeLength": (-1.0,), "Tolerance": (-1.0, float("inf")),
+              "MaximumEdgeLength": (-1.0,), "Gradation": (0.0, 0.6),
+              "ConvergenceTolerance": (-1.0,), "Initialization": (3, 4), "BorderValue": (2,), "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
               "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,)}
 FILTERS = {"ImagePyramid": OF_PYRAMID, "DeformableSurface": OF_SURFACE,
            # Not a number: an iso-value found by itself.

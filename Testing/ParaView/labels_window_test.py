@@ -20,8 +20,9 @@ from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu,
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
 BASIC = ("SetInputArrayToProcess", "Labels", "BackgroundLabel", "Merge", "Smoothing",
-         "VoxelTolerance", "Gap", "FinestLevel", "EdgeLength")
-ADVANCED = ("KeepComponents", "Metric", "NumberOfThreads", "MemoryLimit", "ScratchDirectory")
+         "VoxelTolerance", "Gap", "FinestLevel", "EdgeLength", "Tolerance")
+ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "NumberOfThreads",
+            "MemoryLimit", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 
 CHANGE_FILE = """
@@ -143,12 +144,12 @@ class LabelsWindowTest(window.WindowTestCase):
     def test_a_speck_that_is_lost_is_told_below_and_not_by_a_warning(self):
         balls = {**label_maps.BALLS, 9: ((3, 26, 3), 0.5)}
         path = testing.write_volume("labels-speck.vti", label_maps.image(balls=balls))
-        summary = f"{PROPERTIES}/EdgeLength/Summary"
+        summary = f"{PROPERTIES}/Tolerance/Summary"
         # A warning opens a box, which play() takes for a failure.
         self.play(opened(path) + [
-            FILTER, gui.pause(500), window.shown("EdgeLength/Summary", False),
+            FILTER, gui.pause(500), window.shown("Tolerance/Summary", False),
             gui.event(f"{PROPERTIES}/FinestLevel/IntRangeWidget/LineEdit", "set_string", "2"),
-            APPLY, gui.pause(1000), window.shown("EdgeLength/Summary", True),
+            APPLY, gui.pause(1000), window.shown("Tolerance/Summary", True),
             gui.check(summary, "text",
                       f"<b>Surfaces</b>: {self.vertices_of(path)} vertices<br>"
                       "no self-intersections<br>No surface is left of Label 9: too small, "

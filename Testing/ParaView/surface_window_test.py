@@ -20,7 +20,8 @@ SURFACE = filter_of_the_menu("DeformableSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Recovery",
          "KeepComponents")
-ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "SamplingRatio",
+ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "Tolerance",
+            "MaximumEdgeLength", "Gradation", "SamplingRatio",
             "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
             "BorderValue", "TopologyChanges", "SnapToIsoValue", "AttractingPositions",

@@ -22,8 +22,8 @@ VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "FinestLevel",
-         "Recovery", "KeepComponents", "EdgeLength")
-ADVANCED = ("CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels",
+         "Recovery", "KeepComponents", "EdgeLength", "Tolerance")
+ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels",
             "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction", "TimeLimit",
             "MemoryLimit", "ScratchDirectory", "Resume", "SnapshotInterval")
 
@@ -154,6 +154,7 @@ class VolumeWindowTest(window.WindowTestCase):
 
     def test_units_and_a_button_to_browse(self):
         units = {"TimeLimit": "s", "MemoryLimit": "MiB", "EdgeLength": "world units",
+                 "Tolerance": "world units", "MaximumEdgeLength": "world units",
                  "SeedRadius": "world units", "MinimumPartSize": "voxels"}
         self.play(VOLUME + [
             FILTER, SHOW_ADVANCED, gui.pause(1000),

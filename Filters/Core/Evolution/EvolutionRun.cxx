@@ -371,8 +371,10 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->BeginVisits();
     this->AgreeOnStop();
   }
-  if (this->WantedGrading.IsWanted() && this->State.Mesh.NumberOfVertices() > 0)
+  const bool isGraded = this->WantedGrading.IsWanted() && this->State.Mesh.NumberOfVertices() > 0;
+  if (isGraded)
   {
+    this->FindMissing(); // Before: it asks for vertices that are near.
     this->Grade(dynamics);
   }
   this->Regularise(dynamics);
@@ -381,7 +383,10 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->Verify();
   this->FinishRow();
   watch.Lap(Phase::Regularisation);
-  this->FindMissing();
+  if (!isGraded)
+  {
+    this->FindMissing();
+  }
   this->EndVisits();
   watch.Lap(Phase::Recovery);
   if (this->Stopped)

@@ -22,10 +22,10 @@ constexpr float LeastChange = 0.57735f;
 /** Changes of a size that are worth no visit, as a share of it. */
 constexpr float SmallChange = 0.02f;
 /**
- * Thickness of a wall in delta of its vertices, at least: with edges up to 3.24 delta on both of
- * its sides, faces that are no neighbours can only meet if vertices are within 3.75 delta.
+ * Thickness of a wall in delta of its vertices, at least: sqrt 3 times what eq. (1) wants between
+ * them. What would intersect is refused in any case; in thinner walls too much would be.
  */
-constexpr float WallInDelta = 3.75f;
+constexpr float WallInDelta = 2.5f;
 /** Of what is looked through for walls, in the least delta. */
 constexpr float WallStep = 0.5f;
 /** How far the isopotential is looked for, and in what steps, in units of the level. */
@@ -110,14 +110,17 @@ float GradedSizes::MostBetweenWalls(int v, float size) const
   const float step = WallStep * this->Least;
   for (const float side : { -1.f, 1.f })
   {
-    const bool isInside = this->TheField.ValueAt(p + normal * (side * this->Least)) > 0;
-    for (float way = this->Least + step; way < WallInDelta * size; way += step)
+    float before = this->TheField.ValueAt(p + normal * (side * this->Least));
+    for (float way = this->Least + step; way < WallInDelta * size + step; way += step)
     {
-      if ((this->TheField.ValueAt(p + normal * (side * way)) > 0) != isInside)
+      const float value = this->TheField.ValueAt(p + normal * (side * way));
+      if ((value > 0) != (before > 0))
       {
-        size = std::max(this->Least, way / WallInDelta);
+        const float thickness = way - step * value / (value - before);
+        size = std::clamp(thickness / WallInDelta, this->Least, size);
         break;
       }
+      before = value;
     }
   }
   return size;

@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/SurfaceCheck.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/SizingField.h"
+#include "EvolutionTestTools.h"
+#include "ThreadTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+using namespace volumic;
+
+namespace
+{
+SequentialExecutor Alone;
+Monitor Silent;
+constexpr double Tolerance = 0.2;
+
+Grading Within(double tolerance)
+{
+  Grading grading;
+  grading.Tolerance = tolerance;
+  return grading;
+}
+
+/** How far outside a box with rounded edges. */
+double OutsideBox(double x, double y, double z, const std::array<double, 3>& half, double radius)
+{
+  const double a = std::max(std::abs(x) - half[0] + radius, 0.);
+  const double b = std::max(std::abs(y) - half[1] + radius, 0.);
+  const double c = std::max(std::abs(z) - half[2] + radius, 0.);
+  return std::sqrt(a * a + b * b + c * c) - radius;
+}
+
+/** Large flat sides, edges with a radius of three voxels, and a ball beside it. */
+double OutsideBoxAndBall(double x, double y, double z)
+{
+  const double box = OutsideBox(x - 20.3, y - 19.6, z - 18.2, { 13., 12., 9. }, 3.);
+  return std::min(box, Distance(x, y, z, 20., 20., 38.) - 5.5);
+}
+
+/** A plate of some voxels' thickness, turned about two axes. */
+std::function<double(double, double, double)> OutsidePlate(double thickness)
+{
+  return [thickness](double x, double y, double z)
+  {
+    const double u = 0.8 * (x - 24.) + 0.6 * (y - 24.);
+    const double v = -0.6 * (x - 24.) + 0.8 * (y - 24.);
+    const double w = 0.96 * (z - 24.) + 0.28 * u;
+    return OutsideBox(0.96 * u - 0.28 * (z - 24.), v, w, { 16., 15., 0.5 * thickness },
+      std::min(1., 0.5 * thickness));
+  };
+}
+
+/** The surface of what is nearer than 0 to something, on one level. */
+SurfaceResult SurfaceOf(const std::function<double(double, double, double)>& outside,
+  const Grading& grading, Executor& executor = Alone)
+{
+  const TestVolume volume = MakeVolume(48, [&outside](double x, double y, double z)
+    { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
+  SurfaceEvolution evolution(IsoHalf(), executor, Silent);
+  evolution.StartEnclosing(volume.Image, 0);
+  evolution.SetGrading(grading);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(evolution.Verified().Found, 0);
+  return evolution.Result();
+}
+
+/** Calls visit(u, v, length) for each edge, twice. */
+void VisitEdges(
+  const IndexedSurface& surface, const std::function<void(int, int, double)>& visit)
+{
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& a = surface.Points[t[k]];
+      const Point& b = surface.Points[t[(k + 1) % 3]];
+      visit(t[k], t[(k + 1) % 3], Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
+    }
+  }
+}
+
+void ExpectLegal(const SurfaceResult& surface)
+{
+  EXPECT_EQ(CountSelfIntersections(surface), 0);
+  EXPECT_NO_THROW(CheckInitialSurface(surface)) << "closed, oriented, manifold";
+  int outside = 0;
+  VisitEdges(surface,
+    [&](int u, int v, double length)
+    {
+      const double delta = 0.5 * (surface.Size[u] + surface.Size[v]);
+      outside += length < 0.999 * delta || length > 2.501 * delta;
+    });
+  EXPECT_EQ(outside, 0);
+}
+}
+
+TEST(GradedSizing, HasALengthForEachVertexWithinBounds)
+{
+  const LargeVector<float> sizes = { 0.5f, 1.f, 2.f, 9.f };
+  const SizingField sizing = SizingField(1.f).Graded(sizes, 4.f, 0.2f);
+  EXPECT_TRUE(sizing.IsGraded());
+  EXPECT_EQ(sizing.At(0), 1.f) << "no less than that of the level";
+  EXPECT_EQ(sizing.At(2), 2.f);
+  EXPECT_EQ(sizing.At(3), 4.f) << "no more than the most";
+  EXPECT_EQ(sizing.Smallest(), 1.f);
+  EXPECT_EQ(sizing.Largest(), 4.f);
+  EXPECT_EQ(sizing.ShortestEdge(1, 2), 1.5f);
+  EXPECT_EQ(sizing.LongestEdge(1, 2), 3.75f);
+  EXPECT_EQ(sizing.InDelta(1, 2, 3.f), 2.f);
+  EXPECT_EQ(sizing.Clearance(1, 3), SizingField(1.f).Clearance(0, 0)) << "that of the smaller one";
+}
+
+TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
+{
+  const LargeVector<float> sizes = { 1.f };
+  const SizingField even(1.f);
+  EXPECT_EQ(even.Growth(), 1.f);
+  float before = even.Reach(0);
+  // The longest edge about a vertex is delta (exp(2.5 g) - 1) / g: 2.84 and 3.24 of them.
+  for (const auto& [gradation, longest] : { std::array<float, 2>{ .1f, 2.84f }, { .2f, 3.24f } })
+  {
+    const SizingField sizing = even.Graded(sizes, 4.f, gradation);
+    EXPECT_NEAR(sizing.Growth() * SizingField::LongestEdgeInDelta, longest, .005f);
+    EXPECT_GT(sizing.Reach(0), before);
+    before = sizing.Reach(0);
+  }
+}
+
+TEST(GradedSurface, HasFewerTrianglesWhereItIsFlatAndKeepsTheTolerance)
+{
+  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading());
+  EXPECT_TRUE(even.Size.empty());
+  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(Tolerance));
+  ASSERT_EQ(graded.Size.size(), graded.Points.size());
+  ExpectLegal(graded);
+  EXPECT_LT(1.8 * graded.Points.size(), even.Points.size());
+  EXPECT_GT(graded.FitToTolerance.WithinTolerance, 0.99);
+  // The same by what the scene is made of, which knows nothing of voxels.
+  std::size_t within = 0;
+  for (const Triangle& t : graded.Triangles)
+  {
+    Point middle = { 0., 0., 0. };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] = (graded.Points[t[0]][axis] + graded.Points[t[1]][axis] +
+        graded.Points[t[2]][axis]) / 3.;
+    }
+    within += std::abs(OutsideBoxAndBall(middle[0], middle[1], middle[2])) <= Tolerance;
+  }
+  EXPECT_GT(within, 0.97 * graded.Triangles.size());
+  const SurfaceFeatures before = ComputeFeatures(even);
+  const SurfaceFeatures after = ComputeFeatures(graded);
+  EXPECT_EQ(after.Components.size(), before.Components.size());
+  EXPECT_EQ(after.Genus, before.Genus);
+  EXPECT_NEAR(after.Volume, before.Volume, 0.005 * before.Volume);
+}
+
+TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
+{
+  Grading grading = Within(2.);
+  grading.MaximumEdgeLength = 5.;
+  const SurfaceResult surface = SurfaceOf(OutsideBoxAndBall, grading);
+  ExpectLegal(surface);
+  double longest = 0.;
+  double steepest = 0.;
+  VisitEdges(surface,
+    [&](int u, int v, double length)
+    {
+      longest = std::max(longest, length);
+      steepest = std::max(steepest, std::abs(surface.Size[u] - surface.Size[v]) / length);
+    });
+  EXPECT_LE(longest, 5.);
+  EXPECT_GT(longest, 4.) << "or it was not the bound";
+  // Vertices have moved a little since the sizes were chosen.
+  EXPECT_LT(steepest, 1.5 * grading.Gradation);
+  EXPECT_EQ(*std::max_element(surface.Size.begin(), surface.Size.end()), 2.f);
+}
+
+TEST(GradedSurface, IsThatWithoutWhereTheToleranceIsTooSmall)
+{
+  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading());
+  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(1e-6));
+  ExpectLegal(graded);
+  EXPECT_NEAR(static_cast<double>(graded.Points.size()), even.Points.size(),
+    0.03 * even.Points.size());
+  EXPECT_LT(graded.FitToTolerance.WithinTolerance, 0.5);
+  EXPECT_GT(graded.FitToTolerance.LargestDistance, 0.05);
+}
+
+TEST(GradedSurface, KeepsThinWallsWithoutHoles)
+{
+  for (const double thickness : { 2.5, 4. })
+  {
+    SCOPED_TRACE(thickness);
+    const SurfaceResult plate = SurfaceOf(OutsidePlate(thickness), Within(1.));
+    ExpectLegal(plate);
+    const SurfaceFeatures features = ComputeFeatures(plate);
+    EXPECT_EQ(features.Components.size(), 1u);
+    EXPECT_EQ(features.Genus, 0);
+    // Both sides are flat and a tolerance of a voxel is much: the walls are what keeps it fine.
+    const auto large = std::count_if(plate.Size.begin(), plate.Size.end(),
+      [thickness](float delta) { return delta > 0.5 * thickness; });
+    EXPECT_LT(large, 0.15 * plate.Size.size()) << "all but those at the rim";
+  }
+}
+
+TEST(GradedSurface, IsTheSameOnAnyThreads)
+{
+  const SurfaceResult one = SurfaceOf(OutsideBoxAndBall, Within(Tolerance));
+  DelayedThreads three(3, 5, 40, 7);
+  const SurfaceResult other = SurfaceOf(OutsideBoxAndBall, Within(Tolerance), three);
+  EXPECT_EQ(one.Points, other.Points);
+  EXPECT_EQ(one.Triangles, other.Triangles);
+  EXPECT_EQ(one.Size, other.Size);
+  EXPECT_EQ(one.FitToTolerance.LargestDistance, other.FitToTolerance.LargestDistance);
+  EXPECT_EQ(one.FitToTolerance.WithinTolerance, other.FitToTolerance.WithinTolerance);
+}
+
+TEST(GradedSurface, IsValidWhereItIsStopped)
+{
+  class StopInRegularisation final : public Monitor
+  {
+  public:
+    explicit StopInRegularisation(int after) : Left(after) {}
+    bool Continue(const Status&) override { return true; }
+    bool GoOn(const Status& status) override
+    {
+      return status.Doing != Activity::Regularising || --this->Left > 0;
+    }
+
+  private:
+    int Left;
+  };
+  const TestVolume volume = MakeVolume(48, [](double x, double y, double z)
+    { return std::clamp(0.5 - 0.25 * OutsideBoxAndBall(x, y, z), 0., 1.); });
+  for (const int after : { 1, 3, 9 })
+  {
+    SCOPED_TRACE(after);
+    StopInRegularisation monitor(after);
+    SurfaceEvolution evolution(IsoHalf(), Alone, monitor);
+    evolution.StartEnclosing(volume.Image, 0);
+    evolution.SetGrading(Within(Tolerance));
+    EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
+    const SurfaceResult surface = evolution.Result();
+    EXPECT_EQ(CountSelfIntersections(surface), 0);
+    EXPECT_NO_THROW(CheckInitialSurface(surface));
+    EXPECT_GT(surface.Points.size(), 100u);
+  }
+}

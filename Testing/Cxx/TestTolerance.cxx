@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SameOutputs.h"
+#include "SurfaceTestTools.h"
+#include "vtkLabelsToSurfaces.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkCommand.h>
+#include <vtkErrorCode.h>
+#include <vtkMultiBlockDataSet.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** A large ball: flat enough for longer edges. */
+vtkSmartPointer<vtkImageData> Image()
+{
+  static const vtkSmartPointer<vtkImageData> image = BallImage(56, 56, 56, 0.42);
+  return image;
+}
+
+using Choice = std::function<void(vtkDeformableSurface*)>;
+
+vtkSmartPointer<vtkDeformableSurface> Graded(double tolerance, const Choice& choose = {})
+{
+  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  filter->SetInputData(Image());
+  filter->SetIsoValue(50.0);
+  filter->SetTolerance(tolerance);
+  if (choose)
+  {
+    choose(filter);
+  }
+  return filter;
+}
+
+vtkPolyData* SurfaceAt(vtkDeformableSurface* filter, unsigned int level)
+{
+  return vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+}
+
+bool IsGraded(vtkPolyData* surface)
+{
+  return surface && surface->GetPointData()->HasArray("EdgeSize") != 0;
+}
+}
+
+TEST(Tolerance, TellsTheWantedEdgesAndWhatIsLeft)
+{
+  const auto even = Graded(0.0);
+  even->Update();
+  EXPECT_FALSE(IsGraded(even->GetOutput()));
+  EXPECT_TRUE(std::isnan(FieldOf(even->GetOutput(), "WithinTolerance")));
+  const auto filter = Graded(0.2);
+  filter->Update();
+  vtkPolyData* surface = filter->GetOutput();
+  EXPECT_LT(1.5 * surface->GetNumberOfPoints(), even->GetOutput()->GetNumberOfPoints());
+  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+  ASSERT_TRUE(IsGraded(surface));
+  double range[2];
+  surface->GetPointData()->GetArray("EdgeSize")->GetRange(range);
+  const double without = 1.6 * FieldOf(surface, "Delta");
+  EXPECT_GE(range[0], 0.999 * without);
+  EXPECT_GT(range[1], 1.5 * without);
+  EXPECT_LE(range[1], 4.001 * without);
+  EXPECT_GT(FieldOf(surface, "WithinTolerance"), 0.98);
+  EXPECT_LT(FieldOf(surface, "LargestDistance"), 0.5);
+  EXPECT_EQ(StopReason(surface), "converged");
+}
+
+TEST(Tolerance, IsOfTheFinestLevelOnly)
+{
+  const auto filter = Graded(0.3);
+  filter->Update();
+  EXPECT_TRUE(IsGraded(SurfaceAt(filter, 0)));
+  EXPECT_FALSE(IsGraded(SurfaceAt(filter, 1)));
+  const auto even = Graded(0.0);
+  even->Update();
+  EXPECT_TRUE(AreSameSurfaces(SurfaceAt(filter, 1), SurfaceAt(even, 1)));
+}
+
+TEST(Tolerance, GivesWhatARunFromTheStartGivesWhereverTheOneBeforeHasEnded)
+{
+  const auto filter = Graded(0.3);
+  for (const int finest : { 1, 0, -1, 0, 1 })
+  {
+    SCOPED_TRACE(finest);
+    filter->SetFinestLevel(finest);
+    filter->Update();
+    const auto other = Graded(0.3, [finest](vtkDeformableSurface* f) { f->SetFinestLevel(finest); });
+    other->Update();
+    EXPECT_TRUE(IsGraded(filter->GetOutput()));
+    ExpectSameSurfaces(filter->GetOutput(), other->GetOutput());
+  }
+}
+
+TEST(Tolerance, PreviewIsNotGraded)
+{
+  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
+  filter->SetInputData(BallImage(128, 110, 110));
+  filter->SetIsoValue(50.0);
+  filter->SetTolerance(0.3);
+  filter->PreviewOn();
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
+  EXPECT_FALSE(IsGraded(filter->GetOutput()));
+  filter->PreviewOff();
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
+  EXPECT_TRUE(IsGraded(filter->GetOutput()));
+}
+
+TEST(Tolerance, IsInWorldUnits)
+{
+  // The same image in micrometres.
+  vtkNew<vtkImageData> small;
+  small->ShallowCopy(Image());
+  small->SetSpacing(1e-3, 1e-3, 1e-3);
+  small->SetOrigin(5., -7., 2.);
+  const auto large = Graded(0.2, [](vtkDeformableSurface* f) { f->SetMaximumEdgeLength(4.); });
+  const auto filter = Graded(0.2e-3,
+    [&small](vtkDeformableSurface* f)
+    {
+      f->SetInputData(small);
+      f->SetMaximumEdgeLength(4e-3);
+    });
+  large->Update();
+  filter->Update();
+  // Rounding of the lengths may have an edge split that is not there.
+  EXPECT_NEAR(static_cast<double>(filter->GetOutput()->GetNumberOfPoints()),
+    static_cast<double>(large->GetOutput()->GetNumberOfPoints()),
+    0.02 * large->GetOutput()->GetNumberOfPoints());
+  EXPECT_NEAR(FieldOf(filter->GetOutput(), "LargestDistance"),
+    1e-3 * FieldOf(large->GetOutput(), "LargestDistance"), 2e-4);
+  double of[2];
+  double ofLarge[2];
+  filter->GetOutput()->GetPointData()->GetArray("EdgeSize")->GetRange(of);
+  large->GetOutput()->GetPointData()->GetArray("EdgeSize")->GetRange(ofLarge);
+  EXPECT_NEAR(of[1], 1e-3 * ofLarge[1], 1e-4);
+  EXPECT_LE(of[1], 1.6 / 2.5 * 4e-3 * 1.0001) << "edges of up to 4 micrometres";
+}
+
+TEST(Tolerance, IsTheSameOnAnyThreadsAndWithLittleMemory)
+{
+  const auto one = Graded(0.2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); });
+  const auto three = Graded(0.2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(3); });
+  const auto limited = Graded(0.2, [](vtkDeformableSurface* f) { f->SetMemoryLimit(200); });
+  one->Update();
+  three->Update();
+  limited->Update();
+  ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
+  EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
+}
+
+TEST(Tolerance, StaysWithTheComponentsThatAreKept)
+{
+  const auto filter =
+    Graded(0.2, [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); });
+  filter->Update();
+  const auto all = Graded(0.2);
+  all->Update();
+  ASSERT_TRUE(IsGraded(filter->GetOutput()));
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("EdgeSize")->GetNumberOfTuples(),
+    filter->GetOutput()->GetNumberOfPoints());
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "WithinTolerance"),
+    FieldOf(all->GetOutput(), "WithinTolerance"));
+}
+
+TEST(Tolerance, WhatIsWrongIsToldAndAGoodRunFollows)
+{
+  struct Case
+  {
+    Choice Break;
+    std::vector<std::string> Parts;
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<Case> cases = {
+    { [](vtkDeformableSurface* f) { f->SetTolerance(-0.5); }, { "Tolerance is -0.5", "0 (edges" } },
+    { [=](vtkDeformableSurface* f) { f->SetTolerance(infinite); }, { "Tolerance is inf" } },
+    { [](vtkDeformableSurface* f) { f->SetTolerance(std::nan("")); }, { "Tolerance is nan" } },
+    { [](vtkDeformableSurface* f) { f->SetMaximumEdgeLength(-1.); },
+      { "Maximum Edge Length is -1", "0 (automatic)" } },
+    { [=](vtkDeformableSurface* f) { f->SetMaximumEdgeLength(infinite); },
+      { "Maximum Edge Length is inf" } },
+    { [](vtkDeformableSurface* f) { f->SetGradation(0.); }, { "Gradation is 0", "more than 0" } },
+    { [](vtkDeformableSurface* f) { f->SetGradation(0.51); },
+      { "Gradation is 0.51", "at most 0.5" } },
+    { [](vtkDeformableSurface* f) { f->SetEdgeLength(1.5); },
+      { "Tolerance is 0.2 and Edge Length is 1.5", "Set one of them to 0" } },
+    { [](vtkDeformableSurface* f) { f->SnapToIsoValueOff(); },
+      { "Tolerance is 0.2, but Snap To Iso Value is off" } },
+    { [](vtkDeformableSurface* f) { f->SetIsopotentialWeight(0.); },
+      { "Tolerance is 0.2, but Isopotential Weight is not more than" } },
+  };
+  for (const Case& test : cases)
+  {
+    SCOPED_TRACE(test.Parts.front());
+    const auto filter = Graded(0.2);
+    test.Break(filter);
+    {
+      const MessagesOf errors(filter);
+      filter->Update();
+      for (const std::string& part : test.Parts)
+      {
+        EXPECT_TRUE(errors.Has(part)) << errors.Get();
+      }
+    }
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+    filter->SetTolerance(0.2);
+    filter->SetMaximumEdgeLength(0.);
+    filter->SetGradation(0.2);
+    filter->SetEdgeLength(0.);
+    filter->SnapToIsoValueOn();
+    filter->SetIsopotentialWeight(1.);
+    filter->SetFinestLevel(1);
+    filter->Update();
+    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_TRUE(IsGraded(filter->GetOutput()));
+  }
+}
+
+TEST(Tolerance, IsOfLabelsToo)
+{
+  vtkNew<vtkImageData> map;
+  map->SetDimensions(40, 40, 40);
+  map->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  map->GetPointData()->GetScalars()->FillComponent(0, 0.);
+  for (int k = 5; k < 35; ++k)
+  {
+    for (int j = 5; j < 35; ++j)
+    {
+      for (int i = 5; i < 35; ++i)
+      {
+        map->SetScalarComponentFromDouble(i, j, k, 0, i < 20 ? 1. : 2.);
+      }
+    }
+  }
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(map);
+  const auto surface = [&filter](unsigned int block)
+  { return vtkPolyData::SafeDownCast(filter->GetOutput()->GetBlock(block)); };
+  filter->Update();
+  const vtkIdType before = surface(0)->GetNumberOfPoints();
+  EXPECT_FALSE(IsGraded(surface(0)));
+  filter->SetTolerance(0.2);
+  filter->Update();
+  for (const unsigned int block : { 0u, 1u })
+  {
+    ASSERT_TRUE(IsGraded(surface(block)));
+    EXPECT_LT(2 * surface(block)->GetNumberOfPoints(), before);
+    EXPECT_EQ(OpenOrNonManifoldEdges(surface(block)), 0);
+    EXPECT_GT(FieldOf(surface(block), "WithinTolerance"), 0.9);
+  }
+  const MessagesOf errors(filter);
+  filter->SetGradation(0.7);
+  filter->Update();
+  EXPECT_TRUE(errors.Has("Gradation is 0.7")) << errors.Get();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
+}
