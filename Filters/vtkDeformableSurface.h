@@ -57,6 +57,7 @@
  * - `Residual` (float): the field minus IsoValue at the vertex
  * - `Motionless` (unsigned char): 1 for vertices at rest
  * - `Contact` (unsigned char): 1 where walls or gaps are thinner than the triangles can hold
+ * - `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
  *
  * Cell arrays:
  * - `Component` (int): 0 has the largest area
@@ -71,6 +72,7 @@
  *   `iteration limit`; `cancelled`; `time limit`; `vanished`
  * - `ContactVertices` (int): those with `Contact`
  * - `RemainingContacts` (int): pairs of vertices that are too near to each other
+ * - `LargestDistance`, `WithinTolerance` (double): with Tolerance, what is left of the distance
  * - `ResidualQuantile` (double): 98 % of the vertices have a `Residual` of at most this size
  * - `LostParts`, `RecoveredParts`, `LostCavities`, `RecoveredCavities` (int): see Recovery
  * - `MissingParts` (int), `MissingBoundary` (double, 0 to 1): what Recovery found and is not there

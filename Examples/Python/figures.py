@@ -9,6 +9,7 @@
     levels     the surface at the end of each level                          Cranium.inv3
     views      the finest surface from outside, and cut open                 Cranium.inv3
     triangles  its triangles, and its contour on slices                      Cranium.inv3
+    graded     its triangles, and fewer of them within a tolerance           Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
                with the paper's settings and with the defaults
     evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
@@ -105,6 +106,17 @@ def triangles(skull):
     return render.compose([row], [[(name,) for name in names]])
 
 
+def graded(skull):
+    tolerance = 0.5  # mm
+    surfaces = skull.run().GetOutput(), skull.run(Tolerance=tolerance).GetOutput()
+    width = panel_width(2)
+    row = [close_view(main_component(surface)[0], skull.frame, (width, width * 9 // 20))
+           for surface in surfaces]
+    names = ("All edges of one length", f"Within a tolerance of {tolerance} mm")
+    return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)
+                                   for name, surface in zip(names, surfaces)]])
+
+
 def without_pyramid(skull):
     """The run on the image alone, with snapshots on its way."""
     return skull.run(CoarsestLevel=0, SnapshotInterval=50)
@@ -188,7 +200,7 @@ def compact(picture):
     return rounded
 
 
-SKULL_PICTURES = (pyramid, levels, views, triangles, history, evolution)
+SKULL_PICTURES = (pyramid, levels, views, triangles, graded, history, evolution)
 
 
 def write_picture(draw, scan, folder, name=None):

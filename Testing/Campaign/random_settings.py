@@ -59,7 +59,7 @@ class RandomRun:
             *self.now_and_then(.3, "--metric", "voxels"),
             *self.now_and_then(.3, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.1, "--edge-length", f"{smallest * self.rng.uniform(.7, 6):.6g}"),
-            *self.now_and_then(.2, "--keep", "largest")]
+            *self.now_and_then(.2, "--keep", "largest"), *self.grading()]
 
     def write_labels(self, labels):
         self.labels, self.size = labels, np.array(labels.shape[::-1])
@@ -96,6 +96,7 @@ class RandomRun:
         if self.chance(.15):
             random_volumes.add_array(image, "edges", self.rng.random(voxels.shape) ** 4)
             words += ["--edges", "edges", "--edge-attraction", self.number(.1, 3)]
+        words += self.grading()
         self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
         return words
 
@@ -169,6 +170,16 @@ class RandomRun:
                                str(self.rng.choice(("none", "objects-and-cavities")))),
             *self.now_and_then(.1, "--minimum-part-size", str(self.rng.integers(1, 100))),
             *self.now_and_then(.1, "--keep", "largest")]
+
+    def grading(self):
+        """Of any tolerance, from none that can be kept to one of some voxels."""
+        if not self.chance(.3):
+            return []
+        smallest = self.spacing.min()
+        return ["--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
+                *self.now_and_then(.3, "--gradation", self.number(.02, .5)),
+                *self.now_and_then(.3, "--maximum-edge-length",
+                                   f"{smallest * self.rng.uniform(1, 12):.3g}")]
 
     def stop(self):
         kind = self.rng.random()
