@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -12,6 +11,7 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
+from plugin_testing import points, triangles
 
 POINT_ARRAYS = {"Normals": "vtkFloatArray", "Residual": "vtkFloatArray",
                 "Motionless": "vtkUnsignedCharArray", "Contact": "vtkUnsignedCharArray"}
@@ -32,9 +32,7 @@ CENTRE, RADIUS = (6.0, -2.0, 10.0), 11.0
 
 
 def distances(place=(0.0, 0.0, 0.0)):
-    """Distances of 37^3 voxels to a place, relative to the middle one."""
-    x, y, z = (numpy.arange(37.0) - 18.0 - c for c in place)
-    return numpy.sqrt(x[None, None, :]**2 + y[None, :, None]**2 + z[:, None, None]**2)
+    return testing.distances(37, place)
 
 
 def image_of(values):
@@ -58,19 +56,11 @@ def names(attributes):
     return {attributes.GetAbstractArray(i).GetName() for i in range(attributes.GetNumberOfArrays())}
 
 
-def triangles(surface):
-    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-
-
-def points(surface):
-    return vtk_to_numpy(surface.GetPoints().GetData())
-
-
-class DeformableSurfaceTest(unittest.TestCase):
+class DeformableSurfaceTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
-        testing.load_plugin()
-        cls.ball = testing.produce(ball_image())
+        super().setUpClass()
+        cls.ball = cls.kept = testing.produce(ball_image())
 
     def check_valid(self, surface):
         """Closed, oriented, triangles only: each edge is passed once in each direction."""
@@ -149,13 +139,12 @@ class DeformableSurfaceTest(unittest.TestCase):
     def test_history_is_a_chart(self):
         filter_ = surface_of(simple.Wavelet())
         filter_.UpdatePipeline()
-        view = simple.CreateView("XYChartView")
-        display = simple.Show(simple.OutputPort(filter_, HISTORY), view)
+        display = simple.Show(simple.OutputPort(filter_, HISTORY),
+                              simple.CreateView("XYChartView"))
         display.UseIndexForXAxis = 0
         display.XArrayName = "Iteration"
         # Name and label of each curve that can be drawn.
         self.assertLessEqual(set(COLUMNS), set(display.SeriesLabel[::2]))
-        simple.Delete(view)
 
     def test_scripted_levels(self):
         filter_ = surface_of(self.ball, IsoValue=0.0, FinestLevel=1)
@@ -265,14 +254,7 @@ class DeformableSurfaceTest(unittest.TestCase):
         algorithm = filter_.GetClientSideObject()
         executions = []
         algorithm.AddObserver("StartEvent", lambda *_: executions.append(1))
-        reports = []
-
-        def stop_after_the_tenth(*_):
-            if "iteration" in (algorithm.GetProgressText() or ""):
-                reports.append(algorithm.GetProgressText())
-            if len(reports) == 10:
-                algorithm.SetAbortExecute(1)
-        tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
+        tag = testing.stop_after_the_tenth(algorithm)
         surface = testing.fetch(filter_)
         self.check_valid(surface)
         self.assertEqual(testing.field(surface, "StopReason"), "cancelled")

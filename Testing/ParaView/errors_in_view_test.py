@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -29,9 +28,7 @@ FILTERS = {"ImagePyramid": OF_PYRAMID, "DeformableSurface": OF_SURFACE,
 
 
 def ball(size=SIZE, values=lambda inside: inside):
-    x = numpy.arange(size) - (size - 1) / 2
-    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
-    inside = numpy.clip(50 + 50 * (RADIUS - distance), 0, 100)
+    inside = numpy.clip(50 + 50 * (RADIUS - testing.distances(size)), 0, 100)
     return testing.make_image(values(inside).astype(numpy.float32), name="density")
 
 
@@ -74,20 +71,15 @@ def bad_second_inputs():
     }
 
 
-class ErrorsInViewTest(unittest.TestCase):
+class ErrorsInViewTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
         views.open_screen()
-        testing.load_plugin()
+        super().setUpClass()
         cls.good_file = testing.write_volume("volume-good.vti", ball())
 
     def setUp(self):
         self.view = views.new_view("RenderView")
-        self.opened = 0
-
-    def tearDown(self):
-        simple.Delete(self.view)
-        testing.delete_sources()
 
     def show(self, kind, path=None):
         """A filter of a reader of a file, shown in the view."""

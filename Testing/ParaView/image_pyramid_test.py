@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -27,11 +26,7 @@ def field_value(image, name):
     return image.GetFieldData().GetArray(name).GetTuple1(0)
 
 
-class ImagePyramidTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        testing.load_plugin()
-
+class ImagePyramidTest(testing.PluginTestCase):
     def test_levels_of_the_wavelet(self):
         # 21 voxels, floor(21 / sqrt 3) = 12, and the next level would have 6, under the 10 allowed.
         pyramid = pyramid_of(simple.Wavelet())

@@ -5,7 +5,6 @@
 import math
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import servermanager
@@ -41,14 +40,7 @@ def list_of(source, array=None):
     return listed, helper.SMProxy.GetProperty("Problem").GetElement(0)
 
 
-class LabelsTestCase(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        testing.load_plugin()
-
-    def tearDown(self):
-        testing.delete_sources()
-
+class LabelsTestCase(testing.PluginTestCase):
     def blocks(self, filter_):
         """{name: surface}, without a message on the way."""
         with testing.CapturedMessages() as messages:
@@ -69,8 +61,8 @@ class LabelsTestCase(unittest.TestCase):
         # Of so small a ball: counting voxels alone is as wrong.
         volume = testing.field(surface, "Volume") / unit**3
         self.assertAlmostEqual(volume / voxels, 1.0, delta=0.06)
-        points = vtk_to_numpy(surface.GetPoints().GetData())
-        distance = numpy.linalg.norm(points - start - unit * numpy.array(centre), axis=1)
+        distance = numpy.linalg.norm(
+            testing.points(surface) - start - unit * numpy.array(centre), axis=1)
         self.assertLess(numpy.abs(distance - unit * radius).max(), 0.8 * unit)
 
 
@@ -250,11 +242,9 @@ class LabelsTest(LabelsTestCase):
 
 class LabelErrorsTest(LabelsTestCase):
     def check_error(self, filter_, *words):
-        with testing.CapturedMessages() as messages:
-            output = testing.fetch(filter_)
-        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
+        output, said = self.check_one_error(filter_)
         for word in words:
-            self.assertIn(word, messages.text)
+            self.assertIn(word, said)
         self.assertEqual(output.GetNumberOfBlocks(), 0)
 
     def test_good_bad_good(self):
