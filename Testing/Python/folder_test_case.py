@@ -48,6 +48,11 @@ class FolderTestCase(unittest.TestCase):
         writer.Write()
         return self.path(name)
 
+    def bytes_of(self, writer, name, image):
+        """What a writer of VTK writes of the image."""
+        self.write(writer, name, image)
+        return self.content(name)
+
     def write_bytes(self, name, content):
         with open(self.path(name), "wb") as file:
             file.write(content)
