@@ -87,8 +87,6 @@ class ListTest(LabelsTest):
     def test_no_labels(self):
         volume = self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1")))
         self.assertEqual(self.table(volume), [])
-        self.refused("none.vti: it has no label but the background, 0; .*--background", volume,
-                     self.path("o/"), "--labels", "all")
 
     def test_layers(self):
         voxels = label_voxels()
