@@ -58,6 +58,26 @@ class FolderTestCase(unittest.TestCase):
             file.write(content)
         return self.path(name)
 
+    def write_text(self, name, text):
+        return self.write_bytes(name, text.encode())
+
     def content(self, name):
         with open(self.path(name), "rb") as file:
             return file.read()
+
+
+class SharedFolderTestCase(FolderTestCase):
+    """A folder for all tests of the class, whose files take long to make."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+
+    def setUp(self):
+        """It has none of its own."""
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)
