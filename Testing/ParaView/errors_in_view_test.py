@@ -21,7 +21,7 @@ OF_SURFACE = {"IsoValue": (-5.0, 1000.0, float("inf"), float("nan")), "CoarsestL
               "EdgeAttractionWeight": (-1.0,), "Friction": (0.0, -1.0), "SeedRadius": (-2.0,),
               "EdgeLength": (-1.0,), "ConvergenceTolerance": (-1.0,), "Initialization": (3, 4),
               "BorderValue": (2,), "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
-              "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,)}
+              "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,), "TimeLimit": (-1.0,)}
 FILTERS = {"ImagePyramid": OF_PYRAMID, "DeformableSurface": OF_SURFACE,
            # Not a number: an iso-value found by itself.
            "VolumetoSurface": {**OF_PYRAMID, **OF_SURFACE, "IsoValue": (-5.0, 1000.0)}}

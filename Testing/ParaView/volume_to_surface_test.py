@@ -175,31 +175,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
                 self.assertEqual(points(surface).tobytes(), points(whole).tobytes())
             filter_.Friction = 3.1
 
-    def test_time_limit(self):
-        filter_ = simple.VolumetoSurface(self.ball, TimeLimit=1e-6)
-        surface = testing.fetch(filter_)
-        self.assertEqual(testing.field(surface, "StopReason"), "time limit")
-        self.assertEqual(surface.GetNumberOfPoints(), 0)
-        filter_.TimeLimit = 0
-        self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 0)
-        filter_.TimeLimit = -1
-        with testing.CapturedMessages() as messages:
-            self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
-        self.assertIn("Time Limit is -1", messages.text)
-
-    def test_snapshots(self):
-        filter_ = simple.VolumetoSurface(self.ball, SnapshotInterval=10)
-        blocks = testing.fetch(filter_, SNAPSHOTS)
-        names = testing.names(blocks)
-        self.assertEqual(names[:2], ["Level 2, iteration 0", "Level 2, iteration 10"])
-        for name, surface in zip(names, testing.levels(blocks)):
-            self.assertEqual(
-                name, f"Level {testing.field(surface, 'Level')},"
-                f" iteration {testing.field(surface, 'Iterations')}")
-            self.assertGreater(surface.GetNumberOfPolys(), 0)
-        filter_.SnapshotInterval = 0
-        self.assertEqual(testing.fetch(filter_, SNAPSHOTS).GetNumberOfBlocks(), 0)
-
     def test_displays_where_people_write_a_comma(self):
         """The numbers of the plugin's XML have points in every country."""
         with testing.comma_locale() as found:
