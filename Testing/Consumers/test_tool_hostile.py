@@ -55,7 +55,7 @@ class HostileTest(ToolTestCase):
     def refused(self, name, reason, *options, modes=((), ("--memory", "300M"))):
         """By its name, for this reason, whether read as a whole or in parts."""
         for memory in modes:
-            with self.subTest(name, memory=memory):
+            with self.subTest(name, reason=reason, memory=memory):
                 process = self.run_limited(self.path(name), self.path("x.stl"), "--iso", ISO,
                                            "--scratch", self.folder, *memory, *options)
                 self.assertEqual(process.returncode, 1, process.stderr[-500:])

@@ -129,7 +129,8 @@ class ListTest(LabelsTest):
                 ("--iso and --list-labels exclude", ["--iso", "3"]),
                 ("--finest and --list-labels exclude", ["--finest", "1"]),
                 ("--seeds and --list-labels exclude", ["--seeds", "a.txt"])):
-            self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
+            with self.subTest(reason):
+                self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
         self.refused("no volume is given", "--list-labels", status=2)
 
     def test_reports_that_cannot_be_written(self):

@@ -211,8 +211,9 @@ class DamageTest(NamesTest):
         self.write_bytes("large.txt", bytes(17 << 20))
         for reason, name in (("none.txt: .*cannot be opened", "none.txt"), ("it is a folder", ""),
                              ("too large", "large.txt")):
-            self.refused(reason, self.map_file(), self.path("o/"), "--labels", "1",
-                         "--label-names", self.path(name))
+            with self.subTest(reason):
+                self.refused(reason, self.map_file(), self.path("o/"), "--labels", "1",
+                             "--label-names", self.path(name))
 
     def test_every_cut_of_a_file_is_answered(self):
         text = json.dumps({"labels": [{"label": 1, "name": "a\u00e9\\", "color": [1, 0, 0]}]})

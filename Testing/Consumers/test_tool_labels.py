@@ -363,7 +363,9 @@ class OptionsTest(LabelsTest):
         for option, *value in (
                 ("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--background", "1"),
                 ("--voxel-tolerance", "0.5"), ("--format", "stl"), ("--label-names", "n")):
-            self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value, status=2)
+            with self.subTest(option):
+                self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value,
+                             status=2)
         for reason, arguments in (
                 ("no surface format", ["o/", "--format", "dwg"]),
                 ("not written in pieces", ["o/", "--format", "pvtp"]),
@@ -372,13 +374,15 @@ class OptionsTest(LabelsTest):
                 ("the standard output", ["-"]), ("no file to write", []),
                 ("--merge makes one surface: give it a file", ["o/", "--merge"]),
                 ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
-            self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
+            with self.subTest(reason):
+                self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
 
     def test_what_the_filter_refuses(self):
         for reason, *options in (
                 ("map.vti: .*Gap", "--gap", "-1"), ("Smoothing", "--smoothing", "-1"),
                 ("--voxel-tolerance is 2 voxels; it must be at most 1", "--voxel-tolerance", "2")):
-            self.no_surfaces(reason, self.map_file(), "--labels", "1", *options)
+            with self.subTest(reason):
+                self.no_surfaces(reason, self.map_file(), "--labels", "1", *options)
 
     def test_labels_that_are_lost_are_told(self):
         voxels = label_voxels()

@@ -225,14 +225,16 @@ class PlacesTest(OutputsTest):
         os.mkdir(self.path("locked"), mode=0o555)
         for *option, name in (("locked/a.stl",), ("--report", "locked/r.json"),
                               ("--levels-output", "locked"), ("--snapshots", "locked/new/ones")):
-            self.as_nobody("cannot be written .the folder .*locked: Permission denied", *option,
-                           self.path(name))
+            with self.subTest(name):
+                self.as_nobody("cannot be written .the folder .*locked: Permission denied", *option,
+                               self.path(name))
 
     def test_folders_that_cannot_be_looked_into(self):
         os.mkdir(self.path("closed"), mode=0o700)
         os.mkdir(self.path("closed/inner"))
         for *option, name in (("closed/inner/a.stl",), ("--levels-output", "closed/inner/l")):
-            self.as_nobody("cannot be written: Permission denied", *option, self.path(name))
+            with self.subTest(name):
+                self.as_nobody("cannot be written: Permission denied", *option, self.path(name))
 
     def test_files_that_are_write_protected(self):
         os.mkdir(self.path("open"))
