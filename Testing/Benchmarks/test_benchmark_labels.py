@@ -6,32 +6,18 @@
 Nothing here depends on how fast the machine is. VOLUMIC_BENCHMARK_LABELS names the program.
 """
 
-import csv
 import math
 import os
 import struct
 import subprocess
-import sys
-import tempfile
 import unittest
 
-PROGRAM = [sys.executable, os.path.join(os.path.dirname(__file__), "benchmark_labels.py"),
-           "--program", os.environ["VOLUMIC_BENCHMARK_LABELS"]]
+from benchmark_test_case import (
+    Benchmark, CommandLineTestCase, FolderTestCase, SharedFolderTestCase, number, read_csv)
+
+BENCHMARK = Benchmark("benchmark_labels.py", "VOLUMIC_BENCHMARK_LABELS")
 OURS = ["us", "us-gap", "us-alone"]
 PEERS = ["windowed", "windowed-more", "remeshed"]  # nets and antialiased are not in all builds
-
-
-def run(*arguments):
-    return subprocess.run([*PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
-
-
-def read_csv(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def number(row, column):
-    return float(row[column]) if row[column] else math.nan
 
 
 def write_map(path, size, value):
@@ -51,19 +37,18 @@ _""".encode())
         file.write(b"\n</AppendedData></VTKFile>\n")
 
 
-class Shapes(unittest.TestCase):
+class Shapes(SharedFolderTestCase):
     """Two balls that touch, looked at from all sides."""
 
     @classmethod
     def setUpClass(cls):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "balls.csv")
-            cls.done = run("--shapes", "TouchingBalls", "--sizes", "40", "--stretches", "1",
-                           "--csv", path)
-            if cls.done.returncode != 0:
-                raise AssertionError(cls.done.stdout + cls.done.stderr)
-            cls.rows = read_csv(path)
-            cls.targets = read_csv(path.replace(".csv", "-targets.csv"))
+        super().setUpClass()
+        done = BENCHMARK.run("--shapes", "TouchingBalls", "--sizes", "40", "--stretches", "1",
+                             "--csv", cls.path("balls.csv"))
+        if done.returncode != 0:
+            raise AssertionError(done.stdout + done.stderr)
+        cls.rows = read_csv(cls.path("balls.csv"))
+        cls.targets = read_csv(cls.path("balls-targets.csv"))
 
     def of(self, name):
         return [row for row in self.rows if row["Run"] == name and row["Label"] != "all"]
@@ -130,12 +115,16 @@ class Shapes(unittest.TestCase):
         self.assertAlmostEqual(float(found["figure"]), ratio, delta=0.01 * ratio)
 
 
-class Maps(unittest.TestCase):
+class Maps(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.map = os.path.join(folder.name, "map.vti")
-        self.csv = os.path.join(folder.name, "map.csv")
+        super().setUp()
+        self.map = self.path("map.vti")
+
+    def rows(self, *arguments):
+        """Of the table, and what was printed."""
+        done = BENCHMARK.run(*arguments, "--csv", self.path("map.csv"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return read_csv(self.path("map.csv")), done.stdout
 
     @staticmethod
     def boxes(x, y, z):
@@ -146,10 +135,8 @@ class Maps(unittest.TestCase):
 
     def test_labels_of_a_file(self):
         write_map(self.map, 24, self.boxes)
-        done = run("--map", self.map, "--runs", "us,windowed", "--csv", self.csv)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("2 labels; 1 smaller ones left out", done.stdout)
-        rows = read_csv(self.csv)
+        rows, printed = self.rows("--map", self.map, "--runs", "us,windowed")
+        self.assertIn("2 labels; 1 smaller ones left out", printed)
         self.assertEqual([(row["Run"], row["Label"]) for row in rows],
                          [("us", "all"), ("us", "5"), ("us", "9"),
                           ("windowed", "5"), ("windowed", "9")])
@@ -160,90 +147,65 @@ class Maps(unittest.TestCase):
 
     def test_all_as_a_mask(self):
         write_map(self.map, 24, self.boxes)
-        done = run("--map", self.map, "--mask", "--runs", "windowed", "--csv", self.csv)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual([row["LabelVoxels"] for row in read_csv(self.csv)],
-                         [str(16 * 12 * 12 + 8)])
+        rows, _ = self.rows("--map", self.map, "--mask", "--runs", "windowed")
+        self.assertEqual([row["LabelVoxels"] for row in rows], [str(16 * 12 * 12 + 8)])
 
     def test_labels_of_a_scan(self):
         write_map(self.map, 24, lambda *place: 100 * self.boxes(*place))
-        done = run("--scan", self.map, "--thresholds", "450,800", "--runs", "windowed",
-                   "--csv", self.csv)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        counts = [number(row, "LabelVoxels") for row in read_csv(self.csv)]
+        rows, _ = self.rows("--scan", self.map, "--thresholds", "450,800", "--runs", "windowed")
+        counts = [number(row, "LabelVoxels") for row in rows]
         self.assertEqual(len(counts), 2)  # the corner is too small
         for count in counts:  # the median takes edges away
             self.assertAlmostEqual(count / (8 * 12 * 12), 1.0, delta=0.1)
 
     def test_a_body(self):
-        done = run("--body", "64,64,48", "--body-labels", "5", "--least", "20", "--runs", "us",
-                   "--csv", self.csv)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertGreater(len(read_csv(self.csv)), 3)
+        rows, _ = self.rows("--body", "64,64,48", "--body-labels", "5", "--least", "20", "--runs",
+                            "us")
+        self.assertGreater(len(rows), 3)
 
     def test_what_is_no_label_map_is_told(self):
-        with open(self.map, "w") as file:
-            file.write("nonsense")
-        done = run("--map", self.map)
+        done = BENCHMARK.run("--map", self.write_bytes("map.vti", b"nonsense"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("not a readable volume", done.stderr)
 
 
-class CommandLine(unittest.TestCase):
-    def test_what_is_wrong_is_told(self):
-        for arguments, message in (
-                (["--shapes", "Cube"], "there are Sphere"),
-                (["--sizes", "8"], "at least 32"),
-                (["--stretches", "0.5"], "--stretches"),
-                (["--runs", "us,nobody"], "nobody"),
-                (["--scan", "scan.vti"], "--thresholds"),
-                (["--map", "map.vti", "--body", "64,64,64"], "alone"),
-                (["--body", "64"], "three numbers"),
-                (["--mask"], "--map"),
-                (["--threads", "1,2"], "one whole number"),
-                (["--csv"], "expected one argument"),
-                (["--frobnicate"], "--frobnicate")):
-            with self.subTest(arguments=arguments):
-                done = run(*arguments)
-                self.assertEqual(done.returncode, 2)
-                self.assertIn(message, done.stderr)
+class CommandLine(CommandLineTestCase):
+    benchmark = BENCHMARK
 
-    def test_labels_that_are_not_there(self):
-        done = run("--body", "48,48,48", "--body-labels", "2", "--labels", "77")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("none of these labels", done.stderr)
+    def test_what_is_wrong_is_told(self):
+        self.check_refusals(
+            ("--shapes Cube", "there are Sphere"), ("--sizes 8", "at least 32"),
+            ("--stretches 0.5", "--stretches"), ("--runs us,nobody", "nobody"),
+            ("--scan scan.vti", "--thresholds"), ("--map map.vti --body 64,64,64", "alone"),
+            ("--body 64", "three numbers"), ("--mask", "--map"),
+            ("--threads 1,2", "one whole number"), ("--csv", "expected one argument"),
+            ("--body 48,48,48 --body-labels 2 --labels 77", "none of these labels"),
+            ("--frobnicate", "--frobnicate"))
 
     def test_a_program_that_is_killed_is_told(self):
-        with tempfile.TemporaryDirectory() as folder:
-            program, path = os.path.join(folder, "program"), os.path.join(folder, "runs.csv")
-            with open(program, "w") as file:
-                file.write('#!/bin/sh\nprintf "@row a\\t1\\tus\\n@number Triangles 8\\n"\n'
-                           "kill -9 $$\n")
-            os.chmod(program, 0o755)
-            done = run("--program", program, "--csv", path)
-            rows = read_csv(path)
+        program = self.write_text(
+            "program", '#!/bin/sh\nprintf "@row a\\t1\\tus\\n@number Triangles 8\\n"\nkill -9 $$\n')
+        os.chmod(program, 0o755)
+        done = BENCHMARK.run("--program", program, "--csv", self.path("runs.csv"))
+        rows = read_csv(self.path("runs.csv"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("has failed (Killed); it told 1 rows", done.stderr)
         self.assertEqual([number(row, "Triangles") for row in rows], [8])
 
     def test_the_program_names_what_is_no_option(self):
         for arguments in (["--frobnicate", "1"], ["--map"]):
-            done = subprocess.run([PROGRAM[-1], *arguments], capture_output=True, text=True)
+            done = subprocess.run([BENCHMARK.program, *arguments], capture_output=True, text=True,
+                                  check=False)
             self.assertEqual(done.returncode, 2)
             self.assertIn(arguments[0], done.stderr)
 
     def test_help(self):
-        done = run("--help")
-        self.assertEqual(done.returncode, 0)
-        for name in OURS + PEERS:
-            self.assertIn(name, done.stdout)
+        self.check_help(OURS + PEERS)
 
     def test_a_run_that_fails_is_told(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "runs.csv")
-            done = run("--shapes", "Sphere", "--sizes", "32", "--stretches", "1", "--finest", "-2",
-                       "--runs", "us,windowed", "--csv", path)
-            rows = read_csv(path)
+        done = BENCHMARK.run("--shapes", "Sphere", "--sizes", "32", "--stretches", "1", "--finest",
+                             "-2", "--runs", "us,windowed", "--csv", self.path("runs.csv"))
+        rows = read_csv(self.path("runs.csv"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("failed", rows[0]["Failure"])
         self.assertEqual([row["Failure"] for row in rows[1:]], [""])

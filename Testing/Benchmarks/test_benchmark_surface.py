@@ -6,45 +6,29 @@
 Nothing here depends on how fast the machine is. VOLUMIC_BENCHMARK_SURFACE names the program.
 """
 
-import csv
 import math
 import os
 import statistics
-import subprocess
-import sys
-import tempfile
 import unittest
 
-PROGRAM = [sys.executable, os.path.join(os.path.dirname(__file__), "benchmark_surface.py"),
-           "--program", os.environ["VOLUMIC_BENCHMARK_SURFACE"]]
+from benchmark_test_case import (
+    Benchmark, CommandLineTestCase, FolderTestCase, SharedFolderTestCase, number, read_csv)
+
+BENCHMARK = Benchmark("benchmark_surface.py", "VOLUMIC_BENCHMARK_SURFACE")
 OURS = ["us-1", "us-2", "us-flat", "us-paper"]
 PEERS = ["flying", "smoothed", "decimated", "remeshed", "mesher"]
 
 
-def run(*arguments):
-    return subprocess.run([*PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
-
-
-def read_csv(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def number(row, column):
-    return float(row[column]) if row[column] else math.nan
-
-
-class SideBySide(unittest.TestCase):
+class SideBySide(SharedFolderTestCase):
     """One run of everything on a ring, looked at from all sides."""
 
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        path = os.path.join(cls.folder.name, "ring.csv")
-        cls.surface = os.path.join(cls.folder.name, "ring.vtp")
-        cls.done = run("--scene", "Torus", "--size", "40", "--no-recovery", "--profile",
-                       "--repetitions", "2", "--csv", path, "--output", cls.surface)
+        super().setUpClass()
+        path = cls.path("ring.csv")
+        cls.done = BENCHMARK.run(
+            "--scene", "Torus", "--size", "40", "--no-recovery", "--profile", "--repetitions", "2",
+            "--csv", path, "--output", cls.path("ring.vtp"))
         if cls.done.returncode != 0:
             raise AssertionError(cls.done.stdout + cls.done.stderr)
         cls.runs = {row["Run"]: row for row in read_csv(path)}
@@ -161,19 +145,18 @@ class SideBySide(unittest.TestCase):
             self.assertEqual({row["verdict"] for row in rows[name]}, {"reached"})
 
     def test_the_surface_is_written(self):
-        self.assertGreater(os.path.getsize(self.surface), 1000)
+        self.assertGreater(os.path.getsize(self.path("ring.vtp")), 1000)
 
 
-class Growth(unittest.TestCase):
+class Growth(FolderTestCase):
     def test_exponents_are_those_of_the_rows(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "growth.csv")
-            done = run("--scene", "Sphere", "--size", "40", "--growth", "--sizes", "24,32,48",
-                       "--csv", path)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            rows = read_csv(path)
-            exponents = {(row["Figure"], row["Against"]): row
-                         for row in read_csv(path.replace(".csv", "-exponents.csv"))}
+        path = self.path("growth.csv")
+        done = BENCHMARK.run("--scene", "Sphere", "--size", "40", "--growth", "--sizes", "24,32,48",
+                             "--csv", path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = read_csv(path)
+        exponents = {(row["Figure"], row["Against"]): row
+                     for row in read_csv(self.path("growth-exponents.csv"))}
         self.assertEqual([row["Voxels"] for row in rows],
                          [str(size ** 3) for size in (24, 32, 48)])
         for figure, against in (("ProcessorSeconds", "Voxels"), ("PeakMegabytes", "Vertices"),
@@ -192,15 +175,14 @@ class Growth(unittest.TestCase):
         self.assertIn(("ContactAndProximityPerFinestIteration", "FinestVertices"), exponents)
 
 
-class Scaling(unittest.TestCase):
+class Scaling(FolderTestCase):
     """What threads gain, and what memory is taken: one size of a ring each."""
 
     def measure(self, *arguments):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "ring.csv")
-            done = run("--scene", "Torus", "--size", "40", "--csv", path, *arguments)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            return done, read_csv(path), read_csv(path.replace(".csv", "-targets.csv"))
+        path = self.path("ring.csv")
+        done = BENCHMARK.run("--scene", "Torus", "--size", "40", "--csv", path, *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done, read_csv(path), read_csv(self.path("ring-targets.csv"))
 
     def test_threads_take_turns(self):
         done, rows, targets = self.measure("--threads", "1,2", "--repetitions", "3")
@@ -267,57 +249,44 @@ class Scaling(unittest.TestCase):
         self.assertIn("MB at the peak", done.stdout)
 
     def test_nothing_is_left_behind(self):
-        with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([*PROGRAM, "--scene", "Torus", "--memory", "--sizes", "0"],
-                                  capture_output=True, text=True, timeout=250,
-                                  env={**os.environ, "TMPDIR": folder})
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(os.listdir(folder), [])
+        done = BENCHMARK.run("--scene", "Torus", "--memory", "--sizes", "0",
+                             env={**os.environ, "TMPDIR": self.folder})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
 
 
-class CommandLine(unittest.TestCase):
+class CommandLine(CommandLineTestCase):
+    benchmark = BENCHMARK
+
     def test_coarsest_level(self):
+        path = self.path("runs.csv")
         for arguments, expected in (([], "2"), (["--coarsest", "1"], "1")):
-            with tempfile.TemporaryDirectory() as folder:
-                path = os.path.join(folder, "runs.csv")
-                done = run("--scene", "Torus", "--size", "40", "--runs", "us-1", "--csv", path,
-                           *arguments)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertEqual(read_csv(path)[0]["CoarsestLevel"], expected)
+            done = BENCHMARK.run("--scene", "Torus", "--size", "40", "--runs", "us-1", "--csv",
+                                 path, *arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(read_csv(path)[0]["CoarsestLevel"], expected)
 
     def test_what_is_wrong_is_told(self):
-        for arguments, message in (
-                ([], "--volume FILE.vti or --scene NAME"),
-                (["--volume", "missing.vti", "--iso", "1"], "missing.vti"),
-                (["--volume", "missing.vti"], "--iso"),
-                (["--scene", "Cube"], "there are Sphere"),
-                (["--scene", "Torus", "--iso", "9999"], "iso-value"),
-                (["--scene", "Torus", "--runs", "us-1,nobody"], "nobody"),
-                (["--scene", "Torus", "--runs", "mesher"], "--edge-length"),
-                (["--scene", "Torus", "--size", "many"], "many"),
-                (["--scene", "Torus", "--csv"], "expected one argument"),
-                (["--scene", "Torus", "--threads", "1,none"], "none"),
-                (["--scene", "Torus", "--threads", "1,2", "--model"], "alone"),
-                (["--scene", "Torus", "--memory", "--slow"], "--slow"),
-                (["--scene", "Torus", "--growth", "--sizes", "0,32"], "no size 0"),
-                (["--frobnicate"], "--frobnicate")):
-            with self.subTest(arguments=arguments):
-                done = run(*arguments)
-                self.assertEqual(done.returncode, 2)
-                self.assertIn(message, done.stderr)
+        self.check_refusals(
+            ("", "--volume FILE.vti or --scene NAME"),
+            ("--volume missing.vti --iso 1", "missing.vti"), ("--volume missing.vti", "--iso"),
+            ("--scene Cube", "there are Sphere"), ("--scene Torus --iso 9999", "iso-value"),
+            ("--scene Torus --runs us-1,nobody", "nobody"),
+            ("--scene Torus --runs mesher", "--edge-length"), ("--scene Torus --size many", "many"),
+            ("--scene Torus --csv", "expected one argument"),
+            ("--scene Torus --threads 1,none", "none"),
+            ("--scene Torus --threads 1,2 --model", "alone"),
+            ("--scene Torus --memory --slow", "--slow"),
+            ("--scene Torus --growth --sizes 0,32", "no size 0"), ("--frobnicate", "--frobnicate"))
 
     def test_help(self):
-        done = run("--help")
-        self.assertEqual(done.returncode, 0)
-        for name in OURS + PEERS:
-            self.assertIn(name, done.stdout)
+        self.check_help(OURS + PEERS)
 
     def test_a_run_that_fails_is_told_and_others_go_on(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "runs.csv")
-            done = run("--scene", "Torus", "--size", "32", "--runs", "us-1,flying,mesher",
-                       "--csv", path, "--output", os.path.join(folder, "missing", "ring.vtp"))
-            rows = {row["Run"]: row for row in read_csv(path)}
+        path = self.path("runs.csv")
+        done = BENCHMARK.run("--scene", "Torus", "--size", "32", "--runs", "us-1,flying,mesher",
+                             "--csv", path, "--output", self.path("missing/ring.vtp"))
+        rows = {row["Run"]: row for row in read_csv(path)}
         self.assertEqual(done.returncode, 1)
         self.assertIn("us-1 FAILED", done.stdout)
         self.assertIn("can't be written", rows["us-1"]["Failure"])

@@ -5,30 +5,22 @@
 VOLUMIC_PROGRAM and VOLUMIC_MAKE_VOLUME name the programs.
 """
 
-import csv
 import json
 import os
 import re
 import struct
 import subprocess
 import sys
-import tempfile
 import unittest
+
+from benchmark_test_case import FolderTestCase, read_csv
 
 PROGRAM = os.environ["VOLUMIC_PROGRAM"]
 MAKE_VOLUME = os.environ["VOLUMIC_MAKE_VOLUME"]
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "measure_limit.py")
 
 
-class LimitTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class LimitTest(FolderTestCase):
     def run_program(self, *arguments, status=0):
         process = subprocess.run([str(a) for a in arguments], capture_output=True, text=True,
                                  timeout=250, check=False)
@@ -46,8 +38,7 @@ class LimitTest(unittest.TestCase):
 
 class MakeVolumeTest(LimitTest):
     def voxels(self, name, size):
-        with open(name, "rb") as file:
-            content = file.read()
+        content = self.content(name)
         end = content.rindex(b"\n  </AppendedData>")
         start = end - 2 * size ** 3
         self.assertEqual(content[start - 9:start], b"_" + struct.pack("=Q", 2 * size ** 3))
@@ -70,8 +61,7 @@ class MakeVolumeTest(LimitTest):
         # Every second voxel is an old one: 2 * 24 - 1 = 47.
         self.assertEqual([new[i * 2 * (1 + 47 + 47 ** 2)] for i in range(24)],
                          [old[i * (1 + 24 + 24 ** 2)] for i in range(24)])
-        with open(self.path("new.vti"), "rb") as file:
-            head = file.read(1000).decode("latin-1")
+        head = self.content("new.vti")[:1000].decode("latin-1")
         self.assertIn('WholeExtent="0 46 0 46 0 46"', head)
         self.assertIn('Spacing="0.5 0.5 0.5"', head)
 
@@ -88,8 +78,7 @@ class MeasureLimitTest(LimitTest):
     def test_surfaces_are_the_same(self):
         process = self.measure("--memory", "2G,3G", "--csv", self.path("limit.csv"), self.foam(32),
                                "--iso", 0.5)
-        with open(self.path("limit.csv"), newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = read_csv(self.path("limit.csv"))
         self.assertEqual([row["limit"] for row in rows], ["none", "2G", "3G"])
         self.assertEqual(len({row["surface"] for row in rows}), 1)
         for row in rows:
@@ -111,12 +100,11 @@ class MeasureLimitTest(LimitTest):
                  'echo "$*" > "$2"'),
                 ("MB were resident with a limit of 1M",
                  'echo same > "$2"; exec "$PYTHON" -c "x = bytearray(50 << 20)"')):
-            with open(self.path("program"), "w", encoding="utf-8") as file:
-                file.write(f"#!/bin/sh\nPYTHON={sys.executable}\n{script}\n")
-            os.chmod(self.path("program"), 0o755)
+            program = self.write_text("program",
+                                      f"#!/bin/sh\nPYTHON={sys.executable}\n{script}\n")
+            os.chmod(program, 0o755)
             limit = "1M" if "1M" in reason else "9G"
-            process = self.measure("--memory", limit, volume, program=self.path("program"),
-                                   status=1)
+            process = self.measure("--memory", limit, volume, program=program, status=1)
             self.assertIn(reason, process.stderr)
 
 

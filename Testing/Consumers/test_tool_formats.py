@@ -19,7 +19,8 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataReader
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 
 from tool_test_case import (
-    CENTRE, ISO, ORIGIN, RADIUS, SIZE, SPACING, TURNED, ToolTestCase, ball, make_image)
+    CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice,
+    make_image, nrrd_header)
 
 import medical_files
 
@@ -47,7 +48,7 @@ class VolumesTest(ToolTestCase):
 
     def test_meta_image(self):
         self.check(self.write(vtkMetaImageWriter(), "a.mha", make_image(ball())))
-        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "0 1 0 -1 0 0 0 0 1")
+        header = META.replace(b"1 0 0 0 1 0 0 0 1", b"0 1 0 -1 0 0 0 0 1")
         self.check(self.write_bytes("b.mha", header + ball().tobytes()), direction=TURNED)
         # Of four bytes, whatever VTK takes for long.
         header = header.replace(b"MET_SHORT", b"MET_LONG")
@@ -57,16 +58,15 @@ class VolumesTest(ToolTestCase):
         for encoding, code in (("raw", bytes), ("gzip", gzip.compress)):
             for endian, order in (("little", "<"), ("big", ">")):
                 with self.subTest(encoding=encoding, endian=endian):
-                    header = medical_files.nrrd_header(
-                        ball(), SPACING, ORIGIN, TURNED, encoding, endian)
+                    header = nrrd_header(encoding, endian, TURNED)
                     data = code(ball().astype(order + "i2").tobytes())
                     self.check(self.write_bytes("a.nrrd", header + b"\n" + data), direction=TURNED)
 
     def test_nrrd_in_two_files_and_as_text(self):
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, TURNED, "raw", "little")
+        header = nrrd_header(direction=TURNED)
         self.write_bytes("a.raw", ball().tobytes())
         self.check(self.write_bytes("a.nhdr", header + b"data file: a.raw\n"), direction=TURNED)
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, TURNED, "ascii", "little")
+        header = nrrd_header("ascii", direction=TURNED)
         text = " ".join(map(str, ball().ravel())).encode()
         self.check(self.write_bytes("b.nrrd", header + b"\n" + text), direction=TURNED)
 
@@ -77,23 +77,22 @@ class VolumesTest(ToolTestCase):
         content = medical_files.nifti(ball(), SPACING, offset=ORIGIN, slope=0.5, intercept=-100)
         report = self.check(self.write_bytes("b.nii.gz", gzip.compress(content)),
                             iso=ISO / 2 - 100)
-        self.assertEqual(report["input"]["range"], (np.array([ball().min(), ball().max()]) / 2 - 100).tolist())
+        self.assertEqual(report["input"]["range"],
+                         [ball().min() / 2 - 100, ball().max() / 2 - 100])
 
     def test_invesalius_project(self):
         for dtype in ("int16", "uint8", "float32"):
             with self.subTest(dtype):
                 scale = 0.2 if dtype == "uint8" else 1
-                file = self.path("a.inv3")
-                medical_files.write_inv3(file, ball(dtype, scale), SPACING, dtype=dtype)
-                report = self.check(file, origin=np.zeros(3), iso=ISO * scale)
                 voxels = ball(dtype, scale)
+                file = self.write_bytes("a.inv3", medical_files.inv3(voxels, SPACING, dtype=dtype))
+                report = self.check(file, origin=np.zeros(3), iso=ISO * scale)
                 self.assertEqual(report["input"]["range"], [voxels.min(), voxels.max()])
                 # The same surface, bit for bit, as of VTK's own format.
                 self.run_tool(file, self.path("a.ply"), "--iso", ISO * scale)
                 self.write(vtkXMLImageDataWriter(), "b.vti", make_image(voxels, origin=np.zeros(3)))
                 self.run_tool(self.path("b.vti"), self.path("b.ply"), "--iso", ISO * scale)
-                with open(self.path("a.ply"), "rb") as a, open(self.path("b.ply"), "rb") as b:
-                    self.assertEqual(a.read(), b.read())
+                self.assertEqual(self.content("a.ply"), self.content("b.ply"))
 
     @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
     def test_minc(self):
@@ -103,8 +102,8 @@ class VolumesTest(ToolTestCase):
     def test_dicom_series_in_any_order(self):
         voxels = ball("u2") + 24
         for k, name in enumerate(np.random.default_rng(1).permutation(SIZE[2])):
-            self.write_bytes(f"IM{name:03}.dcm", medical_files.dicom_slice(
-                voxels[k], k, SPACING, ORIGIN, TURNED, slope="1", intercept="-24"))
+            self.write_bytes(f"IM{name:03}.dcm", dicom_slice(k, voxels, TURNED, slope="1",
+                                                             intercept="-24"))
         report = self.check(self.folder, direction=TURNED)
         self.assertEqual(report["input"]["range"], [ball().min(), ball().max()])
         self.check(self.path("IM000.dcm"), direction=TURNED)
@@ -134,10 +133,8 @@ class VolumesTest(ToolTestCase):
         """What is appended ParaView 5.11 refuses, see WriteVtp."""
         volume = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
         self.run_tool(volume, "--iso", ISO, "-q", self.path("a.vtp"))
-        with open(self.path("a.vtp"), "rb") as file:
-            content = file.read()
-        self.assertNotIn(b"AppendedData", content)
-        self.assertIn(b'format="binary"', content)
+        self.assertNotIn(b"AppendedData", self.content("a.vtp"))
+        self.assertIn(b'format="binary"', self.content("a.vtp"))
 
     def test_a_picture_with_pages(self):
         # VTK writes the slices of a volume from the last to the first page.
@@ -187,11 +184,9 @@ class VolumesTest(ToolTestCase):
         self.refused("a.xyz.*not a format", self.write_bytes("a.xyz", b"?"), self.path("a.stl"))
         said = self.run_tool(self.path("a.xyz"), self.path("a.stl"), status=1).stderr
         self.assertEqual(len(said.splitlines()), 1, "readers that were asked complain: " + said)
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
-        self.refused("damaged", self.write_bytes("a.nrrd", header + b"\nnothing but this text"),
-                     self.path("a.stl"))
-        sheared = np.array([[1, 0.5, 0], [0, 1, 0], [0, 0, 1]])
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, sheared, "raw", "little")
+        content = nrrd_header("gzip") + b"\nnothing but this text"
+        self.refused("damaged", self.write_bytes("a.nrrd", content), self.path("a.stl"))
+        header = nrrd_header(direction=np.array([[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]))
         self.refused("right angles", self.write_bytes("b.nrrd", header + b"\n" + ball().tobytes()),
                      self.path("a.stl"))
         self.refused("no value separates", self.write(
@@ -200,8 +195,7 @@ class VolumesTest(ToolTestCase):
 
     def test_bad_series(self):
         for k in (0, 1, 2, 5, 6):
-            self.write_bytes(f"IM{k}", medical_files.dicom_slice(
-                ball()[k], k, SPACING, ORIGIN, TURNED))
+            self.write_bytes(f"IM{k}", dicom_slice(k, direction=TURNED))
         self.refused("some are missing", self.folder, self.path("a.stl"))
         self.write_bytes("IM5", medical_files.dicom_slice(ball()[0], 1, SPACING, ORIGIN, TURNED))
         self.refused("one series per folder", self.folder, self.path("a.stl"))

@@ -8,20 +8,19 @@ Each of them once crashed the program, hung, or filled the memory or the disk.
 import base64
 import gzip
 import importlib.util
-import io
 import re
 import resource
 import signal
 import struct
 import subprocess
-import tarfile
 import unittest
 import zlib
 
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ISO, ORIGIN, PROGRAM, SIZE, SPACING, ToolTestCase, ball, make_image
+from tool_test_case import (
+    ISO, META, PROGRAM, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image)
 
 import medical_files
 from test_tool_label_names import labelled_nifti
@@ -56,7 +55,7 @@ class HostileTest(ToolTestCase):
     def refused(self, name, reason, *options, modes=((), ("--memory", "300M"))):
         """By its name, for this reason, whether read as a whole or in parts."""
         for memory in modes:
-            with self.subTest(name, memory=memory):
+            with self.subTest(name, reason=reason, memory=memory):
                 process = self.run_limited(self.path(name), self.path("x.stl"), "--iso", ISO,
                                            "--scratch", self.folder, *memory, *options)
                 self.assertEqual(process.returncode, 1, process.stderr[-500:])
@@ -103,8 +102,7 @@ class HeaderTest(HostileTest):
         self.refused_bytes("a.nii", gzip.compress(head) + bomb, "begin at byte 500000000")
 
     def test_meta_image_without_voxels(self):
-        head = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
-        head = head.replace(b"CompressedData = False", b"CompressedData = True")
+        head = META.replace(b"CompressedData = False", b"CompressedData = True")
         bomb = zlib.compress(bytes(200 << 20), 9)
         self.refused_bytes("a.mha", head + bomb, "more than the 20592 bytes")
         for sizes in (b"0 0 0", b"26 22 0", b"26 22 18446744073709551615",
@@ -115,44 +113,41 @@ class HeaderTest(HostileTest):
         """MetaIO prints numbers by the word that it finds, and divides by the step."""
         for k in range(20):
             self.write_bytes(f"{k}.raw", ball()[0].tobytes())
-        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
         for words in ("%s.raw 1 18 1", "%n.raw 1 18 1", "%d%d.raw 1 18 1", "%d.raw 1 18",
                       "%d.raw 1 18 0", "%d.raw 18 1 -1", "%d.raw 1 5 1", "%09999999999d.raw 1 18 1",
                       "%0999999999d.raw 1 18 1", "%", "%d.raw 1 18 1 1", "%d" + "a" * 60000):
-            content = header.replace(b"LOCAL", words.encode())
+            content = META.replace(b"LOCAL", words.encode())
             with self.subTest(words[:30]):
                 self.refused_bytes("a.mhd", content, "gives no 18 files|cannot be opened")
         for words in ("%d.raw", "%d.raw 1", "%d.raw 1 18 1", "%01d.raw 1 19 1"):
-            self.write_bytes("a.mhd", header.replace(b"LOCAL", words.encode()))
+            self.write_bytes("a.mhd", META.replace(b"LOCAL", words.encode()))
             with self.subTest(words):
                 self.run_tool(self.path("a.mhd"), "--write-volume", self.path("a.vti"))
-        self.refused_bytes("a.mhd", header.replace(b"LOCAL", b"%d.raw 1 x 1"), "not a whole number")
+        self.refused_bytes("a.mhd", META.replace(b"LOCAL", b"%d.raw 1 x 1"), "not a whole number")
         for word in (b"a" * 60000, b"a" * 60000 + b" 1 18 1", b"*" * 60000 + b"%d.raw 1 18 1",
                      b"%d*" * 20000):
-            self.refused_bytes("a.mhd", header.replace(b"LOCAL", word),
+            self.refused_bytes("a.mhd", META.replace(b"LOCAL", word),
                                "gives no 18 files|cannot be opened")
 
     def test_sizes_that_are_not_those_of_the_files(self):
         """Keys of another case or told twice, of which VTK's reader takes others."""
-        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
-        listed = header.replace(b"LOCAL", b"%d.raw 0 17 1")
+        listed = META.replace(b"LOCAL", b"%d.raw 0 17 1")
         for sizes, share in ((b"1 1 19", 2), (b"1 1 2", 0)):
             for k in range(18):
                 self.write_bytes(f"{k}.raw", bytes(share))
             content = listed.replace(b"DimSize = 26 22 18", b"dimsize = 1 1 18\nDimSize = " + sizes)
             self.refused_bytes("a.mhd", content, "header is damaged")
-        for content in (header + ball().tobytes(), listed):
+        for content in (META + ball().tobytes(), listed):
             self.refused_bytes("b.mhd", content.replace(
                 b"ElementType", b"ElementNumberOfChannels = 0\nElementType"), "header is damaged")
-        self.write_bytes("c.mha", header.replace(b"DimSize", b"dimsize"))
+        self.write_bytes("c.mha", META.replace(b"DimSize", b"dimsize"))
         said = self.run_limited(self.path("c.mha"), self.path("x.stl"), "--iso", ISO).stderr
         self.assertRegex(said, r"\Avolumic: .*cannot parse file.*\n\Z")
 
     def test_more_slices_than_a_list_has(self):
-        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
-        listed = header.replace(b"26 22 18", b"26 22 18446744073709551615")
+        listed = META.replace(b"26 22 18", b"26 22 18446744073709551615")
         self.refused_bytes("a.mhd", listed.replace(b"LOCAL", b"LIST") + b"a.raw\n", "lists 1 files")
-        many = header.replace(b"26 22 18", b"1 " * 40).replace(b"NDims = 3", b"NDims = 40")
+        many = META.replace(b"26 22 18", b"1 " * 40).replace(b"NDims = 3", b"NDims = 40")
         self.refused_bytes("b.mhd", many, "no NDims, or not as many sizes")
 
     def test_pages_that_share_their_values(self):
@@ -185,16 +180,11 @@ class NestingTest(HostileTest):
                         b"<a><![CDATA[</a>]]>", b"<a\n>"):
             yield element * self.DEEP
 
-    def project(self, plist):
-        with tarfile.open(self.path("a.inv3"), "w:gz") as archive:
-            member = tarfile.TarInfo("main.plist")
-            member.size = len(plist)
-            archive.addfile(member, io.BytesIO(plist))
-
     def test_elements_within_elements(self):
         for elements in self.hidden():
-            self.project((b"<plist>" + elements)[:1 << 20])
-            self.refused("a.inv3", "elements within elements|cannot be parsed", modes=((),))
+            plist = (b"<plist>" + elements)[:1 << 20]
+            self.refused_bytes("a.inv3", medical_files.archive_of([("main.plist", plist)]),
+                               "elements within elements|cannot be parsed", modes=((),))
         image = b'<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 1 0 1">'
         for elements in self.hidden():
             if b"Appended" not in elements:
@@ -225,10 +215,11 @@ class VtkTest(HostileTest):
         def tga(kind, width, rows, data, bits=24):
             return struct.pack("<12B2H2B", 0, 0, kind, *[0] * 9, width, rows, bits, 0) + data
 
-        self.refused_bytes("a.tga", tga(2, 32767, 32767, bytes(100)), "cut off")
-        self.refused_bytes("a.tga", tga(2, 65535, 65535, bytes(100)), "damaged")
-        self.refused_bytes("a.tga", tga(10, 2, 2, b"\xff123" * 9), "packed pixels are not as many")
-        self.refused_bytes("a.tga", tga(10, 99, 99, b"\xff123"), "packed pixels are not as many")
+        for content, reason in ((tga(2, 32767, 32767, bytes(100)), "cut off"),
+                                (tga(2, 65535, 65535, bytes(100)), "damaged"),
+                                (tga(10, 2, 2, b"\xff123" * 9), "packed pixels are not as many"),
+                                (tga(10, 99, 99, b"\xff123"), "packed pixels are not as many")):
+            self.refused_bytes("a.tga", content, reason)
         self.refused_bytes("a.pgm", b"P5\n0 4\n2\n", "header is damaged")
         for content in (b"P3\n26 22\n", b"P1\n#", b"P2" + bytes(20),
                         b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 99 +X 99\n"):
@@ -258,8 +249,12 @@ class VtkTest(HostileTest):
         self.refused_bytes("a.vti", head % (b"appended", b' offset="0"/>') + cut,
                            "packed in 4294967280 blocks of 1 bytes")
 
+    def mesh(self, name, content, option="--initial-surface"):
+        """The run that is given this mesh."""
+        return self.run_limited(self.ball_file(), self.path("x.stl"), option,
+                                self.write_bytes(name, content))
+
     def test_polygons(self):
-        ball_file = self.ball_file()
         points = b"element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         faces = b"element face 1\nproperty list uchar int vertex_indices\n"
         for lines, reason in (
@@ -278,48 +273,37 @@ class VtkTest(HostileTest):
                 (points + b"comment \0" + faces, "header does not end"),
                 (points + faces + b"comment " + b"a" * 9000 + b"\n", "header does not end")):
             for form in (b"ascii", b"binary_little_endian"):
-                self.write_bytes("a.ply", b"ply\nformat " + form + b" 1.0\n" + lines
-                                 + b"end_header\n" + b"0 0 0 " * 99)
-                process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
-                                           self.path("a.ply"))
+                process = self.mesh("a.ply", b"ply\nformat " + form + b" 1.0\n" + lines
+                                    + b"end_header\n" + b"0 0 0 " * 99)
                 self.assertRegex(process.stderr, f"volumic: .*a.ply: .*{reason}")
         few = points.replace(b"3", b"300") + faces
         for old, corners in ((b"uchar int", b"\xff" + bytes(1020)), (b"uchar int", b"\3" + bytes(11)
                              + b"\xff"), (b"uchar int", b"\1\xff\xff\xff\xff")):
             for new in (b"char int", b"uchar char"):
-                self.write_bytes("a.ply", b"ply\nformat binary_little_endian 1.0\n"
-                                 + few.replace(old, new) + b"end_header\n" + bytes(3600) + corners)
-                process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
-                                           self.path("a.ply"))
+                process = self.mesh(
+                    "a.ply", b"ply\nformat binary_little_endian 1.0\n" + few.replace(old, new)
+                    + b"end_header\n" + bytes(3600) + corners)
                 self.assertEqual(process.returncode, 1, process.stderr)
-        self.write_bytes("a.ply", b"ply\nformat packed 1.0\n" + points + faces + b"end_header\n")
-        process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
-                                   self.path("a.ply"))
+        process = self.mesh("a.ply", b"ply\nformat packed 1.0\n" + points + faces
+                            + b"end_header\n")
         self.assertIn("the format 'packed' is none", process.stderr)
 
     def test_triangles(self):
         """More than there are, whatever the first word is."""
-        ball_file = self.ball_file()
         for word in (b"solid", b"binary"):
-            self.write_bytes("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31)
-                             + bytes(500))
-            process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
-                                       self.path("a.stl"))
+            process = self.mesh("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31)
+                                + bytes(500))
             self.assertRegex(process.stderr, "a.stl: the file is cut off: it has 584 bytes")
         text = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
-        self.write_bytes("b.stl", ("solid k\u00f6rper\n" + 4 * (text + "endfacet\n")
-                                   + "endsolid\n").encode())
-        process = self.run_limited(ball_file, self.path("x.stl"), "--seeds", self.path("b.stl"))
+        text = "solid k\u00f6rper\n" + 4 * (text + "endfacet\n") + "endsolid\n"
+        process = self.mesh("b.stl", text.encode(), "--seeds")
         self.assertIn("Seed 0 lies outside the image", process.stderr)  # It has been read.
 
     def test_series_without_a_name(self):
-        self.write_bytes("a.dcm", medical_files.dicom_slice(
-            ball()[0], 0, SPACING, ORIGIN, np.eye(3), series=""))
-        self.refused("a.dcm", "cannot be read")
+        self.refused_bytes("a.dcm", dicom_slice(0, series=""), "cannot be read")
 
     def test_corners(self):
         """Of points, textures and normals that are not there."""
-        ball_file = self.ball_file()
         start = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
         for line, reason in (
                 (b"f 1 2 4", "corner '4', which is none of the 3 points"),
@@ -330,9 +314,7 @@ class VtkTest(HostileTest):
                 (b"f 1 2 \\\n 4", "corner '4'"), (b"f 1//1 2/1 3", "corners of 3 kinds"),
                 (b"f", "corners of 0 kinds"),
                 (b"# " + b"a" * 2000, "too long, or no text"), (b"#\0", "too long, or no text")):
-            self.write_bytes("a.obj", start + line + b"\n" + b"f 1/1/1 2/1/1 3/1/1\n")
-            process = self.run_limited(ball_file, self.path("x.stl"), "--initial-surface",
-                                       self.path("a.obj"))
+            process = self.mesh("a.obj", start + line + b"\nf 1/1/1 2/1/1 3/1/1\n")
             with self.subTest(line[:20]):
                 self.assertRegex(process.stderr, f"a.obj: is damaged: line [67] .*{reason}")
 
@@ -344,10 +326,10 @@ class VtkTest(HostileTest):
                     + name.ljust((len(name) + 3) // 4 * 4, b"\0") + struct.pack(">I", dimensions)
                     + bytes(4 * dimensions) + struct.pack(">5I", 0, 0, 3, 8, 0) + bytes(4000))
 
-        self.refused_bytes("a.mnc", netcdf(b"other", 3, 2), "it has no image")
-        self.refused_bytes("a.mnc", netcdf(b"image", 9, 2), "9 dimensions")
-        self.refused_bytes("a.mnc", netcdf(b"image", 0, 2), "0 dimensions")
-        self.refused_bytes("a.mnc", netcdf(b"image", 3, 0), "and 0 values")
+        for name, dimensions, size, reason in (
+                (b"other", 3, 2, "it has no image"), (b"image", 9, 2, "9 dimensions"),
+                (b"image", 0, 2, "0 dimensions"), (b"image", 3, 0, "and 0 values")):
+            self.refused_bytes("a.mnc", netcdf(name, dimensions, size), reason)
 
 
 class NamesTest(HostileTest):

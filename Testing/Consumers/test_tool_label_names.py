@@ -11,11 +11,12 @@ import struct
 import unittest
 
 import numpy as np
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from tool_test_case import ORIGIN, SPACING, ToolTestCase, make_image
 
 import medical_files
+from vtk_files import read
 
 SEGMENTS = ("Segment0_Name:=liver", "Segment0_LabelValue:=3", "Segment0_Color:=1 0.5 0",
             "Segment0_Layer:=0", "Segment0_ID:=Segment_1",
@@ -39,10 +40,7 @@ class NamesTest(ToolTestCase):
     def fields_of(self, volume, *options):
         """Field data of the volume as the command writes it."""
         self.run_tool(volume, "--write-volume", self.path("read.vti"), *options)
-        reader = vtkXMLImageDataReader()
-        reader.SetFileName(self.path("read.vti"))
-        reader.Update()
-        return reader.GetOutput().GetFieldData()
+        return read(self.path("read.vti")).GetFieldData()
 
     def names_of(self, volume, *options):
         """{label: name} and {label: colour} of the volume."""
@@ -56,16 +54,16 @@ class NamesTest(ToolTestCase):
         return ({label: names.GetValue(i) for i, label in enumerate(labels)},
                 {label: colors.GetTuple(i) for i, label in enumerate(labels)} if colors else {})
 
+    def names_file(self, text, name):
+        return self.write_bytes(name, text if isinstance(text, bytes) else text.encode())
+
     def names_in(self, text, name="names.txt"):
-        content = text if isinstance(text, bytes) else text.encode()
-        return self.names_of(self.map_file(), "--label-names", self.write_bytes(name, content))
+        return self.names_of(self.map_file(), "--label-names", self.names_file(text, name))
 
     def refused_names(self, text, reason, name="names.txt"):
-        content = text if isinstance(text, bytes) else text.encode()
-        file = self.write_bytes(name, content)
         self.refused(f"^volumic: [^\n]*{name}: names of labels cannot be read: [^\n]*({reason})"
                      "[^\n]*\n$", self.map_file(), self.path("o/"), "--labels", "all",
-                     "--label-names", file, "-q")
+                     "--label-names", self.names_file(text, name), "-q")
 
 
 class FilesTest(NamesTest):
@@ -86,19 +84,19 @@ class FilesTest(NamesTest):
                    "recommendedDisplayRGBValue": [255, 128, 0]}],
                  [{"labelID": 3, "SegmentLabel": "Left lung",
                    "recommendedDisplayRGBValue": [0, 0, 255]}]]
-        for value, has_colors in (
-                ({"1": "liver", "3": "Left lung"}, False),
-                ({"liver": 1, "Left lung": 3}, False),
-                ({"liver": "1", "Left lung": [3], "both": [1, 3]}, False),
-                ({"channel_names": {"0": "CT"}, "labels": {"liver": 1, "Left lung": 3},
-                  "numTraining": 7, "file_ending": ".nii.gz"}, False),
-                ({"name": "x", "modality": {"0": "MR"}, "numTest": 3,
-                  "labels": {"1": "liver", "3": "Left lung"}}, False),
-                ({"class_map": {"total": {"1": "liver", "3": "Left lung"}}}, False),
-                (segments, True), ({"segments": segments}, True),
-                ({"@schema": "x", "segmentAttributes": dcmqi}, True),
-                ({"1": {"name": "liver", "color": [1, 0.5, 0]},
-                  "3": {"name": "Left lung", "color": [0, 0, 1]}}, True)):
+        plain = [
+            {"1": "liver", "3": "Left lung"}, {"liver": 1, "Left lung": 3},
+            {"liver": "1", "Left lung": [3], "both": [1, 3]},
+            {"channel_names": {"0": "CT"}, "labels": {"liver": 1, "Left lung": 3},
+             "numTraining": 7, "file_ending": ".nii.gz"},
+            {"name": "x", "modality": {"0": "MR"}, "numTest": 3,
+             "labels": {"1": "liver", "3": "Left lung"}},
+            {"class_map": {"total": {"1": "liver", "3": "Left lung"}}}]
+        coloured = [
+            segments, {"segments": segments}, {"@schema": "x", "segmentAttributes": dcmqi},
+            {"1": {"name": "liver", "color": [1, 0.5, 0]},
+             "3": {"name": "Left lung", "color": [0, 0, 1]}}]
+        for value, has_colors in [(v, False) for v in plain] + [(v, True) for v in coloured]:
             with self.subTest(value):
                 self.check_names(json.dumps(value, indent=1), "n.json", has_colors)
                 self.check_names(json.dumps(value, ensure_ascii=False), "n.json", has_colors)
@@ -117,12 +115,15 @@ class FilesTest(NamesTest):
 """, has_colors=True)
 
     def test_colour_tables(self):
-        self.check_names("# Color table file\n# 2 values\n1 liver 255 128 0 255\n"
-                         '3 "Left lung" 0 0 255 255\n', "a.ctbl", True)
-        self.check_names("#No. Label Name:   R   G   B   A\n\n1   liver    255 128 0   0\n"
-                         "3   Left lung   0  0  255  0\n", has_colors=True)
-        self.check_names("1 liver 255 128 0\n3 Left lung 0 0 255\n", has_colors=True)
-        self.check_names("1 liver 1.0 0.5 0\n3 Left lung 0 0 1\n", has_colors=True)
+        for name, text in (
+                ("a.ctbl", '# Color table file\n# 2 values\n1 liver 255 128 0 255\n'
+                 '3 "Left lung" 0 0 255 255\n'),
+                ("a.txt", "#No. Label Name:   R   G   B   A\n\n1   liver    255 128 0   0\n"
+                 "3   Left lung   0  0  255  0\n"),
+                ("a.txt", "1 liver 255 128 0\n3 Left lung 0 0 255\n"),
+                ("a.txt", "1 liver 1.0 0.5 0\n3 Left lung 0 0 1\n")):
+            with self.subTest(text):
+                self.check_names(text, name, has_colors=True)
         names, _ = self.names_in("1 Lobule 4 255 128 0\n3 Lobule 5 0 0 255\n4 x 1 2 3\n")
         self.assertEqual(names, {1: "Lobule 4", 3: "Lobule 5", 4: "x"})
 
@@ -207,15 +208,12 @@ class DamageTest(NamesTest):
         self.refused_names(deep, "no labels", "n.json")
 
     def test_files_that_are_not_there(self):
-        volume = self.map_file()
-        self.refused("none.txt: .*cannot be opened", volume, self.path("o/"), "--labels", "1",
-                     "--label-names", self.path("none.txt"))
-        self.refused("it is a folder", volume, self.path("o/"), "--labels", "1", "--label-names",
-                     self.folder)
-        with open(self.path("large.txt"), "wb") as file:
-            file.truncate(17 << 20)
-        self.refused("too large", volume, self.path("o/"), "--labels", "1", "--label-names",
-                     self.path("large.txt"))
+        self.write_bytes("large.txt", bytes(17 << 20))
+        for reason, name in (("none.txt: .*cannot be opened", "none.txt"), ("it is a folder", ""),
+                             ("too large", "large.txt")):
+            with self.subTest(reason):
+                self.refused(reason, self.map_file(), self.path("o/"), "--labels", "1",
+                             "--label-names", self.path(name))
 
     def test_every_cut_of_a_file_is_answered(self):
         text = json.dumps({"labels": [{"label": 1, "name": "a\u00e9\\", "color": [1, 0, 0]}]})
@@ -240,17 +238,14 @@ class BesideTest(NamesTest):
         volume = self.write_bytes("scan.nii.gz", gzip.compress(
             medical_files.nifti(voxels, SPACING)))
         self.assertEqual(self.names_of(volume), ({}, {}))
+        os.makedirs(self.path("sub"))
+        shutil.copy(volume, self.path("sub/scan.nii.gz"))
+        self.write_bytes("dataset.json", b'{"labels": {"above": 1}}')
+        self.assertEqual(self.names_of(self.path("sub/scan.nii.gz"))[0], {1: "above"})
         # Each takes the place of those before it.
-        for name in ("../dataset.json", "dataset.json", "scan.tsv", "scan.csv", "scan.json",
-                     "scan.ctbl", "scan.txt", "scan.label", "scan.nii.txt"):
+        for name in ("dataset.json", "scan.tsv", "scan.csv", "scan.json", "scan.ctbl", "scan.txt",
+                     "scan.label", "scan.nii.txt"):
             with self.subTest(name):
-                if name.startswith(".."):
-                    os.makedirs(self.path("sub"))
-                    shutil.copy(volume, self.path("sub/scan.nii.gz"))
-                    self.write_bytes("dataset.json", b'{"labels": {"above": 1}}')
-                    names, _ = self.names_of(self.path("sub/scan.nii.gz"))
-                    self.assertEqual(names, {1: "above"})
-                    continue
                 self.write_bytes(name, f'{{"1": "from {name}"}}'.encode())
                 self.assertEqual(self.names_of(volume)[0], {1: f"from {name}"})
 

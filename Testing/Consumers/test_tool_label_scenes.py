@@ -10,27 +10,12 @@ import unittest
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
-from vtkmodules.vtkIOPLY import vtkPLYReader
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from test_tool_labels import NAMES, LabelsTest, label_image, label_voxels
 from tool_test_case import ISO, make_image
+from vtk_files import points_of, read, triangles_of
 
 COLORS = {1: (200, 30, 0), 2: (0, 255, 120), 7: (10, 20, 30), -3: (255, 255, 255)}
-
-
-def read(reader, path):
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
-
-
-def triangles_of(surface):
-    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-
-
-def points_of(surface):
-    return vtk_to_numpy(surface.GetPoints().GetData())
 
 
 def enclosed(points, triangles):
@@ -115,7 +100,7 @@ class GlbTest(ScenesTest):
             self.assertEqual((mesh["name"], node["extras"]["stop_reason"]), (name, "converged"))
             file = {"liver": "liver", "Left lung": "Left_lung", "spleen/x": "spleen_x",
                     "Label -3": "label--3"}[name]
-            surface = read(vtkXMLPolyDataReader(), self.path(f"a/{file}.vtp"))
+            surface = read(self.path(f"a/{file}.vtp"))
             (points, normals, triangles, material), = scene.parts(mesh)
             np.testing.assert_allclose(points, points_of(surface), atol=2e-6)
             np.testing.assert_array_equal(triangles, triangles_of(surface))
@@ -129,7 +114,7 @@ class GlbTest(ScenesTest):
 
     def test_vtk_reads_it(self):
         self.run_tool(self.map_file(), self.path("a.glb"), "--labels", "all")
-        blocks = read(vtkGLTFReader(), self.path("a.glb"))
+        blocks = read(self.path("a.glb"), vtkGLTFReader())
         iterator = blocks.NewIterator()
         bounds = []
         while not iterator.IsDoneWithTraversal():
@@ -146,7 +131,7 @@ class GlbTest(ScenesTest):
                       "--labels", "1,2")
         for (_, mesh), label in zip(self.scene("a.glb").nodes().values(), (1, 2)):
             (points, _, _, _), = self.scene("a.glb").parts(mesh)
-            surface = read(vtkXMLPolyDataReader(), self.path(f"a/label-{label}.vtp"))
+            surface = read(self.path(f"a/label-{label}.vtp"))
             np.testing.assert_allclose(points, points_of(surface), rtol=0, atol=1e-8)
 
     def test_merged(self):
@@ -155,7 +140,7 @@ class GlbTest(ScenesTest):
         scene = self.scene("a.glb")
         (name, (node, mesh)), = scene.nodes().items()
         self.assertEqual((name, node["extras"]["labels"]), ("Labels 1, 2", [1, 2]))
-        surface = read(vtkXMLPolyDataReader(), self.path("a.vtp"))
+        surface = read(self.path("a.vtp"))
         labels = vtk_to_numpy(surface.GetCellData().GetArray("Label"))
         for (points, _, triangles, material), label in zip(scene.parts(mesh), (1, 2), strict=True):
             self.assertEqual(material["name"], NAMES[label])
@@ -186,7 +171,7 @@ class GlbTest(ScenesTest):
         (node, mesh), = scene.nodes().values()
         self.assertEqual((node["name"], node["extras"]["labels"]), ("surface", []))
         (points, _, triangles, material), = scene.parts(mesh)
-        surface = read(vtkXMLPolyDataReader(), self.path("b.vtp"))
+        surface = read(self.path("b.vtp"))
         np.testing.assert_allclose(points, points_of(surface), atol=2e-6)
         np.testing.assert_array_equal(triangles, triangles_of(surface))
         np.testing.assert_allclose(material["pbrMetallicRoughness"]["baseColorFactor"],
@@ -220,20 +205,20 @@ class PlyTest(ScenesTest):
         self.run_tool(self.map_file(), self.path("p"), "--labels", "all", "--label-names",
                       self.colored_names())
         for file, label in (("liver", 1), ("Left_lung", 2), ("spleen_x", 7), ("label--3", -3)):
-            surface = read(vtkPLYReader(), self.path(f"o/{file}.ply"))
+            surface = read(self.path(f"o/{file}.ply"))
             colors = vtk_to_numpy(surface.GetPointData().GetArray("RGB"))
             self.assertEqual(len(colors), surface.GetNumberOfPoints())
             self.assertEqual({tuple(color) for color in colors}, {COLORS[label]})
-            same = read(vtkXMLPolyDataReader(), self.path(f"p/{file}.vtp"))
+            same = read(self.path(f"p/{file}.vtp"))
             np.testing.assert_array_equal(points_of(surface), points_of(same).astype("f4"))
             np.testing.assert_array_equal(triangles_of(surface), triangles_of(same))
 
     def test_merged(self):
         self.run_tool(self.map_file(), self.path("a.ply"), self.path("a.vtp"), "--labels", "1,2",
                       "--merge", "--label-names", self.colored_names())
-        surface = read(vtkPLYReader(), self.path("a.ply"))
+        surface = read(self.path("a.ply"))
         colors = vtk_to_numpy(surface.GetPointData().GetArray("RGB"))
-        same = read(vtkXMLPolyDataReader(), self.path("a.vtp"))
+        same = read(self.path("a.vtp"))
         labels = vtk_to_numpy(same.GetCellData().GetArray("Label"))
         triangles = triangles_of(same)
         for point, color in enumerate(colors):

@@ -10,15 +10,13 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkImageData
-from vtkmodules.vtkIOGeometry import vtkSTLReader
-from vtkmodules.vtkIOXML import (
-    vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ISO, PROGRAM, TURNED, ToolTestCase, make_image
+from tool_test_case import ISO, ORIGIN, PROGRAM, SPACING, TURNED, ToolTestCase, make_image
 from volumic import vtkLabelsToSurfaces
+from vtk_files import read, read_blocks
 
-SPACING, ORIGIN = np.array([0.5, 0.75, 1.0]), np.array([-7.0, 8.0, 9.5])
 # Centres and half axes in voxels along x, y, z; 1 and 2 touch each other.
 BLOBS = {1: ((8, 8, 8), (6, 5, 5)), 2: ((18, 8, 8), (5, 5, 5)), 7: ((8, 20, 8), (6, 4, 5)),
          -3: ((20, 20, 9), (5, 5, 6))}
@@ -39,23 +37,6 @@ def label_image(voxels=None, direction=np.eye(3)):
     return make_image(label_voxels() if voxels is None else voxels, SPACING, ORIGIN, direction)
 
 
-def read_surface(path):
-    reader = vtkXMLPolyDataReader() if path.endswith(".vtp") else vtkSTLReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
-
-
-def read_blocks(path):
-    """{name: surface}"""
-    reader = vtkXMLMultiBlockDataReader()
-    reader.SetFileName(path)
-    reader.Update()
-    blocks = reader.GetOutput()
-    return {blocks.GetMetaData(i).Get(vtkCompositeDataSet.NAME()): blocks.GetBlock(i)
-            for i in range(blocks.GetNumberOfBlocks())}
-
-
 class LabelsTest(ToolTestCase):
     def map_file(self, name="map.vti", image=None):
         return self.write(vtkXMLImageDataWriter(), name, image or label_image())
@@ -67,6 +48,11 @@ class LabelsTest(ToolTestCase):
     def rows(self, *arguments, status=0):
         """{label: row of the report}"""
         return {row["label"]: row for row in self.report(*arguments, status=status)["labels"]}
+
+    def no_surfaces(self, reason, volume, *options, **others):
+        """Refused, and the folder for them is not there."""
+        self.refused(reason, volume, self.path("none/of/"), *options, **others)
+        self.assertFalse(os.path.exists(self.path("none")))
 
     def bounds_of(self, label):
         """Of the voxels' centres, in world coordinates, for the identity as direction."""
@@ -82,7 +68,7 @@ class OutputsTest(LabelsTest):
         self.assertEqual(sorted(os.listdir(out)),
                          ["Left_lung.vtp", "label--3.vtp", "liver.vtp", "spleen_x.vtp"])
         for label, row in rows.items():
-            surface = read_surface(row["files"][0])
+            surface = read(row["files"][0])
             self.assertEqual(row["files"], [os.path.join(out, os.path.basename(row["files"][0]))])
             self.assertEqual(row["name"], NAMES.get(label, f"Label {label}"))
             self.assertEqual(row["voxels"], (label_voxels() == label).sum())
@@ -100,7 +86,7 @@ class OutputsTest(LabelsTest):
             self.run_tool(volume, out, "--labels", "1,2", "--format",
                           "." * (suffix == "ply") + suffix, "--label-names", names)
             self.assertEqual(sorted(os.listdir(out)), [f"Left_lung.{suffix}", f"liver.{suffix}"])
-        self.assertGreater(read_surface(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
+        self.assertGreater(read(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
         self.assertIn(b"liver", self.content("stl/liver.stl")[:80])
 
     def test_blocks(self):
@@ -118,7 +104,7 @@ class OutputsTest(LabelsTest):
         row, = report["labels"]
         self.assertEqual((row["labels"], row["name"], row["components"]),
                          ([1, 2], "Labels 1, 2", 1))
-        labels = vtk_to_numpy(read_surface(self.path("both.vtp")).GetCellData().GetArray("Label"))
+        labels = vtk_to_numpy(read(self.path("both.vtp")).GetCellData().GetArray("Label"))
         self.assertEqual(set(labels), {1, 2})
         self.run_tool(volume, self.path("both.vtm"), "--labels", "1,2", "--merge")
         self.assertEqual(list(read_blocks(self.path("both.vtm"))), ["Labels 1, 2"])
@@ -126,7 +112,7 @@ class OutputsTest(LabelsTest):
     def test_one_label_goes_into_one_file(self):
         volume = self.map_file()
         self.run_tool(volume, self.path("a.stl"), "--labels", "2")
-        self.assertGreater(read_surface(self.path("a.stl")).GetNumberOfPolys(), 100)
+        self.assertGreater(read(self.path("a.stl")).GetNumberOfPolys(), 100)
         self.refused(r"b.stl: 4 labels have as many surfaces: give a folder \(.*b/ --format stl\) "
                      r"or blocks \(.*b.vtm, .*b.glb\), or .*--merge", volume, self.path("b.stl"),
                      "--labels", "all")
@@ -170,9 +156,7 @@ class OutputsTest(LabelsTest):
         self.write_bytes("file", b"")
         self.refused("file.*is no folder", self.map_file(), self.path("file/out/"), "--labels",
                      "1")
-        self.refused("there is no label '9'", self.map_file(), self.path("none/of/"), "--labels",
-                     "9")
-        self.assertFalse(os.path.exists(self.path("none")))
+        self.no_surfaces("there is no label '9'", self.map_file(), "--labels", "9")
 
     def test_one_file_that_fails_does_not_take_the_others(self):
         os.makedirs(self.path("out/label-2.vtp/in"))
@@ -210,16 +194,16 @@ class ChoiceTest(LabelsTest):
         volume = self.map_file()
         for text in ("9", "kidney", "10-20", "1,kidney", "", "k*"):
             with self.subTest(text):
-                self.refused(r"map.vti: there is no label '[^,]*' \(--labels\); there are -3, 0, "
-                             "1 liver, 2 Left lung, 7 spleen/x$", volume, self.path("o/"),
-                             "--labels", text, "--label-names", self.names_file())
-        self.assertFalse(os.path.exists(self.path("o")))
+                self.no_surfaces(
+                    r"map.vti: there is no label '[^,]*' \(--labels\); there are -3, 0, "
+                    "1 liver, 2 Left lung, 7 spleen/x$", volume, "--labels", text,
+                    "--label-names", self.names_file())
 
     def test_many_are_not_all_told(self):
         voxels = np.arange(18 * 28 * 28).reshape(18, 28, 28) // 200
-        process = self.run_tool(self.map_file("many.vti", label_image(voxels.astype("i2"))),
-                                self.path("o/"), "--labels", "liver", status=1)
-        self.assertRegex(process.stderr, "there are 0, 1, .*, 19 and 51 more")
+        self.no_surfaces("there are 0, 1, .*, 19 and 51 more",
+                         self.map_file("many.vti", label_image(voxels.astype("i2"))), "--labels",
+                         "liver")
 
 
 class WhatIsReadTest(LabelsTest):
@@ -236,10 +220,9 @@ class WhatIsReadTest(LabelsTest):
         for more in ((), ("--array", "segments")):
             report = self.report(volume, self.path("o/"), "--labels", "1", *more)
             self.assertEqual(report["input"]["dimensions"], [28, 28, 18])
-            surface = read_surface(self.path("o/label-1.vtp"))
+            surface = read(self.path("o/label-1.vtp"))
             np.testing.assert_allclose(surface.GetBounds(), self.bounds_of(1), atol=0.75)
-        self.refused("no point array none", volume, self.path("o/"), "--labels", "1", "--array",
-                     "none")
+        self.no_surfaces("no point array none", volume, "--labels", "1", "--array", "none")
 
     def test_types_of_voxels(self):
         surfaces = {}
@@ -254,23 +237,22 @@ class WhatIsReadTest(LabelsTest):
     def test_values_that_are_no_labels(self):
         voxels = label_voxels("f4")
         voxels[3, 3, 3] = 0.5
-        self.refused("half.vti: .*0.5; labels must be integers",
-                     self.map_file("half.vti", label_image(voxels)), self.path("o/"), "--labels",
-                     "all")
         many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
         many[label_voxels() == 7] = 7
-        volume = self.map_file("many.vti", label_image(many))
-        self.refused("many.vti: .*more than 4096", volume, self.path("o/"), "--labels", "all")
-        self.refused("many.vti: .*has no label 99999", volume, self.path("o/"), "--labels",
-                     "7,99999")
-        row = self.rows(volume, self.path("o/"), "--labels", "7")[7]
+        for reason, voxels, labels in (
+                ("map.vti: .*0.5; labels must be integers", voxels, "all"),
+                ("map.vti: .*more than 4096", many, "all"),
+                ("map.vti: .*has no label 99999", many, "7,99999"),
+                ("map.vti: it has no label but the background, 0; .*--background",
+                 np.zeros((9, 9, 9), "u1"), "all"),
+                ("one slice", label_voxels()[8:9], "all")):
+            with self.subTest(reason):
+                self.no_surfaces(reason, self.map_file(image=label_image(voxels)), "--labels",
+                                 labels)
+        row = self.rows(self.map_file(image=label_image(many)), self.path("o/"), "--labels",
+                        "7")[7]
         self.assertEqual((row["voxels"], os.listdir(self.path("o"))),
                          ((many == 7).sum(), ["label-7.vtp"]))
-        self.refused("none.vti: it has no label but the background, 0; .*--background",
-                     self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1"))),
-                     self.path("o/"), "--labels", "all")
-        self.refused("one slice", self.map_file("flat.vti", label_image(label_voxels()[8:9])),
-                     self.path("o/"), "--labels", "all")
 
     def test_directions_and_spacing(self):
         turned = self.map_file("turned.vti", label_image(direction=TURNED))
@@ -278,7 +260,7 @@ class WhatIsReadTest(LabelsTest):
         self.run_tool(self.map_file(), self.path("s/"), "--labels", "7", "--spacing", "1,1.5,2")
         places = np.argwhere(label_voxels() == 7)[:, ::-1] * SPACING
         for path, world in (("t", places @ TURNED.T), ("s", 2 * places)):
-            bounds = read_surface(self.path(f"{path}/label-7.vtp")).GetBounds()
+            bounds = read(self.path(f"{path}/label-7.vtp")).GetBounds()
             expected = np.ravel(list(zip(world.min(0), world.max(0)))) + np.repeat(ORIGIN, 2)
             np.testing.assert_allclose(bounds, expected, atol=1.5)
 
@@ -289,15 +271,15 @@ class WhatIsReadTest(LabelsTest):
         array.SetName("two")
         image.GetPointData().SetScalars(array)
         volume = self.map_file("two.vti", image)
-        self.refused("two.vti: voxels have 2 components; choose the one .* --component", volume,
-                     self.path("o/"), "--labels", "1")
-        self.refused("no component 2", volume, self.path("o/"), "--labels", "1", "--component", 2)
+        self.no_surfaces("two.vti: voxels have 2 components; choose the one .* --component", volume,
+                         "--labels", "1")
+        self.no_surfaces("no component 2", volume, "--labels", "1", "--component", 2)
         for component in (0, 1):
             self.run_tool(volume, self.path("o/"), "--labels", "1", "--component", component)
             bounds = self.bounds_of(1)
             if component == 1:
                 bounds[:2] = 2 * ORIGIN[0] + 27 * SPACING[0] - bounds[1::-1]
-            found = read_surface(self.path("o/label-1.vtp")).GetBounds()
+            found = read(self.path("o/label-1.vtp")).GetBounds()
             np.testing.assert_allclose(found, bounds, atol=0.75)
 
     def test_a_limit_of_memory_changes_nothing(self):
@@ -369,39 +351,40 @@ class OptionsTest(LabelsTest):
         self.assertGreater(checked, 6)
 
     def test_what_excludes_what(self):
-        for option, value in (
-                ("--iso", "3"), ("--dark", None), ("--seeds", "a.txt"), ("--history", "h.csv"),
+        for option, *value in (
+                ("--iso", "3"), ("--dark",), ("--seeds", "a.txt"), ("--history", "h.csv"),
                 ("--levels-output", "l"), ("--snapshots", "s"), ("--edges", "e"),
                 ("--initial-surface", "a.stl"), ("--seed-position", "1,2,3"),
                 ("--attracting-points", "p"), ("--attracting-position", "1,2,3"),
-                ("--levels", "2"), ("--preview", None), ("--resume", None),
-                ("--time-limit", "3"), ("--tension", "3"), ("--no-snap", None),
-                ("--keep", "at-points"), ("--keep", "not-at-seeds"), ("--profile", None), ("--border", "replicate")):
+                ("--levels", "2"), ("--preview",), ("--resume",), ("--time-limit", "3"),
+                ("--tension", "3"), ("--no-snap",), ("--keep", "at-points"),
+                ("--keep", "not-at-seeds"), ("--profile",), ("--border", "replicate")):
+            with self.subTest(option, value=value):
+                self.refused(f"{option}( at-points| not-at-seeds)? and --labels exclude each other",
+                             "a.vti", "out/", "--labels", "1", option, *value, status=2)
+        for option, *value in (
+                ("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--background", "1"),
+                ("--voxel-tolerance", "0.5"), ("--format", "stl"), ("--label-names", "n")):
             with self.subTest(option):
-                arguments = [option] if value is None else [option, value]
-                self.refused(f"{option}( at-points| not-at-seeds)? and --labels exclude each other", "a.vti",
-                             "out/", "--labels", "1", *arguments, status=2)
-        for option in (("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--background", "1"),
-                       ("--voxel-tolerance", "0.5"),
-                       ("--format", "stl"), ("--label-names", "n")):
-            self.refused(f"{option[0]} needs --labels", "a.vti", "out.stl", *option, status=2)
+                self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value,
+                             status=2)
         for reason, arguments in (
                 ("no surface format", ["o/", "--format", "dwg"]),
                 ("not written in pieces", ["o/", "--format", "pvtp"]),
                 ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
-                ("no surface format .*, .vtm; a folder is o.v1/", ["o.v1"]), ("the standard output", ["-"]), ("no file to write", []),
+                ("no surface format .*, .vtm; a folder is o.v1/", ["o.v1"]),
+                ("the standard output", ["-"]), ("no file to write", []),
                 ("--merge makes one surface: give it a file", ["o/", "--merge"]),
                 ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
-            self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
+            with self.subTest(reason):
+                self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
 
     def test_what_the_filter_refuses(self):
-        volume = self.map_file()
-        self.refused("map.vti: .*Gap", volume, self.path("o/"), "--labels", "1", "--gap", "-1")
-        self.refused("Smoothing", volume, self.path("o/"), "--labels", "1", "--smoothing", "-1")
-        self.refused("--voxel-tolerance is 2 voxels; it must be at most 1", volume, self.path("o/"),
-                     "--labels", "1", "--voxel-tolerance", "2")
-        self.assertFalse(os.path.exists(self.path("o")))
-        self.run_tool(volume, self.path("o/"), "--labels", "1")
+        for reason, *options in (
+                ("map.vti: .*Gap", "--gap", "-1"), ("Smoothing", "--smoothing", "-1"),
+                ("--voxel-tolerance is 2 voxels; it must be at most 1", "--voxel-tolerance", "2")):
+            with self.subTest(reason):
+                self.no_surfaces(reason, self.map_file(), "--labels", "1", *options)
 
     def test_labels_that_are_lost_are_told(self):
         voxels = label_voxels()
@@ -419,9 +402,8 @@ class OptionsTest(LabelsTest):
         row = [row for row in report["labels"] if row["label"] == 9][0]
         self.assertEqual((row["triangles"], row["files"], row["voxels"]), (0, [], 1))
         self.assertIn("Label 9", report["warnings"][0])
-        self.refused("none of the labels has a surface", volume, self.path("p/"), "--labels", "9",
-                     "--finest", "1")
-        self.assertFalse(os.path.exists(self.path("p")))
+        self.no_surfaces("none of the labels has a surface", volume, "--labels", "9", "--finest",
+                         "1")
 
     @unittest.skipUnless(os.environ.get("VOLUMIC_MPIRUN"), "no mpirun")
     def test_many_processes_are_refused(self):

@@ -46,10 +46,6 @@ class MemoryTest(ToolTestCase):
         os.makedirs(folder, exist_ok=True)
         return folder
 
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def test_vtk_xml(self):
         image = make_image(large_ball(), direction=TURNED)
         for way in ("SetDataModeToAppended", "SetDataModeToBinary"):

@@ -13,15 +13,14 @@ import subprocess
 import unittest
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import (
     vtkImageAlgorithm, vtkMultiBlockDataSetAlgorithm, vtkPolyDataAlgorithm)
-from vtkmodules.vtkIOXML import (
-    vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from tool_test_case import (
     CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image)
 from volumic import vtkDeformableSurface, vtkImagePyramid, vtkLabelsToSurfaces
+from vtk_files import points_of, read, triangles_of
 
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
@@ -105,30 +104,28 @@ class OptionTableTest(ToolTestCase):
                     self.assertEqual(after[name], value)
 
     def test_wrong_usage(self):
-        for reason, arguments in (
-                ("no volume", []), ("no file to write", ["a.vti"]),
-                ("unknown option --isoo", ["--isoo", "3"]), ("unknown option -z", ["-z"]),
-                ("--iso needs", ["a", "b.stl", "--iso"]),
-                ("--iso: 'x' is not a number", ["a", "b.stl", "--iso", "x"]),
-                ("--levels: '2.5' is not a whole number", ["a", "b.stl", "--levels=2.5"]),
-                ("--dark takes no", ["a", "b.stl", "--dark=on"]),
-                ("--recovery: 'all' is none of none|objects".replace("|", r"\|"),
-                 ["a", "b.stl", "--recovery", "all"]),
-                ("--spacing: .* are 2 numbers, not 3", ["a", "b.stl", "--spacing", "1,2"]),
-                ("--memory: '2000' has no unit", ["a", "b.stl", "--memory", "2000"]),
-                ("--memory: '2GX' has no unit", ["a", "b.stl", "--memory", "2GX"]),
-                ("--memory: '-1G' is no amount of memory", ["a", "b.stl", "--memory=-1G"]),
-                ("--memory: '9999999T' is no amount", ["a", "b.stl", "--memory", "9999999T"]),
-                ("--memory: '' is not a number", ["a", "b.stl", "--memory", "G"]),
-                ("--piece-size: pieces have a triangle", ["a", "b.pvtp", "--piece-size", "0"]),
-                ("--piece-size: '1.5' is not a whole", ["a", "b.pvtp", "--piece-size", "1.5"]),
-                ("--edge-attraction needs", ["a", "b.stl", "--edge-attraction", "1"]),
-                ("exclude each other", ["a", "b.stl", "--seeds", "c", "--initial-surface", "d"]),
-                ("--seed-position: .* are 2 numbers", ["a", "b.stl", "--seed-position", "1,2"]),
-                ("exclude each other",
-                 ["a", "b.stl", "--seed-position", "1,2,3", "--initial-surface", "d"])):
-            with self.subTest(arguments):
-                self.refused(reason, *arguments, status=2)
+        for reason, line in (
+                ("no volume", ""), ("no file to write", "a.vti"),
+                ("unknown option --isoo", "--isoo 3"), ("unknown option -z", "-z"),
+                ("--iso needs", "a b.stl --iso"),
+                ("--iso: 'x' is not a number", "a b.stl --iso x"),
+                ("--levels: '2.5' is not a whole number", "a b.stl --levels=2.5"),
+                ("--dark takes no", "a b.stl --dark=on"),
+                (r"--recovery: 'all' is none of none\|objects", "a b.stl --recovery all"),
+                ("--spacing: .* are 2 numbers, not 3", "a b.stl --spacing 1,2"),
+                ("--memory: '2000' has no unit", "a b.stl --memory 2000"),
+                ("--memory: '2GX' has no unit", "a b.stl --memory 2GX"),
+                ("--memory: '-1G' is no amount of memory", "a b.stl --memory=-1G"),
+                ("--memory: '9999999T' is no amount", "a b.stl --memory 9999999T"),
+                ("--memory: '' is not a number", "a b.stl --memory G"),
+                ("--piece-size: pieces have a triangle", "a b.pvtp --piece-size 0"),
+                ("--piece-size: '1.5' is not a whole", "a b.pvtp --piece-size 1.5"),
+                ("--edge-attraction needs", "a b.stl --edge-attraction 1"),
+                ("exclude each other", "a b.stl --seeds c --initial-surface d"),
+                ("--seed-position: .* are 2 numbers", "a b.stl --seed-position 1,2"),
+                ("exclude each other", "a b.stl --seed-position 1,2,3 --initial-surface d")):
+            with self.subTest(line):
+                self.refused(reason, *line.split(), status=2)
 
     def test_values_that_the_filter_refuses(self):
         self.refused("Friction", self.ball_file(), self.path("a.stl"), "--iso", ISO,
@@ -169,8 +166,7 @@ class RunTest(ToolTestCase):
                       "--history", self.path("h.csv"), "--report", self.path("r.json"),
                       "--levels-output", self.path("l.vtm"), "--snapshots", self.path("s"),
                       "--snapshot-interval", "5", "--levels", "2")
-        with open(self.path("r.json"), encoding="utf-8") as file:
-            report = json.load(file)
+        report = json.loads(self.content("r.json"))
         self.assertTrue(report["finished"])
         self.assertEqual([level["level"] for level in report["levels"]], [1, 0])
         self.assertEqual([(level["missing_parts"], level["missing_boundary"])
@@ -185,10 +181,7 @@ class RunTest(ToolTestCase):
                 sum(float(row[name]) for row in own for name in names) / level["seconds"], 1, 3)
         self.assertLessEqual(sum(level["seconds"] for level in report["levels"]),
                              report["seconds"]["surface"])
-        reader = vtkXMLMultiBlockDataReader()
-        reader.SetFileName(self.path("l.vtm"))
-        reader.Update()
-        self.assertEqual(reader.GetOutput().GetBlock(1).GetNumberOfPoints(),
+        self.assertEqual(read(self.path("l.vtm")).GetBlock(1).GetNumberOfPoints(),
                          report["levels"][0]["vertices"])
         self.assertGreater(len(os.listdir(self.path("s"))), 2)
         self.run_tool(self.ball_file(), "--levels-output", self.path("levels"), "--iso", ISO,
@@ -219,11 +212,7 @@ class RunTest(ToolTestCase):
         report = self.report(self.ball_file(), file, "--iso", ISO, "--edge-length", "1.1",
                              "--reduction-factor", "1.6")
         self.assertTrue(all(level["seconds"] > 0 for level in report["levels"]))
-        reader = vtkXMLPolyDataReader()
-        reader.SetFileName(file)
-        reader.Update()
-        points = vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
-        corners = vtk_to_numpy(reader.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        points, corners = points_of(read(file)), triangles_of(read(file))
         edges = np.linalg.norm(points[corners] - points[np.roll(corners, 1, axis=1)], axis=2)
         self.assertAlmostEqual(edges.mean() / 1.1, 1, delta=0.15)
         self.refused("--edge-length is 0.01, but edges of this image can have mean lengths of",
@@ -296,18 +285,14 @@ class RunTest(ToolTestCase):
         """A point of weight 1 makes a ball of its radius part of the object."""
         point, radius = ORIGIN + SPACING * [20, 5, 13], 2.0
         self.write_bytes("points.txt", " ".join(map(str, [*point, 1, radius])).encode())
-        report = self.report(self.ball_file(), "--iso", ISO, "--levels", "1",
-                             "--minimum-part-size", "5", "--attracting-points",
-                             self.path("points.txt"))
+        options = (self.ball_file(), "--iso", ISO, "--levels", "1", "--minimum-part-size", "5",
+                   "--attracting-points", self.path("points.txt"))
+        report = self.report(*options)
         self.assertEqual(report["components"], 2)
-        kept = self.report(self.ball_file(), "--iso", ISO, "--levels", "1", "--keep", "at-points",
-                           "--minimum-part-size", "5", "--attracting-points",
-                           self.path("points.txt"))
+        kept = self.report(*options, "--keep", "at-points")
         found = report["component_features"][1]
         self.assertEqual(kept["component_features"], [found])
-        dropped = self.report(self.ball_file(), "--iso", ISO, "--levels", "1", "--keep",
-                              "not-at-seeds", "--minimum-part-size", "5", "--attracting-points",
-                              self.path("points.txt"), "--initialization", "icosahedron",
+        dropped = self.report(*options, "--keep", "not-at-seeds", "--initialization", "icosahedron",
                               "--seed-position", ",".join(map(str, point)))
         self.assertEqual(dropped["component_features"], report["component_features"][:1])
         np.testing.assert_allclose(found["centroid"], point, atol=0.3)
@@ -341,8 +326,7 @@ class RunTest(ToolTestCase):
         run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--convergence", "0",
                             "--time-limit", "0.6", status=3)
         self.assertIn("unfinished (time limit); the surface as it is was written", run.stderr)
-        with open(self.path("limited.stl"), "rb") as file:
-            self.assertIn(b"UNFINISHED: time limit", file.read(80))
+        self.assertIn(b"UNFINISHED: time limit", self.content("limited.stl")[:80])
         self.refused("time limit came before there was a surface", volume, self.path("none.stl"),
                      "--iso", "0", "--time-limit", "1e-9")
         self.assertFalse(os.path.exists(self.path("none.stl")))
@@ -352,8 +336,7 @@ class RunTest(ToolTestCase):
                              "--iso", ISO, "--iterations", "3", status=3)
         self.assertFalse(report["finished"])
         self.assertEqual(report["stop_reason"], "iteration limit")
-        with open(self.path("a.stl"), "rb") as file:
-            self.assertIn(b"UNFINISHED: iteration limit", file.read(80))
+        self.assertIn(b"UNFINISHED: iteration limit", self.content("a.stl")[:80])
 
     def test_nothing_is_left(self):
         self.refused("volumic: .*", self.ball_file(), self.path("a.vtp"), "--iso", "2000")
@@ -372,16 +355,12 @@ class RunTest(ToolTestCase):
             "Evolving.*iteration", self.waves_file(), self.path("a.vtp"), "--iso", "0",
             "--convergence", "0", "--report", self.path("r.json"), pause=0.2)
         self.assertIn("unfinished (cancelled)", rest)
-        with open(self.path("r.json"), encoding="utf-8") as file:
-            report = json.load(file)
+        report = json.loads(self.content("r.json"))
         self.assertEqual((report["finished"], report["stop_reason"]), (False, "cancelled"))
-        reader = vtkXMLPolyDataReader()
-        reader.SetFileName(self.path("a.vtp"))
-        reader.Update()
-        self.assertEqual(reader.GetOutput().GetNumberOfPolys(), report["triangles"])
-        self.assertEqual(
-            reader.GetOutput().GetFieldData().GetAbstractArray("StopReason").GetValue(0),
-            "cancelled")
+        surface = read(self.path("a.vtp"))
+        self.assertEqual(surface.GetNumberOfPolys(), report["triangles"])
+        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
+                         "cancelled")
 
 
 if __name__ == "__main__":

@@ -16,11 +16,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import (
-    vtkXMLImageDataWriter, vtkXMLPPolyDataReader, vtkXMLPolyDataReader)
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPPolyDataReader
 
 from limited_files import largest_file
 from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
+from vtk_files import points_of, read, triangles_of
 
 SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "iv", "g", "geo", "facet", "tri")
 OLD = b"an older result"
@@ -41,10 +41,6 @@ class OutputsTest(ToolTestCase):
 
     def segment(self, *arguments, **options):
         return self.run_tool(self.volume, "--iso", ISO, "--levels", 2, "-q", *arguments, **options)
-
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
 
     def without_rests(self, *names):
         """No file but these, the volume and those of earlier calls is in the folder."""
@@ -200,21 +196,23 @@ class PlacesTest(OutputsTest):
 
     def test_folders_and_missing_folders(self):
         os.mkdir(self.path("b.vtp"))
-        self.refused_at_once("b.vtp: cannot be written: it is a folder", self.path("b.vtp"))
-        self.refused_at_once("b.vtp: cannot be written: it is a folder", "--history",
-                             self.path("b.vtp"))
-        for arguments in ([self.path("c/a.stl")], ["--history", self.path("c/h.csv")],
-                          ["--levels-output", self.path("c/l.vtm")]):
-            self.refused_at_once("there is no folder .*/c", *arguments)
         os.symlink(self.path("c/a.stl"), self.path("link.stl"))
-        self.refused_at_once("link.stl: there is no folder .*/c", self.path("link.stl"))
-        self.write_bytes("file", b"")
-        self.refused_at_once("file is no folder", "--levels-output", self.path("file/levels"))
-        self.refused_at_once("is no folder", "--levels-output", self.path("file"))
         os.symlink("nowhere", self.path("loose"))
-        self.refused_at_once("loose is no folder", "--levels-output", self.path("loose/levels"))
-        self.write_bytes("l", b"")
-        self.refused_at_once("l is no folder", "--levels-output", self.path("l.vtm"))
+        for name in ("file", "l"):
+            self.write_bytes(name, b"")
+        for reason, *option, name in (
+                ("b.vtp: cannot be written: it is a folder", "b.vtp"),
+                ("b.vtp: cannot be written: it is a folder", "--history", "b.vtp"),
+                ("there is no folder .*/c", "c/a.stl"),
+                ("there is no folder .*/c", "--history", "c/h.csv"),
+                ("there is no folder .*/c", "--levels-output", "c/l.vtm"),
+                ("link.stl: there is no folder .*/c", "link.stl"),
+                ("file is no folder", "--levels-output", "file/levels"),
+                ("is no folder", "--levels-output", "file"),
+                ("loose is no folder", "--levels-output", "loose/levels"),
+                ("l is no folder", "--levels-output", "l.vtm")):
+            with self.subTest(name, option=option):
+                self.refused_at_once(reason, *option, self.path(name))
 
     def as_nobody(self, reason, *arguments):
         os.chmod(self.folder, 0o755)
@@ -225,18 +223,18 @@ class PlacesTest(OutputsTest):
 
     def test_folders_that_cannot_be_written_to(self):
         os.mkdir(self.path("locked"), mode=0o555)
-        reason = "cannot be written .the folder .*locked: Permission denied"
-        self.as_nobody(reason, self.path("locked/a.stl"))
-        self.as_nobody(reason, "--report", self.path("locked/r.json"))
-        self.as_nobody(reason, "--levels-output", self.path("locked"))
-        self.as_nobody(reason, "--snapshots", self.path("locked/new/ones"))
+        for *option, name in (("locked/a.stl",), ("--report", "locked/r.json"),
+                              ("--levels-output", "locked"), ("--snapshots", "locked/new/ones")):
+            with self.subTest(name):
+                self.as_nobody("cannot be written .the folder .*locked: Permission denied", *option,
+                               self.path(name))
 
     def test_folders_that_cannot_be_looked_into(self):
         os.mkdir(self.path("closed"), mode=0o700)
         os.mkdir(self.path("closed/inner"))
-        for arguments in ([self.path("closed/inner/a.stl")], ["--levels-output",
-                                                              self.path("closed/inner/l")]):
-            self.as_nobody("cannot be written: Permission denied", *arguments)
+        for *option, name in (("closed/inner/a.stl",), ("--levels-output", "closed/inner/l")):
+            with self.subTest(name):
+                self.as_nobody("cannot be written: Permission denied", *option, self.path(name))
 
     def test_files_that_are_write_protected(self):
         os.mkdir(self.path("open"))
@@ -261,24 +259,20 @@ class PlacesTest(OutputsTest):
         self.assertEqual(self.content("no image.vti"), before)
 
     def test_nor_are_other_inputs(self):
-        self.write_bytes("start.stl", OLD)
-        self.refused_at_once("input .*start.stl", self.path("start.stl"), "--initial-surface",
-                             self.path("start.stl"))
-        self.write_bytes("seeds.csv", b"1,2,3")
-        self.refused_at_once("input .*seeds.csv", "--history", self.path("seeds.csv"), "--seeds",
-                             self.path("seeds.csv"))
-        self.refused_at_once("input .*seeds.csv", "--history", self.path("seeds.csv"),
-                             "--attracting-points", self.path("seeds.csv"))
-        edges = self.write_bytes("edges.vti", b"")
-        self.refused_at_once("input .*edges.vti", "--report", edges, "--edges", edges)
         os.mkdir(self.path("levels"))
-        level = self.write_bytes("levels/level-2.vtp", OLD)
-        self.refused_at_once("level-2.vtp would be replaced, which is the input",
-                             "--initial-surface", level, "--levels-output", self.path("levels"))
-        self.write_bytes("levels/levels_0.vtp", OLD)
-        self.refused_at_once("levels_0.vtp would be replaced, which is the input",
-                             "--initial-surface", self.path("levels/levels_0.vtp"),
-                             "--levels-output", self.path("levels.vtm"))
+        replaced = "would be replaced, which is the input"
+        for reason, input_option, name, *output in (
+                ("input .*start.stl", "--initial-surface", "start.stl", "start.stl"),
+                ("input .*seeds.csv", "--seeds", "seeds.csv", "--history", "seeds.csv"),
+                ("input .*seeds.csv", "--attracting-points", "seeds.csv", "--history", "seeds.csv"),
+                ("input .*edges.vti", "--edges", "edges.vti", "--report", "edges.vti"),
+                (f"level-2.vtp {replaced}", "--initial-surface", "levels/level-2.vtp",
+                 "--levels-output", "levels"),
+                (f"levels_0.vtp {replaced}", "--initial-surface", "levels/levels_0.vtp",
+                 "--levels-output", "levels.vtm")):
+            with self.subTest(input_option, name=name):
+                self.refused_at_once(reason, input_option, self.write_bytes(name, b"1,2,3"),
+                                     *output[:-1], self.path(output[-1]))
 
     def test_the_other_files_of_a_volume(self):
         for header, text, data in (
@@ -302,17 +296,15 @@ class PlacesTest(OutputsTest):
 
     def test_outputs_that_are_one_file(self):
         os.symlink("b.vtp", self.path("c.vtp"))
-        for arguments in ([self.path("a.vtp"), self.path("a.vtp")],
-                          [self.path("b.vtp"), self.path("c.vtp")],
-                          [self.path("a.vtp"), "--history", self.path("./a.vtp")],
-                          ["--report", self.path("r"), "--history", self.path("r")],
-                          ["--levels-output", self.path("l.vtm"), "--snapshots",
-                           self.path("l.vtm")],
-                          [self.path("l/level-0.vtp"), "--levels-output", self.path("l")],
-                          [self.path("l/l_0.vtp"), "--levels-output", self.path("l.vtm")]):
-            with self.subTest(arguments):
-                os.makedirs(self.path("l"), exist_ok=True)
-                self.refused_at_once("would take the same place", *arguments)
+        os.mkdir(self.path("l"))
+        for words in (("a.vtp", "a.vtp"), ("b.vtp", "c.vtp"), ("a.vtp", "--history", "./a.vtp"),
+                      ("--report", "r", "--history", "r"),
+                      ("--levels-output", "l.vtm", "--snapshots", "l.vtm"),
+                      ("l/level-0.vtp", "--levels-output", "l"),
+                      ("l/l_0.vtp", "--levels-output", "l.vtm")):
+            with self.subTest(words):
+                self.refused_at_once("would take the same place", *(
+                    word if word.startswith("--") else self.path(word) for word in words))
 
 
 class PiecesTest(OutputsTest):
@@ -327,11 +319,8 @@ class PiecesTest(OutputsTest):
         return self.run_tool(self.volume, "--iso", 750.5, "--levels", 1, "-q", *arguments,
                              **options)
 
-    def read(self, name, reader_class=vtkXMLPolyDataReader):
-        reader = reader_class()
-        reader.SetFileName(self.path(name))
-        reader.Update()
-        return reader.GetOutput()
+    def read(self, name, reader=None):
+        return read(self.path(name), reader)
 
     def check_that_it_is(self, whole, pieces):
         """Several pieces in their order, or one that holds them all."""
@@ -339,13 +328,11 @@ class PiecesTest(OutputsTest):
         for piece in pieces:
             ids = vtk_to_numpy(piece.GetPointData().GetGlobalIds())
             self.assertEqual(len(ids), piece.GetNumberOfPoints())
-            corners.append(ids[vtk_to_numpy(piece.GetPolys().GetConnectivityArray())])
-            places.update(zip(ids, vtk_to_numpy(piece.GetPoints().GetData())))
+            corners.append(ids[triangles_of(piece)])
+            places.update(zip(ids, points_of(piece)))
         self.assertEqual(sorted(places), list(range(whole.GetNumberOfPoints())))
-        np.testing.assert_array_equal([places[i] for i in sorted(places)],
-                                      vtk_to_numpy(whole.GetPoints().GetData()))
-        np.testing.assert_array_equal(np.concatenate(corners),
-                                      vtk_to_numpy(whole.GetPolys().GetConnectivityArray()))
+        np.testing.assert_array_equal([places[i] for i in sorted(places)], points_of(whole))
+        np.testing.assert_array_equal(np.concatenate(corners), triangles_of(whole))
 
     def test_they_are_the_surface(self):
         self.segment(self.path("a.vtp"), self.path("a.pvtp"), "--piece-size", 40)
@@ -377,7 +364,7 @@ class PiecesTest(OutputsTest):
 
     def test_vtk_reads_them_together(self):
         self.segment(self.path("a.vtp"), self.path("a & b.pvtp"), "--piece-size", 50)
-        whole, together = self.read("a.vtp"), self.read("a & b.pvtp", vtkXMLPPolyDataReader)
+        whole, together = self.read("a.vtp"), self.read("a & b.pvtp", vtkXMLPPolyDataReader())
         self.check_that_it_is(whole, [together])
         for data, of_whole in ((together.GetPointData(), whole.GetPointData()),
                                (together.GetCellData(), whole.GetCellData())):

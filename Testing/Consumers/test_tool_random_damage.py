@@ -22,12 +22,14 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import (
     vtkBMPWriter, vtkMetaImageWriter, vtkPNGWriter, vtkPNMWriter, vtkTIFFWriter)
 from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image
+from tool_test_case import (
+    META, PROGRAM, SPACING, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 import medical_files
-from test_tool_structure import mrc_file, tiff
+from test_tool_structure import tiff
+from vtk_files import read
 
 COUNT = int(os.environ.get("VOLUMIC_DAMAGED_FILES", "120"))
 SEED = int(os.environ.get("VOLUMIC_DAMAGE_SEED", "1"))
@@ -77,20 +79,17 @@ class RandomDamageTest(ToolTestCase):
     def setUp(self):
         super().setUp()
         self.kinds = {}
-        header = medical_files.meta_header(voxels(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
         data = voxels().tobytes()
-        self.add("raw.mha", header + data)
-        self.add("two.mhd", header.replace(b"LOCAL", b"two.raw"))
+        self.add("raw.mha", META + data)
+        self.add("two.mhd", META.replace(b"LOCAL", b"two.raw"))
         self.add("two.mhd", data, "two.raw")
         for encoding, packed in (("raw", data), ("gzip", gzip.compress(data))):
-            self.add(encoding + ".nrrd", medical_files.nrrd_header(
-                voxels(), SPACING, ORIGIN, np.eye(3), encoding, "little") + b"\n" + packed)
+            self.add(encoding + ".nrrd", nrrd_header(encoding) + b"\n" + packed)
         nifti = medical_files.nifti(voxels(), SPACING)
         self.add("a.nii", nifti)
         self.add("b.nii.gz", gzip.compress(nifti))
-        self.add("a.mrc", mrc_file(voxels()))
-        medical_files.write_inv3(self.path("a.inv3"), voxels(), SPACING)
-        self.add("a.inv3", self.content("a.inv3"))
+        self.add("a.mrc", medical_files.mrc(voxels(), SPACING))
+        self.add("a.inv3", medical_files.inv3(voxels(), SPACING))
         pages = [page.tobytes() for page in voxels()]
         self.add("one.tif", bytes(tiff(pages, {})))
         self.add("deflate.tif", bytes(tiff([zlib.compress(page) for page in pages], {259: 8})))
@@ -109,9 +108,8 @@ class RandomDamageTest(ToolTestCase):
                 self.write(writer(), name, make_image(plane[np.newaxis].astype(kind)))
                 self.add(suffix, self.content(name), name)
         os.makedirs(self.path("dicom"))
-        for k, plane in enumerate(voxels()):
-            self.add("dicom", medical_files.dicom_slice(plane, k, SPACING, ORIGIN, np.eye(3)),
-                     f"dicom/IM{k:02}")
+        for k in range(len(voxels())):
+            self.add("dicom", dicom_slice(k, voxels()), f"dicom/IM{k:02}")
 
     def add(self, volume, content, name=None, packed=False):
         """A file (name) of a volume."""
@@ -132,10 +130,7 @@ class RandomDamageTest(ToolTestCase):
             preexec_fn=limit)
         if process.returncode != 0:
             return process, None
-        reader = vtkXMLImageDataReader()
-        reader.SetFileName(written)
-        reader.Update()
-        image = reader.GetOutput()
+        image = read(written)
         values = vtk_to_numpy(image.GetPointData().GetScalars())
         return process, values.reshape(*image.GetDimensions()[::-1], -1)
 

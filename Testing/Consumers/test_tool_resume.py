@@ -57,13 +57,11 @@ class ResumeTestCase(ToolTestCase):
         for path in [self.path(name + ".vtp")] + [
                 os.path.join(folder, file) for folder in folders
                 for file in sorted(os.listdir(folder)) if not file.startswith(".")]:
-            with open(path, "rb") as file:
-                files[os.path.basename(path).replace(name, "")] = file.read()
+            files[os.path.basename(path).replace(name, "")] = self.content(path)
         with open(self.path(name + ".csv"), encoding="utf-8", newline="") as file:
             rows = [{k: v for k, v in row.items() if "Seconds" not in k}
                     for row in csv.DictReader(file)]
-        with open(self.path(name + ".json"), encoding="utf-8") as file:
-            report = json.load(file)
+        report = json.loads(self.content(name + ".json"))
         seconds = report.pop("seconds")
         del report["memory"]
         for level in report["levels"]:
@@ -172,8 +170,7 @@ class OutputTest(ResumeTestCase):
         self.assertIn("can be resumed from level 1 only", run.stderr)
         run = self.run_tool(*resume)
         self.assertIn("going on from level 1,", run.stderr)
-        with open(whole, "rb") as one, open(part, "rb") as other:
-            self.assertEqual(one.read(), other.read())
+        self.assertEqual(self.content(whole), self.content(part))
         self.assertEqual(os.listdir(self.scratch), [])
 
 

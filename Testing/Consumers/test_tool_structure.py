@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`volumic` looks at the structure of a file before VTK's readers, which may crash, do."""
 
-import io
 import os
 import struct
-import tarfile
 import unittest
 import zlib
 
@@ -14,7 +12,8 @@ from vtkmodules.vtkIOImage import vtkBMPWriter, vtkTIFFWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
-from tool_test_case import ISO, ORIGIN, SIZE, SPACING, ToolTestCase, ball, make_image
+from tool_test_case import (
+    ISO, META, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 import medical_files
 
@@ -24,20 +23,7 @@ ENTRY = struct.Struct("<HHII")
 
 
 class StructureTest(ToolTestCase):
-    def refused_volume(self, name, reason, *options):
-        """By name, for this reason, in one line, whether read as a whole or in parts."""
-        for memory in ((), ("--memory", "200M")):
-            process = self.run_tool(self.path(name), self.path("out.stl"), "--iso", ISO, *memory,
-                                    *options, status=1)
-            self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
-            self.assertFalse(os.path.exists(self.path("out.stl")))
-
-    def refused_bytes(self, name, content, reason):
-        self.write_bytes(name, bytes(content))
-        self.refused_volume(name, reason)
-
-    def accepted(self, name, *options):
-        self.run_tool(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
+    ways = ((), ("--memory", "200M"))  # read as a whole, and in parts
 
 
 def tiff(pages, changes):
@@ -94,19 +80,15 @@ class TiffTest(StructureTest):
             self.refused_bytes("b.tif", content, f"page {page + 1}: .*{reason}")
 
     def test_numbers_that_make_no_page(self):
-        self.refused_with(3, 256, "tag 256 is 27, the first page's 26", value=27)
-        self.refused_with(3, 257, "tag 257 is 40, the first page's 22", value=40)
-        self.refused_with(0, 256, "0 x 22 pixels", value=0)
-        self.refused_with(3, 278, "its rows ask for", value=0)
+        for page, tag, reason, value in (
+                (3, 256, "tag 256 is 27, the first page's 26", 27),
+                (3, 257, "tag 257 is 40, the first page's 22", 40), (0, 256, "0 x 22 pixels", 0),
+                (3, 278, "its rows ask for", 0), (3, 258, "12 bits", 12),
+                (3, 277, "2 of 16 bits", 2), (0, 277, "3 of 16 bits", 3), (3, 262, "colours 9", 9),
+                (3, 284, "not read", 2 ** 15), (3, 274, "tag 274 is 4, the first page's 1", 4),
+                (3, 279, "a strip has 1 bytes", 1), (3, 273, "cut off", 2 ** 31)):
+            self.refused_with(page, tag, reason, value=value)
         self.refused_with(3, 278, "tag 278 is no number", kind=5, count=1)
-        self.refused_with(3, 258, "12 bits", value=12)
-        self.refused_with(3, 277, "2 of 16 bits", value=2)
-        self.refused_with(0, 277, "3 of 16 bits", value=3)
-        self.refused_with(3, 262, "colours 9", value=9)
-        self.refused_with(3, 284, "not read", value=2 ** 15)
-        self.refused_with(3, 274, "tag 274 is 4, the first page's 1", value=4)
-        self.refused_with(3, 279, "a strip has 1 bytes", value=1)
-        self.refused_with(3, 273, "cut off", value=2 ** 31)
 
     def test_chain_that_ends_early(self):
         """Whichever page is the last, or left out: pixels are in none."""
@@ -124,8 +106,7 @@ class TiffTest(StructureTest):
         voxels = np.random.default_rng(3).integers(0, 900, ball().shape).astype("u2")
         voxels[-1] = 0
         self.content = tiff([zlib.compress(page.tobytes()) for page in voxels], {259: 8})
-        self.write_bytes("c.tif", bytes(self.content))
-        self.accepted("c.tif")
+        self.accepted_bytes("c.tif", self.content)
         struct.pack_into("<I", self.content, self.pages()[-1][1], 0)
         self.refused_bytes("c.tif", self.content, "are in none of its pages")
 
@@ -145,13 +126,11 @@ class TiffTest(StructureTest):
         count, = struct.unpack_from("<H", content, place)
         struct.pack_into("<I", content, link, len(content))
         content += content[place:place + 6 + 12 * count]
-        self.write_bytes("b.tif", bytes(content))
-        self.accepted("b.tif")
+        self.accepted_bytes("b.tif", content)
 
     def test_deflate(self):
         pages = [zlib.compress(page.tobytes()) for page in ball("u2")]
-        self.write_bytes("c.tif", tiff(pages, {259: 8}))
-        self.accepted("c.tif")
+        self.accepted_bytes("c.tif", tiff(pages, {259: 8}))
         pages[8] = pages[8][:20] + bytes([pages[8][20] ^ 1]) + pages[8][21:]
         self.refused_bytes("c.tif", tiff(pages, {259: 8}), "page 9: the packed data")
         pages[8] = zlib.compress(ball("u2")[8].tobytes()[:-1])
@@ -169,7 +148,7 @@ class TiffTest(StructureTest):
 
     def test_pages_in_a_folder(self):
         os.makedirs(self.path("folder"))
-        self.write_bytes("folder/a.tif", bytes(self.content))
+        self.write_bytes("folder/a.tif", self.content)
         process = self.run_tool(self.path("folder"), self.path("out.stl"), status=1)
         self.assertRegex(process.stderr, r"a\.tif: 18 pages; give it by its name")
 
@@ -192,8 +171,7 @@ class PicturesTest(StructureTest):
         self.assertEqual(self.content("a.stl"), self.content("b.stl"))
         for content, reason in ((head + b"\7" + planes[8].tobytes(), "too long"),
                                 (head.replace(b"26", b"2x") + planes[8].tobytes(), "damaged")):
-            self.write_bytes("pgm/08.pgm", content)
-            self.refused_volume("pgm", "08.pgm: .*" + reason)
+            self.refused_file("pgm/08.pgm", content, "08.pgm: .*" + reason)
 
     def test_bmp(self):
         planes = (ball() // 5).astype("u1")
@@ -205,11 +183,10 @@ class PicturesTest(StructureTest):
         for place, form, value in ((28, "<H", 8), (10, "<I", 53), (22, "<i", 21), (2, "<I", 9)):
             damaged = bytearray(content)
             struct.pack_into(form, damaged, place, value)
-            self.write_bytes("bmp/08.bmp", bytes(damaged))
             with self.subTest(place=place):
-                self.refused_volume("bmp", "08.bmp: ")
-        self.write_bytes("bmp/08.bmp", content[:60] + b"\7" + content[60:])
-        self.refused_volume("bmp", "08.bmp: the file is too long")
+                self.refused_file("bmp/08.bmp", damaged, "08.bmp: ")
+        self.refused_file("bmp/08.bmp", content[:60] + b"\7" + content[60:],
+                          "08.bmp: the file is too long")
 
 
 class LengthTest(StructureTest):
@@ -225,42 +202,37 @@ class LengthTest(StructureTest):
                 self.refused_volume(name, "too long|more than|more values")
 
     def test_meta_image(self):
-        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
-        self.longer("a.mha", len(header), header + ball().tobytes())
-        self.write_bytes("b.mhd", header.replace(b"LOCAL", b"b.raw"))
+        self.longer("a.mha", len(META), META + ball().tobytes())
+        self.write_bytes("b.mhd", META.replace(b"LOCAL", b"b.raw"))
         self.longer("b.mhd", 0, ball().tobytes(), "b.raw")
         for k, plane in enumerate(ball()):
             self.write_bytes(f"{k}.raw", plane.tobytes())
-        self.write_bytes("c.mhd", header.replace(b"LOCAL", b"%d.raw 0 17 1"))
+        self.write_bytes("c.mhd", META.replace(b"LOCAL", b"%d.raw 0 17 1"))
         self.longer("c.mhd", 0, ball()[3].tobytes(), "3.raw")
 
     def test_meta_image_with_bytes_before(self):
-        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
+        self.write_bytes("b.raw", bytes(100) + ball().tobytes())
         for size in (b"100", b"-1"):
-            self.write_bytes("b.mhd", header.replace(
+            self.accepted_bytes("b.mhd", META.replace(
                 b"ElementDataFile = LOCAL", b"HeaderSize = " + size + b"\nElementDataFile = b.raw"))
-            self.write_bytes("b.raw", bytes(100) + ball().tobytes())
-            self.accepted("b.mhd")
 
     def test_nrrd(self):
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "raw", "little")
+        header = nrrd_header()
         self.longer("a.nrrd", len(header) + 1, header + b"\n" + ball().tobytes())
-        text = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "text", "little")
-        self.write_bytes("b.nrrd", text + b"\n" + " ".join(map(str, ball().ravel())).encode())
-        self.accepted("b.nrrd")
-        self.write_bytes("b.nrrd", text + b"\n5 " + " ".join(map(str, ball().ravel())).encode())
-        self.refused_volume("b.nrrd", "more values")
+        header, text = nrrd_header("text"), " ".join(map(str, ball().ravel())).encode()
+        self.accepted_bytes("b.nrrd", header + b"\n" + text)
+        self.refused_bytes("b.nrrd", header + b"\n5 " + text, "more values")
 
     def test_nifti(self):
         self.longer("a.nii", 352, medical_files.nifti(ball(), SPACING))
 
     def test_mrc(self):
-        self.longer("a.mrc", 1024, mrc_file(ball()))
+        self.longer("a.mrc", 1024, medical_files.mrc(ball(), SPACING))
 
     def test_dicom(self):
         os.makedirs(self.path("a"))
-        for k, plane in enumerate(ball()):
-            content = medical_files.dicom_slice(plane, k, SPACING, ORIGIN, np.eye(3))
+        for k in range(SIZE[2]):
+            content = dicom_slice(k)
             self.write_bytes(f"a/IM{k:02}", content)
         pixels = content.index(struct.pack("<HH", 0x7FE0, 0x10)) + 12
         self.accepted("a")
@@ -268,17 +240,8 @@ class LengthTest(StructureTest):
         self.write_bytes("a/IM17", content + more)
         self.accepted("a")
         for place, count in ((pixels, 2), (pixels + 500, 8), (len(content), 3)):
-            self.write_bytes("a/IM17", content[:place] + b"\x07" * count + content[place:])
-            self.refused_volume("a", "IM17.* (too long|bytes may be too many)")
-
-
-def mrc_file(voxels, mode=1, order=(1, 2, 3)):
-    header = bytearray(1024)
-    struct.pack_into("<10i", header, 0, *SIZE, mode, 0, 0, 0, *SIZE)
-    struct.pack_into("<6f", header, 40, *(SIZE * SPACING), 90, 90, 90)
-    struct.pack_into("<3i", header, 64, *order)
-    header[208:214] = b"MAP \x44\x44"
-    return bytes(header) + voxels.tobytes()
+            self.refused_file("a/IM17", content[:place] + b"\x07" * count + content[place:],
+                              "IM17.* (too long|bytes may be too many)")
 
 
 class HeaderTest(StructureTest):
@@ -298,10 +261,8 @@ class HeaderTest(StructureTest):
                 self.refused_bytes("a.nii", header, reason)
 
     def test_nrrd(self):
-        content = medical_files.nrrd_header(
-            ball(), SPACING, ORIGIN, np.eye(3), "raw", "little") + b"\n" + ball().tobytes()
+        content = nrrd_header() + b"\n" + ball().tobytes()
         for old, new, reason in (
-                (b"26 22 18", b"174974 134839 781863032", "cut off"),
                 (b"endian: little", b"endian: lattle", "endian 'lattle'"),
                 (b"endian:", b"endiao:", "'endiao' is no field of NRRD"),
                 (b"kinds:", b"kinds ", "is no field of NRRD"),
@@ -311,14 +272,12 @@ class HeaderTest(StructureTest):
                 self.refused_bytes("a.nrrd", content.replace(old, new), reason)
 
     def test_nrrd_with_fields_of_one_word(self):
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "raw", "little")
         self.write_bytes("a.raw", b"one\ntwo\n" + bytes(5) + ball().tobytes())
-        self.write_bytes("a.nhdr", header + b"datafile: a.raw\nlineskip: 2\nbyteskip: 5\n")
-        self.accepted("a.nhdr")
+        self.accepted_bytes("a.nhdr",
+                            nrrd_header() + b"datafile: a.raw\nlineskip: 2\nbyteskip: 5\n")
 
     def test_meta_image(self):
-        content = medical_files.meta_header(
-            ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1") + ball().tobytes()
+        content = META + ball().tobytes()
         for old, new, reason in (
                 (b"NDims = 3", b"NDims = 2", "not as many sizes"),
                 (b"MET_SHORT", b"MET_SHOST", "ElementType 'MET_SHOST'"),
@@ -329,31 +288,28 @@ class HeaderTest(StructureTest):
 
     def test_mrc(self):
         for place, value in ((64, 7), (68, 1), (0, 0), (28, 0), (8, -18)):
-            content = bytearray(mrc_file(ball()))
+            content = bytearray(medical_files.mrc(ball(), SPACING))
             struct.pack_into("<i", content, place, value)
             with self.subTest(place=place):
                 self.refused_bytes("a.mrc", content, "its header is damaged|cut off")
 
     def test_mrc_of_unsigned_numbers(self):
         """VTK's reader takes each for two."""
-        self.write_bytes("a.mrc", mrc_file(ball("u2") + 40000, 6))
+        self.write_bytes("a.mrc", medical_files.mrc(ball("u2") + 40000, SPACING, 6))
         process = self.run_tool(self.path("a.mrc"), self.path("ok.stl"), "--iso", 40000 + ISO)
         self.assertIn("unsigned short, 40000 to 40861", process.stderr)
 
     def test_mrc_whose_rows_are_along_another_axis(self):
-        self.write_bytes("a.mrc", mrc_file(ball(), order=(3, 2, 1)))
+        self.write_bytes("a.mrc", medical_files.mrc(ball(), SPACING, order=(3, 2, 1)))
         self.run_tool(self.path("a.mrc"), "--write-volume", self.path("b.vti"))
         self.assertIn(b'Direction="0 0 1 0 1 0 1 0 0"', self.content("b.vti"))
 
     def test_deep_xml(self):
         deep = b"<a>" * 300000
         plist = b'<plist version="1.0"><dict>' + deep + b"</dict></plist>"
-        with tarfile.open(self.path("a.inv3"), "w:gz") as archive:
-            for name, data in (("matrix.dat", ball().tobytes()), ("main.plist", plist)):
-                member = tarfile.TarInfo("x/" + name)
-                member.size = len(data)
-                archive.addfile(member, io.BytesIO(data))
-        self.refused_volume("a.inv3", "elements within elements without end")
+        self.refused_bytes("a.inv3", medical_files.archive_of(
+            [("matrix.dat", ball().tobytes()), ("main.plist", plist)]),
+            "elements within elements without end")
         image = self.bytes_of(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
         self.refused_bytes("b.vti", image.replace(b"<ImageData", deep + b"<ImageData"),
                            "elements within elements without end")
@@ -364,17 +320,12 @@ class HeaderTest(StructureTest):
         self.refused("b.vtp: .*elements within elements", self.ball_file(), self.path("x.stl"),
                      "--initial-surface", self.path("b.vtp"))
 
-    def bytes_of(self, writer, name, data):
-        self.write(writer, name, data)
-        return self.content(name)
-
 
 class DicomFolderTest(StructureTest):
     def series(self, name):
         os.makedirs(self.path("a"), exist_ok=True)
-        for k, plane in enumerate(ball()):
-            self.write_bytes("a/" + name(k), medical_files.dicom_slice(
-                plane, k, SPACING, ORIGIN, np.eye(3)))
+        for k in range(SIZE[2]):
+            self.write_bytes("a/" + name(k), dicom_slice(k))
 
     def test_slices_that_were_cut_to_nothing(self):
         """At an end of the series none is missing between others."""
@@ -383,13 +334,10 @@ class DicomFolderTest(StructureTest):
             self.accepted("a")
             for k in (0, 17):
                 content = self.content("a/" + name(k))
-                for count in (0, 1, 100, 131):
-                    with self.subTest(name(k), count=count):
-                        self.write_bytes("a/" + name(k), content[:count])
-                        self.refused_volume("a", f"{name(k)}: no DICOM file")
-                damaged = content[:130] + b"?" + content[131:]
-                self.write_bytes("a/" + name(k), damaged)
-                self.refused_volume("a", f"{name(k)}: no DICOM file")
+                for damaged in (*(content[:count] for count in (0, 1, 100, 131)),
+                                content[:130] + b"?" + content[131:]):
+                    with self.subTest(name(k), bytes=len(damaged)):
+                        self.refused_file("a/" + name(k), damaged, f"{name(k)}: no DICOM file")
                 self.write_bytes("a/" + name(k), content)
             for file in os.listdir(self.path("a")):
                 os.remove(self.path("a/" + file))
@@ -405,16 +353,14 @@ class NoFileTest(StructureTest):
     def test_pipes(self):
         """They would be waited for, without end."""
         self.ball_file()
-        header = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")
-        for name in ("a.mha", "a.vti", "a.nii.gz", "a.nrrd", "a.tif", "a.inv3", "a", "p.raw",
-                     "list.txt", "list.stl"):
+        volumes = ("a.mha", "a.vti", "a.nii.gz", "a.nrrd", "a.tif", "a.inv3", "a")
+        for name in (*volumes, "p.raw", "list.txt", "list.stl"):
             os.mkfifo(self.path(name))
-        for name in ("a.mha", "a.vti", "a.nii.gz", "a.nrrd", "a.tif", "a.inv3", "a"):
+        for name in volumes:
             with self.subTest(name):
                 self.refused_volume(name, "a pipe or a device")
-        self.write_bytes("b.mhd", header.replace(b"LOCAL", b"p.raw"))
-        nrrd = medical_files.nrrd_header(ball(), SPACING, ORIGIN, np.eye(3), "gzip", "little")
-        self.write_bytes("b.nhdr", nrrd + b"data file: p.raw\n")
+        self.write_bytes("b.mhd", META.replace(b"LOCAL", b"p.raw"))
+        self.write_bytes("b.nhdr", nrrd_header("gzip") + b"data file: p.raw\n")
         for name in ("b.mhd", "b.nhdr"):
             with self.subTest(name):
                 process = self.run_tool(self.path(name), self.path("x.stl"), status=1)

@@ -7,25 +7,19 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from limited_files import largest_file
 from tool_test_case import (
-    ISO, ORIGIN, SIZE, SPACING, TURNED, ToolTestCase, ball, make_image)
+    ISO, ORIGIN, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
 
-import medical_files
+from vtk_files import read
 
 
 class WrittenVolumeTest(ToolTestCase):
     def nrrd(self):
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, TURNED, "raw", "little")
-        return self.write_bytes("a.nrrd", header + b"\n" + ball().tobytes())
-
-    def read(self, path):
-        reader = vtkXMLImageDataReader()
-        reader.SetFileName(path)
-        reader.Update()
-        return reader.GetOutput()
+        return self.write_bytes("a.nrrd",
+                                nrrd_header(direction=TURNED) + b"\n" + ball().tobytes())
 
     def written(self, volume, *options):
         """The volume that is written, and that nothing else is."""
@@ -34,7 +28,7 @@ class WrittenVolumeTest(ToolTestCase):
         process = self.run_tool(volume, "--write-volume", path, *options)
         self.assertNotIn("iso-value", process.stderr)
         self.assertEqual(set(os.listdir(self.folder)) - before, {"written.vti"})
-        return self.read(path)
+        return read(path)
 
     def test_voxels_and_place_are_those_of_the_file(self):
         image = self.written(self.nrrd())
@@ -89,15 +83,13 @@ class ListFilesTest(ToolTestCase):
                 for line in self.run_tool(volume, "--list-files").stdout.splitlines()}
 
     def test_a_header_names_its_data(self):
-        header = medical_files.nrrd_header(ball(), SPACING, ORIGIN, TURNED, "raw", "little")
-        header += b"data file: a.raw\n"
+        header = nrrd_header() + b"data file: a.raw\n"
         self.assertEqual(self.files(self.write_bytes("a.nhdr", header)), {"a.nhdr", "a.raw"})
         self.assertEqual(self.files(self.ball_file()), {"ball.vti"})
 
     def test_a_series_is_its_slices(self):
         for k in range(3):
-            self.write_bytes(f"IM{k}", medical_files.dicom_slice(
-                ball()[k], k, SPACING, ORIGIN, TURNED))
+            self.write_bytes(f"IM{k}", dicom_slice(k))
         self.write_bytes("notes.txt", b"no slice")
         self.assertEqual(self.files(self.folder), {"IM0", "IM1", "IM2"})
 

@@ -19,7 +19,9 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
-from folder_test_case import FolderTestCase  # pylint: disable=wrong-import-position
+# pylint: disable=wrong-import-position
+import medical_files
+from folder_test_case import FolderTestCase
 
 PROGRAM = os.environ["VOLUMIC_PROGRAM"]
 MANUAL = os.environ["VOLUMIC_MANUAL"]
@@ -41,6 +43,20 @@ def ball(dtype="i2", scale=1):
     return np.round(values * scale).astype(dtype)
 
 
+META = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")  # of the ball
+
+
+def nrrd_header(encoding="raw", endian="little", direction=np.eye(3)):
+    """Of the ball, without the empty line that ends it."""
+    return medical_files.nrrd_header(ball(), SPACING, ORIGIN, direction, encoding, endian)
+
+
+def dicom_slice(k, voxels=None, direction=np.eye(3), **changes):
+    """A file of a series of the ball, or of other voxels [z, y, x]."""
+    pixels = (ball() if voxels is None else voxels)[k]
+    return medical_files.dicom_slice(pixels, k, SPACING, ORIGIN, direction, **changes)
+
+
 def make_image(voxels, spacing=SPACING, origin=ORIGIN, direction=np.eye(3)):
     scalars = numpy_to_vtk(np.ascontiguousarray(voxels).ravel(), deep=True)
     scalars.SetName("density")
@@ -54,6 +70,8 @@ def make_image(voxels, spacing=SPACING, origin=ORIGIN, direction=np.eye(3)):
 
 
 class ToolTestCase(FolderTestCase):
+    ways = ((),)  # options with each of which a volume is refused alike
+
     def ball_file(self):
         return self.write(vtkXMLImageDataWriter(), "ball.vti", make_image(ball()))
 
@@ -90,6 +108,30 @@ class ToolTestCase(FolderTestCase):
     def report(self, *arguments, status=0):
         """The report of a run, parsed."""
         return json.loads(self.run_tool(*arguments, "--report", "-", status=status).stdout)
+
+    def refused_volume(self, name, reason, *options):
+        """By its name, for this reason, in one line, and no surface is written."""
+        for way in self.ways:
+            process = self.run_tool(self.path(name), self.path("out.stl"), "--iso", ISO, *way,
+                                    *options, status=1)
+            self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
+            self.assertFalse(os.path.exists(self.path("out.stl")))
+
+    def refused_file(self, name, content, reason):
+        """One file of those in a folder that is the volume."""
+        self.write_bytes(name, content)
+        self.refused_volume(os.path.dirname(name), reason)
+
+    def refused_bytes(self, name, content, reason):
+        self.write_bytes(name, content)
+        self.refused_volume(name, reason)
+
+    def accepted(self, name, *options):
+        self.run_tool(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
+
+    def accepted_bytes(self, name, content):
+        self.write_bytes(name, content)
+        self.accepted(name)
 
     def refused(self, reason, *arguments, status=1, **options):
         """The program ends with this status and says why, in one line that names itself."""

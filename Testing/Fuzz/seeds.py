@@ -45,16 +45,6 @@ def meta(changes):
     return header
 
 
-def mrc():
-    header = bytearray(1024)
-    size = VOXELS.shape[::-1]
-    struct.pack_into("<10i", header, 0, *size, 1, 0, 0, 0, *size)
-    struct.pack_into("<6f", header, 40, *size, 90, 90, 90)
-    struct.pack_into("<3i", header, 64, 1, 2, 3)
-    header[208:214] = b"MAP \x44\x44"
-    return bytes(header) + VOXELS.tobytes()
-
-
 def labelled_nifti():
     content = medical_files.nifti(VOXELS, SPACING)
     head = bytearray(content[:352])
@@ -82,7 +72,8 @@ def contents():
     yield "mha", meta([(b"CompressedData = False", b"CompressedData = True")]) + zlib.compress(data)
     yield "mhd", meta([(b"LOCAL", b"slice%03d.raw 1 3 1")])
     yield "mhd", meta([(b"LOCAL", b"LIST")]) + b"1.raw\n2.raw\n3.raw\n"
-    yield "mrc", mrc()
+    yield "mrc", medical_files.mrc(VOXELS, (1, 1, 1))
+    yield "inv3", medical_files.inv3(VOXELS, SPACING)
     for syntax in ("explicit", "implicit"):
         yield "dcm", medical_files.dicom_slice(VOXELS[0], 0, SPACING, ORIGIN, np.eye(3), syntax)
     yield "mnc", b"CDF\1" + struct.pack(
@@ -130,8 +121,6 @@ def main(folder):
         os.makedirs(os.path.join(folder, suffix), exist_ok=True)
         with open(os.path.join(folder, suffix, f"seed{k}"), "wb") as file:
             file.write(content)
-    os.makedirs(os.path.join(folder, "inv3"), exist_ok=True)
-    medical_files.write_inv3(os.path.join(folder, "inv3", "seed"), VOXELS, SPACING)
     written(folder)
 
 

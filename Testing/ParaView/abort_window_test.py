@@ -190,8 +190,8 @@ def whole_run():
     """StopReason, points, triangles and bad edges without a stop on the way."""
     testing.load_plugin()
     surface = testing.fetch(simple.VolumetoSurface(simple.Wavelet(WholeExtent=EXTENT)))
-    return (surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
-            surface.GetNumberOfPoints(), surface.GetNumberOfPolys(), 0)
+    return (testing.field(surface, "StopReason"), surface.GetNumberOfPoints(),
+            surface.GetNumberOfPolys(), 0)
 
 
 @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
@@ -240,16 +240,20 @@ class AbortWindowTest(unittest.TestCase):
     def place_of_preview(self):
         """Its box: what looks different when a script ticks it. It is below the histogram."""
         self.hand.scroll((20, 640), 3)
-        time.sleep(1)
+        time.sleep(1)  # till it has come to rest
         before = self.picture("box").astype(int)
+
+        def ticked_box(pixels):
+            changed = abs(pixels.astype(int) - before).max(axis=2) > 30
+            return middle_of(changed[:, : before.shape[1] // 3], 20)
+
+        def box_as_before(pixels):
+            return not ticked_box(pixels)
+
         self.session.ask("setattr(simple.GetActiveSource(), 'Preview', 1)")
-        time.sleep(1)
-        after = self.picture("box").astype(int)
+        place = self.wait_for(ticked_box, "box")
         self.session.ask("setattr(simple.GetActiveSource(), 'Preview', 0)")
-        time.sleep(1)
-        changed = (abs(after - before).max(axis=2) > 30)[:, : before.shape[1] // 3]
-        place = middle_of(changed, 20)
-        self.assertIsNotNone(place, "the box of Preview was not seen")
+        self.wait_for(box_as_before, "box")
         return place
 
     def check_that_it_goes_on(self):
@@ -317,8 +321,7 @@ class FiltersBehindTest(unittest.TestCase):
         algorithm.AddObserver("ProgressEvent", stop)
         smooth = simple.Smooth(filter_)
         surface = testing.fetch(filter_)
-        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
-                         "cancelled")
+        self.assertEqual(testing.field(surface, "StopReason"), "cancelled")
         self.assertGreater(surface.GetNumberOfPoints(), 0)
         self.assertEqual(testing.fetch(smooth).GetNumberOfPoints(), surface.GetNumberOfPoints())
 

@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -12,19 +11,10 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
+from plugin_testing import points, triangles
 
 POINT_ARRAYS = {"Normals": "vtkFloatArray", "Residual": "vtkFloatArray",
                 "Motionless": "vtkUnsignedCharArray", "Contact": "vtkUnsignedCharArray"}
-FIELDS = {"Level", "Delta", "Unit", "Iterations", "StopReason", "NumberOfComponents",
-          "EulerCharacteristic", "Genus", "Area", "Volume", "ContactVertices", "RemainingContacts",
-          "LostParts", "RecoveredParts", "MissingParts", "MissingBoundary", "LostCavities", "RecoveredCavities", "ComponentArea",
-          "ComponentVolume", "ComponentGenus", "ComponentCentroid", "ComponentInertia"}
-COLUMNS = ["Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds",
-           "TimeStep", "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips",
-           "EulerCharacteristic", "Components", "RecoveredParts", "Deletions", "DeletedGenus",
-           "AddedEulerCharacteristic", "IterationVertices", "IterationMeanEdgeLength",
-           "IterationEulerCharacteristic", "IterationComponents", "RegularisationCuts",
-           "RegularisationDeletions", "SecondsBefore", "SecondsAfter"]
 SURFACE, LEVELS, HISTORY = range(3)
 
 # The ball of the tests: its image falls by 1 from voxel to voxel, away from the centre.
@@ -32,9 +22,7 @@ CENTRE, RADIUS = (6.0, -2.0, 10.0), 11.0
 
 
 def distances(place=(0.0, 0.0, 0.0)):
-    """Distances of 37^3 voxels to a place, relative to the middle one."""
-    x, y, z = (numpy.arange(37.0) - 18.0 - c for c in place)
-    return numpy.sqrt(x[None, None, :]**2 + y[None, :, None]**2 + z[:, None, None]**2)
+    return testing.distances(37, place)
 
 
 def image_of(values):
@@ -58,19 +46,11 @@ def names(attributes):
     return {attributes.GetAbstractArray(i).GetName() for i in range(attributes.GetNumberOfArrays())}
 
 
-def triangles(surface):
-    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-
-
-def points(surface):
-    return vtk_to_numpy(surface.GetPoints().GetData())
-
-
-class DeformableSurfaceTest(unittest.TestCase):
+class DeformableSurfaceTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
-        testing.load_plugin()
-        cls.ball = testing.produce(ball_image())
+        super().setUpClass()
+        cls.ball = cls.kept = testing.produce(ball_image())
 
     def check_valid(self, surface):
         """Closed, oriented, triangles only: each edge is passed once in each direction."""
@@ -111,8 +91,6 @@ class DeformableSurfaceTest(unittest.TestCase):
             self.assertEqual(surface.GetPointData().GetArray(name).GetClassName(), kind)
         self.assertEqual(names(surface.GetCellData()),
                          {"Component", "ComponentArea", "ComponentVolume", "ComponentGenus"})
-        # Documentation/reference.md tells all, and has its own test.
-        self.assertLessEqual(FIELDS, names(surface.GetFieldData()))
         inertia = surface.GetFieldData().GetArray("ComponentInertia")
         self.assertEqual(inertia.GetNumberOfComponents(), 6)
         self.assertEqual(testing.field(surface, "Level"), 0)
@@ -138,9 +116,8 @@ class DeformableSurfaceTest(unittest.TestCase):
         numpy.testing.assert_array_equal(points(blocks.GetBlock(0)), points(surface))
 
         self.assertEqual(table.GetClassName(), "vtkTable")
-        columns = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())]
-        self.assertEqual(columns, COLUMNS)
-        column = {name: vtk_to_numpy(table.GetColumnByName(name)) for name in COLUMNS}
+        column = {name: vtk_to_numpy(table.GetColumnByName(name))
+                  for name in ("Iteration", "Level", "Vertices")}
         rows = sum(testing.field(level, "Iterations") for level in testing.levels(blocks))
         numpy.testing.assert_array_equal(column["Iteration"], 1 + numpy.arange(rows))
         self.assertTrue((numpy.diff(column["Level"]) <= 0).all(), "from coarse to fine")
@@ -149,13 +126,14 @@ class DeformableSurfaceTest(unittest.TestCase):
     def test_history_is_a_chart(self):
         filter_ = surface_of(simple.Wavelet())
         filter_.UpdatePipeline()
-        view = simple.CreateView("XYChartView")
-        display = simple.Show(simple.OutputPort(filter_, HISTORY), view)
+        display = simple.Show(simple.OutputPort(filter_, HISTORY),
+                              simple.CreateView("XYChartView"))
         display.UseIndexForXAxis = 0
         display.XArrayName = "Iteration"
         # Name and label of each curve that can be drawn.
-        self.assertLessEqual(set(COLUMNS), set(display.SeriesLabel[::2]))
-        simple.Delete(view)
+        columns = names(testing.fetch(filter_, HISTORY).GetRowData())
+        self.assertGreater(len(columns), 20)
+        self.assertLessEqual(columns, set(display.SeriesLabel[::2]))
 
     def test_scripted_levels(self):
         filter_ = surface_of(self.ball, IsoValue=0.0, FinestLevel=1)
@@ -239,40 +217,12 @@ class DeformableSurfaceTest(unittest.TestCase):
         filter_.IsoValue = 0.0
         self.check_ball(testing.fetch(filter_), 0.2)
 
-    def test_an_error_leaves_no_old_surface_with_the_client(self):
-        filter_ = surface_of(self.ball, IsoValue=0.0)
-        for iso_value, is_good in ((0.0, True), (1000.0, False), (0.0, True)):
-            filter_.IsoValue = iso_value
-            with testing.CapturedMessages() as messages:
-                surface = testing.fetch(filter_)
-                levels, history = testing.fetch(filter_, LEVELS), testing.fetch(filter_, HISTORY)
-            self.assertEqual("ERROR" in messages.text, not is_good, messages.text)
-            self.assertNotIn("vtkInformation", messages.text, "VTK's own report of the failure")
-            self.assertEqual(surface.GetNumberOfPoints() > 0, is_good)
-            self.assertEqual(levels.GetNumberOfBlocks() > 0, is_good)
-            self.assertEqual(history.GetNumberOfRows() > 0, is_good)
-            # What the client believes without fetching anything.
-            known = filter_.GetDataInformation(SURFACE).GetNumberOfPoints()
-            self.assertEqual(known > 0, is_good)
-
-    def test_thread_counts_agree_to_the_bit(self):
-        one, two = [testing.fetch(surface_of(simple.Wavelet(), NumberOfThreads=n)) for n in (1, 2)]
-        self.assertEqual(points(one).tobytes(), points(two).tobytes())
-        self.assertEqual(triangles(one).tobytes(), triangles(two).tobytes())
-
     def test_abort_leaves_what_there_is(self):
         filter_ = surface_of(self.ball, IsoValue=0.0)
         algorithm = filter_.GetClientSideObject()
         executions = []
         algorithm.AddObserver("StartEvent", lambda *_: executions.append(1))
-        reports = []
-
-        def stop_after_the_tenth(*_):
-            if "iteration" in (algorithm.GetProgressText() or ""):
-                reports.append(algorithm.GetProgressText())
-            if len(reports) == 10:
-                algorithm.SetAbortExecute(1)
-        tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
+        tag = testing.stop_after_the_tenth(algorithm)
         surface = testing.fetch(filter_)
         self.check_valid(surface)
         self.assertEqual(testing.field(surface, "StopReason"), "cancelled")

@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -22,17 +21,16 @@ OF_SURFACE = {"IsoValue": (-5.0, 1000.0, float("inf"), float("nan")), "CoarsestL
               "EdgeAttractionWeight": (-1.0,), "Friction": (0.0, -1.0), "SeedRadius": (-2.0,),
               "EdgeLength": (-1.0,), "Tolerance": (-1.0, float("inf")),
               "MaximumEdgeLength": (-1.0,), "Gradation": (0.0, 0.6),
-              "ConvergenceTolerance": (-1.0,), "Initialization": (3, 4), "BorderValue": (2,), "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
-              "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,)}
+              "ConvergenceTolerance": (-1.0,), "Initialization": (3, 4), "BorderValue": (2,),
+              "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
+              "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,), "TimeLimit": (-1.0,)}
 FILTERS = {"ImagePyramid": OF_PYRAMID, "DeformableSurface": OF_SURFACE,
            # Not a number: an iso-value found by itself.
            "VolumetoSurface": {**OF_PYRAMID, **OF_SURFACE, "IsoValue": (-5.0, 1000.0)}}
 
 
 def ball(size=SIZE, values=lambda inside: inside):
-    x = numpy.arange(size) - (size - 1) / 2
-    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
-    inside = numpy.clip(50 + 50 * (RADIUS - distance), 0, 100)
+    inside = numpy.clip(50 + 50 * (RADIUS - testing.distances(size)), 0, 100)
     return testing.make_image(values(inside).astype(numpy.float32), name="density")
 
 
@@ -75,20 +73,15 @@ def bad_second_inputs():
     }
 
 
-class ErrorsInViewTest(unittest.TestCase):
+class ErrorsInViewTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
         views.open_screen()
-        testing.load_plugin()
+        super().setUpClass()
         cls.good_file = testing.write_volume("volume-good.vti", ball())
 
     def setUp(self):
         self.view = views.new_view("RenderView")
-        self.opened = 0
-
-    def tearDown(self):
-        simple.Delete(self.view)
-        testing.delete_sources()
 
     def show(self, kind, path=None):
         """A filter of a reader of a file, shown in the view."""

@@ -7,7 +7,6 @@ import os
 import shutil
 import struct
 import sys
-import unittest
 
 from paraview import servermanager
 from paraview import simple
@@ -30,18 +29,11 @@ def triangles_in(path):
     return reader.GetOutput().GetNumberOfPolys()
 
 
-class ExportTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        testing.load_plugin()
-
+class ExportTest(testing.PluginTestCase):
     def setUp(self):
         self.folder = testing.output_path("exported")
         shutil.rmtree(self.folder, ignore_errors=True)
         os.mkdir(self.folder)
-
-    def tearDown(self):
-        testing.delete_sources()
 
     def export(self, name, source, port=0):
         """{name: triangles} of the files that it makes."""

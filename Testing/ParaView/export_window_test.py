@@ -11,7 +11,7 @@ import gui_session as gui
 import label_maps
 import plugin_testing as testing
 import window_testing as window
-from window_testing import APPLY, filter_of_the_menu, open_menu
+from window_testing import APPLY, filter_of_the_menu, open_menu, opened
 
 HIDE = """
 from paraview import simple
@@ -29,9 +29,7 @@ class ExportWindowTest(window.WindowTestCase):
         os.mkdir(folder)
         path = testing.write_volume("export.vti", label_maps.add_names(label_maps.image()))
         hide = self.session.add_macro("hide", HIDE)
-        self.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+        self.play(opened(path) + [
             filter_of_the_menu("LabelsToSurfaces"), APPLY, gui.pause(1000), hide,
             gui.event(ENTRY, "activate", "actionExportSurfaces"),
             gui.event(f"{gui.WINDOW}/ExportSurfacesDialog", "filesSelected",

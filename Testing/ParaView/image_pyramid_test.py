@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -27,11 +26,7 @@ def field_value(image, name):
     return image.GetFieldData().GetArray(name).GetTuple1(0)
 
 
-class ImagePyramidTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        testing.load_plugin()
-
+class ImagePyramidTest(testing.PluginTestCase):
     def test_levels_of_the_wavelet(self):
         # 21 voxels, floor(21 / sqrt 3) = 12, and the next level would have 6, under the 10 allowed.
         pyramid = pyramid_of(simple.Wavelet())
@@ -65,36 +60,6 @@ class ImagePyramidTest(unittest.TestCase):
         pyramid = pyramid_of(simple.Wavelet(), MinimumLevelSize=3)
         self.assertEqual([i.GetDimensions()[0] for i in testing.levels(pyramid)], [21, 12, 6, 3])
 
-    def test_constants_stay(self):
-        image = testing.make_image(numpy.full((20, 22, 24), -7.25, numpy.float32))
-        pyramid = pyramid_of(testing.produce(image), NumberOfLevels=3)
-        for level in testing.levels(pyramid):
-            numpy.testing.assert_allclose(testing.voxels(level, "v"), -7.25, rtol=1e-6)
-
-    def test_a_ramp_stays_that_ramp(self):
-        # Anisotropic, with an origin and an extent that doesn't begin at 0: values are places.
-        spacing, origin, start = (0.5, 0.5, 2.0), (3.0, -4.0, 5.0), (2, -3, 7)
-        x = origin[0] + spacing[0] * (start[0] + numpy.arange(40))
-        z = origin[2] + spacing[2] * (start[2] + numpy.arange(30))
-        values = numpy.zeros((30, 36, 40)) + x[None, None, :] + 10.0 * z[:, None, None]
-        pyramid = pyramid_of(testing.produce(testing.make_image(values, spacing, origin, start)),
-                             NumberOfLevels=2)
-        level = pyramid.GetBlock(1)
-        self.assertEqual(level.GetDimensions(), (23, 20, 17))
-        first = [o + s * e for o, s, e in zip(origin, spacing, start)]
-        numpy.testing.assert_allclose(level.GetOrigin(), first)
-        numpy.testing.assert_allclose(level.GetSpacing(), [0.5 * 40 / 23, 0.5 * 36 / 20, 2 * 30 / 17])
-        smooth = testing.voxels(level, "v")
-        self.assertEqual(smooth.dtype, numpy.float64)
-        step_x, _, step_z = level.GetSpacing()
-        x = first[0] + step_x * numpy.arange(23)
-        z = first[2] + step_z * numpy.arange(17)
-        expected = x[None, None, :] + 10.0 * z[:, None, None]
-        # Two units from the border, the kernel does not see it.
-        inside = (slice(2, -3), slice(3, -3), slice(3, -3))
-        expected = numpy.broadcast_to(expected, smooth.shape)
-        numpy.testing.assert_allclose(smooth[inside], expected[inside], rtol=1e-12)
-
     def test_array_selection(self):
         image = testing.make_image(numpy.full((12, 12, 12), 1, numpy.int16), name="first")
         testing.add_array(image, numpy.full((12, 12, 12), 2, numpy.uint8), "second")
@@ -110,18 +75,6 @@ class ImagePyramidTest(unittest.TestCase):
         # ParaView does not know its arrays then, and hands an empty name to the filter.
         pyramid = testing.fetch(simple.ImagePyramid(Input=simple.Wavelet(), NumberOfLevels=2))
         self.assertIsNotNone(pyramid.GetBlock(1).GetPointData().GetArray("RTData"))
-
-    def test_thread_counts_agree_to_the_bit(self):
-        values = numpy.random.default_rng(1).random((40, 41, 42), numpy.float32)
-        source = testing.produce(testing.make_image(values))
-        one, two = [pyramid_of(source, NumberOfThreads=n, NumberOfLevels=3) for n in (1, 2)]
-        for a, b in zip(testing.levels(one), testing.levels(two)):
-            self.assertEqual(testing.voxels(a, "v").tobytes(), testing.voxels(b, "v").tobytes())
-
-    def test_a_flat_image(self):
-        values = numpy.random.default_rng(2).random((1, 30, 30), numpy.float32)
-        pyramid = pyramid_of(testing.produce(testing.make_image(values)), NumberOfLevels=2)
-        self.assertEqual(pyramid.GetBlock(1).GetDimensions(), (17, 17, 1))
 
     def check_error(self, expected, source, **properties):
         """The message that a bad input gives, and that there is no output afterwards."""
@@ -144,16 +97,5 @@ class ImagePyramidTest(unittest.TestCase):
     def test_error_for_an_array_that_is_not_there(self):
         self.check_error(["absent"], simple.Wavelet(),
                          Voxels=["POINTS", "absent"])
-
-    def test_the_filter_works_after_an_error(self):
-        source = simple.Wavelet()
-        source.UpdatePipeline()
-        filter_ = simple.ImagePyramid(Input=source, NumberOfLevels=20)
-        with testing.CapturedMessages() as messages:
-            filter_.UpdatePipeline()
-        self.assertIn("vtkImagePyramid", messages.text)
-        filter_.NumberOfLevels = 2
-        self.assertEqual(testing.fetch(filter_).GetNumberOfBlocks(), 2)
-
 
 testing.main()

@@ -5,7 +5,6 @@ sources that were never updated, types that are no image, components, NaN."""
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import servermanager
@@ -24,10 +23,8 @@ SURFACES = FILTERS[1:]
 
 def ball(low=20.0, high=220.0):
     """values[z, y, x]: bright in a ball about the middle."""
-    x = numpy.arange(SIZE) - (SIZE - 1) / 2
-    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
-    return (low + (high - low) * numpy.clip(0.5 + 0.5 * (RADIUS - distance), 0, 1)).astype(
-        numpy.float32)
+    inside = numpy.clip(0.5 + 0.5 * (RADIUS - testing.distances(SIZE)), 0, 1)
+    return (low + (high - low) * inside).astype(numpy.float32)
 
 
 def image(**arrays):
@@ -51,12 +48,6 @@ def coloured():
     return data
 
 
-def reset(filter_):
-    """What the button beside the value does."""
-    filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
-    filter_.SMProxy.UpdateVTKObjects()
-
-
 def is_offered(name, source):
     """Whether the menu's entry is enabled for the source."""
     filter_ = getattr(simple, name)(source)
@@ -66,14 +57,7 @@ def is_offered(name, source):
         simple.Delete(filter_)
 
 
-class InputsTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        testing.load_plugin()
-
-    def tearDown(self):
-        testing.delete_sources()
-
+class InputsTest(testing.PluginTestCase):
     def check_ball(self, filter_):
         surface = testing.fetch(filter_)
         self.assertGreater(surface.GetNumberOfPoints(), 500)
@@ -190,7 +174,7 @@ class InputsTest(unittest.TestCase):
         self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
         self.assertNotAlmostEqual(of_image.IsoValue, 120.0, places=3)
         of_pyramid.IsoValue = 77.0
-        reset(of_pyramid)
+        testing.reset_iso_value(of_pyramid)
         self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
 
     def test_what_is_offered(self):

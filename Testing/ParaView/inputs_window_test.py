@@ -10,11 +10,9 @@ import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 from paraview import simple
-from window_testing import APPLY, PROPERTIES, filter_of_the_menu, source
+from window_testing import APPLY, ISO_VALUE, PROPERTIES, choose, filter_of_the_menu, source
 
 FILTERS = ("ImagePyramid", "DeformableSurface", "VolumeToSurface")
-COMPONENT = f"{PROPERTIES}/SelectedComponent/ComboBox"
-ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 
 # Run in the window: an image without arrays; one whose second array has several components.
 NO_ARRAY = """
@@ -52,21 +50,22 @@ def iso_values():
 
 
 class InputsWindowTest(window.WindowTestCase):
-    def check_not_offered(self, name, events, **options):
+    def check_not_offered(self, source_name, events, **options):
         for filter_ in FILTERS:
             with self.subTest(filter=filter_):
-                path, save = self.saved_state(f"{name}.pvsm")
+                path, save = self.saved_state(f"{source_name}.pvsm")
                 # The menu's entry is there, but greyed out, and does nothing.
                 self.session.play(events + [filter_of_the_menu(filter_), *save], **options)
-                self.assertTrue(window.proxies_of(path))
+                self.assertIn(source_name, window.proxies_of(path))
                 self.assertNotIn(filter_, window.proxies_of(path))
                 self.session.close_window()
 
-    def test_not_offered_for_refined_grids(self):
-        self.check_not_offered("refined", source("AMRGaussianPulseSource"))
+    def test_not_offered_for_what_is_no_volume(self):
+        for name in ("SphereSource", "AMRGaussianPulseSource"):
+            self.check_not_offered(name, source(name))
 
     def test_not_offered_without_an_array(self):
-        self.check_not_offered("bare", [gui.pause(500)], python=NO_ARRAY)
+        self.check_not_offered("TrivialProducer", [gui.pause(500)], python=NO_ARRAY)
 
     def test_component(self):
         of_scalar, of_magnitude, of_y = iso_values()
@@ -82,10 +81,11 @@ class InputsWindowTest(window.WindowTestCase):
                     gui.check(ISO_VALUE, "text", of_scalar),
                     gui.event(arrays, "set_string", "vector"), gui.pause(1000),
                     window.shown("SelectedComponent", True),
-                    gui.check(COMPONENT, "currentText", "Magnitude"),
+                    gui.check(f"{PROPERTIES}/SelectedComponent/ComboBox", "currentText",
+                              "Magnitude"),
                     # The preset follows, as nobody has typed another value.
                     gui.check(ISO_VALUE, "text", of_magnitude),
-                    gui.event(COMPONENT, "set_string", "Y"), gui.pause(1000),
+                    choose("SelectedComponent", "Y"), gui.pause(1000),
                     gui.check(ISO_VALUE, "text", of_y),
                     APPLY, *save, gui.pause(1500)], f"component-{filter_}", python=VECTOR)
                 made = window.open_state(path, f"{filter_.replace('To', 'to')}1")

@@ -15,7 +15,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
-from window_testing import APPLY, filter_of_the_menu
+from window_testing import APPLY, filter_of_the_menu, opened
 
 
 def main(label_map, folder):
@@ -23,9 +23,7 @@ def main(label_map, folder):
                           os.environ["VOLUMIC_XVFB"], size=(1180, 800))
     camera = f"{gui.WINDOW}/cameraToolbar"
     succeeded = session.play([
-        gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-        gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", label_map), APPLY,
-        gui.pause(1000), filter_of_the_menu("LabelsToSurfaces"), gui.pause(500), APPLY,
+        *opened(label_map), filter_of_the_menu("LabelsToSurfaces"), gui.pause(500), APPLY,
         gui.pause(1000), gui.event(f"{camera}/actionNegativeX", "activate"), gui.pause(1000),
         gui.event(f"{camera}/actionZoomToData", "activate"), gui.pause(1500)], timeout=600)
     path = os.path.join(folder, "paraview-labels.png")

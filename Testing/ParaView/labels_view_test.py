@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -38,15 +37,11 @@ def legend(display):
             for i in range(len(texts) // 2)}
 
 
-class LabelsViewTest(unittest.TestCase):
+class LabelsViewTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
         views.open_screen()
-        testing.load_plugin()
-
-    def tearDown(self):
-        testing.delete_views()
-        testing.delete_sources()
+        super().setUpClass()
 
     def show(self, source=None, **properties):
         source = source or testing.produce(label_maps.add_names(label_maps.image()))

@@ -15,7 +15,8 @@ import plugin_testing as testing
 import window_testing as window
 from label_maps import NAMES
 from paraview import simple
-from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+from window_testing import (
+    APPLY, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu, opened, source)
 
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
@@ -25,11 +26,6 @@ ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "Numbe
             "MemoryLimit", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 
-CHANGE_FILE = """
-from paraview import simple
-filter_ = simple.FindSource("LabelstoSurfaces1")
-simple.ReplaceReaderFileName(filter_.Input, [{path!r}], "FileName")
-"""
 TELL = """
 from paraview import servermanager, simple
 filter_ = simple.FindSource("LabelstoSurfaces1")
@@ -40,12 +36,6 @@ print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME())
                                       for b in range(blocks.GetNumberOfBlocks())],
       list(legend)[1::2], flush=True)
 """
-
-
-def opened(path):
-    return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
-            gui.pause(1000)]
 
 
 def note(text):
@@ -104,8 +94,8 @@ class LabelsWindowTest(window.WindowTestCase):
             FILTER, SHOW_ADVANCED, gui.pause(1000),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             window.shown("MinimumComponentVolume", False),
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
-            gui.pause(300), window.shown("MinimumComponentVolume", True),
+            choose("KeepComponents", "Large Ones"), gui.pause(300),
+            window.shown("MinimumComponentVolume", True),
             window.as_wide_as_the_panel()], "labels-advanced")
 
     def test_choice(self):
@@ -133,7 +123,7 @@ class LabelsWindowTest(window.WindowTestCase):
 
     def test_undo(self):
         path, save = self.saved_state("labels-undone.pvsm")
-        undo = gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", "actionEditUndo")
+        undo = edit("actionEditUndo")
         self.play(opened(self.path) + [
             FILTER, APPLY, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500),
             # The window's editor of colour maps makes a step of its own of what follows the data.
@@ -184,22 +174,17 @@ class LabelsWindowTest(window.WindowTestCase):
         others = testing.write_volume("labels-others.vti", others)
         no_map = testing.write_volume("labels-no-map.vti", testing.make_image(
             numpy.random.default_rng(1).random((12, 12, 12)), name="labels"))
-        change = {name: self.session.add_macro(f"labels_{name}", CHANGE_FILE.format(path=path))
-                  for name, path in (("others", others), ("no_map", no_map), ("back", self.path))}
+        changed = self.changes_of_file("LabelstoSurfaces1", {
+            "others": others, "no_map": no_map, "back": self.path})
         told = self.session.add_macro("labels_tell", TELL)
-
-        def changed(name):
-            return [change[name], gui.pause(500), window.in_the_pipeline(0), gui.pause(300),
-                    APPLY, window.in_the_pipeline(0, 0), gui.pause(500)]
-
         # Errors open a box, so not self.play().
         succeeded = self.session.play(opened(self.path) + [
             FILTER, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500), told,
             # Of the labels chosen, 12 is not there: an error, and a row to uncheck.
-            *changed("others"), rows(4), note("2 of 4 labels"), told,
+            *changed["others"], rows(4), note("2 of 4 labels"), told,
             set_box(2, UNCHECKED), note("1 of 4 labels"), APPLY, gui.pause(500), told,
-            *changed("no_map"), window.shown("Labels/Note", True), told,
-            *changed("back"), rows(4), note("1 of 4 labels"), told,
+            *changed["no_map"], window.shown("Labels/Note", True), told,
+            *changed["back"], rows(4), note("1 of 4 labels"), told,
             press("All"), APPLY, gui.pause(500), told, gui.pause(500)])
         self.session.screenshot(testing.output_path("labels-changed.png"))
         self.assertTrue(succeeded, self.session.output)

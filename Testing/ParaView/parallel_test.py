@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 from paraview import servermanager
 from paraview import simple
@@ -17,10 +16,10 @@ from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 
-class ParallelTest(unittest.TestCase):
+class ParallelTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
-        testing.load_plugin()
+        super().setUpClass()
         cls.package = testing.load_package()
 
     def test_there_are_two_processes(self):

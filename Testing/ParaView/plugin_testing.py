@@ -13,6 +13,7 @@ import sys
 import tempfile
 import unittest
 
+import numpy
 from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -51,6 +52,12 @@ def load_package():
     """The Python package. Once it is imported, Python knows an object of ours by its class."""
     sys.path.insert(0, os.environ["VOLUMIC_PYTHON"])
     return importlib.import_module("volumic")
+
+
+def distances(size, place=(0.0, 0.0, 0.0)):
+    """From voxels [z, y, x] of a cube to a place, which is relative to its middle."""
+    x, y, z = (numpy.arange(size) - (size - 1) / 2 - c for c in place)
+    return numpy.sqrt(x[None, None, :]**2 + y[None, :, None]**2 + z[:, None, None]**2)
 
 
 def make_image(values, spacing=(1.0, 1.0, 1.0), origin=(0.0, 0.0, 0.0), start=(0, 0, 0), name="v"):
@@ -101,6 +108,32 @@ def field(surface, name):
     return surface.GetFieldData().GetAbstractArray(name).GetValue(0)
 
 
+def points(surface):
+    return vtk_to_numpy(surface.GetPoints().GetData())
+
+
+def triangles(surface):
+    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def stop_after_the_tenth(algorithm, abort=lambda algorithm: algorithm.SetAbortExecute(1)):
+    """Report of an iteration. Returns the observer that does so."""
+    reports = []
+
+    def progress(*_):
+        if "iteration" in (algorithm.GetProgressText() or ""):
+            reports.append(algorithm.GetProgressText())
+        if len(reports) == 10:
+            abort(algorithm)
+    return algorithm.AddObserver("ProgressEvent", progress)
+
+
+def reset_iso_value(filter_):
+    """What the button beside the value does."""
+    filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
+    filter_.SMProxy.UpdateVTKObjects()
+
+
 def delete_sources(but=None):
     """All of the pipeline, the last ones first: what comes last has nothing after it."""
     for source in reversed(list(simple.GetSources().values())):
@@ -143,6 +176,27 @@ class CapturedMessages:
     @property
     def text(self):
         return self._window.GetOutput()
+
+
+class PluginTestCase(unittest.TestCase):
+    """With the plugin; what a test has made is gone after it, but for what its class has kept."""
+
+    kept = None
+
+    @classmethod
+    def setUpClass(cls):
+        load_plugin()
+
+    def tearDown(self):
+        delete_views()
+        delete_sources(but=self.kept)
+
+    def check_one_error(self, filter_):
+        """Its output after a run that fails, and what it says."""
+        with CapturedMessages() as messages:
+            output = fetch(filter_)
+        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
+        return output, messages.text
 
 
 @contextlib.contextmanager

@@ -17,11 +17,11 @@ import plugin_testing as testing
 import window_testing as window
 import x_input
 from paraview import simple
-from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu
+from window_testing import (
+    APPLY, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu, opened)
 
 SEEDS = f"{PROPERTIES}/SeedPositions"
 ATTRACTING = f"{PROPERTIES}/AttractingPositions"
-INITIALIZATION = f"{PROPERTIES}/Initialization/ComboBox"
 REPRESENTATION = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comboBox"
 # Places of the screen in the picture of `two_balls`, whose centre is that of the view.
 LEFT_BALL, BETWEEN, CENTRE = (645, 463), (725, 540), (725, 463)
@@ -45,24 +45,25 @@ def two_balls():
 
 
 def a_slice_of(volume):
-    return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", volume), APPLY,
-            gui.pause(1000), gui.event(REPRESENTATION, "set_string", "Slice"), gui.pause(1500)]
+    return opened(volume) + [gui.event(REPRESENTATION, "set_string", "Slice"), gui.pause(1500)]
 
 
 FROM_SEEDS = [filter_of_the_menu("VolumeToSurface"), SHOW_ADVANCED, gui.pause(500),
-              gui.event(f"{PROPERTIES}/Recovery/ComboBox", "set_string", "Off"), gui.pause(300),
-              gui.event(INITIALIZATION, "set_string", "Seeds"), gui.pause(500)]
+              choose("Recovery", "Off"), gui.pause(300), choose("Initialization", "Seeds"),
+              gui.pause(500)]
 SHOW_LIST = gui.event(f"{gui.PANEL}/scrollArea/qt_scrollarea_vcontainer/1QScrollBar0", "set_int",
                       "500")
 
 
-def edit(action):
-    return gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", action)
-
-
 def rows(list_, number):
     return gui.check(f"{list_}/Points", "modelRowCount", str(number))
+
+
+def typed(cell, text):
+    """Into a cell of the list of seeds, with Return."""
+    editor = f"{SEEDS}/Points/qt_scrollarea_viewport/1QExpandingLineEdit0"
+    return [gui.event(f"{SEEDS}/Points", "edit", cell), gui.event(editor, "set_string", text),
+            gui.event(editor, "key", "16777220")]
 
 
 class PointsWindowTest(window.WindowTestCase):
@@ -71,19 +72,15 @@ class PointsWindowTest(window.WindowTestCase):
         filter_ = window.open_state(path, name)
         return filter_, testing.fetch(filter_)
 
-    def components(self, surface):
-        return surface.GetFieldData().GetArray("NumberOfComponents").GetValue(0)
-
     def test_list_appears_where_it_is_of_use(self):
         self.play(a_slice_of(two_balls()) + [
             filter_of_the_menu("VolumeToSurface"), gui.pause(500),
             window.shown("SeedPositions", False), window.shown("AttractingPositions", False),
             # Of use without advanced properties as well.
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "At Points"),
-            gui.pause(500), window.shown("SeedPositions", True),
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "All"),
+            choose("KeepComponents", "At Points"), gui.pause(500),
+            window.shown("SeedPositions", True), choose("KeepComponents", "All"),
             gui.pause(500), window.shown("SeedPositions", False),
-            SHOW_ADVANCED, gui.event(INITIALIZATION, "set_string", "Seeds"), gui.pause(500),
+            SHOW_ADVANCED, choose("Initialization", "Seeds"), gui.pause(500),
             window.shown("SeedPositions", True), window.shown("AttractingPositions", True),
             gui.check(f"{SEEDS}/ShowPoints", "checked", "true"),
             gui.check(f"{ATTRACTING}/ShowPoints", "checked", "false")], "points-panel")
@@ -95,30 +92,20 @@ class PointsWindowTest(window.WindowTestCase):
             gui.check(f"{SEEDS}/Remove", "enabled", "false"),
             add, add, add, rows(SEEDS, 3), SHOW_LIST, gui.pause(300),
             # The last is the current one.
-            remove, rows(SEEDS, 2),
-            gui.event(f"{SEEDS}/Points", "edit", "1.0"),
-            gui.event(f"{SEEDS}/Points/qt_scrollarea_viewport/1QExpandingLineEdit0", "set_string",
-                      "46.5"),
-            gui.event(f"{SEEDS}/Points/qt_scrollarea_viewport/1QExpandingLineEdit0", "key",
-                      "16777220"),
+            remove, rows(SEEDS, 2), *typed("1.0", "46.5"),
             gui.pause(1000), *save, gui.pause(1000)], "points-added")
         # Not applied: the state has none; the view shows both, one in its middle.
         self.assertEqual(len(window.open_state(path, "VolumetoSurface1").SeedPositions), 0)
         self.assertTrue(self.is_marked(pixels, *CENTRE), "a handle in the middle")
         self.session.close_window()
         self.play(a_slice_of(two_balls()) + FROM_SEEDS + [
-            add, gui.event(f"{SEEDS}/Points", "edit", "0.0"),
-            gui.event(f"{SEEDS}/Points/qt_scrollarea_viewport/1QExpandingLineEdit0", "set_string",
-                      "46.5"),
-            gui.event(f"{SEEDS}/Points/qt_scrollarea_viewport/1QExpandingLineEdit0", "key",
-                      "16777220"),
-            gui.pause(500), APPLY, gui.pause(500), *save,
+            add, *typed("0.0", "46.5"), gui.pause(500), APPLY, gui.pause(500), *save,
             gui.event(f"{SEEDS}/RemoveAll", "activate"), rows(SEEDS, 0), APPLY, gui.pause(500),
             edit("actionEditUndo"), gui.pause(1000), rows(SEEDS, 1),
             edit("actionEditRedo"), gui.pause(1000), rows(SEEDS, 0)], "points-applied")
         filter_, surface = self.saved(path)
         self.assertEqual(list(filter_.SeedPositions), [46.5, 20.0, 20.0])
-        self.assertEqual(self.components(surface), 1)
+        self.assertEqual(testing.field(surface, "NumberOfComponents"), 1)
         self.assertGreater(surface.GetBounds()[0], 30.0)
 
     @staticmethod
@@ -134,25 +121,43 @@ class PointsWindowTest(window.WindowTestCase):
         rows, columns = numpy.nonzero((green > red + 20) & (green > blue + 20))
         return int(numpy.median(columns)), 380 + int(numpy.median(rows))
 
+    def picture(self, name):
+        return self.session.screenshot(testing.output_path(f"{name}.png"))
+
+    def picture_with_a_mark(self, name, place):
+        """As soon as a handle is drawn there."""
+        end = time.monotonic() + 30
+        while not self.is_marked(self.picture(name), *place):
+            self.assertLess(time.monotonic(), end, f"no handle is drawn; see {name}.png")
+            time.sleep(0.2)
+        time.sleep(0.5)  # till the panel has it as well
+        return self.picture(name)
+
+    def pick(self, place, name):
+        """The mouse and keys, and the picture with the point that was picked."""
+        # ParaView leaves real mouse and keys aside while it plays events.
+        hand = x_input.Input(self.session.display)
+        hand.move(*place)
+        hand.focus()
+        hand.key("p")
+        return hand, self.picture_with_a_mark(name, place)
+
+    def applied(self, hand, pixels):
+        """What is told of the run when Apply is pressed, which is where the picture has it."""
+        button = self.apply_button(pixels)
+        hand.drag(button, button)
+        return self.session.wait_for(" .\n", timeout=180)
+
     @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
     def test_picked_and_dragged_in_the_view(self):
         self.play(a_slice_of(two_balls()) + FROM_SEEDS + [SHOW_LIST, gui.pause(500)],
                   "points-none", python=TELL_OF_RUNS)
-        # ParaView leaves real mouse and keys aside while it plays events.
-        hand = x_input.Input(self.session.display)
-        hand.move(*BETWEEN)
-        hand.focus()
-        hand.key("p")
-        picked = self.picture("points-picked")
-        self.assertTrue(self.is_marked(picked, *BETWEEN))
+        hand, picked = self.pick(BETWEEN, "points-picked")
         self.assertFalse(self.is_marked(picked, *LEFT_BALL))
         hand.drag(BETWEEN, LEFT_BALL)
-        dragged = self.picture("points-dragged")
-        self.assertTrue(self.is_marked(dragged, *LEFT_BALL))
+        dragged = self.picture_with_a_mark("points-dragged", LEFT_BALL)
         self.assertFalse(self.is_marked(dragged, *BETWEEN))
-        button = self.apply_button(dragged)
-        hand.drag(button, button)
-        told = self.session.wait_for(" .\n", timeout=180)
+        told = self.applied(hand, dragged)
         self.assertIn("Run:", told, "nothing was applied")
         x, y, z, low, high = [float(n) for n in
                               re.search(r"Run: (\S+) (\S+) (\S+) surface: (\S+) (\S+)", told).groups()]
@@ -177,22 +182,12 @@ class PointsWindowTest(window.WindowTestCase):
         """Of what there is along x when the left ball has been pointed at."""
         self.play(a_slice_of(two_balls()) + [
             filter_of_the_menu("VolumeToSurface"), APPLY, gui.pause(1500),
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", choice),
-            gui.pause(1000)], "points-components", python=TELL_OF_RUNS)
-        hand = x_input.Input(self.session.display)
-        hand.move(*LEFT_BALL)
-        hand.focus()
-        hand.key("p")
-        picked = self.picture("points-component-picked")
-        button = self.apply_button(picked)
-        hand.drag(button, button)
-        told = self.session.wait_for(" .\n", timeout=180)
+            choose("KeepComponents", choice), gui.pause(1000)], "points-components",
+            python=TELL_OF_RUNS)
+        hand, picked = self.pick(LEFT_BALL, "points-component-picked")
+        told = self.applied(hand, picked)
         self.picture(f"points-component-{name}")
         return [float(n) for n in re.search(r"surface: (\S+) (\S+)", told).groups()]
-
-    def picture(self, name):
-        time.sleep(1.5)
-        return self.session.screenshot(testing.output_path(f"{name}.png"))
 
     def test_known_points(self):
         path, save = self.saved_state("points-known.pvsm")
@@ -204,7 +199,7 @@ class PointsWindowTest(window.WindowTestCase):
         filter_, surface = self.saved(path)
         self.assertEqual(list(filter_.AttractingPositions), [30.0, 20.0, 20.0])
         # A ball of its own about the point between the two.
-        self.assertEqual(self.components(surface), 3)
+        self.assertEqual(testing.field(surface, "NumberOfComponents"), 3)
 
 
 class PointsInScriptsTest(unittest.TestCase):
@@ -222,8 +217,7 @@ class PointsInScriptsTest(unittest.TestCase):
         filter_.Initialization = "Enclosing Icosahedron"
         filter_.Recovery = "Objects"
         filter_.AttractingPositions = [30, 20, 20]
-        number = testing.fetch(filter_).GetFieldData().GetArray("NumberOfComponents").GetValue(0)
-        self.assertEqual(number, 3)
+        self.assertEqual(testing.field(testing.fetch(filter_), "NumberOfComponents"), 3)
         self.assertEqual(list(filter_.SeedPositions), [])
         filter_.SeedPositions = [46, 20, 20, 0.1, 20, 20]
         path = testing.output_path("points-script.pvsm")

@@ -11,16 +11,16 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
-from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+from window_testing import (
+    APPLY, PROPERTIES, SHOW_ADVANCED, choose, filter_of_the_menu, set_box, set_iso_value, source)
 from paraview import simple
 
 EXTENT = [-60, 60] * 3  # 1.8 million voxels: level 1 is the preview
-ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 FILTER = filter_of_the_menu("VolumeToSurface")
 
 # Runs in the window: makes the volume larger, and tells of each run of the filter what it gave and
 # which levels have iterated for it.
-TELL_THE_RUNS = f"""
+TELL_THE_RUNS = """
 from paraview import servermanager, simple
 simple.GetSettingsProxy("GeneralSettings").AutoApply = AUTO_APPLY
 watched = []
@@ -29,7 +29,7 @@ def watch(manager, event):
     for proxy in simple.GetSources().values():
         if proxy.GetXMLName() == "RTAnalyticSource" and proxy not in watched:
             watched.append(proxy)
-            proxy.WholeExtent = {EXTENT}
+            proxy.WholeExtent = EXTENT
         algorithm = proxy.GetClientSideObject()
         if algorithm and algorithm.IsA("vtkDeformableSurface") and algorithm not in watched:
             watched.append(algorithm)
@@ -53,35 +53,32 @@ servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
 """
 
 
-def set_preview(on):
-    return gui.event(f"{PROPERTIES}/Preview/CheckBox", "set_boolean", "true" if on else "false")
-
-
-def triangles_of(iso_value, volume=None, **properties):
-    """Of a run from the start; volume: properties of its source."""
+def triangles_of(iso_value, extent=None, **properties):
+    """Of a run from the start."""
     testing.load_plugin()
-    volume = simple.Wavelet(**(volume or {"WholeExtent": EXTENT}))
+    volume = simple.Wavelet(WholeExtent=extent or EXTENT)
     filter_ = simple.VolumetoSurface(volume, IsoValue=iso_value, **properties)
     return testing.fetch(filter_).GetNumberOfPolys()
 
 
 class PreviewWindowTest(window.WindowTestCase):
-    def runs(self):
+    def runs(self, events, picture, auto_apply=0, extent=None):
+        """Level, triangles and levels that iterated of each run, while the events are played."""
+        self.play(source("RTAnalyticSource") + [FILTER, gui.pause(500), *events], picture,
+                  python=TELL_THE_RUNS.replace("AUTO_APPLY", str(auto_apply)).replace(
+                      "EXTENT", str(extent or EXTENT)))
         found = re.findall(r"Run: level (-?\d+) triangles (\d+) iterated (\[.*\])",
                            self.session.output)
         return [(int(level), int(triangles), levels) for level, triangles, levels in found]
 
     def test_on_and_off(self):
-        self.play(source("RTAnalyticSource") + [
-            FILTER, gui.pause(500), window.shown("Preview", True),
-            window.shown("TimeLimit", False),
-            gui.event(ISO_VALUE, "set_string", "140"), set_preview(True), APPLY, gui.pause(2000),
-            gui.event(ISO_VALUE, "set_string", "150"), APPLY, gui.pause(1000),
-            set_preview(False), APPLY, gui.pause(2000),
-            set_preview(True), APPLY, gui.pause(1000),
-            SHOW_ADVANCED, gui.pause(500), window.shown("TimeLimit", True)], "preview",
-            python=TELL_THE_RUNS.replace("AUTO_APPLY", "0"))
-        runs = self.runs()
+        runs = self.runs([
+            window.shown("Preview", True), window.shown("TimeLimit", False),
+            set_iso_value(140), set_box("Preview", True), APPLY, gui.pause(2000),
+            set_iso_value(150), APPLY, gui.pause(1000),
+            set_box("Preview", False), APPLY, gui.pause(2000),
+            set_box("Preview", True), APPLY, gui.pause(1000),
+            SHOW_ADVANCED, gui.pause(500), window.shown("TimeLimit", True)], "preview")
         self.assertEqual([run[0] for run in runs], [1, 1, 0, 1], self.session.output)
         self.assertEqual([run[1] for run in runs],
                          [triangles_of(140.0, Preview=1), triangles_of(150.0, FinestLevel=1),
@@ -89,56 +86,45 @@ class PreviewWindowTest(window.WindowTestCase):
         self.assertEqual([run[2] for run in runs][2:], ["[0]", "[]"], "goes on, and shows at once")
 
     def test_other_components_without_another_run(self):
-        keep = f"{PROPERTIES}/KeepComponents/ComboBox"
-        self.play(source("RTAnalyticSource") + [
-            FILTER, gui.pause(500), gui.event(ISO_VALUE, "set_string", "180"), APPLY,
-            gui.pause(2000), gui.event(keep, "set_string", "Largest"), APPLY, gui.pause(1000),
-            gui.event(keep, "set_string", "All"), APPLY, gui.pause(1000)], "preview-components",
-            python=TELL_THE_RUNS.replace("AUTO_APPLY", "0"))
+        runs = self.runs([
+            set_iso_value(180), APPLY, gui.pause(2000),
+            choose("KeepComponents", "Largest"), APPLY, gui.pause(1000),
+            choose("KeepComponents", "All"), APPLY, gui.pause(1000)], "preview-components")
         all_, largest = triangles_of(180.0), triangles_of(180.0, KeepComponents="Largest")
         self.assertLess(largest, all_)
-        runs = self.runs()
         self.assertEqual([run[1] for run in runs], [all_, largest, all_], self.session.output)
         self.assertNotEqual(runs[0][2], "[]")
         self.assertEqual([run[2] for run in runs[1:]], ["[]"] * 2, "no level iterates")
 
     def test_auto_apply(self):
-        self.play(source("RTAnalyticSource") + [
-            FILTER, gui.pause(4000), set_preview(True), gui.pause(2000),
-            gui.event(ISO_VALUE, "set_string", "150"), gui.pause(3000),
-            set_preview(False), gui.pause(4000)], "preview-auto-apply",
-            python=TELL_THE_RUNS.replace("AUTO_APPLY", "1"))
-        runs = self.runs()
+        runs = self.runs([
+            gui.pause(4000), set_box("Preview", True), gui.pause(2000), set_iso_value(150),
+            gui.pause(3000), set_box("Preview", False), gui.pause(4000)], "preview-auto-apply",
+            auto_apply=1)
         self.assertEqual(runs[-2][0], 1, self.session.output)
         self.assertEqual(runs[-1], (0, triangles_of(150.0), "[0]"), self.session.output)
 
     def test_each_level_is_shown_as_soon_as_it_rests(self):
-        self.play(source("RTAnalyticSource") + [
-            FILTER, gui.pause(500), gui.event(ISO_VALUE, "set_string", "150"),
-            gui.event(f"{PROPERTIES}/ShowLevels/CheckBox", "set_boolean", "true"), APPLY,
-            gui.pause(6000), gui.event(ISO_VALUE, "set_string", "140"), APPLY, gui.pause(6000)],
-            "preview-levels", python=TELL_THE_RUNS.replace("AUTO_APPLY", "0").replace(
-                str(EXTENT), str([-90, 90] * 3)))
-        volume = {"WholeExtent": [-90, 90] * 3}
-        runs = self.runs()
+        extent = [-90, 90] * 3
+        runs = self.runs([
+            set_iso_value(150), set_box("ShowLevels", True), APPLY, gui.pause(6000),
+            set_iso_value(140), APPLY, gui.pause(6000)], "preview-levels", extent=extent)
         self.assertEqual([run[0] for run in runs], [2, 1, 0] * 2, self.session.output)
         self.assertEqual([run[1] for run in runs],
-                         [triangles_of(iso, volume, FinestLevel=level)
+                         [triangles_of(iso, extent, FinestLevel=level)
                           for iso in (150.0, 140.0) for level in (2, 1, 0)])
         self.assertEqual([run[2] for run in runs][1:3], ["[1]", "[0]"], "each goes on")
 
     def test_levels_are_shown_down_to_one_finer_than_the_volume(self):
-        self.play(source("RTAnalyticSource") + [
-            FILTER, gui.pause(500), gui.event(ISO_VALUE, "set_string", "150"),
+        extent = [-20, 20] * 3
+        runs = self.runs([
+            set_iso_value(150),
             gui.event(f"{PROPERTIES}/FinestLevel/IntRangeWidget/LineEdit", "set_string", "-1"),
-            gui.event(f"{PROPERTIES}/ShowLevels/CheckBox", "set_boolean", "true"), APPLY,
-            gui.pause(6000)], "preview-levels-finer",
-            python=TELL_THE_RUNS.replace("AUTO_APPLY", "0").replace(
-                str(EXTENT), str([-20, 20] * 3)))
+            set_box("ShowLevels", True), APPLY, gui.pause(6000)], "preview-levels-finer",
+            extent=extent)
         # The preview is level 0 itself.
-        volume = {"WholeExtent": [-20, 20] * 3}
-        self.assertEqual([run[:2] for run in self.runs()],
-                         [(level, triangles_of(150.0, volume, FinestLevel=level))
+        self.assertEqual([run[:2] for run in runs],
+                         [(level, triangles_of(150.0, extent, FinestLevel=level))
                           for level in (0, -1)], self.session.output)
 
     def test_levels_are_not_shown_where_nobody_watches(self):

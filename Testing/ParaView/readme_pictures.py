@@ -18,21 +18,12 @@ import gui_session as gui
 import plugin_testing as testing
 import x_input
 from window_testing import (
-    APPLY, FILTERS, PROPERTIES, SHOW_ADVANCED, eye_of, filter_of_the_menu, open_menu_of_volumic)
+    APPLY, FILTERS, FROM_THE_FRONT, SHOW_ADVANCED, choose, eye_of, filter_of_the_menu,
+    open_menu_of_volumic, opened, set_iso_value)
 
 KEY_DOWN = "6,16777237,0,,0,1"
-ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 MACRO = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                      "../../Examples/ParaView/compare_levels.py"))
-# The face of the skull.
-FROM_THE_FRONT = [gui.event(f"{gui.WINDOW}/cameraToolbar/actionNegativeY", "activate"),
-                  gui.pause(1500)]
-
-
-def opened(volume):
-    return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", volume), APPLY,
-            gui.pause(1000)]
 
 
 def on_a_slice(volume, iso_value):
@@ -41,8 +32,7 @@ def on_a_slice(volume, iso_value):
     return opened(volume) + [
         gui.event(representation, "set_string", "Slice"), gui.pause(1500),
         filter_of_the_menu("VolumeToSurface"), SHOW_ADVANCED, gui.pause(500),
-        gui.event(ISO_VALUE, "set_string", iso_value),
-        gui.event(f"{PROPERTIES}/Initialization/ComboBox", "set_string", "Seeds"), gui.pause(500),
+        set_iso_value(iso_value), choose("Initialization", "Seeds"), gui.pause(500),
         gui.event(f"{gui.PANEL}/scrollArea/qt_scrollarea_vcontainer/1QScrollBar0", "set_int",
                   "600"), gui.pause(500)]
 
@@ -74,11 +64,11 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
             *[gui.event(f"{FILTERS}/Volumic", "keyEvent", KEY_DOWN)] * 3, gui.pause(1500)]),
         # Four: the surface.
         "paraview-volume-to-surface.png": ("", start + [
-            filter_of_the_menu("VolumeToSurface"), gui.event(ISO_VALUE, "set_string", iso_value),
-            APPLY, gui.pause(1000), *FROM_THE_FRONT]),
+            filter_of_the_menu("VolumeToSurface"), set_iso_value(iso_value), APPLY,
+            gui.pause(1000), *FROM_THE_FRONT]),
         "paraview-history.png": ("", start + [
-            filter_of_the_menu("VolumeToSurface"), gui.event(ISO_VALUE, "set_string", iso_value),
-            APPLY, gui.pause(1000), *FROM_THE_FRONT, *eye_of(0, 0, 2)]),
+            filter_of_the_menu("VolumeToSurface"), set_iso_value(iso_value), APPLY,
+            gui.pause(1000), *FROM_THE_FRONT, *eye_of(0, 0, 2)]),
         "paraview-seeds.png": ("", on_a_slice(volume, iso_value)),
         # The macro.
         "paraview-levels.png": (macro, [gui.pause(1000), *FROM_THE_FRONT]),

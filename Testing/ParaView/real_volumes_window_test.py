@@ -12,11 +12,8 @@ import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
-from window_testing import APPLY, PROPERTIES, eye_of, filter_of_the_menu
-
-ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-FROM_THE_FRONT = [gui.event(f"{gui.WINDOW}/cameraToolbar/actionNegativeY", "activate"),
-                  gui.pause(1500)]
+from window_testing import (
+    APPLY, FROM_THE_FRONT, eye_of, filter_of_the_menu, opened, set_box, set_iso_value)
 
 # Runs in the window: tells what each run of the filter gave.
 TELL_THE_RUNS = window.WATCH_FILTERS + """
@@ -31,14 +28,6 @@ def attend(proxy, algorithm):
 """
 
 
-def set_preview(on):
-    return gui.event(f"{PROPERTIES}/Preview/CheckBox", "set_boolean", "true" if on else "false")
-
-
-def set_iso_value(value):
-    return gui.event(ISO_VALUE, "set_string", str(value))
-
-
 class RealVolumesTest(window.WindowTestCase):
     def volume(self, name):
         """Events that open it."""
@@ -51,9 +40,7 @@ class RealVolumesTest(window.WindowTestCase):
             reader.Update()
         if reader.GetOutput().GetNumberOfPoints() == 0:
             self.skipTest(f"this ParaView takes {path} for damaged: see output_files.py")
-        return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-                gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
-                gui.pause(1000), filter_of_the_menu("VolumeToSurface"), gui.pause(500)]
+        return opened(path) + [filter_of_the_menu("VolumeToSurface"), gui.pause(500)]
 
     def runs(self):
         found = re.findall(r"Run: level (\S+) ; ([a-z ]+) ; (\d+)", self.session.output)
@@ -63,7 +50,7 @@ class RealVolumesTest(window.WindowTestCase):
         """Preview at Otsu's threshold, at the iso-value, then the surface; and its chart."""
         picture = name.split("_")[0]
         self.play(self.volume(name) + [
-            set_preview(True), APPLY, gui.pause(1500),
+            set_box("Preview", True), APPLY, gui.pause(1500),
             set_iso_value(iso_value), APPLY, gui.pause(1500), *FROM_THE_FRONT],
             f"real-{picture}-preview", python=TELL_THE_RUNS, timeout=600)
         self.assertNotIn("WARN|", self.session.output)
@@ -72,35 +59,32 @@ class RealVolumesTest(window.WindowTestCase):
         self.session.close_window()
 
         self.play(self.volume(name) + [
-            set_preview(True), set_iso_value(iso_value), APPLY, gui.pause(1000),
-            set_preview(False), APPLY, gui.pause(1500), *FROM_THE_FRONT, *eye_of(0, 0, 2)],
+            set_box("Preview", True), set_iso_value(iso_value), APPLY, gui.pause(1000),
+            set_box("Preview", False), APPLY, gui.pause(1500), *FROM_THE_FRONT, *eye_of(0, 0, 2)],
             f"real-{picture}", python=TELL_THE_RUNS, timeout=600)
         runs = self.runs()
         self.assertEqual(runs[0], seen)
         self.assertEqual([run[:2] for run in runs], [seen[:2], ("0", runs[1][1])])
         self.assertIn(runs[1][1], ("converged", "limit cycle"))
         self.assertGreater(runs[1][2], 2 * seen[2])
+        self.assertNotIn("WARN|", self.session.output)
 
     def test_tooth(self):
         self.first_minutes("tooth_ct_u16.vti", 600.5, (1, 1))
-        self.assertNotIn("WARN|", self.session.output)
 
     def test_engine(self):
         self.first_minutes("engine_ct_u8.vti", 75.5, (2, 2))
-        self.assertNotIn("WARN|", self.session.output)
 
     def test_head(self):
         self.first_minutes("vismale_head_ct_u8.vti", 95.5, (2, 2))
-        self.assertNotIn("WARN|", self.session.output)
 
     def test_vessels_of_which_a_few_per_cent_stay_lost(self):
         # At level 2 more than 5 % of what there is at 100.5 are missing: Preview goes on.
         self.first_minutes("aneurism_u8.vti", 100.5, (2, 1))
-        self.assertNotIn("WARN|", self.session.output)
 
     def test_an_error_then_a_good_run(self):
         self.session.play(self.volume("tooth_ct_u16.vti") + [
-            set_preview(True), set_iso_value(5000), APPLY, gui.pause(1000),
+            set_box("Preview", True), set_iso_value(5000), APPLY, gui.pause(1000),
             set_iso_value(300), APPLY, gui.pause(1500), *FROM_THE_FRONT], python=TELL_THE_RUNS)
         self.session.screenshot(testing.output_path("real-tooth-error.png"))
         self.assertIn("Iso Value is 5000, outside the range of the voxels, 0 to 1300",

@@ -6,7 +6,6 @@ import os
 import re
 import subprocess
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -46,11 +45,6 @@ with open({path!r}, "w") as file:
 print("Saved with points:", filter_.GetDataInformation().GetNumberOfPoints(), flush=True)
 """
 
-CHANGE_FILE = """
-from paraview import simple
-filter_ = simple.FindSource("VolumetoSurface1")
-simple.ReplaceReaderFileName(filter_.Input, [{path!r}], "FileName")
-"""
 TELL = """
 from paraview import simple
 filter_ = simple.FindSource("VolumetoSurface1")
@@ -60,9 +54,7 @@ print("Told:", repr(filter_.Voxels[1] or ""), filter_.IsoValue,
 
 
 def blob(scale=1.0, shift=0.0, name="density", size=24):
-    x = numpy.arange(size) - (size - 1) / 2
-    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
-    inside = numpy.clip(50 + 20 * (7 - distance), 0, 100)
+    inside = numpy.clip(50 + 20 * (7 - testing.distances(size)), 0, 100)
     return testing.make_image((scale * inside + shift).astype(numpy.float32), name=name)
 
 
@@ -97,26 +89,17 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
                  "again": testing.write_volume("again.vti", blob()),
                  "scaled": testing.write_volume("scaled.vti", blob(10, -7)),
                  "renamed": testing.write_volume("renamed.vti", blob(100, 1000, "voxels"))}
-        # Change File is in a menu that the recorder doesn't reach; this is what it calls.
-        change = {name: self.session.add_macro(f"change_to_{name}", CHANGE_FILE.format(path=path))
-                  for name, path in files.items()}
+        changed = self.changes_of_file("VolumetoSurface1", files)
         reset = [gui.event(f"{window.PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(300)]
         told = self.session.add_macro("tell", TELL)
         voxels = f"{window.PROPERTIES}/SetInputArrayToProcess/ComboBox"
-
-        def changed(name):
-            return [change[name], gui.pause(500), window.in_the_pipeline(0), gui.pause(300),
-                    window.APPLY, window.in_the_pipeline(0, 0), gui.pause(300)]
-
-        succeeded = self.session.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", files["again"]),
-            window.APPLY, window.filter_of_the_menu("VolumeToSurface"), window.APPLY, told,
-            *changed("none"), told,
-            *changed("again"), gui.check(voxels, "currentText", "density"), told,
-            *changed("scaled"), *reset, window.APPLY, told,
+        succeeded = self.session.play(window.opened(files["again"]) + [
+            window.filter_of_the_menu("VolumeToSurface"), window.APPLY, told,
+            *changed["none"], told,
+            *changed["again"], gui.check(voxels, "currentText", "density"), told,
+            *changed["scaled"], *reset, window.APPLY, told,
             # An array of another name is chosen.
-            *changed("renamed"), gui.check(voxels, "currentText", "voxels"), *reset,
+            *changed["renamed"], gui.check(voxels, "currentText", "voxels"), *reset,
             window.APPLY, told, gui.pause(500)])
         self.session.screenshot(testing.output_path("changed-file.png"))
         self.assertTrue(succeeded, self.session.output)
@@ -131,13 +114,8 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
         self.assertAlmostEqual(runs[4][1], 100 * runs[0][1] + 1000, delta=1)
 
 
-class TraceTest(unittest.TestCase):
-    def tearDown(self):
-        testing.delete_views()
-        testing.delete_sources()
-
+class TraceTest(testing.PluginTestCase):
     def test_trace_with_the_chart(self):
-        testing.load_plugin()
         source = simple.Wavelet(registrationName="Traced volume")
         source.UpdatePipeline()
         smtrace.start_trace()
@@ -154,17 +132,14 @@ class TraceTest(unittest.TestCase):
                          ["RenderView", "VolumicHistoryView"], text)
 
 
-class ChangedVolumeTest(unittest.TestCase):
+class ChangedVolumeTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
-        testing.load_plugin()
+        super().setUpClass()
         cls.first = testing.write_volume("first.vti", blob())
         # Other values in an array of the same name, and of another one.
         cls.same_name = testing.write_volume("same-name.vti", blob(10, -7))
         cls.other_name = testing.write_volume("other-name.vti", blob(100, 1000, "voxels"))
-
-    def tearDown(self):
-        testing.delete_sources()
 
     def filter_of(self, kind):
         reader = simple.XMLImageDataReader(FileName=self.first)
@@ -175,8 +150,7 @@ class ChangedVolumeTest(unittest.TestCase):
         """The array that is chosen, and what the button beside Iso Value makes of it."""
         filter_.Input.UpdatePipeline()
         self.assertEqual(list(filter_.Voxels), ["POINTS", voxels])
-        filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
-        filter_.SMProxy.UpdateVTKObjects()
+        testing.reset_iso_value(filter_)
         self.assertGreater(filter_.IsoValue, shift + 20 * scale)
         self.assertLess(filter_.IsoValue, shift + 80 * scale)
         self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 0)

@@ -12,12 +12,13 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
-from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+from window_testing import (
+    APPLY, ISO_VALUE, PROPERTIES, SHOW_ADVANCED, choose, filter_of_the_menu, iso_of_the_wavelet,
+    range_of_the_wavelet, set_iso_value, source)
 from paraview import simple
 
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
-ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Recovery",
          "KeepComponents")
 ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "Tolerance",
@@ -45,18 +46,6 @@ print("Colour:", [round(float(c), 3) for c in display.DiffuseColor], flush=True)
 """
 
 
-def iso_of_the_wavelet():
-    """What the panel of Iso Value says for the volume of the tests."""
-    testing.load_plugin()
-    return repr(simple.VolumetoSurface(simple.Wavelet()).IsoValue)
-
-
-def range_of_the_wavelet():
-    wavelet = simple.Wavelet()
-    wavelet.UpdatePipeline()
-    return wavelet.PointData["RTData"].GetRange()
-
-
 class SurfaceWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("surface.pvsm")
@@ -68,8 +57,7 @@ class SurfaceWindowTest(window.WindowTestCase):
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
             window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
-            gui.event(ISO_VALUE, "set_string", "150"), APPLY, *save, gui.pause(1500)],
-            "surface-applied")
+            set_iso_value(150), APPLY, *save, gui.pause(1500)], "surface-applied")
         state = window.proxies_of(path)
         self.assertIn("DeformableSurface", state)
         # The surface has the window for itself: no chart, no levels, no table.
@@ -79,9 +67,7 @@ class SurfaceWindowTest(window.WindowTestCase):
 
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.IsoValue, 150.0)
-        surface = testing.fetch(filter_)
-        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
-                         "converged")
+        self.assertEqual(testing.field(testing.fetch(filter_), "StopReason"), "converged")
         displays = [d for d in simple.GetRepresentations().values() if d.Input == filter_]
         self.assertTrue(any(d.Visibility for d in displays), "the surface is shown")
 
@@ -117,7 +103,7 @@ class SurfaceWindowTest(window.WindowTestCase):
             window.last_level("FinestLevel", 1), window.last_level("CoarsestLevel", 1),
             # Only of use for seeds.
             window.shown("SeedRadius", False),
-            gui.event(f"{PROPERTIES}/Initialization/ComboBox", "set_string", "Seeds"),
+            choose("Initialization", "Seeds"),
             window.shown("SeedRadius", True),
             # Only of use if edges attract.
             window.shown("EdgeMap", False),
@@ -125,24 +111,24 @@ class SurfaceWindowTest(window.WindowTestCase):
                       "set_string", "2"), gui.pause(300),
             window.shown("EdgeMap", True),
             gui.check(f"{PROPERTIES}/Recovery/ComboBox", "currentText", "Objects"),
-            gui.event(f"{PROPERTIES}/Recovery/ComboBox", "set_string", "Objects and Cavities"),
+            choose("Recovery", "Objects and Cavities"),
             # Only of use for parts that are looked for, for components of that volume.
             window.shown("MinimumPartSize", True),
-            gui.event(f"{PROPERTIES}/Recovery/ComboBox", "set_string", "Off"), gui.pause(300),
+            choose("Recovery", "Off"), gui.pause(300),
             window.shown("MinimumPartSize", False),
             window.shown("MinimumComponentVolume", False),
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
-            gui.pause(300), window.shown("MinimumComponentVolume", True)], "surface-advanced")
+            choose("KeepComponents", "Large Ones"), gui.pause(300),
+            window.shown("MinimumComponentVolume", True)], "surface-advanced")
 
     def test_what_is_made_of_it_keeps_its_colour(self):
         tell = self.session.add_macro("tell_colour", TELL_THE_COLOUR)
+
+        def made(filter_):
+            return [filter_of_the_menu(filter_, "Alphabetical"), APPLY, gui.pause(500), tell]
         self.play(VOLUME + [
             SURFACE, APPLY, gui.pause(500),
-            filter_of_the_menu("Clip", "Alphabetical"), APPLY, gui.pause(500), tell,
-            filter_of_the_menu("Clip", "Alphabetical"), APPLY, gui.pause(500), tell,
-            window.in_the_pipeline(0, 0), filter_of_the_menu("Threshold", "Alphabetical"), APPLY,
-            gui.pause(500), tell, window.in_the_pipeline(0), filter_of_the_menu("Contour", "Alphabetical"), APPLY,
-            gui.pause(500), tell, gui.pause(500)], "surface-clipped")
+            *made("Clip"), *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
+            window.in_the_pipeline(0), *made("Contour"), gui.pause(500)], "surface-clipped")
         self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
                          ["[0.89, 0.85, 0.76]"] * 3 + ["[1.0, 1.0, 1.0]"])
 
@@ -150,7 +136,7 @@ class SurfaceWindowTest(window.WindowTestCase):
         for before in ([], [filter_of_the_menu("ImagePyramid"), APPLY]):
             with self.subTest(pyramid=bool(before)):
                 self.play(VOLUME + before + [
-                    SURFACE, gui.event(ISO_VALUE, "set_string", "111"), gui.pause(500),
+                    SURFACE, set_iso_value(111), gui.pause(500),
                     gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(500),
                     gui.check(ISO_VALUE, "text", iso_of_the_wavelet())], "surface-reset")
                 self.session.close_window()
@@ -168,13 +154,6 @@ class SurfaceWindowTest(window.WindowTestCase):
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")
         self.assertGreater(testing.fetch(filter_).GetNumberOfCells(), 0)
-
-    def test_not_offered_for_what_is_no_volume(self):
-        path, save = self.saved_state("surface-of-sphere.pvsm")
-        # The menu's entry is there, but greyed out, and does nothing.
-        self.session.play(source("SphereSource") + [SURFACE, *save])
-        self.assertIn("SphereSource", window.proxies_of(path))
-        self.assertNotIn("DeformableSurface", window.proxies_of(path))
 
 
 window.main()

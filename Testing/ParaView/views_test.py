@@ -4,7 +4,6 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import servermanager
@@ -22,9 +21,7 @@ MORE_CURVES = ["Merges", "Cuts", "EulerCharacteristic", "Collapses", "Deletions"
 
 
 def ball(size, radius, centre=0.0):
-    x = numpy.arange(size) - (size - 1) / 2 + 0.3
-    distance = numpy.sqrt((x[None, None, :] - centre)**2 + x[None, :, None]**2 +
-                          x[:, None, None]**2)
+    distance = testing.distances(size, (centre - 0.3, -0.3, -0.3))
     return numpy.clip(50 + 100 * (radius - distance), 0, 100).astype(numpy.float32)
 
 
@@ -40,17 +37,7 @@ def column(filter_, name):
     return vtk_to_numpy(table.GetColumnByName(name))
 
 
-class ViewsTestCase(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        testing.load_plugin()
-
-    def tearDown(self):
-        testing.delete_views()
-        testing.delete_sources()
-
-
-class HistoryChartTest(ViewsTestCase):
+class HistoryChartTest(testing.PluginTestCase):
     def chart(self, name, *curves, **properties):
         """The picture of the chart of a filter, with more curves."""
         self.view = views.new_view("VolumicHistoryView", (700, 500))
@@ -127,7 +114,7 @@ class HistoryChartTest(ViewsTestCase):
         self.assertFalse(views.has_warning(views.picture_of(view, "history-own.png")))
 
 
-class ChartBesideViewTest(ViewsTestCase):
+class ChartBesideViewTest(testing.PluginTestCase):
     def kinds(self):
         return sorted(view.GetXMLName() for view in simple.GetViews())
 
@@ -155,7 +142,7 @@ class ChartBesideViewTest(ViewsTestCase):
                 self.tearDown()
 
 
-class ColoursTest(ViewsTestCase):
+class ColoursTest(testing.PluginTestCase):
     def setUp(self):
         self.filter = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
         self.view = views.new_view("RenderView")
@@ -218,8 +205,7 @@ class ColoursTest(ViewsTestCase):
         self.assertGreater(views.drawn(views.picture_of(self.view, "colours-contact.png")), 1000)
 
     def test_more_components_than_colours(self):
-        x = numpy.arange(48) % 12 - 5.5
-        many = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
+        many = numpy.tile(testing.distances(12), (4, 4, 4))
         source = testing.produce(testing.make_image((4 - many).astype(numpy.float32)))
         self.filter.Input = source
         self.filter.Voxels = ["POINTS", "v"]
@@ -252,7 +238,7 @@ class ColoursTest(ViewsTestCase):
         self.assertGreater(kept.GetDataInformation().GetNumberOfCells(), 100)
 
 
-class BlocksTest(ViewsTestCase):
+class BlocksTest(testing.PluginTestCase):
     def shown(self, display):
         return list(display.BlockSelectors)
 
@@ -298,7 +284,7 @@ class BlocksTest(ViewsTestCase):
         self.assertGreater(views.drawn(views.picture_of(view, "snapshots-last.png")), 1000)
 
 
-class UnfinishedTest(ViewsTestCase):
+class UnfinishedTest(testing.PluginTestCase):
     """A surface that was stopped says so in the view, as long as it is shown."""
 
     def text(self, name):
@@ -332,7 +318,7 @@ class UnfinishedTest(ViewsTestCase):
         self.assertEqual(self.text("deleted"), 0)
 
 
-class TurnedImageTest(ViewsTestCase):
+class TurnedImageTest(testing.PluginTestCase):
     """What Documentation/paraview.md tells about images with a direction."""
 
     def bounds(self, filter_):

@@ -5,7 +5,6 @@
 import gzip
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
@@ -70,14 +69,7 @@ def dicom():
     return os.path.dirname(path)
 
 
-class VolumeReaderTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        testing.load_plugin()
-
-    def tearDown(self):
-        testing.delete_sources()
-
+class VolumeReaderTest(testing.PluginTestCase):
     def check(self, source):
         image = testing.fetch(source)
         self.assertEqual(image.GetDimensions(), voxels().shape[::-1])

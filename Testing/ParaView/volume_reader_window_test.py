@@ -10,9 +10,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import volume_reader_test as files
 import window_testing as window
-from window_testing import APPLY, PROPERTIES, filter_of_the_menu
+from window_testing import APPLY, PROPERTIES, filter_of_the_menu, opened
 
-OPEN = gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen")
 TELL = """
 from paraview import simple
 readers = [proxy.GetXMLName() for proxy in simple.GetSources().values()]
@@ -27,11 +26,6 @@ CHOOSE_VOLUMIC = [gui.event(f"{DIALOG}/listWidget", "mousePress", "1,1,0,20,9,/1
                   gui.event(f"{DIALOG}/okButton", "activate"), gui.pause(1000)]
 
 
-def opened(path):
-    return [OPEN, gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path),
-            gui.pause(1000)]
-
-
 class VolumeReaderWindowTest(window.WindowTestCase):
     def readers(self):
         return re.findall(r"Readers: (\[.*\])", self.session.output)
@@ -39,13 +33,13 @@ class VolumeReaderWindowTest(window.WindowTestCase):
     def test_a_packed_nifti(self):
         told = self.session.add_macro("tell", TELL)
         # Values that are no labels.
-        self.play([*opened(files.nifti("ramp.nii.gz", files.ramp())), APPLY, told,
+        self.play([*opened(files.nifti("ramp.nii.gz", files.ramp())), told,
                    filter_of_the_menu("VolumeToSurface"), APPLY, gui.pause(1500)], "reader-nifti")
         self.assertEqual(self.readers(), ["['VolumicVolume']"])
 
     def test_segments_have_their_names(self):
         told = self.session.add_macro("tell", TELL)
-        self.play([*opened(files.segmentation()), *CHOOSE_VOLUMIC, APPLY, told,
+        self.play([*opened(files.segmentation(), CHOOSE_VOLUMIC), told,
                    filter_of_the_menu("LabelsToSurfaces"),
                    gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY,
                    gui.pause(1500)], "reader-segments")

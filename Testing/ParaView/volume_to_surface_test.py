@@ -4,15 +4,14 @@
 
 import os
 import sys
-import unittest
 
 import numpy
 from paraview import simple
 from paraview import smtrace
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
+from plugin_testing import points
 
 SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
 FOUR_CURVES = {"Seconds", "KineticEnergy", "MeanEdgeLength", "Vertices"}
@@ -21,9 +20,7 @@ SIZE, RADIUS, DARK, BRIGHT = 32, 10.0, 20.0, 220.0
 
 def ball_values():
     """values[z, y, x]: bright in a ball about the middle, over about two voxels dark around it."""
-    x = numpy.arange(SIZE) - (SIZE - 1) / 2
-    distance = numpy.sqrt(x[None, None, :]**2 + x[None, :, None]**2 + x[:, None, None]**2)
-    inside = numpy.clip(0.5 + 0.5 * (RADIUS - distance), 0, 1)
+    inside = numpy.clip(0.5 + 0.5 * (RADIUS - testing.distances(SIZE)), 0, 1)
     return (DARK + (BRIGHT - DARK) * inside).astype(numpy.float32)
 
 
@@ -36,18 +33,22 @@ def ball_of_cells():
     return image
 
 
-def points(surface):
-    return vtk_to_numpy(surface.GetPoints().GetData())
+def levels_told_by(algorithm):
+    """The levels that iterate from now on, and the observer that tells of them."""
+    levels = set()
+
+    def progress(caller, _):
+        words = (caller.GetProgressText() or "").split()
+        if "iteration" in words:
+            levels.add(int(words[1].strip(",")))
+    return levels, algorithm.AddObserver("ProgressEvent", progress)
 
 
-class VolumeToSurfaceTest(unittest.TestCase):
+class VolumeToSurfaceTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
-        testing.load_plugin()
-        cls.ball = testing.produce(testing.make_image(ball_values(), name="density"))
-
-    def tearDown(self):
-        testing.delete_sources(but=self.ball)
+        super().setUpClass()
+        cls.ball = cls.kept = testing.produce(testing.make_image(ball_values(), name="density"))
 
     def check_ball(self, surface, tolerance=0.5):
         self.assertEqual(testing.field(surface, "StopReason"), "converged")
@@ -64,7 +65,6 @@ class VolumeToSurfaceTest(unittest.TestCase):
         self.check_ball(testing.fetch(filter_))
 
     def test_iso_value_is_reset_to_the_data(self):
-        # What the button beside the value does.
         values = ball_values()
         image = testing.make_image(values, name="density")
         testing.add_array(image, values * 10 - 7, "other")
@@ -74,8 +74,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
         filter_.IsoValue = 99.0
         filter_.Voxels = ["POINTS", "other"]
         self.assertEqual(filter_.IsoValue, 99.0)
-        filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
-        filter_.SMProxy.UpdateVTKObjects()
+        testing.reset_iso_value(filter_)
         self.assertAlmostEqual(filter_.IsoValue, preset * 10 - 7, delta=0.01)
         self.check_ball(testing.fetch(filter_))
 
@@ -131,23 +130,16 @@ class VolumeToSurfaceTest(unittest.TestCase):
 
     def test_goes_on_from_the_last_level(self):
         """By ParaView's own way of setting properties and updating."""
-        levels = set()
         filter_ = simple.VolumetoSurface(self.ball, FinestLevel=2)
         algorithm = filter_.GetClientSideObject()
-
-        def progress(caller, _):
-            words = (caller.GetProgressText() or "").split()
-            if "iteration" in words:
-                levels.add(int(words[1].strip(",")))
         self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 2)
-        algorithm.AddObserver("ProgressEvent", progress)
+        levels, _ = levels_told_by(algorithm)
         filter_.FinestLevel = 0
         finest = testing.fetch(filter_)
         self.assertEqual(testing.field(finest, "Level"), 0)
         self.assertEqual(levels, {0, 1}, "not anew")
         fresh = testing.fetch(simple.VolumetoSurface(self.ball))
-        points = [vtk_to_numpy(surface.GetPoints().GetData()) for surface in (finest, fresh)]
-        self.assertEqual(points[0].tobytes(), points[1].tobytes())
+        self.assertEqual(points(finest).tobytes(), points(fresh).tobytes())
         levels.clear()
         algorithm.SetProgressText("")
         filter_.FinestLevel = 1
@@ -159,14 +151,8 @@ class VolumeToSurfaceTest(unittest.TestCase):
 
     def test_goes_on_after_a_stop(self):
         """By the command behind Apply: from the last level at which the surface rested."""
-        levels = set()
         filter_ = simple.VolumetoSurface(self.ball)
         algorithm = filter_.GetClientSideObject()
-
-        def progress(caller, _):
-            words = (caller.GetProgressText() or "").split()
-            if "iteration" in words:
-                levels.add(int(words[1].strip(",")))
 
         def stop(caller, _):
             caller.SetAbortExecute(int("Level 0, iteration" in (caller.GetProgressText() or "")))
@@ -180,7 +166,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
             filter_.SMProxy.InvokeCommand("GoOn")
             if not goes_on:
                 filter_.Friction = 2.9
-            tag = algorithm.AddObserver("ProgressEvent", progress)
+            levels, tag = levels_told_by(algorithm)
             surface = testing.fetch(filter_)
             algorithm.RemoveObserver(tag)
             self.assertEqual(levels, {0} if goes_on else {0, 1, 2})
@@ -188,32 +174,6 @@ class VolumeToSurfaceTest(unittest.TestCase):
             if goes_on:
                 self.assertEqual(points(surface).tobytes(), points(whole).tobytes())
             filter_.Friction = 3.1
-
-    def test_time_limit(self):
-        filter_ = simple.VolumetoSurface(self.ball, TimeLimit=1e-6)
-        surface = testing.fetch(filter_)
-        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
-                         "time limit")
-        self.assertEqual(surface.GetNumberOfPoints(), 0)
-        filter_.TimeLimit = 0
-        self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 0)
-        filter_.TimeLimit = -1
-        with testing.CapturedMessages() as messages:
-            self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
-        self.assertIn("Time Limit is -1", messages.text)
-
-    def test_snapshots(self):
-        filter_ = simple.VolumetoSurface(self.ball, SnapshotInterval=10)
-        blocks = testing.fetch(filter_, SNAPSHOTS)
-        names = testing.names(blocks)
-        self.assertEqual(names[:2], ["Level 2, iteration 0", "Level 2, iteration 10"])
-        for name, surface in zip(names, testing.levels(blocks)):
-            self.assertEqual(
-                name, f"Level {testing.field(surface, 'Level')},"
-                f" iteration {testing.field(surface, 'Iterations')}")
-            self.assertGreater(surface.GetNumberOfPolys(), 0)
-        filter_.SnapshotInterval = 0
-        self.assertEqual(testing.fetch(filter_, SNAPSHOTS).GetNumberOfBlocks(), 0)
 
     def test_displays_where_people_write_a_comma(self):
         """The numbers of the plugin's XML have points in every country."""
@@ -246,8 +206,6 @@ class VolumeToSurfaceTest(unittest.TestCase):
         filter_.Profile = 1
         filter_.UpdatePipeline()
         self.assertEqual(set(display.SeriesVisibility), FOUR_CURVES)
-        for view_ in (view, chart):
-            simple.Delete(view_)
 
     def test_trace(self):
         source = simple.Wavelet(registrationName="TracedWavelet")
@@ -289,14 +247,7 @@ class VolumeToSurfaceTest(unittest.TestCase):
     def check_abort_and_the_next_apply(self, abort):
         filter_ = simple.VolumetoSurface(self.ball)
         algorithm = filter_.GetClientSideObject()
-        reports = []
-
-        def stop_after_the_tenth(*_):
-            if "iteration" in (algorithm.GetProgressText() or ""):
-                reports.append(algorithm.GetProgressText())
-            if len(reports) == 10:
-                abort(algorithm)
-        tag = algorithm.AddObserver("ProgressEvent", stop_after_the_tenth)
+        tag = testing.stop_after_the_tenth(algorithm, abort)
         surface = testing.fetch(filter_)
         self.assertEqual(testing.field(surface, "StopReason"), "cancelled")
         self.assertGreater(surface.GetNumberOfPolys(), 0)

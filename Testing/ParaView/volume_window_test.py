@@ -15,12 +15,13 @@ import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 import x_input
-from window_testing import APPLY, PROPERTIES, SHOW_ADVANCED, filter_of_the_menu, source
+from window_testing import (
+    APPLY, ISO_VALUE, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu,
+    iso_of_the_wavelet, opened, range_of_the_wavelet, set_iso_value, source)
 from paraview import simple
 
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
-ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "FinestLevel",
          "Recovery", "KeepComponents", "EdgeLength", "Tolerance")
 ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels",
@@ -28,19 +29,26 @@ ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize"
             "MemoryLimit", "ScratchDirectory", "Resume", "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
-# stopped after some iterations; the end of each run is told.
+# stopped where its progress tells WHERE; what each run does is told.
 STOP_THE_FIRST_RUN = window.WATCH_FILTERS + """
 def attend(proxy, algorithm):
     runs = []
+    def start(caller, event):
+        runs.append(1)
+        print("Run", len(runs), "begins", flush=True)
     def progress(caller, event):
-        if len(runs) == 1 and "iteration 5," in (caller.GetProgressText() or ""):
+        text = caller.GetProgressText() or ""
+        if ", iteration" in text:
+            print("Run", len(runs), text, flush=True)
+        if len(runs) == 1 and WHERE in text:
             caller.SetAbortExecute(1)
     def end(caller, event):
         surface = caller.GetOutputDataObject(0)
         reason = surface.GetFieldData().GetAbstractArray("StopReason")
         print("Run", len(runs), "ended:", reason.GetValue(0) if reason else "",
-              "with triangles:", surface.GetNumberOfPolys(), flush=True)
-    algorithm.AddObserver("StartEvent", lambda *_: runs.append(1))
+              "with triangles:", surface.GetNumberOfPolys(), "points:", surface.GetNumberOfPoints(),
+              "in", surface.GetBounds(), flush=True)
+    algorithm.AddObserver("StartEvent", start)
     algorithm.AddObserver("ProgressEvent", progress)
     algorithm.AddObserver("EndEvent", end)
 """
@@ -54,54 +62,8 @@ def attend(proxy, algorithm):
 """
 
 
-def edit(action):
-    return gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", action)
-
-
-def range_of_the_wavelet(**properties):
-    wavelet = simple.Wavelet(**properties)
-    wavelet.UpdatePipeline()
-    return wavelet.PointData["RTData"].GetRange()
-
-
-def iso_of_the_wavelet():
-    """What the panel of Iso Value says for the volume of the tests."""
-    testing.load_plugin()
-    wavelet = simple.Wavelet()
-    wavelet.UpdatePipeline()
-    return repr(simple.VolumetoSurface(wavelet).IsoValue)
-
-
-STOP_ONE_RUN = window.WATCH_FILTERS + """
-def attend(proxy, algorithm):
-    runs = []
-    def start(caller, event):
-        runs.append(1)
-        print("Run begins", flush=True)
-    def progress(caller, event):
-        if len(runs) == 1:
-            caller.SetAbortExecute(1)
-    algorithm.AddObserver("StartEvent", start)
-    algorithm.AddObserver("ProgressEvent", progress)
-"""
-
-# The first run is stopped at its last level.
-STOP_AT_LEVEL_0 = window.WATCH_FILTERS + """
-def attend(proxy, algorithm):
-    runs = []
-    def progress(caller, event):
-        text = caller.GetProgressText() or ""
-        if ", iteration" in text:
-            print("Run", len(runs), text, flush=True)
-        if len(runs) == 1 and "Level 0, iteration" in text:
-            caller.SetAbortExecute(1)
-    def end(caller, event):
-        surface = caller.GetOutputDataObject(0)
-        print("End of run", len(runs), surface.GetNumberOfPoints(), surface.GetBounds(), flush=True)
-    algorithm.AddObserver("StartEvent", lambda *_: runs.append(1))
-    algorithm.AddObserver("ProgressEvent", progress)
-    algorithm.AddObserver("EndEvent", end)
-"""
+def stop_the_first_run(where):
+    return STOP_THE_FIRST_RUN.replace("WHERE", repr(where))
 
 
 class VolumeWindowTest(window.WindowTestCase):
@@ -116,9 +78,8 @@ class VolumeWindowTest(window.WindowTestCase):
             window.last_level("FinestLevel", 1),
             # In the default panel as well.
             window.shown("MinimumComponentVolume", False),
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "Large Ones"),
-            gui.pause(300), window.shown("MinimumComponentVolume", True),
-            gui.event(f"{PROPERTIES}/KeepComponents/ComboBox", "set_string", "All"),
+            choose("KeepComponents", "Large Ones"), gui.pause(300),
+            window.shown("MinimumComponentVolume", True), choose("KeepComponents", "All"),
             APPLY, *save, gui.pause(1500),
             # The display below wants more than the dock has at first, and so do these.
             window.as_wide_as_the_panel(), SHOW_ADVANCED, gui.pause(1000),
@@ -128,12 +89,11 @@ class VolumeWindowTest(window.WindowTestCase):
         # The surface has the window for itself.
         self.assertNotIn("VolumicHistoryView", state)
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
-        self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
-                         "converged")
+        self.assertEqual(testing.field(surface, "StopReason"), "converged")
 
     def test_button_that_finds_the_iso_value_again(self):
         self.play(VOLUME + [
-            FILTER, gui.event(ISO_VALUE, "set_string", "111"), gui.pause(500),
+            FILTER, set_iso_value(111), gui.pause(500),
             gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(500),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet())], "volume-reset")
 
@@ -168,9 +128,7 @@ class VolumeWindowTest(window.WindowTestCase):
         voxels = numpy.clip(1500 - 150 * distance, -1000, 1500).astype(numpy.int16)
         path = testing.write_volume("ct.vti", testing.make_image(voxels, name="HU"))
         label = f"{PROPERTIES}/IsoValue/ValueRange"
-        self.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+        self.play(opened(path) + [
             FILTER, gui.pause(500),
             gui.check(label, "text", "<b>Value Range:</b> [-1000, 1500]<br>CT: "
                       "<a href='226'>bone 226</a>, <a href='-300'>skin -300</a>"),
@@ -184,9 +142,7 @@ class VolumeWindowTest(window.WindowTestCase):
         # A magnetic resonance image, though some of its voxels are below 0.
         path = testing.write_volume("mr.vti", testing.make_image(
             numpy.maximum(voxels, -610), name="MR"))
-        self.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
+        self.play(opened(path) + [
             FILTER, gui.pause(500), window.value_range(-610, 1500)], "volume-mr")
 
     @staticmethod
@@ -222,7 +178,7 @@ class VolumeWindowTest(window.WindowTestCase):
                       f"1 part, genus 0<br>area {area:g} world units²<br>volume {volume:g} world "
                       "units³<br>0.0 % of the boundary missing<br>no self-intersections"),
             SHOW_ADVANCED, gui.pause(500), gui.event(limit, "set_string", "1e-9"),
-            gui.event(ISO_VALUE, "set_string", "140"), APPLY,
+            set_iso_value(140), APPLY,
             gui.pause(1000), gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
                                        "<b>Unfinished</b> (time limit): no surface yet")],
             "volume-summary")
@@ -234,29 +190,30 @@ class VolumeWindowTest(window.WindowTestCase):
             gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
                       "<b>Unfinished</b> (cancelled): no surface yet"),
             APPLY, gui.pause(1000), gui.check(apply, "enabled", "false")],
-            "volume-again", python=STOP_ONE_RUN)
-        self.assertEqual(self.session.output.count("Run begins"), 2)
+            "volume-again", python=stop_the_first_run(""))
+        self.assertEqual(re.findall(r"Run (\d+) begins", self.session.output), ["1", "2"])
 
     def test_apply_goes_on_after_a_stop(self):
         testing.load_plugin()
         whole = testing.fetch(simple.VolumetoSurface(simple.Wavelet()))
         apply = f"{gui.PANEL}/Accept"
         summary = f"{PROPERTIES}/KeepComponents/Summary"
+        at_level_0 = stop_the_first_run("Level 0, iteration")
         self.play(VOLUME + [
             FILTER, gui.pause(500), APPLY, gui.pause(1000), gui.check(apply, "enabled", "true"),
             APPLY, gui.pause(1000), gui.check(apply, "enabled", "false"),
-            gui.check(summary, "visible", "true")], "volume-goes-on", python=STOP_AT_LEVEL_0)
+            gui.check(summary, "visible", "true")], "volume-goes-on", python=at_level_0)
         self.assertIn("Run 1 Level 1, iteration", self.session.output)
         self.assertIn("Run 2 Level 0, iteration", self.session.output)
         self.assertNotIn("Run 2 Level 1, iteration", self.session.output)
-        self.assertIn(f"End of run 2 {whole.GetNumberOfPoints()} {whole.GetBounds()}",
-                      self.session.output)
+        self.assertRegex(self.session.output, r"Run 2 ended: converged .* points: "
+                         f"{whole.GetNumberOfPoints()} in {re.escape(str(whole.GetBounds()))}")
         self.session.close_window()
         # With another value that would be a wrong surface.
         self.play(VOLUME + [
             FILTER, gui.pause(500), APPLY, gui.pause(1000),
-            gui.event(ISO_VALUE, "set_string", "140"), APPLY, gui.pause(1000),
-            gui.check(apply, "enabled", "false")], "volume-begins-anew", python=STOP_AT_LEVEL_0)
+            set_iso_value(140), APPLY, gui.pause(1000), gui.check(apply, "enabled", "false")],
+            "volume-begins-anew", python=at_level_0)
         self.assertIn("Run 2 Level 1, iteration", self.session.output)
 
     def test_histogram(self):
@@ -272,16 +229,14 @@ class VolumeWindowTest(window.WindowTestCase):
                     for what, buttons, place in (("mousePress", button, x),
                                                  ("mouseMove", button, to),
                                                  ("mouseRelease", 0, to))] + [gui.pause(300)]
-        pixels = self.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
-            gui.pause(1000), FILTER, gui.pause(500), gui.check(histogram, "visible", "true"),
+        pixels = self.play(opened(path) + [
+            FILTER, gui.pause(500), gui.check(histogram, "visible", "true"),
             *drag(9, -5), gui.check(ISO_VALUE, "text", "0"),
             *drag(9, 5000), gui.check(ISO_VALUE, "text", "39"),
             *drag(9, -5, button=2), gui.check(ISO_VALUE, "text", "39"),
-            gui.event(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "set_string", "b"),
-            gui.pause(500), *drag(9, 5000), gui.check(ISO_VALUE, "text", "100"),
-            gui.event(ISO_VALUE, "set_string", "80"), gui.pause(300)], "volume-histogram")
+            choose("SetInputArrayToProcess", "b"), gui.pause(500),
+            *drag(9, 5000), gui.check(ISO_VALUE, "text", "100"),
+            set_iso_value(80), gui.pause(300)], "volume-histogram")
         # The line is about the middle of the bars.
         red, green, blue = (pixels[..., colour].astype(int) for colour in range(3))
         line = numpy.nonzero(((red == 208) & (green == 32) & (blue == 32)).sum(axis=0) > 40)[0]
@@ -289,10 +244,8 @@ class VolumeWindowTest(window.WindowTestCase):
         self.session.close_window()
         # No value parts these voxels.
         flat = testing.write_volume("flat.vti", testing.make_image(values * 0 + 7, name="a"))
-        self.assertTrue(self.session.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", flat), APPLY,
-            gui.pause(1000), FILTER, gui.pause(500), gui.check(histogram, "visible", "false")]),
+        self.assertTrue(self.session.play(opened(flat) + [
+            FILTER, gui.pause(500), gui.check(histogram, "visible", "false")]),
             self.session.output)
 
     def test_a_warning_waits_for_the_end(self):
@@ -301,10 +254,8 @@ class VolumeWindowTest(window.WindowTestCase):
         path = testing.write_volume("labels-for-volume.vti",
                                     testing.make_image(voxels, name="labels"))
         # A warning opens a box, so not self.play().
-        succeeded = self.session.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
-            gui.pause(1000), FILTER, APPLY, gui.pause(1000)], python=TELL_THE_PROGRESS)
+        succeeded = self.session.play(opened(path) + [FILTER, APPLY, gui.pause(1000)],
+                                      python=TELL_THE_PROGRESS)
         self.session.screenshot(testing.output_path("volume-warning.png"))
         self.assertTrue(succeeded, self.session.output)
         self.assertEqual(self.session.output.count("looks like a label map"), 1)
@@ -316,12 +267,10 @@ class VolumeWindowTest(window.WindowTestCase):
         image = testing.make_image(values, name="a")
         testing.add_array(image, 100.0 - values, "b")
         path = testing.write_volume("two-arrays.vti", image)
-        self.play([
-            gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
-            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), APPLY,
-            gui.pause(1000), FILTER, gui.pause(500), window.value_range(0, 39),
-            gui.event(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "set_string", "b"),
-            gui.pause(500), window.value_range(61, 100)], "volume-range")
+        self.play(opened(path) + [
+            FILTER, gui.pause(500), window.value_range(0, 39),
+            choose("SetInputArrayToProcess", "b"), gui.pause(500), window.value_range(61, 100)],
+            "volume-range")
         self.session.close_window()
         self.play(VOLUME + [
             FILTER, APPLY, gui.pause(500), window.in_the_pipeline(0), gui.pause(500),
@@ -337,8 +286,8 @@ class VolumeWindowTest(window.WindowTestCase):
         for name, events, value in (("undone", undo, iso), ("redone", undo + redo, 140.0)):
             path, save = self.saved_state(f"{name}.pvsm")
             self.play(VOLUME + [
-                FILTER, APPLY, gui.event(ISO_VALUE, "set_string", "140"), APPLY, *events, *save,
-                gui.pause(1500)], f"volume-{name}")
+                FILTER, APPLY, set_iso_value(140), APPLY, *events, *save, gui.pause(1500)],
+                f"volume-{name}")
             self.session.close_window()
             filter_ = window.open_state(path, "VolumetoSurface1")
             self.assertAlmostEqual(filter_.IsoValue, value, places=9)
@@ -346,20 +295,12 @@ class VolumeWindowTest(window.WindowTestCase):
 
     def test_stopped_on_its_way_and_applied_again(self):
         self.play(VOLUME + [
-            FILTER, APPLY, gui.pause(1000),
-            gui.event(ISO_VALUE, "set_string", "140"), APPLY, gui.pause(1500)],
-            "volume-stopped", python=STOP_THE_FIRST_RUN)
+            FILTER, APPLY, gui.pause(1000), set_iso_value(140), APPLY, gui.pause(1500)],
+            "volume-stopped", python=stop_the_first_run("iteration 5,"))
         runs = re.findall(r"Run (\d+) ended: (\w+) with triangles: (\d+)", self.session.output)
         self.assertEqual([run[:2] for run in runs], [("1", "cancelled"), ("2", "converged")],
                          self.session.output)
         self.assertTrue(all(int(triangles) > 0 for _, _, triangles in runs))
-
-    def test_not_offered_for_what_is_no_volume(self):
-        path, save = self.saved_state("volume-of-sphere.pvsm")
-        # The menu's entry is there, but greyed out, and does nothing.
-        self.session.play(source("SphereSource") + [FILTER, *save])
-        self.assertIn("SphereSource", window.proxies_of(path))
-        self.assertNotIn("VolumeToSurface", window.proxies_of(path))
 
 
 window.main()

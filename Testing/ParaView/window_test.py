@@ -45,12 +45,5 @@ class WindowTest(window.WindowTestCase):
             window.shown("ReductionFactor", True),
             window.shown("NumberOfThreads", True)], "advanced")
 
-    def test_not_offered_for_what_is_no_volume(self):
-        path, save = self.saved_state("sphere.pvsm")
-        # The menu's entry is there, but greyed out, and does nothing.
-        self.session.play(source("SphereSource") + [filter_of_the_menu("ImagePyramid"), *save])
-        self.assertIn("SphereSource", window.proxies_of(path))
-        self.assertNotIn("ImagePyramid", window.proxies_of(path))
-
 
 window.main()

@@ -20,6 +20,10 @@ PROPERTIES = f"{gui.PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetCon
              "PropertiesFrame/ProxyPanel"
 APPLY = gui.event(f"{gui.PANEL}/Accept", "activate")
 SHOW_ADVANCED = gui.event(f"{gui.PANEL}/SearchBox/AdvancedButton", "set_boolean", "true")
+ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
+# For a picture of what lies at the front of the volume.
+FROM_THE_FRONT = [gui.event(f"{gui.WINDOW}/cameraToolbar/actionNegativeY", "activate"),
+                  gui.pause(1500)]
 
 # Runs in the window, before a script that defines attend(proxy, algorithm): that is called for each
 # filter that finds a surface, once, as soon as it is made, whoever makes it.
@@ -36,6 +40,13 @@ def watch(manager, event):
             attend(proxy, algorithm)
 
 servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+"""
+
+# Runs in the window: what its File > Change File calls, for the input of a filter.
+CHANGE_FILE = """
+from paraview import simple
+filter_ = simple.FindSource({name!r})
+simple.ReplaceReaderFileName(filter_.Input, [{path!r}], "FileName")
 """
 
 
@@ -61,8 +72,34 @@ def source(name):
             gui.event(f"{gui.WINDOW}/menubar/menuSources/Alphabetical", "activate", name), APPLY]
 
 
+def opened(path, answer=()):
+    """Events that open a file and apply its reader; answer: those for a question on the way."""
+    return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
+            gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), gui.pause(500),
+            *answer, APPLY, gui.pause(1000)]
+
+
 def filter_of_the_menu(name, category="Volumic"):
-    return open_menu("menuFilters") + "\n" + gui.pause(500) + "\n" + gui.event(f"{FILTERS}/{category}", "activate", name)
+    return "\n".join([open_menu("menuFilters"), gui.pause(500),
+                      gui.event(f"{FILTERS}/{category}", "activate", name)])
+
+
+def edit(action):
+    """Undo or redo."""
+    return gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", action)
+
+
+def set_iso_value(value):
+    return gui.event(ISO_VALUE, "set_string", str(value))
+
+
+def choose(property_, choice):
+    """Of those that the panel offers."""
+    return gui.event(f"{PROPERTIES}/{property_}/ComboBox", "set_string", choice)
+
+
+def set_box(property_, on):
+    return gui.event(f"{PROPERTIES}/{property_}/CheckBox", "set_boolean", "true" if on else "false")
 
 
 def in_the_pipeline(*places):
@@ -99,6 +136,18 @@ def value_range(low, high):
 def as_wide_as_the_panel():
     """Fails the session if the panel needs a scroll bar to show all of its width."""
     return gui.check(f"{gui.PANEL}/scrollArea/qt_scrollarea_hcontainer", "visible", "false")
+
+
+def range_of_the_wavelet(**properties):
+    wavelet = simple.Wavelet(**properties)
+    wavelet.UpdatePipeline()
+    return wavelet.PointData["RTData"].GetRange()
+
+
+def iso_of_the_wavelet():
+    """What the panel of Iso Value says for the source RTAnalyticSource."""
+    testing.load_plugin()
+    return repr(simple.VolumetoSurface(simple.Wavelet()).IsoValue)
 
 
 def open_state(path, name):
@@ -141,6 +190,16 @@ class WindowTestCase(unittest.TestCase):
         for word in ("ERR|", "critical:", "warning:"):
             self.assertNotIn(word, self.session.output)
         return pixels
+
+    def changes_of_file(self, filter_, files):
+        """{name: events} for {name: path}: the file takes the place of that of a filter of this
+        name, which is the only one, and both are applied."""
+        return {name: [
+            # Change File is in a menu that the recorder doesn't reach.
+            self.session.add_macro(f"change_to_{name}",
+                                   CHANGE_FILE.format(name=filter_, path=path)),
+            gui.pause(500), in_the_pipeline(0), gui.pause(300), APPLY, in_the_pipeline(0, 0),
+            gui.pause(500)] for name, path in files.items()}
 
     def saved_state(self, name):
         """Path of a state, and the events that save it from the window."""

@@ -48,11 +48,36 @@ class FolderTestCase(unittest.TestCase):
         writer.Write()
         return self.path(name)
 
+    def bytes_of(self, writer, name, image):
+        """What a writer of VTK writes of the image."""
+        self.write(writer, name, image)
+        return self.content(name)
+
     def write_bytes(self, name, content):
         with open(self.path(name), "wb") as file:
             file.write(content)
         return self.path(name)
 
+    def write_text(self, name, text):
+        return self.write_bytes(name, text.encode())
+
     def content(self, name):
         with open(self.path(name), "rb") as file:
             return file.read()
+
+
+class SharedFolderTestCase(FolderTestCase):
+    """A folder for all tests of the class, whose files take long to make."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+
+    def setUp(self):
+        """It has none of its own."""
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder, name)

@@ -56,17 +56,33 @@ def nifti(voxels, spacing, sform=None, qfac=1, offset=(0, 0, 0), slope=1, interc
     return bytes(header) + voxels.astype("<i2").tobytes()
 
 
-def write_inv3(path, voxels, spacing, shape=None, dtype="int16"):
-    """An InVesalius project with nothing but its volume."""
-    project = {"matrix": {"dtype": dtype, "filename": "matrix.dat",
-                          "shape": list(shape or voxels.shape)},
-               "spacing": [float(s) for s in spacing], "orientation": 1}
-    with tarfile.open(path, "w:gz") as archive:
-        for name, data in (("matrix.dat", voxels.tobytes()),
-                           ("main.plist", plistlib.dumps(project))):
-            member = tarfile.TarInfo("tmpfolder/" + name)
+def mrc(voxels, spacing, mode=1, order=(1, 2, 3)):
+    header = bytearray(1024)
+    sizes = voxels.shape[::-1]
+    struct.pack_into("<10i", header, 0, *sizes, mode, 0, 0, 0, *sizes)
+    struct.pack_into("<6f", header, 40, *(n * s for n, s in zip(sizes, spacing)), 90, 90, 90)
+    struct.pack_into("<3i", header, 64, *order)
+    header[208:214] = b"MAP \x44\x44"
+    return bytes(header) + voxels.tobytes()
+
+
+def archive_of(files):
+    """Packed, as InVesalius has its projects: of (name, bytes), in a folder."""
+    packed = io.BytesIO()
+    with tarfile.open(fileobj=packed, mode="w:gz") as archive:
+        for name, data in files:
+            member = tarfile.TarInfo("folder/" + name)
             member.size = len(data)
             archive.addfile(member, io.BytesIO(data))
+    return packed.getvalue()
+
+
+def inv3(voxels, spacing, **changes):
+    """An InVesalius project with nothing but its volume; changes are those of its matrix."""
+    project = {"matrix": {"dtype": "int16", "filename": "matrix.dat",
+                          "shape": list(voxels.shape), **changes},
+               "spacing": [float(s) for s in spacing], "orientation": 1}
+    return archive_of([("matrix.dat", voxels.tobytes()), ("main.plist", plistlib.dumps(project))])
 
 
 def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", **changes):

@@ -75,30 +75,6 @@ class FoldersTest(unittest.TestCase):
         self.assertEqual([source for source in sources() if room_of(source) not in there
                           and not source.startswith("vtk")], [], "only filters are in no room")
 
-    def test_files_that_the_page_names_are_there(self):
-        folders = "|".join(folders_in(ROOT))
-        named = re.findall(rf"`((?:{folders})/[\w/.]+\w)`", read(PAGE))
-        self.assertGreater(len(named), 20)
-        self.assertEqual([path for path in named if not os.path.exists(os.path.join(ROOT, path))],
-                         [])
-        known = {name for folder in folders_in(ROOT)
-                 for _, _, names in os.walk(os.path.join(ROOT, folder)) for name in names}
-        alone = re.findall(r"`(\w+\.\w+)`", read(PAGE))
-        self.assertEqual([name for name in alone if name not in known], [])
-
-    def test_classes_that_the_page_names_are_there(self):
-        """A name in code that begins as those of units do is a unit, or found in a header."""
-        headers = "\n".join(read(os.path.join(FILTERS, s)) for s in sources() if s.endswith(".h"))
-        text = read(PAGE).split("\n## Rooms", 1)[1]
-        named = set(re.findall(r"`((?:vtk)?[A-Z]\w+)(?:::(\w+))?`", text))
-        self.assertGreater(len(named), 30)
-        units = {os.path.splitext(os.path.basename(s))[0] for s in sources()}
-        unknown = [name for name, member in named
-                   if name not in units | folders_in(CORE) | folders_in(FILTERS)
-                   and not re.search(rf"\b(class|struct|using|void\*) {name}\b", headers)
-                   or member and not re.search(rf"\b{member}\b", headers)]
-        self.assertEqual(unknown, [], "neither units nor classes of Filters")
-
 
 class IncludesTest(unittest.TestCase):
     def test_rooms_include_those_that_they_may(self):

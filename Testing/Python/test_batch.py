@@ -4,30 +4,25 @@
 
 import csv
 import os
-import tempfile
 import unittest
 
 import numpy as np
 
 import medical_files
+from folder_test_case import FolderTestCase
 from sample_volumes import (
     RING_ISO, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
 
 
-class BatchTest(unittest.TestCase):
+class BatchTest(FolderTestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = os.path.join(temporary.name, "scans")
-        self.output = os.path.join(temporary.name, "a", "results")
+        super().setUp()
+        self.output = self.path("a/results")
+        self.folder = self.path("scans")
         os.mkdir(self.folder)
 
     def add_ring(self, name="ring.mha"):
-        return write_volume(os.path.join(self.folder, name), ring_voxels(), RING_SPACING)
-
-    def add_bytes(self, name, content):
-        with open(os.path.join(self.folder, name), "wb") as file:
-            file.write(content)
+        return write_volume(self.path(name), ring_voxels(), RING_SPACING)
 
     def batch(self, *options):
         return run_script("batch.py", self.folder, "--output", self.output, *options)
@@ -59,12 +54,12 @@ class ResultsTest(BatchTest):
     def test_every_format_and_folder_of_slices(self):
         self.add_ring()
         voxels = np.pad(np.full((12, 12, 12), 90, "i2"), 8)
-        self.add_bytes("cube.nii", medical_files.nifti(voxels, (1, 1, 1)))
-        os.mkdir(os.path.join(self.folder, "series"))
+        self.write_bytes("cube.nii", medical_files.nifti(voxels, (1, 1, 1)))
+        os.mkdir(self.path("series"))
         for k, pixels in enumerate(voxels):
-            self.add_bytes(f"series/{k}", medical_files.dicom_slice(
+            self.write_bytes(f"series/{k}", medical_files.dicom_slice(
                 pixels, k, (1, 1, 1), (0, 0, 0), np.eye(3)))
-        self.add_bytes("notes.txt", b"not a volume")
+        self.write_bytes("notes.txt", b"not a volume")
         run = self.batch("--format", "stl")
         self.assertEqual(run.returncode, 0, run.stdout)
         self.assertEqual(self.written(), ["cube.stl", "results.csv", "ring.stl", "series.stl"])
@@ -87,10 +82,10 @@ class ResultsTest(BatchTest):
 
 class ErrorsTest(BatchTest):
     def test_it_goes_on_after_an_error_and_the_exit_code_tells(self):
-        self.add_bytes("a.nrrd", b"junk")
-        write_volume(os.path.join(self.folder, "b.mha"), np.full((20, 20, 20), 3, "u1"))
+        self.write_bytes("a.nrrd", b"junk")
+        write_volume(self.path("b.mha"), np.full((20, 20, 20), 3, "u1"))
         self.add_ring("c.mha")
-        os.mkdir(os.path.join(self.folder, "empty"))
+        os.mkdir(self.path("empty"))
         run = self.batch()
         self.assertEqual(run.returncode, 1)
         self.assertIn("1 of 4 volumes done, 3 failed", run.stdout)
@@ -119,7 +114,7 @@ class ErrorsTest(BatchTest):
         self.refused("no such folder", self.batch())
 
     def test_folder_without_volumes(self):
-        self.add_bytes("notes.txt", b"not a volume")
+        self.write_bytes("notes.txt", b"not a volume")
         self.refused("no volume", self.batch())
 
     def test_unknown_format(self):

@@ -8,15 +8,14 @@ import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
-
-from vtkmodules.vtkIOGeometry import vtkSTLReader
 
 import medical_files
 import volumic
 from examples_path import EXAMPLES
+from folder_test_case import FolderTestCase
 from sample_volumes import ring_voxels
+from vtk_files import read as read_file
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
@@ -39,11 +38,6 @@ def read(document):
 def blocks(document, language):
     """The code between fences of that language."""
     return re.findall(rf"^```{language}\n(.*?)^```$", read(document), flags=re.DOTALL | re.MULTILINE)
-
-
-def write(path, text):
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 class LinksTest(unittest.TestCase):
@@ -95,8 +89,10 @@ class LinksTest(unittest.TestCase):
 
     def test_files_that_are_named_exist(self):
         for document in DOCUMENTS:
-            for path in re.findall(r"\b((?:Examples|Testing|Documentation|CMake)/[\w/.-]+\w)",
+            for path in re.findall(r"\b((?:Examples|Testing|Documentation|CMake)/[\w/.-]+\w)"
+                                   r"|`((?:Applications|Filters|Plugin)/[\w/.]+\w)`",
                                    read(document)):
+                path = "".join(path)
                 self.assertTrue(os.path.exists(os.path.join(ROOT, path)), f"{document}: {path}")
 
     def test_scripts_that_are_named_exist(self):
@@ -132,13 +128,11 @@ class LinksTest(unittest.TestCase):
         self.assertLessEqual(set(settings), set(names))
 
 
-class CodeTest(unittest.TestCase):
+class CodeTest(FolderTestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = temporary.name
-        with open(os.path.join(self.folder, "scan.nii.gz"), "wb") as file:
-            file.write(medical_files.nifti(ring_voxels().astype("i2"), (1, 1, 1.5)))
+        super().setUp()
+        self.write_bytes("scan.nii.gz",
+                         medical_files.nifti(ring_voxels().astype("i2"), (1, 1, 1.5)))
 
     def run_here(self, *command, **options):
         run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False,
@@ -148,10 +142,7 @@ class CodeTest(unittest.TestCase):
 
     def check_surface(self):
         """surface.stl is the ring."""
-        reader = vtkSTLReader()
-        reader.SetFileName(os.path.join(self.folder, "surface.stl"))
-        reader.Update()
-        surface = reader.GetOutput()
+        surface = read_file(self.path("surface.stl"))
         self.assertGreater(surface.GetNumberOfPolys(), 500)
         self.assertEqual(2 * surface.GetNumberOfPoints(), surface.GetNumberOfPolys())
 
@@ -175,11 +166,8 @@ class CodeTest(unittest.TestCase):
         header = re.search(r"^```\n(ObjectType.*?)^```$", read("Documentation/tutorial.md"),
                            flags=re.DOTALL | re.MULTILINE).group(1)
         header = header.replace("256 256 256", "4 5 6")
-        write(os.path.join(self.folder, "a.mhd"), header)
-        name = re.search(r"ElementDataFile = (.*)", header).group(1)
-        with open(os.path.join(self.folder, name), "wb") as file:
-            file.write(bytes(range(120)))
-        image = read_volume(os.path.join(self.folder, "a.mhd"))
+        self.write_bytes(re.search(r"ElementDataFile = (.*)", header).group(1), bytes(range(120)))
+        image = read_volume(self.write_text("a.mhd", header))
         self.assertEqual(image.GetDimensions(), (4, 5, 6))
         self.assertEqual(image.GetScalarRange(), (0, 119))
 
@@ -187,13 +175,13 @@ class CodeTest(unittest.TestCase):
     def test_cpp_of_the_readme(self):
         source, = blocks("README.md", "cpp")
         project, = blocks("README.md", "cmake")
-        write(os.path.join(self.folder, "example.cxx"), source)
-        write(os.path.join(self.folder, "CMakeLists.txt"), project)
+        self.write_text("example.cxx", source)
+        self.write_text("CMakeLists.txt", project)
         prefix = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
         self.run_here("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}",
                       f"-DPython3_EXECUTABLE={sys.executable}")
         self.run_here("cmake", "--build", "build")
-        self.run_here(os.path.join(self.folder, "build", "example"))
+        self.run_here(self.path("build/example"))
         self.check_surface()
 
     def test_citation_is_of_this_version(self):

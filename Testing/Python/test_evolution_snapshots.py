@@ -7,19 +7,10 @@ import os
 import unittest
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from folder_test_case import FolderTestCase
 from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
-
-
-def read_picture(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
+from vtk_files import read, read_pixels
 
 
 class EvolutionSnapshotsTest(FolderTestCase):
@@ -37,33 +28,28 @@ class EvolutionSnapshotsTest(FolderTestCase):
         names = sorted(os.listdir(self.path("frames")))
         self.assertGreater(len(names), 20)
         self.assertEqual(names[:2], ["frame0000.png", "frame0001.png"])
-        first, last = (read_picture(self.path(f"frames/{names[i]}")) for i in (0, -1))
+        first, last = (read_pixels(self.path(f"frames/{names[i]}")) for i in (0, -1))
         self.assertEqual(first.shape, last.shape, "one size for all")
         # Not black, and a body at first that is larger than the ring at last.
-        light = [np.count_nonzero(picture.mean(axis=1) > 60) for picture in (first, last)]
+        light = [np.count_nonzero(picture.mean(axis=2) > 60) for picture in (first, last)]
         self.assertGreater(light[1], 1000)
         self.assertGreater(light[0], 1.5 * light[1])
 
     def test_video(self):
         run = self.snapshots("ring.ogv", "--every", "40")
         self.assertEqual(run.returncode, 0, run.stderr)
-        with open(self.path("ring.ogv"), "rb") as file:
-            start = file.read(64)
+        start = self.content("ring.ogv")[:64]
         self.assertTrue(start.startswith(b"OggS"))
         self.assertIn(b"theora", start)
 
     def test_surfaces_in_time(self):
         run = self.snapshots("ring.vtp.series", "--every", "10", "--finest-level", "1")
         self.assertEqual(run.returncode, 0, run.stderr)
-        with open(self.path("ring.vtp.series"), encoding="utf-8") as file:
-            files = json.load(file)["files"]
+        files = json.loads(self.content("ring.vtp.series"))["files"]
         self.assertEqual([file["time"] for file in files], list(range(len(files))))
         levels = []
         for file in files:
-            reader = vtkXMLPolyDataReader()
-            reader.SetFileName(self.path(file["name"]))
-            reader.Update()
-            surface = reader.GetOutput()
+            surface = read(self.path(file["name"]))
             self.assertGreater(surface.GetNumberOfPolys(), 0)
             levels.append(int(surface.GetFieldData().GetArray("Level").GetTuple1(0)))
         self.assertEqual(levels, sorted(levels, reverse=True))

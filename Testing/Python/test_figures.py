@@ -10,13 +10,13 @@ import tempfile
 import unittest
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkChartsCore import vtkAxis
 from vtkmodules.vtkCommonDataModel import vtkVector2i
-from vtkmodules.vtkIOImage import vtkPNGReader
 
 from examples_path import EXAMPLES
+from folder_test_case import SharedFolderTestCase
 from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
+from vtk_files import read_pixels
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
@@ -25,24 +25,14 @@ from history_chart import CURVES, chart_matrix
 from scan_runs import Scan
 
 
-def pixels_of(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    width, height, _ = reader.GetOutput().GetDimensions()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width, -1)
-
-
-class FiguresTest(unittest.TestCase):
+class FiguresTest(SharedFolderTestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.output = os.path.join(cls.temporary.name, "pictures")
+        super().setUpClass()
+        cls.output = cls.path("pictures")
         large = np.kron(ring_voxels(), np.ones((2, 2, 2), "u1"))
-        cls.ring = write_volume(os.path.join(cls.temporary.name, "r.mha"), large, RING_SPACING)
-        cls.small = write_volume(os.path.join(cls.temporary.name, "s.mha"), ring_voxels(),
-                                 RING_SPACING)
+        cls.ring = write_volume(cls.path("r.mha"), large, RING_SPACING)
+        cls.small = write_volume(cls.path("s.mha"), ring_voxels(), RING_SPACING)
 
     def figures(self, *arguments):
         return run_script("figures.py", "--output", self.output, "--skull", self.ring,
@@ -56,7 +46,7 @@ class FiguresTest(unittest.TestCase):
                        + ["vessels.png", "vessels-s.png"])
         self.assertEqual(sorted(os.listdir(self.output)), names)
         for name in names:
-            pixels = pixels_of(os.path.join(self.output, name))
+            pixels = read_pixels(os.path.join(self.output, name))
             self.assertGreater(pixels.shape[1], 0.75 * ROW_WIDTH, name)
             self.assertGreater(pixels.std(), 8, name)
         # One run serves all pictures of the same properties: default and without the pyramid.
@@ -66,11 +56,10 @@ class FiguresTest(unittest.TestCase):
         self.assertEqual(run.stdout.count("Recovery 0, Metric 0, CoarsestLevel 2\n"), 2)  # both vessels
 
     def test_one_picture_alone(self):
-        with tempfile.TemporaryDirectory() as folder:
-            run = self.figures("--only", "pyramid", "--output", folder)
-            self.assertEqual(run.returncode, 0, run.stderr)
-            self.assertEqual(os.listdir(folder), ["pyramid.png"])
-            self.assertNotIn("Evolving", run.stdout)
+        run = self.figures("--only", "pyramid", "--output", self.path("alone"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(os.listdir(self.path("alone")), ["pyramid.png"])
+        self.assertNotIn("Evolving", run.stdout)
 
     def test_refused(self):
         for arguments, code, reason in (

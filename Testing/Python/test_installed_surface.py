@@ -10,21 +10,15 @@ import numpy as np
 from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
-from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
+    vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkTable)
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from volumic import (
     vtkDeformableSurface, vtkImagePyramid, vtkOtsuThreshold, vtkVolumeToSurface)
 
+from vtk_files import points_of
+
 SIZE, RADIUS, ISO = 32, 9.0, 100.5
-HISTORY_COLUMNS = (
-    "Iteration", "Level", "Vertices", "KineticEnergy", "MeanEdgeLength", "Seconds", "TimeStep",
-    "ActiveVertices", "Merges", "Cuts", "Splits", "Collapses", "Flips", "EulerCharacteristic",
-    "Components", "RecoveredParts", "Deletions", "DeletedGenus", "AddedEulerCharacteristic",
-    "IterationVertices", "IterationMeanEdgeLength", "IterationEulerCharacteristic",
-    "IterationComponents", "RegularisationCuts", "RegularisationDeletions", "SecondsBefore",
-    "SecondsAfter")
 
 
 def ball(bright=200, dark=0, centre=(SIZE - 1) / 2):
@@ -88,7 +82,7 @@ class OutputsTest(SurfaceTest):
         self.assertIs(self.run_once.GetOutputDataObject(2), self.run_once.GetHistory())
 
     def test_numpy_sees_a_ball(self):
-        points = vtk_to_numpy(self.run_once.GetOutput().GetPoints().GetData())
+        points = points_of(self.run_once.GetOutput())
         radii = np.linalg.norm(points - (SIZE - 1) / 2, axis=1)
         np.testing.assert_allclose(radii, RADIUS, atol=0.2)
         normals = vtk_to_numpy(self.run_once.GetOutput().GetPointData().GetNormals())
@@ -115,31 +109,6 @@ class OutputsTest(SurfaceTest):
         self.assertEqual(vtk_to_numpy(output.GetPointData().GetArray("Motionless")).dtype, np.uint8)
         self.assertTrue((vtk_to_numpy(output.GetCellData().GetArray("Component")) == 0).all())
 
-    def test_levels_are_named_and_get_finer(self):
-        levels = self.run_once.GetLevels()
-        self.assertEqual(levels.GetNumberOfBlocks(), 3)
-        counts = []
-        for h in range(3):
-            self.assertEqual(levels.GetMetaData(h).Get(vtkCompositeDataSet.NAME()), f"Level {h}")
-            self.assertEqual(field(levels.GetBlock(h), "Level"), h)
-            counts.append(levels.GetBlock(h).GetNumberOfPoints())
-        self.assertEqual(counts, sorted(counts, reverse=True))
-
-    def test_history_has_its_columns_and_a_row_per_iteration(self):
-        history = self.run_once.GetHistory()
-        names = [history.GetColumnName(c) for c in range(history.GetNumberOfColumns())]
-        self.assertEqual(tuple(names), HISTORY_COLUMNS)
-        levels = self.run_once.GetLevels()
-        rows = sum(field(levels.GetBlock(h), "Iterations") for h in range(3))
-        self.assertEqual(history.GetNumberOfRows(), rows)
-
-    def test_history_ends_with_edges_of_legal_length(self):
-        lengths = self.run_once.GetHistory().GetColumnByName("MeanEdgeLength")
-        mean = lengths.GetTuple1(lengths.GetNumberOfTuples() - 1)
-        delta = field(self.run_once.GetOutput(), "Delta")
-        self.assertGreater(mean, delta)
-        self.assertLess(mean, 2.5 * delta)
-
     def test_progress_tells_level_and_iteration(self):
         shares = [share for share, _ in self.progress]
         self.assertEqual(shares, sorted(shares))
@@ -165,26 +134,6 @@ class UseTest(SurfaceTest):
             for name in names:
                 signature, _, explanation = getattr(kind, name).__doc__.partition("\n\n")
                 self.assertTrue(explanation.strip(), signature)
-
-    def test_an_image_without_a_pyramid_gives_the_same(self):
-        direct = vtk_to_numpy(self.run_on(ball()).GetPoints().GetData())
-        pyramid = vtkImagePyramid()
-        pyramid.SetInputData(ball())
-        self.surface.SetInputConnection(pyramid.GetOutputPort())
-        self.surface.Update()
-        through = vtk_to_numpy(self.surface.GetOutput().GetPoints().GetData())
-        np.testing.assert_array_equal(direct, through)
-
-    def test_seeds_at_points(self):
-        seeds = vtkPolyData()
-        points = vtkPoints()
-        points.InsertNextPoint((SIZE - 1) / 2, (SIZE - 1) / 2, (SIZE - 1) / 2)
-        seeds.SetPoints(points)
-        self.surface.SetInitializationToSeeds()
-        self.surface.SetInitialSurfaceData(seeds)
-        output = self.run_on(ball())
-        self.assertEqual(self.errors, [])
-        self.assertAlmostEqual(field(output, "Area") / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
 
     def test_positions(self):
         middle = [(SIZE - 1) / 2] * 3
@@ -244,14 +193,6 @@ class OneStepTest(unittest.TestCase):
                 threshold.Update()
                 self.assertTrue(58 < threshold.GetThreshold() < 191)
                 self.assertFalse((values == threshold.GetThreshold()).any())
-
-    def test_a_volume_to_a_surface(self):
-        surface = vtkVolumeToSurface()
-        surface.SetInputData(ball())
-        surface.Update()
-        area = field(surface.GetOutput(), "Area")
-        self.assertAlmostEqual(area / (4 * np.pi * RADIUS ** 2), 1, delta=0.05)
-
 
 if __name__ == "__main__":
     unittest.main()

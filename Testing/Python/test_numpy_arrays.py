@@ -5,9 +5,7 @@
 import contextlib
 import importlib.util
 import io
-import os
 import sys
-import tempfile
 import types
 import unittest
 from unittest import mock
@@ -16,6 +14,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData, vtkTable
 
 from examples_path import EXAMPLES
+from folder_test_case import FolderTestCase
 from sample_volumes import RING_SPACING, RING_VOLUME, ring_voxels, run_script
 
 sys.path.insert(0, EXAMPLES)
@@ -93,34 +92,32 @@ class ArraysTest(unittest.TestCase):
                                    atol=1e-6)
 
 
-class ScriptTest(unittest.TestCase):
+class ScriptTest(FolderTestCase):
     def test_two_linked_rings(self):
         run = run_script("numpy_arrays.py")
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         self.assertIn("components 2, genus 2", run.stdout)
 
     def test_files_in_and_out(self):
-        with tempfile.TemporaryDirectory() as folder:
-            voxels, mesh = os.path.join(folder, "v.npy"), os.path.join(folder, "m.npz")
-            np.save(voxels, ring_voxels().astype("f8"))
-            run = run_script("numpy_arrays.py", voxels, mesh, "--iso", "125.5", "--spacing", "1",
-                             "1", "1.5")
-            self.assertEqual(run.returncode, 0, run.stderr)
-            with np.load(mesh) as arrays:
-                volume = numpy_arrays.volume_of(arrays["points"], arrays["triangles"])
-            self.assertAlmostEqual(volume / RING_VOLUME, 1, delta=0.1)
+        voxels, mesh = self.path("v.npy"), self.path("m.npz")
+        np.save(voxels, ring_voxels().astype("f8"))
+        run = run_script("numpy_arrays.py", voxels, mesh, "--iso", "125.5", "--spacing", "1", "1",
+                         "1.5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with np.load(mesh) as arrays:
+            volume = numpy_arrays.volume_of(arrays["points"], arrays["triangles"])
+        self.assertAlmostEqual(volume / RING_VOLUME, 1, delta=0.1)
 
     def test_refused(self):
-        with tempfile.TemporaryDirectory() as folder:
-            flat = os.path.join(folder, "flat.npy")
-            np.save(flat, np.zeros((9, 9)))
-            for arguments, reason in (([flat], "three dimensions"), (["none.npy"], "none.npy"),
-                                      (["--iso", "7"], "7")):
-                with self.subTest(reason):
-                    run = run_script("numpy_arrays.py", *arguments)
-                    self.assertEqual(run.returncode, 1)
-                    self.assertIn(reason, run.stderr)
-                    self.assertNotIn("Traceback", run.stderr)
+        flat = self.path("flat.npy")
+        np.save(flat, np.zeros((9, 9)))
+        for arguments, reason in (([flat], "three dimensions"), (["none.npy"], "none.npy"),
+                                  (["--iso", "7"], "7")):
+            with self.subTest(reason):
+                run = run_script("numpy_arrays.py", *arguments)
+                self.assertEqual(run.returncode, 1)
+                self.assertIn(reason, run.stderr)
+                self.assertNotIn("Traceback", run.stderr)
 
 
 class PyvistaTest(unittest.TestCase):

@@ -13,6 +13,7 @@ import numpy as np
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 from examples_path import EXAMPLES
+from folder_test_case import SharedFolderTestCase
 from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
 
 sys.path.insert(0, EXAMPLES)
@@ -37,15 +38,13 @@ def cells_of(markdown):
             for line in markdown.strip().splitlines()]
 
 
-class TablesTest(unittest.TestCase):
+class TablesTest(SharedFolderTestCase):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.large = write_volume(os.path.join(temporary.name, "large.mha"),
+        super().setUpClass()
+        cls.large = write_volume(cls.path("large.mha"),
                                  np.kron(ring_voxels(), np.ones((2, 2, 2), "u1")), RING_SPACING)
-        cls.small = write_volume(os.path.join(temporary.name, "small.mha"), ring_voxels(),
-                                 RING_SPACING)
+        cls.small = write_volume(cls.path("small.mha"), ring_voxels(), RING_SPACING)
         run = run_script("paper_tables.py", "--skull", cls.large, str(RING_ISO), "--scan",
                          cls.small, str(RING_ISO))
         cls.code, cls.messages = run.returncode, run.stderr

@@ -154,9 +154,8 @@ class FormatsTest(ReadVolumeTest):
         np.testing.assert_allclose(voxels_of(image), some_voxels() * 0.5 - 3)
 
     def test_invesalius_project(self):
-        path = self.path("a.inv3")
-        medical_files.write_inv3(path, some_voxels("<i2"), SPACING)
-        image = read_volume(path)
+        image = read_volume(self.write_bytes(
+            "a.inv3", medical_files.inv3(some_voxels("<i2"), SPACING)))
         self.check(image, some_voxels(), origin=(0, 0, 0))
         self.assertEqual(world_axes(image), "LAS")
 

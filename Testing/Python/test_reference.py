@@ -71,32 +71,18 @@ class ReferenceTest(unittest.TestCase):
 
 
 class PropertiesTest(ReferenceTest):
-    def check(self, kind):
-        algorithm = kind()
-        rows = self.tables[f"Properties of {kind.__name__}"]
-        self.assertEqual(sorted(rows), property_names(algorithm))
-        for name, text in rows.items():
-            default = DEFAULTS[text] if text in DEFAULTS else float(text)
-            actual = getattr(algorithm, "Get" + name)()
-            if isinstance(default, float) and math.isnan(default):
-                self.assertTrue(math.isnan(actual), name)
-            else:
-                self.assertEqual(default, actual, name)
-
-    def test_pyramid(self):
-        self.check(volumic.vtkImagePyramid)
-
-    def test_surface(self):
-        self.check(volumic.vtkDeformableSurface)
-
-    def test_volume_to_surface(self):
-        self.check(volumic.vtkVolumeToSurface)
-
-    def test_threshold(self):
-        self.check(volumic.vtkOtsuThreshold)
-
-    def test_labels(self):
-        self.check(volumic.vtkLabelsToSurfaces)
+    def test_names_and_defaults(self):
+        for kind in (volumic.vtkImagePyramid, volumic.vtkDeformableSurface,
+                     volumic.vtkVolumeToSurface, volumic.vtkOtsuThreshold,
+                     volumic.vtkLabelsToSurfaces):
+            algorithm = kind()
+            rows = self.tables[f"Properties of {kind.__name__}"]
+            with self.subTest(kind.__name__):
+                self.assertEqual(sorted(rows), property_names(algorithm))
+            for name, text in rows.items():
+                with self.subTest(kind.__name__, property=name):
+                    default = DEFAULTS[text] if text in DEFAULTS else float(text)
+                    np.testing.assert_equal(getattr(algorithm, "Get" + name)(), default)
 
     def test_printing_tells_all(self):
         """What a filter prints, and the fingerprint of its runs, is made of a table of properties:

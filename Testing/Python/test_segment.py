@@ -6,30 +6,21 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkMassProperties
-from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
-from vtkmodules.vtkIOPLY import vtkPLYReader
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from examples_path import EXAMPLES
-from folder_test_case import run_on_terminal
+from folder_test_case import SharedFolderTestCase, run_on_terminal
 from sample_volumes import (
     RING_ISO, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
-
-READERS = {"stl": vtkSTLReader, "ply": vtkPLYReader, "obj": vtkOBJReader,
-           "vtp": vtkXMLPolyDataReader}
+from vtk_files import points_of, read, triangles_of
 
 
 def read_surface(path):
-    reader = READERS[path[-3:]]()
-    reader.SetFileName(path)
     clean = vtkCleanPolyData()  # an STL file has each corner once per triangle
-    clean.SetInputConnection(reader.GetOutputPort())
+    clean.SetInputData(read(path))
     clean.SetTolerance(0)
     clean.Update()
     return clean.GetOutput()
@@ -50,26 +41,23 @@ def volume_of(surface):
     return mass.GetVolume()
 
 
-class SegmentTest(unittest.TestCase):
+class SegmentTest(SharedFolderTestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
+        super().setUpClass()
         cls.ring = write_volume(cls.path("ring.mha"), ring_voxels(), RING_SPACING)
 
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.temporary.name, name)
-
-    def segment(self, output, *options, volume=None):
-        return run_script("segment.py", volume or self.ring, self.path(output), *options)
+    def segment(self, output, *options, volume=None, status=0):
+        run = run_script("segment.py", volume or self.ring, self.path(output), *options)
+        self.assertEqual(run.returncode, status, run.stderr)
+        return run
 
 
 class FormatsTest(SegmentTest):
     def check_format(self, suffix):
         name = "surface." + suffix
         run = self.segment(name, "--iso", str(RING_ISO))
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(run.stderr, "")
         self.assertIn(self.path(name), run.stdout)
         surface = read_surface(self.path(name))
         self.assertEqual(open_edges(surface), 0)
@@ -93,37 +81,32 @@ class FormatsTest(SegmentTest):
 class OptionsTest(SegmentTest):
     def test_otsu_where_no_iso_value_is_given(self):
         run = self.segment("a.stl")
-        self.assertEqual(run.returncode, 0, run.stderr)
         iso = float(re.search(r"iso-value ([\d.]+) by Otsu", run.stdout).group(1))
         self.assertTrue(70 < iso < 180)
 
     def test_dark_objects(self):
         volume = write_volume(self.path("dark.mha"), ring_voxels(50, 200), RING_SPACING)
-        run = self.segment("a.vtp", "--dark", "--iso", str(RING_ISO), volume=volume)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.segment("a.vtp", "--dark", "--iso", str(RING_ISO), volume=volume)
         self.assertAlmostEqual(volume_of(read_surface(self.path("a.vtp"))) / RING_VOLUME, 1,
                                delta=0.1)
 
     def test_any_property(self):
-        run = self.segment("a.vtp", "--iso", str(RING_ISO), "--set", "FinestLevel=1", "--set",
-                           "TensionWeight=0.3", "--set", "SnapToIsoValue=off")
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.segment("a.vtp", "--iso", str(RING_ISO), "--set", "FinestLevel=1", "--set",
+                     "TensionWeight=0.3", "--set", "SnapToIsoValue=off")
         fields = read_surface(self.path("a.vtp")).GetFieldData()
         self.assertEqual(fields.GetArray("Level").GetValue(0), 1)
 
     def test_the_length_of_edges_in_world_units(self):
         for length in (0.9, 2.2):
-            run = self.segment("a.vtp", "--iso", str(RING_ISO), "--set", f"EdgeLength={length}")
-            self.assertEqual(run.returncode, 0, run.stderr)
+            self.segment("a.vtp", "--iso", str(RING_ISO), "--set", f"EdgeLength={length}")
             surface = read_surface(self.path("a.vtp"))
-            points = vtk_to_numpy(surface.GetPoints().GetData())
-            corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+            points, corners = points_of(surface), triangles_of(surface)
             edges = points[corners] - points[np.roll(corners, 1, axis=1)]
             self.assertAlmostEqual(np.linalg.norm(edges, axis=2).mean() / length, 1, delta=0.15)
 
     def test_the_limit_of_the_iterations_is_told(self):
-        run = self.segment("a.stl", "--iso", str(RING_ISO), "--set", "MaximumNumberOfIterations=3")
-        self.assertEqual(run.returncode, 3, run.stderr)
+        run = self.segment("a.stl", "--iso", str(RING_ISO), "--set", "MaximumNumberOfIterations=3",
+                           status=3)
         self.assertIn("iteration limit", run.stdout)
         self.assertEqual(open_edges(read_surface(self.path("a.stl"))), 0)
 
@@ -199,8 +182,7 @@ class TerminalTest(SegmentTest):
         self.assertEqual(reason, "cancelled")
         self.assertGreater(surface.GetNumberOfPolys(), 0)
         self.assertEqual(open_edges(surface), 0)
-        points = vtk_to_numpy(surface.GetPoints().GetData())
-        self.assertTrue(np.isfinite(points).all())
+        self.assertTrue(np.isfinite(points_of(surface)).all())
 
 
 if __name__ == "__main__":

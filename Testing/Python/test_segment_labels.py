@@ -9,13 +9,12 @@ import unittest
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOGeometry import vtkSTLReader
-from vtkmodules.vtkIOXML import (
-    vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from examples_path import EXAMPLES
 from folder_test_case import FolderTestCase, run_on_terminal
 from sample_volumes import run_script, write_volume
+from vtk_files import read
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
@@ -32,13 +31,6 @@ def label_voxels(count=1):
     labels = np.array([[1, 2, 5]]) + 5 * np.arange(count)[:, None]
     inside = (x % 14 - 6.5) ** 2 + (y % 14 - 6.5) ** 2 + (z - 6.5) ** 2 < 30
     return np.where(inside, labels[y // 14, x // 14], 0).astype("u1")
-
-
-def read_surface(path):
-    reader = vtkXMLPolyDataReader() if path.endswith(".vtp") else vtkSTLReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
 
 
 class LabelsTest(FolderTestCase):
@@ -65,7 +57,7 @@ class OutputsTest(LabelsTest):
         self.assertRegex(run.stdout, r"voxel centres on the wrong side: \d+\nWritten: .*, 3 surf")
         self.assertEqual(sorted(os.listdir(self.path("new/out"))),
                          ["Left_lung.vtp", "label-5.vtp", "liver.vtp"])
-        fields = read_surface(self.path("new/out/liver.vtp")).GetFieldData()
+        fields = read(self.path("new/out/liver.vtp")).GetFieldData()
         self.assertEqual(fields.GetArray("Label").GetValue(0), 1)
         voxels = (label_voxels() == 1).sum() * np.prod(SPACING)
         self.assertAlmostEqual(fields.GetArray("Volume").GetValue(0) / voxels, 1, delta=0.05)
@@ -78,22 +70,19 @@ class OutputsTest(LabelsTest):
 
     def test_blocks(self):
         self.segment("all.vtm", "--labels", "all")
-        reader = vtkXMLMultiBlockDataReader()
-        reader.SetFileName(self.path("all.vtm"))
-        reader.Update()
-        self.assertEqual(reader.GetOutput().GetNumberOfBlocks(), 3)
+        self.assertEqual(read(self.path("all.vtm")).GetNumberOfBlocks(), 3)
 
     def test_merged_and_single(self):
         self.segment("two.stl", "--labels", "1-2", "--merge")
-        x = read_surface(self.path("two.stl")).GetBounds()[:2]
+        x = read(self.path("two.stl")).GetBounds()[:2]
         self.segment("one.stl", "--labels", "1")
-        self.assertAlmostEqual(x[1] - read_surface(self.path("one.stl")).GetBounds()[1], 14, 0)
+        self.assertAlmostEqual(x[1] - read(self.path("one.stl")).GetBounds()[1], 14, 0)
 
     def test_properties(self):
         volumes = []
         for gap in ("0", "1"):
             self.segment("a.vtp", "--labels", "1", "--set", f"Gap={gap}", "--set", "FinestLevel=0")
-            fields = read_surface(self.path("a.vtp")).GetFieldData()
+            fields = read(self.path("a.vtp")).GetFieldData()
             volumes.append(fields.GetArray("Volume").GetValue(0))
         self.assertLess(volumes[1], 0.85 * volumes[0])
 
@@ -142,24 +131,25 @@ class ChoiceTest(unittest.TestCase):
 
 class ErrorsTest(LabelsTest):
     def test_options_that_do_not_fit(self):
-        self.refused("--iso and --labels exclude", "a/", "--labels", "1", "--iso", "3")
-        self.refused("--dark and --labels exclude", "a/", "--labels", "1", "--dark")
-        self.refused("no property IsoValue; it has .*Smoothing", "a/", "--labels", "1", "--set",
-                     "IsoValue=3")
         self.refused("--merge needs --labels", "a.stl", "--merge", status=2)
         self.refused("--label-names needs --labels", "a.stl", "--label-names", "n", status=2)
-        self.refused("--merge makes one surface", "a/", "--labels", "1", "--merge")
-        self.refused("--format dwg: it must be one of stl, ply", "a/", "--labels", "1", "--format",
-                     "dwg")
-        self.refused("--format is that of the files", "a.stl", "--labels", "1", "--format", "stl")
-        self.refused("a.dwg: a folder is wanted", "a.dwg", "--labels", "1")
+        for reason, output, *options in (
+                ("--iso and --labels exclude", "a/", "--iso", "3"),
+                ("--dark and --labels exclude", "a/", "--dark"),
+                ("no property IsoValue; it has .*Smoothing", "a/", "--set", "IsoValue=3"),
+                ("--merge makes one surface", "a/", "--merge"),
+                ("--format dwg: it must be one of stl, ply", "a/", "--format", "dwg"),
+                ("--format is that of the files", "a.stl", "--format", "stl"),
+                ("a.dwg: a folder is wanted", "a.dwg"),
+                ("none.csv: names of labels cannot be read", "a/", "--label-names",
+                 self.path("none.csv"))):
+            with self.subTest(reason):
+                self.refused(reason, output, "--labels", "1", *options)
         self.assertFalse(os.path.exists(self.path("a")))
 
     def test_what_is_not_there(self):
         self.refused("there is no label '9'; there are 0 Label 0, 1 Label 1", "a/", "--labels", "9")
         self.refused("3 labels have as many surfaces", "a.stl", "--labels", "all")
-        self.refused("none.csv: names of labels cannot be read", "a/", "--labels", "1",
-                     "--label-names", self.path("none.csv"))
         self.assertFalse(os.path.exists(self.path("a")))
 
     def test_what_the_filter_refuses(self):
