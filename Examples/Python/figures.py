@@ -110,7 +110,7 @@ def graded(skull):
     tolerance = 0.5  # mm
     surfaces = skull.run().GetOutput(), skull.run(Tolerance=tolerance).GetOutput()
     width = panel_width(2)
-    row = [close_view(main_component(surface)[0], skull.frame, (width, width * 9 // 20))
+    row = [close_view(main_component(surface)[0], skull.frame, (width, width * 3 // 10))
            for surface in surfaces]
     names = ("All edges of one length", f"Within a tolerance of {tolerance} mm")
     return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)

@@ -145,6 +145,17 @@ class SurfaceTest(ReferenceTest):
         for surface in self.surfaces():
             self.compare("Field data of a surface", arrays_of(surface.GetFieldData()))
 
+    def test_arrays_of_a_graded_surface(self):
+        surface = volumic.vtkVolumeToSurface()
+        surface.SetInputData(make_image(ring_voxels(), RING_SPACING))
+        surface.SetIsoValue(RING_ISO)
+        surface.SetTolerance(0.3)
+        surface.Update()
+        for kind, arrays in (("Point arrays", surface.GetOutput().GetPointData()),
+                             ("Field data", surface.GetOutput().GetFieldData())):
+            self.assertEqual({**self.tables[f"{kind} of a surface"],
+                              **self.tables[f"{kind} of a graded surface"]}, arrays_of(arrays))
+
     def test_field_data_of_snapshots(self):
         snapshots = blocks_of(self.surface.GetSnapshots())
         self.assertGreater(len(snapshots), 3)
