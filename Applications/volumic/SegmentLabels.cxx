@@ -316,7 +316,6 @@ std::vector<LabelSurface> Prepare(const ToolOptions& options, const FilterTrio& 
   LabelReport& report)
 {
   CheckLabelFiles(options);
-  ShareProperties(filters);
   map = LoadLabelMap(options, filters.Surface, holder, announcer);
   report.Volume = map.Facts;
   report.ReaderMemory = PeakMemory();
@@ -346,6 +345,7 @@ std::vector<LabelSurface> Prepare(const ToolOptions& options, const FilterTrio& 
 ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
 {
   const Announcer announcer(options);
+  ShareProperties(filters);
   const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
   LabelMap map;
   MadeFolders folders;

@@ -66,7 +66,8 @@ public:
   /** @return whether to go on. */
   bool Tell(std::size_t item, double share)
   {
-    this->Shares[item] = static_cast<float>(share);
+    // A revision of the surface sets back what its run tells.
+    this->Shares[item] = std::max(this->Shares[item].load(), static_cast<float>(share));
     return !this->IsStopped;
   }
   void End(std::size_t item)

@@ -79,7 +79,7 @@ private:
   static std::vector<int> ObjectsOf(
     const LabelSurfaceMaker& maker, const LabelBricks& bricks, int wanted);
   static std::vector<double> SizesOf(const LabelBricks& bricks, const std::vector<int>& objects);
-  /** Which rank does which of the items that are due. @return those of this one, large ones first */
+  /** Which rank does which of the items that are due. @return its own, large ones first */
   std::vector<std::size_t> ShareOut();
   /**
    * By all ranks, several times a second, on the calling thread: how far they are, and whether one
@@ -114,8 +114,11 @@ std::vector<int> Making::ObjectsOf(
 {
   std::vector<int> objects(static_cast<std::size_t>(wanted));
   std::iota(objects.begin(), objects.end(), 1);
-  const std::vector<int> about = maker.HasClaims() ? bricks.NeighboursOf(wanted) : std::vector<int>();
-  objects.insert(objects.end(), about.begin(), about.end());
+  if (maker.HasClaims())
+  {
+    const std::vector<int> about = bricks.NeighboursOf(wanted);
+    objects.insert(objects.end(), about.begin(), about.end());
+  }
   return objects;
 }
 

@@ -38,8 +38,9 @@ void SharedLabels::Share(Communicator& ranks)
     reader.TakeArray(this->Names.emplace_back());
   }
   // Slice by slice: the map may be larger than the room for a copy of it.
-  const auto slice = static_cast<std::size_t>(this->Map.Size[0]) * static_cast<std::size_t>(this->Map.Size[1]);
-  this->Map.Voxels.resize(slice * static_cast<std::size_t>(this->Map.Size[2]));
+  const VoxelBox all = VoxelBox::Of(this->Map.Size);
+  this->Map.Voxels.resize(static_cast<std::size_t>(all.Count()));
+  const auto slice = static_cast<std::size_t>(all.NumberOf(0, 0, 1));
   for (std::size_t first = 0; first < this->Map.Voxels.size(); first += slice)
   {
     char* begin = reinterpret_cast<char*>(this->Map.Voxels.data() + first);

@@ -421,14 +421,6 @@ class OptionsTest(LabelsTest):
                      "--finest", "1")
         self.assertFalse(os.path.exists(self.path("p")))
 
-    @unittest.skipUnless(os.environ.get("VOLUMIC_MPIRUN"), "no mpirun")
-    def test_many_processes_are_refused(self):
-        process = subprocess.run(
-            [os.environ["VOLUMIC_MPIRUN"], "-n", "2", PROGRAM, self.map_file(), self.path("o/"),
-             "--labels", "1"], capture_output=True, text=True, check=False, timeout=100)
-        self.assertNotEqual(process.returncode, 0)
-        self.assertIn("--labels works in one process", process.stderr)
-
 
 class RunTest(LabelsTest):
     def test_an_isopotential_of_a_label_map_is_told(self):

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <new>
@@ -80,19 +81,19 @@ void ExpectBlocksOf(vtkLabelsToSurfaces* one, const std::vector<Filter>& ranks)
   }
 }
 
-/** Rank 1 is asked to stop when the work on surfaces has begun. */
-void StopRankOne(vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+/** Labels 3 and 7, so large that there is time to tell of each, and the first takes longer. */
+void TakeTwoBalls(vtkLabelsToSurfaces* filter)
 {
-  const bool isStopped = controller->GetLocalProcessId() == 1;
-  const ProgressHook hook(filter,
-    [isStopped](vtkAlgorithm* algorithm, const std::string& text, double)
-    {
-      if (isStopped && text.find(" of 11, ") != std::string::npos && text.find("fields") != 0)
+  if (vtkImageData::SafeDownCast(filter->GetInputDataObject(0, 0))->GetNumberOfPoints() > 0)
+  {
+    filter->SetInputDataObject(LabelImageOf(100, 64, 64,
+      [](int i, int j, int k)
       {
-        algorithm->SetAbortExecute(1);
-      }
-    });
-  ThreadControllers::Update(filter, controller);
+        return std::hypot(i - 30., j - 32., k - 32.) < 28. ? 3
+          : std::hypot(i - 78., j - 32., k - 32.) < 14.    ? 7
+                                                           : 0;
+      }));
+  }
 }
 
 int CountStopped(vtkLabelsToSurfaces* filter)
@@ -126,7 +127,8 @@ TEST(RankLabels, AreTheSameBitsOnAnyNumberOfRanks)
       SCOPED_TRACE(std::to_string(count) + " ranks, change " + std::to_string(c));
       const std::vector<Filter> ranks = Update(count, changes[c]);
       ExpectBlocksOf(one[0], ranks);
-      for (int block = 0; block < static_cast<int>(one[0]->GetOutput()->GetNumberOfBlocks()); ++block)
+      const auto blocks = static_cast<int>(one[0]->GetOutput()->GetNumberOfBlocks());
+      for (int block = 0; block < blocks; ++block)
       {
         EXPECT_GT(ranks[0]->GetSeconds(block), 0.0);
       }
@@ -134,32 +136,19 @@ TEST(RankLabels, AreTheSameBitsOnAnyNumberOfRanks)
   }
 }
 
-TEST(RankLabels, WorkOnLabelsOfTheirOwnByAnyNumberOfThreads)
+TEST(RankLabels, WorkOnLabelsOfTheirOwnAndTellOfAll)
 {
-  // So large that each is told of.
-  const Change balls = [](vtkLabelsToSurfaces* filter)
-  {
-    if (vtkImageData::SafeDownCast(filter->GetInputDataObject(0, 0))->GetNumberOfPoints() > 0)
-    {
-      filter->SetInputDataObject(LabelImageOf(110, 64, 64,
-        [](int i, int j, int k)
-        {
-          return std::hypot(i - 30., j - 32., k - 32.) < 26. ? 3
-            : std::hypot(i - 82., j - 32., k - 32.) < 25.    ? 7
-                                                             : 0;
-        }));
-    }
-  };
-  const std::vector<Filter> one = Update(1, balls);
+  const std::vector<Filter> one = Update(1, TakeTwoBalls);
   for (const int threads : { 1, 2 })
   {
     std::vector<std::set<std::string>> texts(2);
-    const std::vector<Filter> ranks = RunRanks(2, balls,
+    const std::vector<Filter> ranks = RunRanks(2, TakeTwoBalls,
       [&](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
       {
         filter->SetNumberOfThreads(threads);
         const ProgressListener listener(filter);
         ThreadControllers::Update(filter, controller);
+        EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
         texts[static_cast<std::size_t>(controller->GetLocalProcessId())] = listener.Texts;
       });
     ExpectBlocksOf(one[0], ranks);
@@ -167,23 +156,30 @@ TEST(RankLabels, WorkOnLabelsOfTheirOwnByAnyNumberOfThreads)
     EXPECT_EQ(texts[0].count("0 of 2, Label 7"), 0u);
     EXPECT_EQ(texts[1].count("0 of 2, Label 7"), 1u);
     EXPECT_EQ(texts[1].count("0 of 2, Label 3"), 0u);
+    EXPECT_EQ(texts[1].count("1 of 2, Label 3"), 1u) << "what the others do";
   }
 }
 
 TEST(RankLabels, StopWhereAnyRankIsAskedToAndGoOn)
 {
-  const Change none = [](vtkLabelsToSurfaces*) {};
-  const std::vector<Filter> one = Update(1, none);
-  const std::vector<Filter> ranks = RunRanks(3, none,
-    [](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
-    {
-      StopRankOne(filter, controller);
-      EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
-      EXPECT_EQ(CountStopped(filter) > 0, controller->GetLocalProcessId() == 0);
-      filter->GoOn();
-      ThreadControllers::Update(filter, controller);
-    });
-  ExpectBlocksOf(one[0], ranks);
+  const std::vector<Filter> one = Update(1, TakeTwoBalls);
+  for (const int asked : { 0, 1 })
+  {
+    const std::vector<Filter> ranks = RunRanks(2, TakeTwoBalls,
+      [asked](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+      {
+        const int rank = controller->GetLocalProcessId();
+        {
+          const StopAtText stop(filter, "0 of 2, ", rank == asked ? 1 : 1000);
+          ThreadControllers::Update(filter, controller);
+        }
+        EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+        EXPECT_EQ(CountStopped(filter), rank == 0 ? 2 : 0) << "labels of both";
+        filter->GoOn();
+        ThreadControllers::Update(filter, controller);
+      });
+    ExpectBlocksOf(one[0], ranks);
+  }
 }
 
 TEST(RankLabels, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
