@@ -124,6 +124,12 @@ class SameFilesTest(RanksTestCase):
         for volume, *options in ((parts, "--reduction-factor", 1.25), (whole,)):
             with self.subTest(volume):
                 self.check_same(2, volume, "--iso", 60.5, "--levels", 3, *options)
+        # What the checkpoints of --scratch ask for is told once.
+        process = self.run_ranks(2, parts, self.path("many.vtp"), "--iso", 60.5, "--levels", 3,
+                                 "--reduction-factor", 1.25, "--scratch", self.folder)
+        self.assertEqual(process.stderr.count("warning"), 1, process.stderr)
+        self.assertIn(f"Level 0, of {size ** 3} voxels, is held by the first process as a whole, "
+                      "as --scratch is set", process.stderr)
 
     def test_what_is_given_beside_the_volume(self):
         volume = self.ball_file()
