@@ -5,7 +5,6 @@
 import json
 import os
 import re
-import subprocess
 import unittest
 
 import numpy as np
@@ -15,7 +14,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader)
 
-from tool_test_case import ISO, PROGRAM, TURNED, ToolTestCase, make_image
+from tool_test_case import ISO, TURNED, ToolTestCase, make_image
 from volumic import vtkLabelsToSurfaces
 
 SPACING, ORIGIN = np.array([0.5, 0.75, 1.0]), np.array([-7.0, 8.0, 9.5])
