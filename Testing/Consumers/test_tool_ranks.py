@@ -64,6 +64,37 @@ class RanksTestCase(ToolTestCase):
         self.assertEqual(len(said), 1, process.stderr)
         self.assertNotIn("MPI_ABORT", process.stderr)
 
+    @contextlib.contextmanager
+    def running_to(self, begin, ranks, *arguments):
+        """The process, and the numbers of those of its ranks, once a line begins like the pattern."""
+        process = subprocess.Popen(
+            self.command(ranks, *arguments, "--progress"),
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        with process:
+            try:
+                for line in process.stderr:
+                    if re.match(begin, line):
+                        break
+                numbers = []
+                for rank in range(ranks):
+                    numbers.append(int(self.content(f"pid-{rank}")))
+                yield process, numbers
+            finally:
+                if process.poll() is None:
+                    process.kill()
+
+    def finish(self, process):
+        started = time.monotonic()
+        text = process.communicate(timeout=60)[1]
+        self.assertLess(time.monotonic() - started, 55)
+        return text
+
+    def wait_for_end(self, number):
+        started = time.monotonic()
+        while os.path.exists(f"/proc/{number}"):
+            self.assertLess(time.monotonic() - started, 30, "a rank waits for one that is gone")
+            time.sleep(0.1)
+
 
 class SameFilesTest(RanksTestCase):
     """Files are the same, byte by byte, whatever the number of ranks."""
@@ -201,61 +232,6 @@ class SameFilesTest(RanksTestCase):
         self.assertEqual(joined.GetNumberOfPolys(), whole.GetNumberOfPolys())
 
 
-class LabelsTest(RanksTestCase):
-    """Ranks share the labels of a map; files are the same whatever their number."""
-
-    def map_file(self):
-        """Of four quarters of a ball that meet, of 1, 2, 4 and 5, and of crumbs of 9."""
-        z, y, x = np.mgrid[0:24, 0:24, 0:24]
-        voxels = np.where((x - 12) ** 2 + (y - 12) ** 2 + (z - 12) ** 2 < 100,
-                          1 + (x > 13) + 3 * (y > 10), 0)
-        voxels[1, 1, 1] = 9
-        return self.write(vtkXMLImageDataWriter(), "map.vti", make_image(voxels.astype("i2")))
-
-    def files_in(self, folder):
-        return {name: self.content(os.path.join(folder, name))
-                for name in sorted(os.listdir(self.path(folder)))}
-
-    def test_the_same_files(self):
-        volume = self.map_file()
-        names = self.write_bytes("names.json", b'{"1": "liver", "5": "spleen"}')
-        for options in ((), ("--gap", 0.6), ("--finest", 2, "--label-names", names)):
-            alone = f"1-{len(options)}"
-            one = self.report(volume, self.path(alone), "--labels", "all", *options)
-            self.assertGreaterEqual(len(self.files_in(alone)), 4)
-            for ranks in (2, 3, 6):
-                with self.subTest(ranks=ranks, options=options):
-                    folder = f"{ranks}-{len(options)}"
-                    self.run_ranks(ranks, volume, self.path(folder), self.path("all.vtm"),
-                                   "--labels", "all", "--report", self.path("r.json"), *options)
-                    self.assertEqual(self.files_in(folder), self.files_in(alone))
-                    report = json.loads(self.content("r.json"))
-                    self.assertEqual(len(report["memory"]["peak_by_rank"]), ranks)
-                    for row, expected in zip(report["labels"], one["labels"]):
-                        self.assertGreater(row["seconds"], 0)
-                        for name in ("files", "seconds"):
-                            row[name] = expected[name]
-                        self.assertEqual(row, expected)
-                    self.assertEqual(report["warnings"], one["warnings"])
-
-    def test_what_is_said_is_said_once(self):
-        volume = self.map_file()
-        process = self.run_ranks(3, volume, self.path("o/"), "--labels", "all", "--finest", 2)
-        for said in ("map.vti: 24 x 24 x 24", "warning: No surface is left of Label 9", " vertices"):
-            self.assertEqual(process.stderr.count(said), 1, process.stderr)
-        listed = self.run_ranks(3, volume, "--list-labels").stdout
-        self.assertEqual(listed, self.run_tool(volume, "--list-labels").stdout)
-        for reason, status, arguments in (
-                ("there is no label '7'", 1, [self.path("p/"), "--labels", "7"]),
-                ("none of the labels has a surface", 1,
-                 [self.path("p/"), "--labels", "9", "--finest", 2]),
-                ("Gap is 100", 1, [self.path("p/"), "--labels", "1", "--gap", 100]),
-                ("5 labels have as many surfaces", 1, [self.path("p.stl"), "--labels", "all"])):
-            with self.subTest(reason):
-                self.refused_by_ranks(3, reason, volume, *arguments, status=status)
-                self.assertFalse(os.path.exists(self.path("p")))
-
-
 class FaultsTest(RanksTestCase):
     def test_refusals_are_said_once(self):
         volume, output = self.ball_file(), self.path("a.stl")
@@ -355,47 +331,6 @@ class StoppedTest(RanksTestCase):
         return self.running_to("Evolving the surface:  10 %", ranks, self.volume,
                                self.path("a.stl"), "--iso", self.iso)
 
-    def running_labels(self, ranks):
-        """Of 125 cubes."""
-        z, y, x = np.mgrid[0:80, 0:80, 0:80]
-        edges = np.minimum(np.minimum(x % 16, y % 16), z % 16)
-        labels = np.where(edges > 2, 1 + x // 16 + 5 * (y // 16) + 25 * (z // 16), 0)
-        volume = self.write(vtkXMLImageDataWriter(), "cubes.vti",
-                            make_image(labels.astype("i2"), (1, 1, 1)))
-        return self.running_to("Making surfaces: .* of 125, Label", ranks, volume, self.path("cubes/"),
-                               "--labels", "all", "--threads", 1)
-
-    @contextlib.contextmanager
-    def running_to(self, begin, ranks, *arguments):
-        """The process, and the numbers of those of its ranks, once a line begins like the pattern."""
-        process = subprocess.Popen(
-            self.command(ranks, *arguments, "--progress"),
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        with process:
-            try:
-                for line in process.stderr:
-                    if re.match(begin, line):
-                        break
-                numbers = []
-                for rank in range(ranks):
-                    numbers.append(int(self.content(f"pid-{rank}")))
-                yield process, numbers
-            finally:
-                if process.poll() is None:
-                    process.kill()
-
-    def finish(self, process):
-        started = time.monotonic()
-        text = process.communicate(timeout=60)[1]
-        self.assertLess(time.monotonic() - started, 55)
-        return text
-
-    def wait_for_end(self, number):
-        started = time.monotonic()
-        while os.path.exists(f"/proc/{number}"):
-            self.assertLess(time.monotonic() - started, 30, "a rank waits for one that is gone")
-            time.sleep(0.1)
-
     def test_cancelled_by_a_signal_to_any_rank(self):
         for rank, number in ((0, signal.SIGINT), (2, signal.SIGINT), (1, signal.SIGUSR1)):
             with self.subTest(rank), self.running(3) as (process, ranks):
@@ -405,25 +340,6 @@ class StoppedTest(RanksTestCase):
                 self.assertEqual(text.count("volumic: unfinished (cancelled)"), 1)
                 self.assertTrue(os.path.exists(self.path("a.stl")))
                 os.remove(self.path("a.stl"))
-
-    def test_labels_are_cancelled_by_a_signal_to_any_rank(self):
-        for rank in (0, 2):
-            with self.subTest(rank), self.running_labels(3) as (process, ranks):
-                os.kill(ranks[rank], signal.SIGUSR1)
-                text = self.finish(process)
-                self.assertEqual(process.returncode, 3, text)
-                self.assertEqual(text.count("volumic: unfinished (cancelled)"), 1)
-                written = os.listdir(self.path("cubes"))
-                self.assertGreater(len(written), 5)
-                self.assertLess(len(written), 125)
-
-    def test_a_rank_that_is_killed_ends_all_that_make_labels(self):
-        with self.running_labels(2) as (process, ranks):
-            os.kill(ranks[1], signal.SIGKILL)
-            self.finish(process)
-            self.assertNotEqual(process.returncode, 0)
-            for number in ranks:
-                self.wait_for_end(number)
 
     def test_a_rank_that_gets_no_more_memory(self):
         """It says so and all end; or VTK ends the process, where even words have no room."""
