@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`mpirun -n N volumic --labels`: ranks share the labels; the same files whatever N, and no waiting.
+"""`mpirun -n N volumic --labels`: ranks share the labels; the same files, and no waiting.
 
 See test_tool_ranks.py.
 """
@@ -57,7 +57,8 @@ class SameFilesTest(RanksTestCase):
     def test_what_is_said_is_said_once(self):
         volume = self.map_file()
         process = self.run_ranks(3, volume, self.path("o/"), "--labels", "all", "--finest", 2)
-        for said in ("map.vti: 24 x 24 x 24", "warning: No surface is left of Label 9", " vertices"):
+        for said in ("map.vti: 24 x 24 x 24", "warning: No surface is left of Label 9",
+                     " vertices"):
             self.assertEqual(process.stderr.count(said), 1, process.stderr)
         listed = self.run_ranks(3, volume, "--list-labels").stdout
         self.assertEqual(listed, self.run_tool(volume, "--list-labels").stdout)

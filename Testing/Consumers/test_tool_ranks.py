@@ -66,7 +66,7 @@ class RanksTestCase(ToolTestCase):
 
     @contextlib.contextmanager
     def running_to(self, begin, ranks, *arguments):
-        """The process, and the numbers of those of its ranks, once a line begins like the pattern."""
+        """The process, and the numbers of its ranks, once a line begins like the pattern."""
         process = subprocess.Popen(
             self.command(ranks, *arguments, "--progress"),
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
