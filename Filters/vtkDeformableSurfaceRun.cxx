@@ -274,7 +274,11 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
   {
     return nullptr;
   }
-  volumic::GatherLevels(ranks, volume, request.EdgeSelection);
+  const std::string aboutWhole = volumic::GatherLevels(ranks, volume, request.EdgeSelection);
+  if (!aboutWhole.empty() && ranks.Rank() == 0)
+  {
+    request.Warn(aboutWhole);
+  }
   this->Internals->InPieces = volume.InPieces;
   std::unique_ptr<volumic::SurfaceSegmentation> run;
   this->Internals->Alone->Run(

@@ -17,6 +17,7 @@
 #include "Labels/LabelNames.h"
 #include "Labels/LabelSurface.h"
 #include "Labels/LabelSurfaces.h"
+#include "Labels/SharedLabels.h"
 #include "Run/SegmentationCache.h"
 #include "Settings/PropertyValues.h"
 
@@ -29,6 +30,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <optional>
@@ -50,6 +52,7 @@ public:
   int MemoryLimit = 0;
   std::string ScratchDirectory;
   volumic::LabelNames Names;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
   volumic::LimitedMemory Memory;
   bool IsRunning = false;
   std::vector<double> Seconds; ///< of each block
@@ -57,6 +60,10 @@ public:
   std::vector<volumic::LabelSurface> Stopped;
   vtkMTimeType StoppedTime = 0;
   volumic::SegmentationCache::Inputs StoppedInputs;
+
+  /** At rank 0. Errors are thrown. */
+  void Read(vtkDataObject* input, vtkInformation* selection, volumic::LabelChoice& choice,
+    std::optional<volumic::LabelImage>& image, volumic::SharedLabels& labels) const;
 };
 
 //------------------------------------------------------------------------------
@@ -64,6 +71,7 @@ vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInter
 {
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
@@ -106,6 +114,21 @@ void vtkLabelsToSurfaces::SetNumberOfThreads(int number)
     this->Internals->NumberOfThreads = std::max(number, 0);
     this->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Internals->Controller != controller)
+  {
+    this->Internals->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkLabelsToSurfaces::GetController()
+{
+  return this->Internals->Controller;
 }
 
 //------------------------------------------------------------------------------
@@ -213,7 +236,37 @@ int vtkLabelsToSurfaces::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSet* output)
+void vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input, vtkInformation* selection,
+  volumic::LabelChoice& choice, std::optional<volumic::LabelImage>& image,
+  volumic::SharedLabels& labels) const
+{
+  volumic::HostThreads threads(this->NumberOfThreads);
+  volumic::PrefixErrors("Input port 0: ",
+    [&]
+    {
+      threads.Run([&]
+        { image.emplace(input, selection, threads); });
+      choice.Labels = image->Choose(this->Labels, this->BackgroundLabel);
+      choice.Names = this->Names;
+      choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));
+      choice.IsMerged = this->Merge;
+      return 0;
+    });
+  this->Settings.Check(
+    volumic::Workspace(image->Image(), volumic::Metric::World).WorldUnit());
+  threads.Run(
+    [&]
+    {
+      labels.Map =
+        image->MakeMap(choice.Labels, this->Merge, this->BackgroundLabel, threads);
+    });
+  labels.Frame = image->Image();
+  labels.Names = choice.SurfaceNames();
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::MakeSurfaces(
+  volumic::Communicator& ranks, vtkDataObject* input, vtkMultiBlockDataSet* output)
 {
   const vtkInternals& internals = *this->Internals;
   this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
@@ -224,41 +277,33 @@ void vtkLabelsToSurfaces::MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSe
     return !volumic::IsAbortRequested(this);
   };
   show(0.0, "Reading the labels");
-  volumic::HostThreads threads(internals.NumberOfThreads);
   volumic::LabelChoice choice;
   std::optional<volumic::LabelImage> image;
-  volumic::LabelMap map;
+  volumic::SharedLabels labels;
+  if (ranks.Rank() == 0)
+  {
+    internals.Read(input, this->GetInputArrayInformation(0), choice, image, labels);
+  }
+  labels.Share(ranks);
+  volumic::HostThreads threads(internals.NumberOfThreads);
   std::optional<volumic::LabelBricks> bricks;
-  volumic::PrefixErrors("Input port 0: ",
-    [&]
-    {
-      threads.Run([&]
-        { image.emplace(input, this->GetInputArrayInformation(0), threads); });
-      choice.Labels = image->Choose(internals.Labels, internals.BackgroundLabel);
-      choice.Names = internals.Names;
-      choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));
-      choice.IsMerged = internals.Merge;
-      return 0;
-    });
-  internals.Settings.Check(
-    volumic::Workspace(image->Image(), volumic::Metric::World).WorldUnit());
-  threads.Run(
-    [&]
-    {
-      map = image->MakeMap(
-        choice.Labels, internals.Merge, internals.BackgroundLabel, threads);
-      bricks.emplace(map, threads);
-    });
-  volumic::LabelSurfaceMaker maker(*bricks, image->Image(), internals.Settings);
+  threads.Run([&] { bricks.emplace(labels.Map, threads); });
+  volumic::LabelSurfaceMaker maker(*bricks, labels.Frame, internals.Settings);
   const std::vector<volumic::LabelSurface> surfaces =
-    volumic::MakeLabelSurfaces(maker, *bricks, choice.SurfaceNames(), internals.NumberOfThreads,
+    volumic::MakeLabelSurfaces(ranks, maker, *bricks, labels.Names, internals.NumberOfThreads,
       threads, show, std::move(this->Internals->Stopped));
+  if (ranks.Rank() != 0)
+  {
+    volumic::FillEmptyBlocks(labels.Names, output);
+    return;
+  }
   for (const volumic::LabelSurface& surface : surfaces)
   {
     this->Internals->Seconds.push_back(surface.Seconds);
   }
-  if (volumic::IsAbortRequested(this) && volumic::SegmentationCache::MayKeep(this) &&
-    !maker.KeepsApart())
+  const bool isFinished = std::all_of(surfaces.begin(), surfaces.end(),
+    [](const volumic::LabelSurface& surface) { return surface.IsFinished; });
+  if (!isFinished && volumic::SegmentationCache::MayKeep(this) && !maker.KeepsApart())
   {
     this->Internals->Stopped = surfaces;
   }
@@ -280,15 +325,10 @@ int vtkLabelsToSurfaces::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
-  const auto ranks = volumic::RanksOf(
-    vtkMultiProcessController::GetGlobalController(), request, outputVector);
-  if (!volumic::IsFirstProcess(request, outputVector))
+  const auto ranks =
+    volumic::RanksOf(this->Internals->Controller, request, outputVector);
+  if (ranks->NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, outputVector))
   {
-    if (ranks->NumberOfRanks() > 1)
-    {
-      volumic::ShareBlocks(*ranks, output);
-    }
     return 1;
   }
   this->Internals->IsRunning = true;
@@ -300,8 +340,7 @@ int vtkLabelsToSurfaces::RequestData(
   }
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  // The other ranks wait for the blocks.
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(volumic::OnThisRank(), outputVector,
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(*ranks, outputVector,
     []
     {
       return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "
@@ -309,18 +348,19 @@ int vtkLabelsToSurfaces::RequestData(
     },
     [&]
     {
-      this->MakeSurfaces(vtkDataObject::GetData(inputVector[0]), output);
+      this->MakeSurfaces(*ranks, vtkDataObject::GetData(inputVector[0]),
+        vtkMultiBlockDataSet::GetData(outputVector));
       for (const std::string& warning : this->Internals->Memory.TakeWarnings())
       {
         vtkWarningMacro(<< warning);
       }
+      ranks->IsAny(false); // Who is through with it here hears of no failure any more.
     });
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.Text);
   }
-  volumic::ShareBlocks(*ranks, output);
   volumic::ForgetAbort(this);
   this->Internals->IsRunning = false;
   this->Internals->StoppedTime = this->Internals->Stopped.empty() ? 0 : this->GetMTime();

@@ -63,6 +63,14 @@
  * GoOn() has the next Update() make what is missing, and keep the finished ones, where neither the
  * filter nor its input has changed (without Gap; with it all are made again).
  *
+ * @par Processes:
+ * Where the controller has several processes, and each asks for the piece of its own number of as
+ * many pieces, as ParaView's do, each makes the surfaces of some labels, the largest going first to
+ * the process that has least to do. The first one reads the image, gives the others the labels of
+ * its voxels, and gets all surfaces, the same bits; the others have the same blocks, empty. An error
+ * of one process is reported by all; AbortExecute of any stops all. Whoever asks for other pieces
+ * works alone.
+ *
  * @sa
  * vtkVolumeToSurface vtkLabelTable
  */
@@ -76,6 +84,11 @@
 
 class vtkDataObject;
 class vtkMultiBlockDataSet;
+class vtkMultiProcessController;
+namespace volumic
+{
+class Communicator;
+}
 
 class VTKFILTERSVOLUMIC_EXPORT vtkLabelsToSurfaces : public vtkMultiBlockDataSetAlgorithm
 {
@@ -239,6 +252,12 @@ public:
   void ClearLabelColors();
   ///@}
 
+  ///@{
+  /** As vtkDeformableSurface: the processes that make the surfaces together, see Processes. */
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
   /**
    * Seconds that the work on the surface of a block took at the last update: of the one thread that
    * made it, or, of a large label, of all together. No field data, as these are the same at each
@@ -266,8 +285,9 @@ protected:
 
 private:
   class vtkInternals;
-  /** Errors are thrown. */
-  void MakeSurfaces(vtkDataObject* input, vtkMultiBlockDataSet* output);
+  /** By all ranks together. Errors are thrown. */
+  void MakeSurfaces(
+    volumic::Communicator& ranks, vtkDataObject* input, vtkMultiBlockDataSet* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 
   vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;

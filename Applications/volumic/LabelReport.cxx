@@ -79,11 +79,7 @@ void WriteReport(std::ostream& out, const LabelReport& report)
   json.BeginObject();
   json.Member("surface", report.Seconds);
   json.EndObject();
-  json.Name("memory");
-  json.BeginObject();
-  json.Member("reader", report.ReaderMemory);
-  json.Member("peak", PeakMemory());
-  json.EndObject();
+  WriteMemory(json, report.ReaderMemory, report.PeaksByRank);
   WriteProperties(json, report.Filters, IsOfLabels);
   WriteEnd(json, report.Warnings);
   json.EndObject();

@@ -24,6 +24,7 @@ struct LabelReport
   double Seconds = 0.0;      ///< of the surfaces
   double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings = {};
+  std::vector<double> PeaksByRank = {};
 };
 
 /** Write the report as JSON, `labels` with an object for each surface. */

@@ -4,6 +4,7 @@
 
 #include "JsonWriter.h"
 #include "ParseNumbers.h"
+#include "Ranks.h"
 #include "SurfaceFields.h"
 
 #include <vtkDataArray.h>
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <functional>
 #include <map>
 
@@ -183,6 +185,32 @@ void WriteProperties(
   json.EndObject();
 }
 
+void WriteMemory(JsonWriter& json, double reader, const std::vector<double>& byRank)
+{
+  json.Name("memory");
+  json.BeginObject();
+  json.Member("reader", reader);
+  json.Member("peak", PeakMemory());
+  if (!byRank.empty())
+  {
+    json.Numbers("peak_by_rank", byRank.data(), static_cast<int>(byRank.size()));
+  }
+  json.EndObject();
+}
+
+std::vector<double> PeaksByRank(const Ranks& ranks)
+{
+  std::vector<double> peaks;
+  if (!ranks.IsOne())
+  {
+    for (const std::string& peak : ranks.GatherOnAll(std::to_string(PeakMemory())))
+    {
+      peaks.push_back(std::atof(peak.c_str()));
+    }
+  }
+  return peaks;
+}
+
 double PeakMemory()
 {
   rusage usage{};
@@ -203,16 +231,7 @@ void WriteReport(std::ostream& out, const ReportInput& input)
   WriteComponents(json, surface);
   WriteLevels(json, input);
   WriteSeconds(json, input);
-  json.Name("memory");
-  json.BeginObject();
-  json.Member("reader", input.ReaderMemory);
-  json.Member("peak", PeakMemory());
-  if (!input.PeaksByRank.empty())
-  {
-    json.Numbers("peak_by_rank", input.PeaksByRank.data(),
-      static_cast<int>(input.PeaksByRank.size()));
-  }
-  json.EndObject();
+  WriteMemory(json, input.ReaderMemory, input.PeaksByRank);
   WriteProperties(json, input.Filters,
     [](const PropertyOption& property) { return !IsOfLabelsOnly(property); });
   WriteEnd(json, input.Warnings);

@@ -16,6 +16,7 @@ class vtkPolyData;
 namespace tool
 {
 class JsonWriter;
+class Ranks;
 
 /**
  * All that a report tells; the names in it are those of the quickstart's report.json, and besides
@@ -34,7 +35,7 @@ struct ReportInput
   std::vector<std::string> Warnings;
   SurfaceSize Size;                    ///< of the surface, of all ranks
   std::vector<SurfaceSize> LevelSizes; ///< by block of the levels
-  std::vector<double> PeaksByRank;     ///< PeakMemory() of each, where there are many
+  std::vector<double> PeaksByRank;     ///< as the function gives them
 };
 
 /** Write the report as JSON. Lengths, areas and volumes are in world units. */
@@ -55,11 +56,17 @@ void WriteComponents(JsonWriter& json, vtkPolyData* surface);
 void WriteProperties(
   JsonWriter& json, const FilterTrio& filters, bool (*isMeant)(const PropertyOption&));
 
+/** The member `memory`. @param reader PeakMemory() when the volume had been read */
+void WriteMemory(JsonWriter& json, double reader, const std::vector<double>& byRank);
+
 /** The members `warnings` and `versions`. */
 void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings);
 
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();
+
+/** That of each rank, by all of them; nothing where there is one only. */
+std::vector<double> PeaksByRank(const Ranks& ranks);
 }
 
 #endif

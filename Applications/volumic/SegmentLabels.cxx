@@ -128,9 +128,13 @@ std::vector<LabelSurface> PlanSurfaces(
   return surfaces;
 }
 
-/** Have the filter work on the labels of a layer; its blocks take the place of what is planned. */
+/**
+ * Have the filter work on the labels of a layer, on all ranks; at the first one its blocks take the
+ * place of what is planned.
+ */
 FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
-  vtkLabelsToSurfaces* filter, std::vector<LabelSurface>& surfaces, ProgressStyle style)
+  vtkLabelsToSurfaces* filter, std::vector<LabelSurface>& surfaces, ProgressStyle style,
+  Ranks& ranks)
 {
   std::vector<LabelSurface*> own; // by their labels, as the blocks
   filter->ClearLabels();
@@ -145,13 +149,30 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
       }
     }
   }
-  if (own.empty() || WasInterrupted())
+  if (!ranks.IsAny(!own.empty()) || ranks.IsAny(WasInterrupted()))
   {
     return FilterRun();
   }
-  SetInput(filter, map, layer);
-  FilterRun run =
-    Named(options.Volume, [&] { return RunFilter(filter, "Making surfaces", style); });
+  ranks.IsFirst() ? SetInput(filter, map, layer)
+                  : filter->SetInputDataObject(0, vtkNew<vtkImageData>());
+  FilterRun run;
+  std::string failure; // One rank may not leave while others are in the filter yet.
+  try
+  {
+    run = RunFilter(filter, "Making surfaces", style, ranks);
+  }
+  catch (const Failure& error)
+  {
+    failure = error.what();
+  }
+  ranks.Together(
+    [&]
+    {
+      if (!failure.empty())
+      {
+        throw Failure(options.Volume + ": " + failure);
+      }
+    });
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   auto* lost = vtkStringArray::SafeDownCast(blocks->GetFieldData()->GetAbstractArray("LostLabels"));
   const std::string told = lost ? InWordsOfOptions(lost->GetValue(0)) : std::string();
@@ -171,13 +192,16 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   return run;
 }
 
-/** Make all surfaces. @param report given times and warnings */
+/** Make all surfaces, by all ranks. @param report given times and warnings */
 void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSurfaces* filter,
-  std::vector<LabelSurface>& surfaces, const Announcer& announcer, LabelReport& report)
+  std::vector<LabelSurface>& surfaces, const Announcer& announcer, LabelReport& report,
+  Ranks& ranks)
 {
-  for (int layer = 0; layer < static_cast<int>(map.Layers.size()); ++layer)
+  const double layers = ranks.Broadcast(static_cast<double>(map.Layers.size()));
+  for (int layer = 0; layer < layers; ++layer)
   {
-    const FilterRun run = RunOnLayer(options, map, layer, filter, surfaces, announcer.Style);
+    const FilterRun run =
+      RunOnLayer(options, map, layer, filter, surfaces, announcer.Style, ranks);
     report.Seconds += run.Seconds;
     for (const std::string& warning : run.Warnings)
     {
@@ -185,10 +209,15 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
       report.Warnings.push_back(warning);
     }
   }
-  const bool isThere = std::any_of(surfaces.begin(), surfaces.end(),
-    [](const LabelSurface& surface) { return surface.Surface->GetNumberOfPoints() > 0; });
   report.IsFinished = std::none_of(surfaces.begin(), surfaces.end(),
     [](const LabelSurface& surface) { return surface.IsUnfinished(); });
+  report.PeaksByRank = PeaksByRank(ranks);
+}
+
+void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
+{
+  const bool isThere = std::any_of(report.Surfaces.begin(), report.Surfaces.end(),
+    [](const LabelSurface& surface) { return surface.Surface->GetNumberOfPoints() > 0; });
   if (!isThere)
   {
     throw Failure(report.IsFinished
@@ -278,31 +307,25 @@ void ListLabels(const ToolOptions& options, const LabelMap& map,
     WriteTable(std::cout, list);
   }
 }
-}
-
-ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
+/**
+ * Read the label map, and do of what the options ask for what needs no surface.
+ * @return the surfaces that they ask for, none of which is there yet
+ */
+std::vector<LabelSurface> Prepare(const ToolOptions& options, const FilterTrio& filters,
+  vtkImagePyramid* holder, const Announcer& announcer, LabelMap& map, MadeFolders& folders,
+  LabelReport& report)
 {
-  ranks.Together(
-    [&]
-    {
-      if (!ranks.IsOne())
-      {
-        throw UsageError("--labels works in one process: start it without mpirun");
-      }
-    });
-  const Announcer announcer(options);
   CheckLabelFiles(options);
-  ShareProperties(filters);
-  const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
-  const LabelMap map = LoadLabelMap(options, filters.Surface, holder, announcer);
-  const double readerMemory = PeakMemory();
+  map = LoadLabelMap(options, filters.Surface, holder, announcer);
+  report.Volume = map.Facts;
+  report.ReaderMemory = PeakMemory();
   if (!options.WrittenVolume.empty())
   {
     WriteVolume(map.Image, options.WrittenVolume, announcer.Style);
   }
   if (!options.WantsSurface())
   {
-    return Success;
+    return {};
   }
   const int background = filters.Labels->GetBackgroundLabel();
   std::vector<std::string> warnings;
@@ -311,18 +334,39 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   if (options.ListsLabels)
   {
     ListLabels(options, map, known, background, std::move(warnings));
-    return Success;
+    return {};
   }
   std::vector<LabelSurface> surfaces = PlanSurfaces(options, known, filters.Labels);
-  MadeFolders folders;
   CheckLabelSurfaces(options, surfaces, folders);
-  LabelReport report{ std::filesystem::path(options.Volume).filename().string(), map.Facts,
-    filters, surfaces };
-  report.ReaderMemory = readerMemory;
+  return surfaces;
+}
+}
+
+ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
+{
+  const Announcer announcer(options);
+  ShareProperties(filters);
+  const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
+  LabelMap map;
+  MadeFolders folders;
+  std::vector<LabelSurface> surfaces;
+  LabelReport report{ std::filesystem::path(options.Volume).filename().string(), {}, filters,
+    surfaces };
+  ranks.OnFirst(
+    [&] { surfaces = Prepare(options, filters, holder, announcer, map, folders, report); });
+  if (!ranks.IsAny(!surfaces.empty()))
+  {
+    return Success;
+  }
   CatchInterrupts(ranks);
-  MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report);
-  WriteAll(options, surfaces, report, announcer.Style);
-  TellEnd(surfaces, announcer);
-  return report.IsFinished ? Success : Unfinished;
+  MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report, ranks);
+  ranks.OnFirst(
+    [&]
+    {
+      CheckThatAnyIsThere(options, report);
+      WriteAll(options, surfaces, report, announcer.Style);
+      TellEnd(surfaces, announcer);
+    });
+  return ranks.IsAny(!report.IsFinished) ? Unfinished : Success;
 }
 }

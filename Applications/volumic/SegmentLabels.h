@@ -13,11 +13,11 @@ struct ToolOptions;
 
 /**
  * Read a label map, find a surface about each of the labels that are asked for, and write what the
- * options ask for.
+ * options ask for. By all ranks, which share the labels; the first one reads and writes.
  * @param filters with their properties set
  * @return Success or Unfinished
  * @throws Failure where a file cannot be read or written, a label is not there, or no label has a
- * surface; UsageError on more than one rank.
+ * surface.
  */
 ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks);
 }

@@ -20,7 +20,6 @@
 #include <vtkTable.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -188,16 +187,7 @@ void WriteOutputs(
   {
     results.Size = SizeOf(ranks, filter->GetOutput());
     results.LevelSizes = SizesOf(ranks, filter->GetLevels());
-    const std::vector<std::string> peaks =
-      ranks.GatherOnAll(std::to_string(PeakMemory()));
-    for (const std::string& peak : peaks)
-    {
-      results.PeaksByRank.push_back(std::atof(peak.c_str()));
-    }
-    if (ranks.IsOne())
-    {
-      results.PeaksByRank.clear();
-    }
+    results.PeaksByRank = PeaksByRank(ranks);
   }
   writer.WriteRest(results);
   writer.Finish();

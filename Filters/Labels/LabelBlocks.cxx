@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelBlocks.h"
 
-#include "Core/Common/Communicator.h"
 #include "Output/SurfaceOutput.h"
 
 #include <vtkCellData.h>
@@ -216,22 +215,13 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   return JoinedBy(" ", warnings);
 }
 
-void ShareBlocks(Communicator& ranks, vtkMultiBlockDataSet* output)
+void FillEmptyBlocks(const std::vector<std::string>& names, vtkMultiBlockDataSet* output)
 {
-  MessageWriter names;
-  const unsigned int count = ranks.Rank() == 0 ? output->GetNumberOfBlocks() : 0;
-  for (unsigned int i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < names.size(); ++i)
   {
-    names.AddArray(std::string(output->GetMetaData(i)->Get(vtkCompositeDataSet::NAME())));
-  }
-  const Message told = ranks.Broadcast(names.Take());
-  MessageReader reader(told);
-  for (unsigned int i = 0; ranks.Rank() != 0 && !reader.IsAtEnd(); ++i)
-  {
-    std::string name;
-    reader.TakeArray(name);
-    output->SetBlock(i, vtkNew<vtkPolyData>());
-    output->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    const auto block = static_cast<unsigned int>(i);
+    output->SetBlock(block, vtkNew<vtkPolyData>());
+    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), names[i].c_str());
   }
 }
 }

@@ -15,8 +15,6 @@ class vtkMultiBlockDataSet;
 
 namespace volumic
 {
-class Communicator;
-
 /** Of which labels there are surfaces, and what they are called. */
 struct LabelChoice
 {
@@ -41,10 +39,10 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   vtkMultiBlockDataSet* output);
 
 /**
- * The first rank has the surfaces. Gives the others its blocks, empty: writers and readers of
- * ParaView wait for each other where ranks have different ones.
+ * The same blocks, empty, for ranks that have no surfaces: writers and readers of ParaView wait for
+ * each other where ranks have different ones.
  */
-void ShareBlocks(Communicator& ranks, vtkMultiBlockDataSet* output);
+void FillEmptyBlocks(const std::vector<std::string>& names, vtkMultiBlockDataSet* output);
 }
 
 #endif

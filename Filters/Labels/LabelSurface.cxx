@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelSurface.h"
 
-#include "Core/Common/Communicator.h"
 #include "Core/Labels/WrongVoxels.h"
 #include "Input/Workspace.h"
 #include "Output/SurfaceOutput.h"

@@ -3,6 +3,7 @@
 #ifndef volumicLabelSurface_h
 #define volumicLabelSurface_h
 
+#include "Core/Common/Communicator.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "Core/Labels/LabelClaims.h"
 #include "Core/Labels/LabelField.h"
@@ -52,6 +53,8 @@ public:
   /** Where objects meet by threes: first of all objects, before any surface is made. */
   bool HasClaims() const { return this->Bricks.HasContested(); }
   void AddClaim(int object, HostThreads& threads);
+  /** By all ranks, each of which has added some. */
+  void ShareClaims(Communicator& ranks) { this->Claims.Share(ranks); }
 
   /**
    * On any thread. What a level 0 does not hold is tried with the triangles of level -1.
@@ -63,13 +66,17 @@ public:
   /** With Gap: whether surfaces of neighbours must stay apart. */
   bool KeepsApart() const { return this->Settings.Gap > 0.0; }
   /**
-   * Has the next surfaces stay further inside where these touch each other, whose TouchingFaces it
-   * sets.
+   * By all ranks: has the next surfaces stay further inside where those of rank 0 touch each other,
+   * whose TouchingFaces it sets.
    * @return the objects, from 1 on, for which that is so
    */
-  std::vector<int> DrawApart(std::vector<LabelSurface>& surfaces, HostThreads& threads);
+  std::vector<int> DrawApart(
+    Communicator& ranks, std::vector<LabelSurface>& surfaces, HostThreads& threads);
 
 private:
+  /** Where the next surfaces stay further inside, by object. */
+  std::vector<std::vector<std::array<int, 3>>> FindTouchingVoxels(
+    std::vector<LabelSurface>& surfaces, HostThreads& threads) const;
   /** A field and the image that shows its values. */
   struct FieldImage
   {

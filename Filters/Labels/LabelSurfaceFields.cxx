@@ -184,8 +184,8 @@ bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface&
     DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
 }
 
-std::vector<int> LabelSurfaceMaker::DrawApart(
-  std::vector<LabelSurface>& surfaces, HostThreads& threads)
+std::vector<std::vector<std::array<int, 3>>> LabelSurfaceMaker::FindTouchingVoxels(
+  std::vector<LabelSurface>& surfaces, HostThreads& threads) const
 {
   std::vector<IndexedSurface> inVoxels(surfaces.size());
   std::vector<std::vector<int>> touching;
@@ -203,16 +203,36 @@ std::vector<int> LabelSurfaceMaker::DrawApart(
         });
       touching = FindTouching(inVoxels, threads);
     });
-  std::vector<int> objects;
+  std::vector<std::vector<std::array<int, 3>>> voxels(surfaces.size());
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     surfaces[i].TouchingFaces = static_cast<vtkIdType>(touching[i].size());
-    if (!touching[i].empty())
+    voxels[i] = VoxelsAbout(inVoxels[i], touching[i]);
+  }
+  return voxels;
+}
+
+std::vector<int> LabelSurfaceMaker::DrawApart(
+  Communicator& ranks, std::vector<LabelSurface>& surfaces, HostThreads& threads)
+{
+  MessageWriter found;
+  if (ranks.Rank() == 0)
+  {
+    for (const auto& voxels : this->FindTouchingVoxels(surfaces, threads))
     {
-      const int object = static_cast<int>(i) + 1;
-      std::vector<std::array<int, 3>>& lowered = this->Lowered[static_cast<std::size_t>(object)];
-      const std::vector<std::array<int, 3>> more = VoxelsAbout(inVoxels[i], touching[i]);
-      lowered.insert(lowered.end(), more.begin(), more.end());
+      found.AddArray(voxels);
+    }
+  }
+  const Message message = ranks.Broadcast(found.Take());
+  MessageReader reader(message);
+  std::vector<int> objects;
+  for (int object = 1; !reader.IsAtEnd(); ++object)
+  {
+    const auto more = reader.TakeVector<std::array<int, 3>>();
+    std::vector<std::array<int, 3>>& lowered = this->Lowered[static_cast<std::size_t>(object)];
+    lowered.insert(lowered.end(), more.begin(), more.end());
+    if (!more.empty())
+    {
       objects.push_back(object);
     }
   }

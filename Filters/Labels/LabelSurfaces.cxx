@@ -3,14 +3,14 @@
 #include "Labels/LabelSurfaces.h"
 
 #include "Host/SideBySide.h"
+#include "Input/SurfaceFile.h"
+#include "Labels/LabelCourse.h"
 
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -23,111 +23,50 @@ namespace
 /** With Gap: how often surfaces that touch those of neighbours are made again, further inside. */
 constexpr int MostRoundsApart = 5;
 
-/** What is done of all objects, and which of them are under way. */
-class Course
+/** A surface that another rank has made, or has not; not its seconds. */
+Message Packed(const LabelSurface& made)
 {
-public:
-  Course(const std::vector<double>& sizes, const std::vector<std::string>& names)
-    : Sizes(sizes), Names(names), Shares(sizes.size())
+  MessageWriter writer;
+  writer.Add(made.Surface != nullptr);
+  if (made.Surface)
   {
-    for (std::atomic<float>& share : this->Shares)
-    {
-      share = 0.f;
-    }
-    this->Whole = std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    writer.Add(made.WrongVoxels);
+    writer.Add(made.MissedVoxels);
+    writer.Add(made.IsFinished);
+    writer.AddArray(MessageOf(made.Surface));
   }
-
-  /** Some of the items are to be done, for the first time or anew. */
-  void Expect(const std::string& title, const std::vector<std::uint8_t>& isDue)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Title = title;
-    this->Finished = 0;
-    this->Expected = static_cast<std::size_t>(std::count(isDue.begin(), isDue.end(), 1));
-    for (std::size_t i = 0; i < isDue.size(); ++i)
-    {
-      this->Shares[i] = isDue[i] != 0 ? 0.f : 1.f;
-    }
-  }
-
-  // The next three on any thread.
-
-  void Begin(std::size_t item)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->UnderWay.push_back(item);
-  }
-  /** @return whether to go on. */
-  bool Tell(std::size_t item, double share)
-  {
-    this->Shares[item] = static_cast<float>(share);
-    return !this->IsStopped;
-  }
-  void End(std::size_t item)
-  {
-    this->Shares[item] = 1.f;
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->UnderWay.erase(std::find(this->UnderWay.begin(), this->UnderWay.end(), item));
-    ++this->Finished;
-  }
-
-  double Share() const
-  {
-    double done = 0.0;
-    for (std::size_t i = 0; i < this->Sizes.size(); ++i)
-    {
-      done += this->Sizes[i] * this->Shares[i];
-    }
-    return done / this->Whole;
-  }
-
-  /** `12 of 39, liver`: how many are finished, and that which was begun last of those under way. */
-  std::string Text() const
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    const std::string text =
-      this->Title + std::to_string(this->Finished) + " of " + std::to_string(this->Expected);
-    return this->UnderWay.empty() ? text : text + ", " + this->Names[this->UnderWay.back()];
-  }
-
-  std::atomic<bool> IsStopped{ false };
-
-private:
-  const std::vector<double>& Sizes;
-  const std::vector<std::string>& Names;
-  std::vector<std::atomic<float>> Shares;
-  double Whole;
-  mutable std::mutex Mutex; ///< of what follows
-  std::string Title;
-  std::vector<std::size_t> UnderWay; ///< in the order in which they were begun
-  std::size_t Finished = 0;
-  std::size_t Expected = 0;
-};
-
-/** About the work that an object is: the bricks that it is in. */
-std::vector<double> SizesOf(const LabelBricks& bricks, std::size_t wanted)
-{
-  std::vector<double> sizes;
-  for (int object = 1; object <= static_cast<int>(wanted); ++object)
-  {
-    const LabelExtent& extent = bricks.ExtentOf(object);
-    sizes.push_back(1.0 +
-      std::min(static_cast<double>(extent.Voxels), static_cast<double>(extent.Bricks.Count())));
-  }
-  return sizes;
+  return writer.Take();
 }
 
-/** The work on all objects: which are made one after another and which side by side, and when. */
+LabelSurface Unpacked(const Message& message)
+{
+  MessageReader reader(message);
+  LabelSurface made;
+  if (reader.Take<bool>())
+  {
+    made.WrongVoxels = reader.Take<vtkIdType>();
+    made.MissedVoxels = reader.Take<vtkIdType>();
+    made.IsFinished = reader.Take<bool>();
+    made.Surface = SurfaceFrom(reader.TakeVector<char>());
+  }
+  return made;
+}
+
+/**
+ * The work on all objects: which rank does which, and which are done one after another, which side
+ * by side. Items are the objects that get surfaces, then those about them that only claim.
+ */
 class Making
 {
 public:
-  Making(LabelSurfaceMaker& maker, const LabelBricks& bricks, const std::vector<std::string>& names,
-    int numberOfThreads, HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
-    : Maker(maker), Bricks(bricks), NumberOfThreads(numberOfThreads), Threads(threads),
-      Progress(progress), Sizes(SizesOf(bricks, names.size())), State(Sizes, names),
-      IsDue(names.size(), 1), Surfaces(names.size()), Seconds(names.size(), 0.0)
+  Making(Communicator& ranks, LabelSurfaceMaker& maker, const LabelBricks& bricks,
+    const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
+    const LabelSurfaceMaker::Progress& progress)
+    : Ranks(ranks), Maker(maker), NumberOfThreads(numberOfThreads), Threads(threads),
+      Progress(progress), Objects(ObjectsOf(maker, bricks, static_cast<int>(names.size()))),
+      Sizes(SizesOf(bricks, Objects)), State(Sizes, names), IsDue(Objects.size(), 1),
+      Surfaces(names.size()), Seconds(Objects.size(), 0.0)
   {
-    this->Plan();
   }
 
   void AddClaims();
@@ -137,67 +76,132 @@ public:
 private:
   using Work = std::function<void(std::size_t item, int numberOfThreads, HostThreads& threads)>;
 
-  void Plan();
-  /** On the calling thread. @return whether to go on. */
-  bool Tell(const std::string& text);
-  bool Tell() { return this->Tell(this->State.Text()); }
+  static std::vector<int> ObjectsOf(
+    const LabelSurfaceMaker& maker, const LabelBricks& bricks, int wanted);
+  static std::vector<double> SizesOf(const LabelBricks& bricks, const std::vector<int>& objects);
+  /** Which rank does which of the items that are due. @return its own, large ones first */
+  std::vector<std::size_t> ShareOut();
+  /**
+   * By all ranks, several times a second, on the calling thread: how far they are, and whether one
+   * of them is to stop. @return whether there is work left anywhere
+   */
+  bool Tell(bool isThrough = false);
   /** Work on the items that are due. */
   void Do(const std::string& title, const Work& work);
   void MakeDue(const std::string& title);
+  /** What other ranks have made goes to rank 0. */
+  void Collect();
 
+  Communicator& Ranks;
   LabelSurfaceMaker& Maker;
-  const LabelBricks& Bricks;
   int NumberOfThreads;
   HostThreads& Threads;
   const LabelSurfaceMaker::Progress& Progress;
+  std::vector<int> Objects; ///< of each item
   std::vector<double> Sizes;
-  Course State;
+  LabelCourse State;
+  LabelPart Others; ///< what they had done when they told last
   std::vector<std::uint8_t> IsDue;
+  std::vector<int> RankOf; ///< of each item that is due
   std::vector<LabelSurface> Surfaces;
   std::vector<double> Seconds;
-  std::vector<std::size_t> Order; ///< large ones first
-  std::size_t Alone = 0;          ///< so many of these one after another
-  int Most = 1;                   ///< threads
-  double Before = 0.0;            ///< share of all work that is done
-  double Whole = 1.0;             ///< share of what the items' shares are of
+  double Before = 0.0; ///< share of all work that is done
+  double Whole = 1.0;  ///< share of what the items' shares are of
 };
 
-void Making::Plan()
+std::vector<int> Making::ObjectsOf(
+  const LabelSurfaceMaker& maker, const LabelBricks& bricks, int wanted)
 {
-  const std::vector<double>& sizes = this->Sizes;
-  this->Order.resize(sizes.size());
-  std::iota(this->Order.begin(), this->Order.end(), std::size_t(0));
-  std::stable_sort(this->Order.begin(), this->Order.end(),
-    [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
-  const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  this->Most = this->NumberOfThreads > 0 ? std::min(this->NumberOfThreads, hardware) : hardware;
-  // While one is on its own, the others would wait for it at the end.
-  double rest = std::accumulate(sizes.begin(), sizes.end(), 0.0);
-  while (this->Alone < sizes.size() && sizes[this->Order[this->Alone]] * this->Most > rest)
+  std::vector<int> objects(static_cast<std::size_t>(wanted));
+  std::iota(objects.begin(), objects.end(), 1);
+  if (maker.HasClaims())
   {
-    rest -= sizes[this->Order[this->Alone++]];
+    const std::vector<int> about = bricks.NeighboursOf(wanted);
+    objects.insert(objects.end(), about.begin(), about.end());
   }
+  return objects;
 }
 
-bool Making::Tell(const std::string& text)
+/** About the work that an object is: the bricks that it is in. */
+std::vector<double> Making::SizesOf(const LabelBricks& bricks, const std::vector<int>& objects)
 {
-  if (!this->Progress(this->Before + this->Whole * this->State.Share(), text))
+  std::vector<double> sizes;
+  for (const int object : objects)
+  {
+    const LabelExtent& extent = bricks.ExtentOf(object);
+    sizes.push_back(1.0 +
+      std::min(static_cast<double>(extent.Voxels), static_cast<double>(extent.Bricks.Count())));
+  }
+  return sizes;
+}
+
+std::vector<std::size_t> Making::ShareOut()
+{
+  const std::vector<double>& sizes = this->Sizes;
+  std::vector<std::size_t> order(sizes.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+  std::vector<double> loads(static_cast<std::size_t>(this->Ranks.NumberOfRanks()), 0.0);
+  std::vector<std::size_t> own;
+  this->RankOf.assign(sizes.size(), 0);
+  for (const std::size_t item : order)
+  {
+    if (this->IsDue[item] == 0)
+    {
+      continue;
+    }
+    const auto least = std::min_element(loads.begin(), loads.end());
+    *least += sizes[item];
+    this->RankOf[item] = static_cast<int>(least - loads.begin());
+    if (this->RankOf[item] == this->Ranks.Rank())
+    {
+      own.push_back(item);
+    }
+  }
+  return own;
+}
+
+bool Making::Tell(bool isThrough)
+{
+  LabelPart all = this->State.Here();
+  all.Add(this->Others);
+  if (!this->Progress(this->Before + this->Whole * this->State.Share(all), this->State.Text(all)))
   {
     this->State.IsStopped = true;
   }
-  return !this->State.IsStopped;
+  struct Word
+  {
+    LabelPart Done;
+    bool IsStopped;
+    bool IsThrough;
+  };
+  const std::vector<Word> words =
+    GatherValues(this->Ranks, Word{ this->State.Here(), this->State.IsStopped, isThrough });
+  this->Others = LabelPart();
+  bool areThrough = true;
+  for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
+  {
+    const Word& word = words[static_cast<std::size_t>(rank)];
+    this->State.IsStopped = this->State.IsStopped || word.IsStopped;
+    areThrough = areThrough && word.IsThrough;
+    if (rank != this->Ranks.Rank())
+    {
+      this->Others.Add(word.Done);
+    }
+  }
+  return !areThrough;
 }
 
 void Making::Do(const std::string& title, const Work& work)
 {
-  this->State.Expect(title, this->IsDue);
-  if (!this->Tell())
-  {
-    return;
-  }
+  const std::vector<std::size_t> own = this->ShareOut();
+  this->Others = LabelPart();
+  this->State.Expect(title, this->IsDue, own);
+  this->Tell();
   const auto doItem = [&](std::size_t item, int numberOfThreads, HostThreads& threads)
   {
-    if (this->State.IsStopped || this->IsDue[item] == 0)
+    if (this->State.IsStopped)
     {
       return;
     }
@@ -208,12 +212,22 @@ void Making::Do(const std::string& title, const Work& work)
     this->Seconds[item] +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
-  for (std::size_t i = 0; i < this->Alone && this->Tell(); ++i)
+  const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int most = this->NumberOfThreads > 0 ? std::min(this->NumberOfThreads, hardware) : hardware;
+  double rest = 0.0;
+  for (const std::size_t item : own)
   {
-    doItem(this->Order[i], this->NumberOfThreads, this->Threads);
+    rest += this->Sizes[item];
   }
-  SideBySide others(
-    { this->Order.begin() + static_cast<std::ptrdiff_t>(this->Alone), this->Order.end() },
+  // While one is on its own, the others would wait for it at the end.
+  auto small = own.begin();
+  for (; small != own.end() && this->Sizes[*small] * most > rest; ++small)
+  {
+    rest -= this->Sizes[*small];
+  }
+  SideBySide large({ own.begin(), small },
+    [&](std::size_t item) { doItem(item, this->NumberOfThreads, this->Threads); });
+  SideBySide others({ small, own.end() },
     [&](std::size_t item)
     {
       HostThreads one(1);
@@ -221,7 +235,15 @@ void Making::Do(const std::string& title, const Work& work)
     });
   try
   {
-    others.Run(this->Most, [this] { this->Tell(); });
+    const auto tell = [this] { this->Tell(); };
+    // On the calling thread, which tells of each iteration, or, if others listen, beside it.
+    const bool isOne = this->Ranks.NumberOfRanks() == 1;
+    large.Run(isOne ? 0 : 1, tell);
+    others.Run(most, tell);
+    while (!isOne && this->Tell(true))
+    {
+      std::this_thread::sleep_for(SideBySide::Pause);
+    }
   }
   catch (...)
   {
@@ -236,14 +258,8 @@ void Making::AddClaims()
   this->Whole = claimShare;
   this->Do("fields: ",
     [&](std::size_t item, int, HostThreads& threads)
-    { this->Maker.AddClaim(static_cast<int>(item) + 1, threads); });
-  for (const int neighbour : this->Bricks.NeighboursOf(static_cast<int>(this->Sizes.size())))
-  {
-    if (this->Tell("fields of the labels about them"))
-    {
-      this->Maker.AddClaim(neighbour, this->Threads);
-    }
-  }
+    { this->Maker.AddClaim(this->Objects[item], threads); });
+  this->Maker.ShareClaims(this->Ranks);
   this->Before = claimShare;
   this->Whole = 1.0 - claimShare;
 }
@@ -255,11 +271,15 @@ void Making::MakeDue(const std::string& title)
     [&](std::size_t item, int numberOfThreads, HostThreads& threads)
     {
       const LabelSurface made =
-        this->Maker.Make(static_cast<int>(item) + 1, numberOfThreads, threads,
+        this->Maker.Make(this->Objects[item], numberOfThreads, threads,
           [&, item](double share, const std::string&)
           {
-            const bool goesOn = this->State.Tell(item, share);
-            return std::this_thread::get_id() == caller ? this->Tell() : goesOn;
+            this->State.Tell(item, share);
+            if (std::this_thread::get_id() == caller)
+            {
+              this->Tell();
+            }
+            return !this->State.IsStopped;
           });
       if (made.Surface) // else it was stopped, and what there is stays
       {
@@ -267,10 +287,31 @@ void Making::MakeDue(const std::string& title)
         this->Surfaces[item].IsFinished = !this->State.IsStopped;
       }
     });
+  this->Collect();
+}
+
+void Making::Collect()
+{
+  for (std::size_t item = 0; item < this->Surfaces.size(); ++item)
+  {
+    const int from = this->IsDue[item] != 0 ? this->RankOf[item] : 0;
+    LabelSurface& surface = this->Surfaces[item];
+    if (from != 0 && this->Ranks.Rank() == from)
+    {
+      this->Ranks.Pass(from, 0, Packed(std::exchange(surface, {})));
+    }
+    else if (from != 0 && this->Ranks.Rank() == 0)
+    {
+      const LabelSurface made = Unpacked(this->Ranks.Pass(from, 0));
+      surface = made.Surface ? made : surface;
+    }
+  }
 }
 
 void Making::MakeSurfaces(std::vector<LabelSurface> finished)
 {
+  std::fill(this->IsDue.begin() + static_cast<std::ptrdiff_t>(this->Surfaces.size()),
+    this->IsDue.end(), std::uint8_t(0));
   // With a gap those that are drawn apart later count as well.
   if (finished.size() == this->Surfaces.size() && !this->Maker.KeepsApart())
   {
@@ -278,6 +319,10 @@ void Making::MakeSurfaces(std::vector<LabelSurface> finished)
     std::transform(this->Surfaces.begin(), this->Surfaces.end(), this->IsDue.begin(),
       [](const LabelSurface& surface) { return surface.IsFinished ? 0 : 1; });
   }
+  MessageWriter due;
+  due.AddArray(this->IsDue);
+  const Message told = this->Ranks.Broadcast(due.Take());
+  MessageReader(told).TakeArray(this->IsDue);
   const double afterwards = this->Maker.KeepsApart() ? 0.3 * this->Whole : 0.0;
   this->Whole -= afterwards;
   this->MakeDue("");
@@ -285,7 +330,8 @@ void Making::MakeSurfaces(std::vector<LabelSurface> finished)
   {
     this->Before += this->Whole;
     this->Whole = round == 0 ? 0.5 * afterwards : 0.5 * this->Whole;
-    const std::vector<int> touching = this->Maker.DrawApart(this->Surfaces, this->Threads);
+    const std::vector<int> touching =
+      this->Maker.DrawApart(this->Ranks, this->Surfaces, this->Threads);
     if (touching.empty() || round == MostRoundsApart)
     {
       break;
@@ -301,19 +347,27 @@ void Making::MakeSurfaces(std::vector<LabelSurface> finished)
 
 std::vector<LabelSurface> Making::Take()
 {
-  for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
+  MessageWriter own;
+  own.AddArray(this->Seconds);
+  for (const Message& of : this->Ranks.Gather(own.Take()))
   {
-    this->Surfaces[i].Seconds += this->Seconds[i]; // Those that are kept have some.
+    MessageReader reader(of);
+    const std::vector<double> seconds = reader.TakeVector<double>();
+    for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
+    {
+      this->Surfaces[i].Seconds += seconds[i]; // Those that are kept have some.
+    }
   }
   return std::move(this->Surfaces);
 }
 }
 
-std::vector<LabelSurface> MakeLabelSurfaces(LabelSurfaceMaker& maker, const LabelBricks& bricks,
-  const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
-  const LabelSurfaceMaker::Progress& progress, std::vector<LabelSurface> finished)
+std::vector<LabelSurface> MakeLabelSurfaces(Communicator& ranks, LabelSurfaceMaker& maker,
+  const LabelBricks& bricks, const std::vector<std::string>& names, int numberOfThreads,
+  HostThreads& threads, const LabelSurfaceMaker::Progress& progress,
+  std::vector<LabelSurface> finished)
 {
-  Making making(maker, bricks, names, numberOfThreads, threads, progress);
+  Making making(ranks, maker, bricks, names, numberOfThreads, threads, progress);
   if (maker.HasClaims())
   {
     making.AddClaims();

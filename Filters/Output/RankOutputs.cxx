@@ -20,40 +20,23 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace volumic
 {
 namespace
 {
-/** A message of rank 0 to one other. */
-void SendTo(Communicator& ranks, int to, Message message)
-{
-  std::vector<Message> messages(static_cast<std::size_t>(ranks.NumberOfRanks()));
-  messages[static_cast<std::size_t>(to)] = std::move(message);
-  ranks.Exchange(std::move(messages), { to });
-}
-
-/** What rank 0 sends by it. */
-Message ReceiveFromFirst(Communicator& ranks)
-{
-  std::vector<Message> messages(static_cast<std::size_t>(ranks.NumberOfRanks()));
-  return std::move(ranks.Exchange(std::move(messages), { 0 }).front());
-}
-
 /** @param whole at rank 0 @return the piece of this rank */
 vtkSmartPointer<vtkPolyData> ScatterSurface(
   Communicator& ranks, vtkPolyData* whole, int ghostLevels)
 {
   if (ranks.Rank() != 0)
   {
-    return SurfaceFrom(ReceiveFromFirst(ranks));
+    return SurfaceFrom(ranks.Pass(0, ranks.Rank()));
   }
   const SurfacePieces pieces(whole, ranks.NumberOfRanks(), ghostLevels);
   for (int rank = 1; rank < ranks.NumberOfRanks(); ++rank)
   {
-    SendTo(ranks, rank, MessageOf(pieces.Piece(rank)));
+    ranks.Pass(0, rank, MessageOf(pieces.Piece(rank)));
   }
   return pieces.Piece(0);
 }

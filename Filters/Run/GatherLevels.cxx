@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/GatherLevels.h"
 
+#include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/SurfaceEvolution.h"
@@ -23,7 +24,8 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
-#include <string>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -97,24 +99,34 @@ vtkSmartPointer<vtkImageData> GatherLevel(Communicator& ranks, vtkImageData* pie
   return WithVoxels(image, chosen);
 }
 
-/** Whether a level is so large that all ranks work on it, and nothing else wants it whole. */
-bool StaysInPieces(
-  const SegmentationVolume& volume, const ImagePieces& pieces, const std::string& edges)
-{
-  const SegmentationSettings& settings = volume.Settings;
-  vtkDataArray* nans = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
-  return SurfaceEvolution::AreShared(settings.Options, pieces.Size()) && edges.empty() && nans &&
-    nans->GetTuple1(0) == 0.0 && settings.EdgeLength == 0.0 && settings.SnapshotInterval == 0 &&
-    settings.End.FinestLevel >= 0 && settings.End.MemoryLimit == 0 &&
-    settings.End.ScratchDirectory.empty() && !settings.End.Resume;
-}
-
 /** Whether points or cells of the image are hidden, on any rank. */
 bool HasGhosts(Communicator& ranks, vtkImageData* piece)
 {
   const char* ghosts = vtkDataSetAttributes::GhostArrayName();
   return ranks.IsAny(piece &&
     (piece->GetPointData()->GetArray(ghosts) || piece->GetCellData()->GetArray(ghosts)));
+}
+
+/** Why a level that all ranks work on is at rank 0 as a whole all the same; empty: it is not. */
+std::string WhyWhole(Communicator& ranks, const SegmentationVolume& volume, vtkImageData* piece,
+  const std::string& edges)
+{
+  const SegmentationSettings& settings = volume.Settings;
+  vtkDataArray* nans = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
+  const std::pair<bool, const char*> reasons[] = {
+    { !edges.empty(), "a map of edges is given" },
+    { !nans, "the levels do not tell how many voxels are NaN, as those of Image Pyramid do" },
+    { nans && nans->GetTuple1(0) != 0.0, "voxels are NaN" },
+    { HasGhosts(ranks, piece), "points or cells are hidden" },
+    { settings.EdgeLength != 0.0, "Edge Length is set" },
+    { settings.SnapshotInterval != 0, "Snapshot Interval is set" },
+    { settings.End.FinestLevel < 0, "Finest Level is -1" },
+    { settings.End.MemoryLimit != 0, "Memory Limit is set" },
+    { !settings.End.ScratchDirectory.empty(), "Scratch Directory is set" },
+    { settings.End.Resume, "Resume is set" } };
+  const auto* reason = std::find_if(std::begin(reasons), std::end(reasons),
+    [](const std::pair<bool, const char*>& each) { return each.first; });
+  return reason == std::end(reasons) ? "" : reason->second;
 }
 
 /** The level at rank 0, with room for its voxels; what ranks have of them goes to the volume. */
@@ -142,11 +154,12 @@ vtkSmartPointer<vtkImageData> LeaveInPieces(
 }
 }
 
-void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformation* edges)
+std::string GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformation* edges)
 {
+  std::string told;
   if (ranks.NumberOfRanks() == 1)
   {
-    return;
+    return told;
   }
   PrefixErrors("Input port 0: ",
     [&]
@@ -168,9 +181,19 @@ void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformatio
             vtkImageData* piece = PieceIn(volume.Levels, h);
             const ImagePieces pieces(ranks, piece);
             if (h + 1 < count && !pieces.IsEmpty() &&
-              StaysInPieces(volume, pieces, ChosenName(edges)) && !HasGhosts(ranks, piece))
+              SurfaceEvolution::AreShared(volume.Settings.Options, pieces.Size()))
             {
-              return LeaveInPieces(ranks, pieces, piece, static_cast<int>(h), volume);
+              const std::string why = WhyWhole(ranks, volume, piece, ChosenName(edges));
+              if (why.empty())
+              {
+                return LeaveInPieces(ranks, pieces, piece, static_cast<int>(h), volume);
+              }
+              if (told.empty())
+              {
+                told = Join("Level ", h, ", of ", VoxelBox::Of(pieces.Size()).Count(),
+                  " voxels, is held by the first process as a whole, as ", why,
+                  "; else each process would hold a part of it.");
+              }
             }
             return GatherLevel(
               ranks, piece, volume.Selection, ChosenName(edges));
@@ -184,5 +207,6 @@ void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformatio
   volume.Selection->Set(
     vtkDataObject::FIELD_ASSOCIATION(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
   volume.Selection->Set(vtkDataObject::FIELD_ATTRIBUTE_TYPE(), vtkDataSetAttributes::SCALARS);
+  return told;
 }
 }

@@ -5,7 +5,6 @@
 import json
 import os
 import re
-import subprocess
 import unittest
 
 import numpy as np
@@ -13,7 +12,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ISO, ORIGIN, PROGRAM, SPACING, TURNED, ToolTestCase, make_image
+from tool_test_case import ISO, ORIGIN, SPACING, TURNED, ToolTestCase, make_image
 from volumic import vtkLabelsToSurfaces
 from vtk_files import read, read_blocks
 
@@ -404,14 +403,6 @@ class OptionsTest(LabelsTest):
         self.assertIn("Label 9", report["warnings"][0])
         self.no_surfaces("none of the labels has a surface", volume, "--labels", "9", "--finest",
                          "1")
-
-    @unittest.skipUnless(os.environ.get("VOLUMIC_MPIRUN"), "no mpirun")
-    def test_many_processes_are_refused(self):
-        process = subprocess.run(
-            [os.environ["VOLUMIC_MPIRUN"], "-n", "2", PROGRAM, self.map_file(), self.path("o/"),
-             "--labels", "1"], capture_output=True, text=True, check=False, timeout=100)
-        self.assertNotEqual(process.returncode, 0)
-        self.assertIn("--labels works in one process", process.stderr)
 
 
 class RunTest(LabelsTest):

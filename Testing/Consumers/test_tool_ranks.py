@@ -64,6 +64,37 @@ class RanksTestCase(ToolTestCase):
         self.assertEqual(len(said), 1, process.stderr)
         self.assertNotIn("MPI_ABORT", process.stderr)
 
+    @contextlib.contextmanager
+    def running_to(self, begin, ranks, *arguments):
+        """The process, and the numbers of its ranks, once a line begins like the pattern."""
+        process = subprocess.Popen(
+            self.command(ranks, *arguments, "--progress"),
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        with process:
+            try:
+                for line in process.stderr:
+                    if re.match(begin, line):
+                        break
+                numbers = []
+                for rank in range(ranks):
+                    numbers.append(int(self.content(f"pid-{rank}")))
+                yield process, numbers
+            finally:
+                if process.poll() is None:
+                    process.kill()
+
+    def finish(self, process):
+        started = time.monotonic()
+        text = process.communicate(timeout=60)[1]
+        self.assertLess(time.monotonic() - started, 55)
+        return text
+
+    def wait_for_end(self, number):
+        started = time.monotonic()
+        while os.path.exists(f"/proc/{number}"):
+            self.assertLess(time.monotonic() - started, 30, "a rank waits for one that is gone")
+            time.sleep(0.1)
+
 
 class SameFilesTest(RanksTestCase):
     """Files are the same, byte by byte, whatever the number of ranks."""
@@ -124,6 +155,12 @@ class SameFilesTest(RanksTestCase):
         for volume, *options in ((parts, "--reduction-factor", 1.25), (whole,)):
             with self.subTest(volume):
                 self.check_same(2, volume, "--iso", 60.5, "--levels", 3, *options)
+        # What the checkpoints of --scratch ask for is told once.
+        process = self.run_ranks(2, parts, self.path("many.vtp"), "--iso", 60.5, "--levels", 3,
+                                 "--reduction-factor", 1.25, "--scratch", self.folder)
+        self.assertEqual(process.stderr.count("warning"), 1, process.stderr)
+        self.assertIn(f"Level 0, of {size ** 3} voxels, is held by the first process as a whole, "
+                      "as --scratch is set", process.stderr)
 
     def test_what_is_given_beside_the_volume(self):
         volume = self.ball_file()
@@ -290,36 +327,9 @@ class StoppedTest(RanksTestCase):
                                  make_image((20000 * values).astype("i2"), (1, 1, 1)))
         self.iso = 20000 * np.median(values)
 
-    @contextlib.contextmanager
     def running(self, ranks):
-        """The process, and the numbers of those of its ranks, once the surface moves."""
-        process = subprocess.Popen(
-            self.command(ranks, self.volume, self.path("a.stl"), "--iso", self.iso, "--progress"),
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        with process:
-            try:
-                for line in process.stderr:
-                    if line.startswith("Evolving the surface:  10 %"):
-                        break
-                numbers = []
-                for rank in range(ranks):
-                    numbers.append(int(self.content(f"pid-{rank}")))
-                yield process, numbers
-            finally:
-                if process.poll() is None:
-                    process.kill()
-
-    def finish(self, process):
-        started = time.monotonic()
-        text = process.communicate(timeout=60)[1]
-        self.assertLess(time.monotonic() - started, 55)
-        return text
-
-    def wait_for_end(self, number):
-        started = time.monotonic()
-        while os.path.exists(f"/proc/{number}"):
-            self.assertLess(time.monotonic() - started, 30, "a rank waits for one that is gone")
-            time.sleep(0.1)
+        return self.running_to("Evolving the surface:  10 %", ranks, self.volume,
+                               self.path("a.stl"), "--iso", self.iso)
 
     def test_cancelled_by_a_signal_to_any_rank(self):
         for rank, number in ((0, signal.SIGINT), (2, signal.SIGINT), (1, signal.SIGUSR1)):

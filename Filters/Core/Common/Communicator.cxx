@@ -119,6 +119,19 @@ std::vector<Message> Communicator::Gather(Message message)
   return messages;
 }
 
+Message Communicator::Pass(int from, int to, Message message)
+{
+  if (from == to)
+  {
+    return message;
+  }
+  if (this->Rank() == from)
+  {
+    this->SendMessage(to, message);
+  }
+  return this->Rank() == to ? this->ReceiveMessage(from) : Message();
+}
+
 Message Communicator::Broadcast(Message message)
 {
   if (this->Rank() != 0)

@@ -47,6 +47,8 @@ public:
     std::vector<Message> messages, const std::vector<int>& partners = {});
   /** @return the messages of all ranks at rank 0, by rank; nothing elsewhere. */
   std::vector<Message> Gather(Message message);
+  /** From one rank to another, which both call. @return it at `to`; nothing elsewhere. */
+  Message Pass(int from, int to, Message message = {});
   /** @return the message of rank 0. */
   Message Broadcast(Message message);
   /** @return the messages of all ranks, by rank, on all ranks. */

@@ -172,9 +172,7 @@ SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks() const
   if (!this->IsFirstRank())
   {
     this->Ranks->Gather(own.Sizes());
-    std::vector<Message> messages(ranks);
-    messages[0] = own.Contents();
-    this->Ranks->Exchange(std::move(messages), { 0 });
+    this->Ranks->Pass(this->Ranks->Rank(), 0, own.Contents());
     return result;
   }
   std::vector<ResultPart> parts(ranks);
@@ -195,9 +193,7 @@ SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks() const
     // One after the other: all together are as much as the surface.
     if (rank > 0)
     {
-      const std::vector<Message> received =
-        this->Ranks->Exchange(std::vector<Message>(ranks), { static_cast<int>(rank) });
-      parts[rank].TakeContents(received[rank]);
+      parts[rank].TakeContents(this->Ranks->Pass(static_cast<int>(rank), 0));
     }
     whole.Take(std::exchange(parts[rank], ResultPart()), result);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace volumic
 {
@@ -84,6 +85,45 @@ void LabelClaims::Add(int object, const LabelField& field)
         claims.Second = std::max(claims.Second, claim);
       }
     });
+}
+
+void LabelClaims::Claims::Add(const Claims& others)
+{
+  if (others.Claimant == this->Claimant)
+  {
+    this->Second = std::max(this->Second, others.Second);
+  }
+  else if (others.Most > this->Most)
+  {
+    *this = { others.Most, std::max(this->Most, others.Second), others.Claimant };
+  }
+  else
+  {
+    this->Second = std::max(this->Second, others.Most);
+  }
+}
+
+void LabelClaims::Share(Communicator& ranks)
+{
+  const int count = ranks.NumberOfRanks();
+  // A step, and each rank knows what twice as many know: itself and those before it.
+  for (int step = 1; step < count; step *= 2)
+  {
+    const int to = (ranks.Rank() + step) % count;
+    const int from = (ranks.Rank() + count - step) % count;
+    MessageWriter own;
+    own.AddArray(this->All);
+    std::vector<Message> messages(static_cast<std::size_t>(count));
+    messages[static_cast<std::size_t>(to)] = own.Take();
+    messages = ranks.Exchange(std::move(messages),
+      from == to ? std::vector<int>{ to } : std::vector<int>{ from, to });
+    MessageReader reader(messages[static_cast<std::size_t>(from)]);
+    const std::vector<Claims> others = reader.TakeVector<Claims>();
+    for (std::size_t i = 0; i < others.size(); ++i)
+    {
+      this->All[i].Add(others[i]);
+    }
+  }
 }
 
 void LabelClaims::Settle(int object, LabelField& field) const

@@ -3,6 +3,7 @@
 #ifndef volumicLabelClaims_h
 #define volumicLabelClaims_h
 
+#include "Core/Common/Communicator.h"
 #include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelField.h"
 
@@ -24,6 +25,9 @@ public:
   /** Of each object but 0 once, in any order, on any thread. */
   void Add(int object, const LabelField& field);
 
+  /** By all ranks: then each knows what any has added. */
+  void Share(Communicator& ranks);
+
   /**
    * Once all have been added: where another object's field is d', the field d becomes the smaller
    * one of d and (d - d')/2. Then fields of two objects add up to 0 at most everywhere, so that
@@ -37,6 +41,9 @@ private:
     float Most = -LabelField::Far;
     float Second = -LabelField::Far;
     LabelMap::Number Claimant = 0; ///< whose the first one is
+
+    /** Those of other objects, or of the same. */
+    void Add(const Claims& others);
   };
   template <typename Visitor>
   void ForVoxels(const LabelField& field, Visitor&& visit) const;

@@ -170,7 +170,7 @@ Message RankBlocks::SendParts(const SurfaceMesh& mesh,
 {
   if (this->Ranks.Rank() != 0)
   {
-    return this->Ranks.Exchange(std::vector<Message>(this->Touched.size()), { 0 }).front();
+    return this->Ranks.Pass(0, this->Ranks.Rank());
   }
   for (int v = 0; v < mesh.Size(); ++v)
   {
@@ -185,14 +185,11 @@ Message RankBlocks::SendParts(const SurfaceMesh& mesh,
     // One after the other: all together are as much as the surface.
     MessageWriter writer;
     write(writer, std::exchange(this->Touched[rank], {}));
+    Message kept = this->Ranks.Pass(0, rank, writer.Take());
     if (rank == 0)
     {
-      own = writer.Take();
-      continue;
+      own = std::move(kept);
     }
-    std::vector<Message> messages(this->Touched.size());
-    messages[rank] = writer.Take();
-    this->Ranks.Exchange(std::move(messages), { rank });
   }
   return own;
 }
@@ -255,19 +252,13 @@ void RankBlocks::Gather()
   {
     if (isFirst)
     {
-      if (rank > 0)
-      {
-        std::vector<Message> none(this->Touched.size());
-        message = this->Ranks.Exchange(std::move(none), { rank })[rank];
-      }
-      MessageReader reader(message);
+      const Message part = this->Ranks.Pass(rank, 0, rank == 0 ? std::move(message) : Message());
+      MessageReader reader(part);
       this->Blocks.AddOthers(s.Read(reader));
     }
     else if (rank == this->Ranks.Rank())
     {
-      std::vector<Message> messages(this->Touched.size());
-      messages[0] = std::move(message);
-      this->Ranks.Exchange(std::move(messages), { 0 });
+      this->Ranks.Pass(rank, 0, std::move(message));
     }
   }
 }

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Host/HostThreads.h"
+#include "LabelImages.h"
+#include "SameOutputs.h"
+#include "ThreadControllers.h"
+#include "vtkLabelsToSurfaces.h"
+
+#include <vtkErrorCode.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkMultiProcessController.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <new>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+using Filter = vtkSmartPointer<vtkLabelsToSurfaces>;
+using Change = std::function<void(vtkLabelsToSurfaces*)>;
+using Work = std::function<void(vtkLabelsToSurfaces*, vtkMultiProcessController*)>;
+
+/** Many that meet by threes, and two large ones; of two more there are three voxels each. */
+double CellAt(int i, int j, int k)
+{
+  if (i == 36 && j > 24)
+  {
+    return k == 2 ? 30. : k == 20 ? 31. : 0.;
+  }
+  return i < 20 ? 1 + i / 10 + 2 * (j / 14) + 4 * (k / 14) : j < 14 ? 20 : 0;
+}
+
+/** The filters of all ranks, when they are through; of an image that the first one has. */
+std::vector<Filter> RunRanks(int count, const Change& change, const Work& work)
+{
+  std::vector<Filter> filters(static_cast<std::size_t>(count));
+  ThreadControllers::Run(count,
+    [&](vtkMultiProcessController* controller)
+    {
+      const int rank = controller->GetLocalProcessId();
+      auto filter = Filter::New();
+      filter->SetController(controller);
+      filter->SetInputDataObject(rank == 0 ? LabelImageOf(40, 28, 28, CellAt)
+                                           : vtkSmartPointer<vtkImageData>::New());
+      filter->SetNumberOfThreads(1);
+      change(filter);
+      work(filter, controller);
+      filter->SetController(nullptr);
+      filters[static_cast<std::size_t>(rank)] = filter;
+    });
+  return filters;
+}
+
+std::vector<Filter> Update(int count, const Change& change)
+{
+  return RunRanks(count, change, [](vtkLabelsToSurfaces* filter, vtkMultiProcessController* ranks)
+    { ThreadControllers::Update(filter, ranks); });
+}
+
+/** The blocks of one rank alone are those of the first, and the others have them empty. */
+void ExpectBlocksOf(vtkLabelsToSurfaces* one, const std::vector<Filter>& ranks)
+{
+  ExpectSameBlocks(ranks.front()->GetOutput(), one->GetOutput());
+  for (std::size_t rank = 1; rank < ranks.size(); ++rank)
+  {
+    EXPECT_EQ(BlockNames(ranks[rank]->GetOutput()), BlockNames(one->GetOutput()));
+    for (unsigned int block = 0; block < ranks[rank]->GetOutput()->GetNumberOfBlocks(); ++block)
+    {
+      EXPECT_EQ(BlockOf(ranks[rank], block)->GetNumberOfPoints(), 0);
+    }
+  }
+}
+
+/** Labels 3 and 7, which do not touch. */
+void TakeTwoBalls(vtkLabelsToSurfaces* filter)
+{
+  if (vtkImageData::SafeDownCast(filter->GetInputDataObject(0, 0))->GetNumberOfPoints() > 0)
+  {
+    filter->SetInputDataObject(LabelImageOf(40, 24, 24,
+      [](int i, int j, int k)
+      {
+        return std::hypot(i - 11., j - 12., k - 12.) < 9. ? 3
+          : std::hypot(i - 30., j - 12., k - 12.) < 8.    ? 7
+                                                          : 0;
+      }));
+  }
+}
+
+/** While it lives, work on a label takes half a second or more: it is told of, and can be stopped. */
+class Slowness : public Executor
+{
+public:
+  Slowness() { HostThreads::UseInstead(this); }
+  ~Slowness() { HostThreads::UseInstead(nullptr); }
+  Slowness(const Slowness&) = delete;
+  Slowness& operator=(const Slowness&) = delete;
+
+  void For(std::size_t n, std::size_t,
+    const std::function<void(std::size_t, std::size_t)>& body) override
+  {
+    thread_local int left = 50; // Each label is on a thread of its own here.
+    if (left > 0)
+    {
+      --left;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    if (n > 0)
+    {
+      body(0, n);
+    }
+  }
+};
+
+int CountStopped(vtkLabelsToSurfaces* filter)
+{
+  int stopped = 0;
+  for (unsigned int block = 0; block < filter->GetOutput()->GetNumberOfBlocks(); ++block)
+  {
+    stopped += StopReason(BlockOf(filter, block)) == "cancelled";
+  }
+  return stopped;
+}
+}
+
+TEST(RankLabels, AreTheSameBitsOnAnyNumberOfRanks)
+{
+  const std::vector<Change> changes = { [](vtkLabelsToSurfaces*) {},
+    [](vtkLabelsToSurfaces* filter) { filter->SetGap(0.5); },
+    [](vtkLabelsToSurfaces* filter) { filter->SetMerge(true); },
+    [](vtkLabelsToSurfaces* filter)
+    {
+      filter->AddLabel(2);
+      filter->AddLabel(30);
+      filter->SetFinestLevel(1);
+    } };
+  for (std::size_t c = 0; c < changes.size(); ++c)
+  {
+    const std::vector<Filter> one = Update(1, changes[c]);
+    EXPECT_GT(BlockOf(one[0], 0)->GetNumberOfPoints(), 100);
+    for (const int count : { 2, 3, 5 })
+    {
+      SCOPED_TRACE(std::to_string(count) + " ranks, change " + std::to_string(c));
+      const std::vector<Filter> ranks = Update(count, changes[c]);
+      ExpectBlocksOf(one[0], ranks);
+      const auto blocks = static_cast<int>(one[0]->GetOutput()->GetNumberOfBlocks());
+      for (int block = 0; block < blocks; ++block)
+      {
+        EXPECT_GT(ranks[0]->GetSeconds(block), 0.0);
+      }
+    }
+  }
+}
+
+TEST(RankLabels, WorkOnLabelsOfTheirOwnAndTellOfAll)
+{
+  const std::vector<Filter> one = Update(1, TakeTwoBalls);
+  const Slowness slowness;
+  for (const int threads : { 1, 2 })
+  {
+    std::vector<std::set<std::string>> texts(2);
+    const std::vector<Filter> ranks = RunRanks(2, TakeTwoBalls,
+      [&](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+      {
+        filter->SetNumberOfThreads(threads);
+        const ProgressListener listener(filter);
+        ThreadControllers::Update(filter, controller);
+        EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
+        texts[static_cast<std::size_t>(controller->GetLocalProcessId())] = listener.Texts;
+      });
+    ExpectBlocksOf(one[0], ranks);
+    EXPECT_EQ(texts[0].count("0 of 2, Label 3"), 1u) << "the largest goes to the first";
+    EXPECT_EQ(texts[0].count("0 of 2, Label 7"), 0u);
+    EXPECT_EQ(texts[1].count("0 of 2, Label 7"), 1u);
+    EXPECT_EQ(texts[1].count("0 of 2, Label 3"), 0u);
+    EXPECT_GE(texts[0].count("1 of 2, Label 7") + texts[1].count("1 of 2, Label 3"), 1u)
+      << "that which is through first tells of the other";
+  }
+}
+
+TEST(RankLabels, StopWhereAnyRankIsAskedToAndGoOn)
+{
+  const std::vector<Filter> one = Update(1, TakeTwoBalls);
+  const Slowness slowness;
+  for (const int asked : { 0, 1 })
+  {
+    const std::vector<Filter> ranks = RunRanks(2, TakeTwoBalls,
+      [asked](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+      {
+        const int rank = controller->GetLocalProcessId();
+        {
+          const StopAtText stop(filter, "0 of 2, ", rank == asked ? 1 : 1000);
+          ThreadControllers::Update(filter, controller);
+        }
+        EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+        EXPECT_EQ(CountStopped(filter), rank == 0 ? 2 : 0) << "labels of both";
+        filter->GoOn();
+        ThreadControllers::Update(filter, controller);
+      });
+    ExpectBlocksOf(one[0], ranks);
+  }
+}
+
+TEST(RankLabels, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
+{
+  const Change none = [](vtkLabelsToSurfaces*) {};
+  const std::vector<Filter> one = Update(1, none);
+  const Slowness slowness;
+  const std::vector<Filter> ranks = RunRanks(3, none,
+    [](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+    {
+      for (const int bad : { 0, 2 })
+      {
+        SCOPED_TRACE(bad);
+        filter->Modified();
+        bool isBad = controller->GetLocalProcessId() == bad;
+        const ProgressHook hook(filter,
+          [&isBad](vtkAlgorithm*, const std::string& text, double share)
+          {
+            // The pipeline tells of the begin with the text of the run before.
+            if (isBad && share > 0.0 && text.find(" of 11, ") != std::string::npos)
+            {
+              isBad = false;
+              throw std::bad_alloc();
+            }
+          });
+        const MessagesOf errors(filter);
+        ThreadControllers::Update(filter, controller);
+        EXPECT_TRUE(errors.Has("the memory does not suffice for the surfaces")) << errors.Get();
+        EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UnknownError);
+        EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
+      }
+      filter->Modified();
+      filter->AddLabel(99); // which only the first one looks for
+      const MessagesOf errors(filter);
+      ThreadControllers::Update(filter, controller);
+      EXPECT_TRUE(errors.Has("'Labels' has no label 99; it has 0, 1, 2")) << errors.Get();
+      EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+      filter->ClearLabels();
+      ThreadControllers::Update(filter, controller);
+      EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+    });
+  ExpectBlocksOf(one[0], ranks);
+}
+
+TEST(RankLabels, RanksThatAskForOtherPiecesWorkAlone)
+{
+  const Change none = [](vtkLabelsToSurfaces*) {};
+  const std::vector<Filter> one = Update(1, none);
+  const std::vector<Filter> ranks = RunRanks(2, none,
+    [](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+    { filter->UpdatePiece(0, controller->GetLocalProcessId() == 0 ? 1 : 0, 0); });
+  ExpectSameBlocks(ranks[0]->GetOutput(), one[0]->GetOutput());
+  EXPECT_EQ(ranks[1]->GetOutput()->GetNumberOfBlocks(), 0u);
+}
