@@ -94,7 +94,8 @@ TEST(Tolerance, GivesWhatARunFromTheStartGivesWhereverTheOneBeforeHasEnded)
     SCOPED_TRACE(finest);
     filter->SetFinestLevel(finest);
     filter->Update();
-    const auto other = Graded(0.3, [finest](vtkDeformableSurface* f) { f->SetFinestLevel(finest); });
+    const auto other =
+      Graded(0.3, [finest](vtkDeformableSurface* f) { f->SetFinestLevel(finest); });
     other->Update();
     EXPECT_TRUE(IsGraded(filter->GetOutput()));
     ExpectSameSurfaces(filter->GetOutput(), other->GetOutput());

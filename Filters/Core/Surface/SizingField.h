@@ -12,8 +12,8 @@ namespace volumic
 {
 /**
  * The lengths that the paper's eq. (1) and what we build on it allow, and the only one who knows
- * the invariant delta: one for the whole surface, or, where it is graded, one for each vertex. Of an
- * edge it is the mean of its ends'; edges then lie in [1, 2.5] of that.
+ * the invariant delta: one for the whole surface, or, where it is graded, one for each vertex. That
+ * of an edge is the mean of its ends'; edges lie in [1, 2.5] of it.
  *
  * The delta of a graded surface grows by at most the gradation g for each length walked, along the
  * surface and across space. The longest legal edge about a vertex u is then
