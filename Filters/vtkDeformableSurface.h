@@ -436,9 +436,9 @@ public:
 
   ///@{
   /**
-   * With Tolerance: the longest edge that there may be, in world units; 0, the default: automatic,
+   * With Tolerance: the longest edge that there is to be, in world units; 0, the default: automatic,
    * 10 delta, which is about six times the mean without Tolerance. Less than 2.5 delta, which edges
-   * may be anywhere, is as 2.5 delta.
+   * may be anywhere, is as 2.5 delta, more than 12.5 delta as 12.5 delta.
    */
   virtual void SetMaximumEdgeLength(double value);
   virtual double GetMaximumEdgeLength();
@@ -447,7 +447,7 @@ public:
   ///@{
   /**
    * With Tolerance: by how much the wanted length of edges, in delta, grows for each length that is
-   * walked, along the surface or across a wall; more than 0, at most 0.5. Little makes triangles
+   * walked, along the surface or across a wall; more than 0, at most 0.3. Little makes triangles
    * even, much makes few of them. Default: 0.2.
    */
   virtual void SetGradation(double value);

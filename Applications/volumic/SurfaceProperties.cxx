@@ -140,10 +140,10 @@ std::vector<PropertyOption> MakeProperties()
       "longer edges where the surface stays so near to the iso-value, in world units: fewer "
       "triangles; 0: all edges of one length"),
     SURFACE_NUMBER(MaximumEdgeLength, "maximum-edge-length", "LENGTH",
-      "with --tolerance: no edge is longer, in world units; 0: automatic, about six times as long "
-      "as without"),
+      "with --tolerance: no edge is to be longer, in world units; 0: automatic, about six times the "
+      "mean without; five times what edges may be without at most"),
     SURFACE_NUMBER(Gradation, "gradation", "SLOPE",
-      "with --tolerance: by how much edges grow per length walked, at most 0.5"),
+      "with --tolerance: by how much edges grow per length walked, at most 0.3"),
     SURFACE_NUMBER(SamplingRatio, "sampling-ratio", "RATIO",
       "shortest edge of the surface in voxels of the level, 0.693 to 1; edges are up to 2.5 times "
       "as long"),

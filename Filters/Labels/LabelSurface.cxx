@@ -182,6 +182,12 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   return volume;
 }
 
+double LabelSurfaceMaker::AllowedDistance() const
+{
+  return this->Settings.VoxelTolerance +
+    this->Settings.Grading.Tolerance / Workspace(this->Image, Metric::World).WorldUnit();
+}
+
 bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
 {
   if (made.Surface->GetNumberOfCells() == 0)
@@ -286,7 +292,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(int level, int object, int numberOfThread
     const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, inVoxels);
     made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
     made.MissedVoxels = static_cast<vtkIdType>(
-      FindMissedVoxels(this->Bricks.Map(), wrong, inVoxels, this->Settings.VoxelTolerance).size());
+      FindMissedVoxels(this->Bricks.Map(), wrong, inVoxels, this->AllowedDistance()).size());
   }
   catch (const std::invalid_argument&)
   {

@@ -30,7 +30,7 @@ struct LabelSurface
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
   double Seconds = 0.0;                 ///< that the work on it took, from its begin to its end
   vtkIdType WrongVoxels = 0;
-  vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance
+  vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance and Tolerance
   vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
   bool IsFinished = false;     ///< It was not stopped on its way.
 };
@@ -102,7 +102,9 @@ private:
   FieldImage MakeField(int level, int object, HostThreads& threads) const;
   SegmentationVolume MakeVolume(
     int level, vtkImageData* field, const Progress& progress) const;
-  /** The wrong voxels that are further from the surface than VoxelTolerance. */
+  /** Smallest distances of voxels from a surface within which a wrong centre is no fault of it. */
+  double AllowedDistance() const;
+  /** The wrong voxels that are further from the surface than that. */
   std::vector<std::int64_t> FindMissed(int object, const IndexedSurface& surface) const;
   /** In coordinates in which voxel (i, j, k) of the map is at (i, j, k). */
   IndexedSurface InVoxels(vtkPolyData* surface) const;

@@ -140,7 +140,7 @@ std::vector<std::int64_t> LabelSurfaceMaker::FindMissed(
   int object, const IndexedSurface& surface) const
 {
   return FindMissedVoxels(this->Bricks.Map(), FindWrongVoxels(this->Bricks, object, surface),
-    surface, this->Settings.VoxelTolerance);
+    surface, this->AllowedDistance());
 }
 
 bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface& surface,
@@ -161,7 +161,7 @@ bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface&
       const std::array<int, 3> p = numbers.PlaceOf(voxel);
       if (halfGap == 0.0)
       {
-        held.push_back({ voxel, further - static_cast<float>(this->Settings.VoxelTolerance) });
+        held.push_back({ voxel, further - static_cast<float>(this->AllowedDistance()) });
       }
       else if (this->Bricks.Map().At(p[0], p[1], p[2]) == object)
       {

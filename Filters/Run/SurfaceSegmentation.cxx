@@ -3,6 +3,7 @@
 #include "Run/SurfaceSegmentation.h"
 
 #include "Core/Common/FreeMemory.h"
+#include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
@@ -257,6 +258,11 @@ void SurfaceSegmentation::RunLevels()
     this->Levels.ReleaseCoarserThan(level);
     if (this->Levels.IsInPieces(level) && !this->MayBeShared(level))
     {
+      if (this->Settings.Grading.IsWanted())
+      {
+        this->Request.Warn(Join("Level ", level,
+          " is held, and its surface found, by the first process alone, as Tolerance is set."));
+      }
       this->GatherVoxels(level);
     }
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);

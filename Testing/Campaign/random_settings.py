@@ -177,7 +177,7 @@ class RandomRun:
             return []
         smallest = self.spacing.min()
         return ["--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
-                *self.now_and_then(.3, "--gradation", self.number(.02, .5)),
+                *self.now_and_then(.3, "--gradation", self.number(.02, .3)),
                 *self.now_and_then(.3, "--maximum-edge-length",
                                    f"{smallest * self.rng.uniform(1, 12):.3g}")]
 

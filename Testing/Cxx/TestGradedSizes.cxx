@@ -61,11 +61,13 @@ std::function<double(double, double, double)> OutsidePlate(double thickness)
 
 /** The surface of what is nearer than 0 to something, on one level. */
 SurfaceResult SurfaceOf(const std::function<double(double, double, double)>& outside,
-  const Grading& grading, Executor& executor = Alone)
+  const Grading& grading, Executor& executor = Alone, double blockSide = 0.)
 {
   const TestVolume volume = MakeVolume(48, [&outside](double x, double y, double z)
     { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
-  SurfaceEvolution evolution(IsoHalf(), executor, Silent);
+  SurfaceOptions options = IsoHalf();
+  options.BlockSide = blockSide;
+  SurfaceEvolution evolution(options, executor, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   evolution.SetGrading(grading);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
@@ -121,17 +123,23 @@ TEST(GradedSizing, HasALengthForEachVertexWithinBounds)
 
 TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
 {
-  const LargeVector<float> sizes = { 1.f };
+  const LargeVector<float> sizes = { 1.f, 4.f };
   const SizingField even(1.f);
-  EXPECT_EQ(even.Growth(), 1.f);
+  EXPECT_EQ(even.Further(), 1.f);
   float before = even.Reach(0);
-  // The longest edge about a vertex is delta (exp(2.5 g) - 1) / g: 2.84 and 3.24 of them.
-  for (const auto& [gradation, longest] : { std::array<float, 2>{ .1f, 2.84f }, { .2f, 3.24f } })
+  for (const double gradation : { .1, .2, .3 })
   {
-    const SizingField sizing = even.Graded(sizes, 4.f, gradation);
-    EXPECT_NEAR(sizing.Growth() * SizingField::LongestEdgeInDelta, longest, .005f);
+    SCOPED_TRACE(gradation);
+    const SizingField sizing = even.Graded(sizes, 4.f, static_cast<float>(gradation));
     EXPECT_GT(sizing.Reach(0), before);
     before = sizing.Reach(0);
+    // From v to a point of its star, and on to a corner of a face that grows with the distance d:
+    // d = .36 longest + (1 + g d) 2.5 / sqrt 3, both in delta.
+    const double longest = (std::exp(2.5 * gradation) - 1.) / (2.5 * gradation);
+    const double furthest = (.36 * longest + 2.5 / std::sqrt(3.)) /
+      (1. - gradation * 2.5 / std::sqrt(3.));
+    EXPECT_GT(sizing.Reach(0), furthest);
+    EXPECT_EQ(sizing.Reach(1), SizingField(4.f).Reach(1)) << "nothing is larger";
   }
 }
 
@@ -182,7 +190,7 @@ TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
   EXPECT_GT(longest, 4.) << "or it was not the bound";
   // Vertices have moved a little since the sizes were chosen.
   EXPECT_LT(steepest, 1.5 * grading.Gradation);
-  EXPECT_EQ(*std::max_element(surface.Size.begin(), surface.Size.end()), 2.f);
+  EXPECT_FLOAT_EQ(*std::max_element(surface.Size.begin(), surface.Size.end()), 2.f);
 }
 
 TEST(GradedSurface, IsThatWithoutWhereTheToleranceIsTooSmall)
@@ -198,7 +206,7 @@ TEST(GradedSurface, IsThatWithoutWhereTheToleranceIsTooSmall)
 
 TEST(GradedSurface, KeepsThinWallsWithoutHoles)
 {
-  for (const double thickness : { 2.5, 4. })
+  for (const double thickness : { 1.5, 2.5, 4. })
   {
     SCOPED_TRACE(thickness);
     const SurfaceResult plate = SurfaceOf(OutsidePlate(thickness), Within(1.));
@@ -208,21 +216,72 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
     EXPECT_EQ(features.Genus, 0);
     // Both sides are flat and a tolerance of a voxel is much: the walls are what keeps it fine.
     const auto large = std::count_if(plate.Size.begin(), plate.Size.end(),
-      [thickness](float delta) { return delta > 0.5 * thickness; });
+      [thickness](float delta) { return delta > std::max(1., 0.5 * thickness); });
     EXPECT_LT(large, 0.15 * plate.Size.size()) << "all but those at the rim";
   }
 }
 
 TEST(GradedSurface, IsTheSameOnAnyThreads)
 {
-  const SurfaceResult one = SurfaceOf(OutsideBoxAndBall, Within(Tolerance));
-  DelayedThreads three(3, 5, 40, 7);
-  const SurfaceResult other = SurfaceOf(OutsideBoxAndBall, Within(Tolerance), three);
-  EXPECT_EQ(one.Points, other.Points);
-  EXPECT_EQ(one.Triangles, other.Triangles);
-  EXPECT_EQ(one.Size, other.Size);
-  EXPECT_EQ(one.FitToTolerance.LargestDistance, other.FitToTolerance.LargestDistance);
-  EXPECT_EQ(one.FitToTolerance.WithinTolerance, other.FitToTolerance.WithinTolerance);
+  // With edges of up to 3 voxels and blocks of 24 times 1.2 of them there are several.
+  Grading grading = Within(0.5);
+  grading.MaximumEdgeLength = 3.;
+  for (const double gradation : { 0.2, Grading::MostGradation })
+  {
+    SCOPED_TRACE(gradation);
+    grading.Gradation = gradation;
+    const auto run = [&grading](Executor& executor)
+    { return SurfaceOf(OutsideBoxAndBall, grading, executor, 12.); };
+    const SurfaceResult one = run(Alone);
+    ExpectLegal(one);
+    DelayedThreads three(3, 5, 40, 7);
+    const SurfaceResult other = run(three);
+    EXPECT_EQ(one.Points, other.Points);
+    EXPECT_EQ(one.Triangles, other.Triangles);
+    EXPECT_EQ(one.Size, other.Size);
+    EXPECT_EQ(one.FitToTolerance.LargestDistance, other.FitToTolerance.LargestDistance);
+    EXPECT_EQ(one.FitToTolerance.WithinTolerance, other.FitToTolerance.WithinTolerance);
+  }
+}
+
+TEST(GradedSurface, KeepsAToleranceOfSomeVoxels)
+{
+  const auto outside = [](double x, double y, double z)
+  { return Distance(x, y, z, 24., 24., 24.) - 20.; };
+  const SurfaceResult surface = SurfaceOf(outside, Within(2.5));
+  ExpectLegal(surface);
+  double furthest = 0.;
+  for (const Triangle& t : surface.Triangles)
+  {
+    Point middle = { 0., 0., 0. };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] = (surface.Points[t[0]][axis] + surface.Points[t[1]][axis] +
+        surface.Points[t[2]][axis]) / 3.;
+    }
+    furthest = std::max(furthest, std::abs(outside(middle[0], middle[1], middle[2])));
+  }
+  EXPECT_LE(furthest, 2.5);
+  EXPECT_NEAR(surface.FitToTolerance.LargestDistance, furthest, 0.35);
+}
+
+TEST(GradedSurface, HasBoundsWhateverLengthIsAskedFor)
+{
+  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading());
+  Grading grading = Within(1.);
+  grading.MaximumEdgeLength = 0.5; // Edges are up to 2.5 delta anywhere.
+  const SurfaceResult smallest = SurfaceOf(OutsideBoxAndBall, grading);
+  ExpectLegal(smallest);
+  EXPECT_NEAR(static_cast<double>(smallest.Points.size()), even.Points.size(),
+    0.03 * even.Points.size());
+  for (const double length : { 1e6, 1e300 })
+  {
+    grading.MaximumEdgeLength = length;
+    const SurfaceResult largest = SurfaceOf(OutsideBoxAndBall, grading);
+    ExpectLegal(largest);
+    EXPECT_LE(*std::max_element(largest.Size.begin(), largest.Size.end()),
+      1.001 * Grading::MostGrowth * largest.Delta);
+  }
 }
 
 TEST(GradedSurface, IsValidWhereItIsStopped)

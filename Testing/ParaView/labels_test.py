@@ -211,7 +211,7 @@ class LabelErrorsTest(LabelsTestCase):
                 ("VoxelTolerance", 1.5, 0.0, ("1.5", "at most 1")),
                 ("EdgeLength", -1.0, 0.0, ("-1",)),
                 ("Tolerance", -1.0, 0.0, ("Tolerance", "-1")),
-                ("Gradation", 0.6, 0.2, ("Gradation", "0.6", "at most 0.5")),
+                ("Gradation", 0.6, 0.2, ("Gradation", "0.6", "at most 0.3")),
                 ("FinestLevel", -2, 1, ("-2",))):
             with self.subTest(property=name, value=bad):
                 setattr(filter_, name, bad)

@@ -285,7 +285,7 @@ Vector Dynamics::CorrectionOf(const SurfaceState& state,
     {
       approach = 0.5f * (approach - Dot(state.Velocity[w], direction));
     }
-    const float least = state.Sizing.ShortestEdge(v, w);
+    const float least = std::min(state.Sizing.At(v), state.Sizing.At(w));
     if (separates && distance < least)
     {
       approach = std::max(approach, 0.f) + ContactRecovery * (least - distance) / time;

@@ -22,7 +22,6 @@ namespace
 constexpr float Growths[] = { 1.6f, 1.6f, 1.5f, 1.3f, 1.1f, 1.f };
 /** Passes in each block after the sizes have changed. */
 constexpr int Passes = 3;
-constexpr std::size_t VertexGrain = 2048;
 }
 
 void SurfaceEvolution::Implementation::ApplySizes(const std::vector<int>& changed)
@@ -57,22 +56,22 @@ void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
   sizes.Begin();
   this->MakeBlocks(); // As wide as the longest edges that there may be want them.
   this->LabelComponents();
-  for (int v = 0; v < s.Mesh.Size(); ++v)
+  for (const int v : this->OwnVertices())
   {
     s.WasActive[v] = s.Active[v];
     s.Velocity[v] = Vector();
   }
   for (const float growth : Growths)
   {
-    this->ApplySizes(sizes.Adjust(growth));
-    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, Passes,
-      Monitor::Activity::Regularising, 0., 0.);
-    if (this->Stopped)
+    if (!this->GoOn(Monitor::Activity::Regularising, 0.))
     {
       break;
     }
+    this->ApplySizes(sizes.Adjust(growth));
+    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, Passes,
+      Monitor::Activity::Regularising, 0., 0.);
   }
-  for (int v = 0; v < s.Mesh.Size(); ++v)
+  for (const int v : this->OwnVertices())
   {
     s.Active[v] = s.WasActive[v];
   }

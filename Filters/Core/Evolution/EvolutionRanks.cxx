@@ -68,7 +68,7 @@ void SurfaceEvolution::Implementation::BeginVisits()
   {
     return; // It has come here in blocks.
   }
-  this->State.Sizing = BroadcastValue(*this->Ranks, this->State.Sizing);
+  this->State.Sizing = SizingField(BroadcastValue(*this->Ranks, this->State.Sizing.OfLevel()));
   this->ShareBlocks(this->State.Mesh);
   this->AgreeOnGridBox();
   this->Parts->Scatter(this->GridLow, this->GridHigh);

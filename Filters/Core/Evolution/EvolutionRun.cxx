@@ -371,7 +371,8 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->BeginVisits();
     this->AgreeOnStop();
   }
-  const bool isGraded = this->WantedGrading.IsWanted() && this->State.Mesh.NumberOfVertices() > 0;
+  const bool isGraded = this->WantedGrading.IsWanted() && !this->Stopped &&
+    this->State.Mesh.NumberOfVertices() > 0;
   if (isGraded)
   {
     this->FindMissing(); // Before: it asks for vertices that are near.

@@ -48,6 +48,7 @@ void SurfaceEvolution::Implementation::Verify()
   }
   this->ForgetBlocks();
   const SurfaceMesh before = this->State.Mesh;
+  this->State.Sizing = SizingField(this->State.Sizing.OfLevel()); // The mesh to come is even.
   const bool wasStopped = std::exchange(this->Stopped, false);
   this->IsMending = true;
   try

@@ -28,9 +28,10 @@ constexpr float SmallChange = 0.02f;
 constexpr float WallInDelta = 2.5f;
 /** Of what is looked through for walls, in the least delta. */
 constexpr float WallStep = 0.5f;
-/** How far the isopotential is looked for, and in what steps, in units of the level. */
+/** How far the isopotential is looked for, in units of the level or tolerances, and in how many steps. */
 constexpr float FurthestInUnits = 2.f;
-constexpr float DistanceStep = 0.1f;
+constexpr float FurthestInTolerances = 3.f;
+constexpr float DistanceSteps = 20.f;
 }
 
 GradedSizes::GradedSizes(
@@ -41,7 +42,9 @@ GradedSizes::GradedSizes(
   , Threads(executor)
   , Least(state.Sizing.OfLevel())
   , Most(grading.MaximumEdgeLength > 0.
-        ? static_cast<float>(grading.MaximumEdgeLength) / SizingField::LongestEdgeInDelta
+        ? static_cast<float>(std::clamp(
+            grading.MaximumEdgeLength / SizingField::LongestEdgeInDelta / state.Sizing.OfLevel(),
+            1., static_cast<double>(Grading::MostGrowth))) * state.Sizing.OfLevel()
         : Grading::AutomaticGrowth * state.Sizing.OfLevel())
 {
 }
@@ -55,7 +58,8 @@ void GradedSizes::Begin()
 
 float GradedSizes::Furthest() const
 {
-  return FurthestInUnits * static_cast<float>(this->TheField.Image().Unit);
+  return std::max(FurthestInUnits * static_cast<float>(this->TheField.Image().Unit),
+    FurthestInTolerances * static_cast<float>(this->Wanted.Tolerance));
 }
 
 float GradedSizes::DistanceAt(const Vector& position, const Vector& normal) const
@@ -68,7 +72,7 @@ float GradedSizes::DistanceAt(const Vector& position, const Vector& normal) cons
   }
   // Where the image is steeper, or flatter, than here that is a guess: look.
   const float furthest = this->Furthest();
-  const float step = DistanceStep * static_cast<float>(this->TheField.Image().Unit);
+  const float step = furthest / DistanceSteps;
   float before[2] = { sample.Value, sample.Value };
   for (float way = step; way < furthest; way += step)
   {
@@ -111,6 +115,10 @@ float GradedSizes::MostBetweenWalls(int v, float size) const
   for (const float side : { -1.f, 1.f })
   {
     float before = this->TheField.ValueAt(p + normal * (side * this->Least));
+    if ((before > 0) != (side < 0))
+    {
+      return this->Least; // It is thinner than that, or its normal says nothing.
+    }
     for (float way = this->Least + step; way < WallInDelta * size + step; way += step)
     {
       const float value = this->TheField.ValueAt(p + normal * (side * way));
@@ -175,6 +183,32 @@ void GradedSizes::LimitGrowth(LargeVector<float>& sizes) const
   } while (changes);
 }
 
+LargeVector<float> GradedSizes::LimitedAcross(const LargeVector<float>& sizes) const
+{
+  const SurfaceState& s = this->State;
+  const float gradation = static_cast<float>(this->Wanted.Gradation);
+  LargeVector<float> limited = sizes;
+  this->Threads.For(sizes.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (!s.Mesh.IsAlive(v) || sizes[v] <= this->Least)
+        {
+          continue;
+        }
+        const Vector p = s.Mesh.Position[v];
+        s.Grid.Visit(p, (sizes[v] - this->Least) / gradation,
+          [&](int w)
+          {
+            limited[v] = std::min(limited[v],
+              sizes[w] + gradation * std::sqrt(SquaredDistance(p, s.Mesh.Position[w])));
+          });
+      }
+    });
+  return limited;
+}
+
 std::vector<int> GradedSizes::Adjust(float growth)
 {
   SurfaceState& s = this->State;
@@ -191,6 +225,7 @@ std::vector<int> GradedSizes::Adjust(float growth)
       }
     });
   this->LimitGrowth(sizes);
+  sizes = this->LimitedAcross(sizes);
   std::vector<int> changed;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {

@@ -48,6 +48,8 @@ private:
   float WantedSize(int v, float growth) const;
   /** Until nowhere it grows by more than the gradation along an edge. */
   void LimitGrowth(LargeVector<float>& sizes) const;
+  /** The same across space, between all vertices: what walls lie opposite to knows of them. */
+  LargeVector<float> LimitedAcross(const LargeVector<float>& sizes) const;
 
   SurfaceState& State;
   const Field& TheField;

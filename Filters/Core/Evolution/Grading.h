@@ -13,11 +13,13 @@ struct Grading
 {
   /** How far a face may be from the isopotential; 0: all edges are of one length. */
   double Tolerance = 0.0;
-  double MaximumEdgeLength = 0.0; ///< 0: AutomaticGrowth times what edges may be elsewhere.
+  /** 0: AutomaticGrowth times what edges may be elsewhere; that at least, MostGrowth times at most. */
+  double MaximumEdgeLength = 0.0;
   double Gradation = 0.2;         ///< By how much delta grows per length walked.
 
-  static constexpr double MostGradation = 0.5;
+  static constexpr double MostGradation = 0.3;
   static constexpr float AutomaticGrowth = 4.f;
+  static constexpr float MostGrowth = 5.f;
 
   bool IsWanted() const { return this->Tolerance != 0.0; }
 };
@@ -25,7 +27,7 @@ struct Grading
 /** How far a surface is from the isopotential. */
 struct Fit
 {
-  double LargestDistance = 0.0; ///< No further is looked than two voxels of the level.
+  double LargestDistance = 0.0; ///< No further is looked than GradedSizes::Furthest().
   double WithinTolerance = 1.0; ///< Share of the points that are looked at.
 };
 }

@@ -149,10 +149,11 @@ bool NewFacesIntersect(
   {
     for (const int v : face.Vertex)
     {
-      reach = std::max(reach, state.Sizing.LargestClearance(v, ReachShare));
+      reach = std::max(
+        reach, state.Sizing.FurtherThan(v, ReachShare * SizingField::LambdaInDelta));
     }
   }
-  const Box visited = all.Grown(reach * state.Sizing.Growth());
+  const Box visited = all.Grown(reach);
   const SurfaceMesh& mesh = state.Mesh;
   const auto isVisited = [&](int w) { return visited.Contains(mesh.Position[w]); };
   bool intersects = false;

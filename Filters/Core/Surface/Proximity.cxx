@@ -383,7 +383,8 @@ void Search::Examine(int v, Proximity::Findings& found)
       {
         slack = std::min(slack, room);
       }
-      else if (v < w || !(state.Marks[w] & IsListed))
+      else if (v < w || !(state.Marks[w] & IsListed) ||
+        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w)) // Which does not look as far.
       {
         slack = std::min(slack, TestStars(state, first, second, found));
       }

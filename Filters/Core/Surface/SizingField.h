@@ -15,10 +15,12 @@ namespace volumic
  * the invariant delta: one for the whole surface, or, where it is graded, one for each vertex. That
  * of an edge is the mean of its ends'; edges lie in [1, 2.5] of it.
  *
- * The delta of a graded surface grows by at most the gradation g for each length walked, along the
- * surface and across space. The longest legal edge about a vertex u is then
- * delta_u (exp(2.5 g) - 1) / g, which is Growth() times 2.5 delta_u: as much further must be looked
- * for what may intersect.
+ * The delta of a graded surface grows by at most the gradation g for each length, along the surface
+ * and across space. The longest legal edge about a vertex u is then delta_u (exp(2.5 g) - 1) / g. A
+ * face with a corner at a distance d from u has edges of up to 2.5 (delta_u + g d), and no point of
+ * it is further from a corner than that over sqrt 3: so what may intersect is looked for Further()
+ * times as far, which is that growth of edges over 1 - g; no further than where all have the largest
+ * delta. Derived in Documentation/differences.md.
  *
  * Where nothing else is said a method's `share` is a factor of its length. Lengths: workspace.
  */
@@ -68,12 +70,17 @@ public:
     graded.OfVertices = &sizes;
     graded.Most = std::max(most, this->LevelDelta);
     const float length = LongestEdgeInDelta * gradation;
-    graded.LongerEdges = (std::exp(length) - 1.f) / length;
+    graded.TimesFurther = (std::exp(length) - 1.f) / (length * (1.f - gradation));
     return graded;
   }
   bool IsGraded() const { return this->OfVertices != nullptr; }
-  /** Longest legal edge about a vertex, of what it would be were the surface not graded. */
-  float Growth() const { return this->LongerEdges; }
+  /** How many times further what may intersect is than where all are alike. */
+  float Further() const { return this->TimesFurther; }
+  /** A length in delta that something about a vertex reaches, so many times further. */
+  float FurtherThan(int v, float inDelta) const
+  {
+    return inDelta * std::min(this->TimesFurther * this->At(v), this->Largest());
+  }
 
   /** Of the level as a whole: where there is no vertex yet, and for what is told of it. */
   float OfLevel() const { return this->LevelDelta; }
@@ -115,7 +122,7 @@ public:
   }
 
   /** Two intersecting triangles, one of them at v, have corners nearer than this. */
-  float Reach(int v) const { return ReachInDelta * this->LongerEdges * this->At(v); }
+  float Reach(int v) const { return this->FurtherThan(v, ReachInDelta); }
   float SmallestReach() const { return ReachInDelta * this->LevelDelta; }
 
   /** Triangles with v as a corner that are nearer than this to others count as intersecting. */
@@ -124,7 +131,7 @@ public:
 private:
   float LevelDelta = 1;
   float Most = 1;
-  float LongerEdges = 1;
+  float TimesFurther = 1;
   const LargeVector<float>* OfVertices = nullptr; ///< Null: all have that of the level.
 };
 }

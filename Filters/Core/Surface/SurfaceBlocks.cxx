@@ -293,7 +293,7 @@ BlockVisit SurfaceBlocks::Open(int block)
   const float delta = this->State.Sizing.Smallest();
   visit.Moving = box.Grown(MovingInDelta * delta);
   visit.Share.Region = box.Grown(EditedInDelta * delta);
-  visit.Written = box.Grown(WrittenInDelta * delta);
+  visit.Written = box.Grown(WrittenInDelta * this->State.Sizing.Largest());
   return visit;
 }
 

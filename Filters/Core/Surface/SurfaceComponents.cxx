@@ -70,7 +70,7 @@ std::vector<int> FindDegenerate(std::vector<VertexRecord> records, const SizingF
   std::sort(records.begin(), records.end(),
     [](const VertexRecord& a, const VertexRecord& b) { return a.Vertex < b.Vertex; });
   SurfaceState state;
-  state.Sizing = sizing;
+  state.Sizing = SizingField(sizing.OfLevel()); // Its vertices have other numbers.
   Fill(state, records);
   std::vector<int> all(records.size());
   std::iota(all.begin(), all.end(), 0);
