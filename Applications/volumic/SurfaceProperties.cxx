@@ -140,8 +140,8 @@ std::vector<PropertyOption> MakeProperties()
       "longer edges where the surface stays so near to the iso-value, in world units: fewer "
       "triangles; 0: all edges of one length"),
     SURFACE_NUMBER(MaximumEdgeLength, "maximum-edge-length", "LENGTH",
-      "with --tolerance: no edge is to be longer, in world units; 0: automatic, about six times the "
-      "mean without; five times what edges may be without at most"),
+      "with --tolerance: no edge is to be longer, in world units; 0: automatic, about six times "
+      "the mean without; five times what edges may be without at most"),
     SURFACE_NUMBER(Gradation, "gradation", "SLOPE",
       "with --tolerance: by how much edges grow per length walked, at most 0.3"),
     SURFACE_NUMBER(SamplingRatio, "sampling-ratio", "RATIO",
@@ -259,10 +259,9 @@ bool IsOfLabelsOnly(const PropertyOption& option)
 #define SHARED(PROPERTY) \
   { #PROPERTY, [](const FilterTrio& f) { f.Labels->Set##PROPERTY(f.Surface->Get##PROPERTY()); } }
 static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
-  SHARED(Metric), SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength), SHARED(Gradation),
-  SHARED(FinestLevel), SHARED(KeepComponents),
-  SHARED(MinimumComponentVolume), SHARED(NumberOfThreads), SHARED(MemoryLimit),
-  SHARED(ScratchDirectory)
+  SHARED(Metric), SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength),
+  SHARED(Gradation), SHARED(FinestLevel), SHARED(KeepComponents), SHARED(MinimumComponentVolume),
+  SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory)
 };
 
 bool IsOfLabels(const PropertyOption& option)

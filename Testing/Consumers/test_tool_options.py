@@ -27,10 +27,11 @@ NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurf
                                         "AttractingPointsConnection", "AttractingPointsData",
                                         "Controller", "ShowLevels"},
                # Those that it has in common with vtkDeformableSurface.
-               "vtkLabelsToSurfaces": {"EdgeLength", "FinestLevel", "Gradation", "KeepComponents",
-                                       "LabelColor", "LabelName", "MaximumEdgeLength",
-                                       "MemoryLimit", "Metric", "MinimumComponentVolume",
-                                       "NumberOfThreads", "ScratchDirectory", "Tolerance"},
+               "vtkLabelsToSurfaces": {"Controller", "EdgeLength", "FinestLevel", "Gradation",
+                                       "KeepComponents", "LabelColor", "LabelName",
+                                       "MaximumEdgeLength", "MemoryLimit", "Metric",
+                                       "MinimumComponentVolume", "NumberOfThreads",
+                                       "ScratchDirectory", "Tolerance"},
                "vtkImagePyramid": {"Controller", "MemoryLimit", "NaNIsBackground",
                                    "NumberOfThreads", "ScratchDirectory", "SelectedComponent"}}
 

@@ -28,7 +28,7 @@ constexpr float SmallChange = 0.02f;
 constexpr float WallInDelta = 2.5f;
 /** Of what is looked through for walls, in the least delta. */
 constexpr float WallStep = 0.5f;
-/** How far the isopotential is looked for, in units of the level or tolerances, and in how many steps. */
+/** How far the isopotential is looked for, in units of the level or tolerances, and the steps. */
 constexpr float FurthestInUnits = 2.f;
 constexpr float FurthestInTolerances = 3.f;
 constexpr float DistanceSteps = 20.f;

@@ -13,7 +13,7 @@ struct Grading
 {
   /** How far a face may be from the isopotential; 0: all edges are of one length. */
   double Tolerance = 0.0;
-  /** 0: AutomaticGrowth times what edges may be elsewhere; that at least, MostGrowth times at most. */
+  /** 0: AutomaticGrowth times what edges may be elsewhere; from that to MostGrowth times that. */
   double MaximumEdgeLength = 0.0;
   double Gradation = 0.2;         ///< By how much delta grows per length walked.
 
