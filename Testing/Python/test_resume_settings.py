@@ -26,9 +26,10 @@ MAY_CHANGE = {
     "ShowLevels": "what is shown of it", "Profile": "columns of seconds",
     "Controller": "the same bits"}
 # Where half as much again, or the next number, is no legal value, or none that is another one.
-VALUES = {"SamplingRatio": 0.9, "CoarsestLevel": 1, "EdgeLength": 1.2, "Tolerance": .1, "MaximumEdgeLength": 5., "SeedRadius": 3.,
-          "NumberOfLevels": 2, "ReductionFactor": 1.8, "SelectedComponent": 1, "Metric": 0,
-          "Recovery": 0, "MinimumLevelSize": 12}
+VALUES = {"SamplingRatio": 0.9, "CoarsestLevel": 1, "EdgeLength": 1.2, "Tolerance": .1,
+          "MaximumEdgeLength": 5., "Gradation": .1, "SeedRadius": 3., "NumberOfLevels": 2,
+          "ReductionFactor": 1.8, "SelectedComponent": 1, "Metric": 0, "Recovery": 0,
+          "MinimumLevelSize": 12}
 
 
 def image_of_a_ball():
