@@ -424,7 +424,7 @@ public:
    * self-intersections. No edge becomes shorter than without it, so where the uniform surface is
    * further away (it is too coarse there, or held by a contact) so is this one: the field data
    * `WithinTolerance` and `LargestDistance` tell. About a fifth of a voxel halves the number of
-   * vertices of a scan, or better. Not with EdgeLength, and not without SnapToIsoValue. Coarser
+   * vertices of a thick object. Not with EdgeLength, and not without SnapToIsoValue. Coarser
    * levels are not graded; on several ranks the finest level is rank 0's.
    *
    * The peers take the curvature (CGAL's adaptive remeshing, MMG's hausd); here distances are
