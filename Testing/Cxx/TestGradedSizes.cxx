@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/GradedSizes.h"
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Image/Field.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
@@ -14,6 +16,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
+#include <vector>
 
 using namespace volumic;
 
@@ -244,43 +248,40 @@ TEST(GradedSurface, IsTheSameOnAnyThreads)
   }
 }
 
-TEST(GradedSurface, KeepsAToleranceOfSomeVoxels)
+TEST(GradedSizes, MeasureByLookingForTheIsopotential)
 {
-  const auto outside = [](double x, double y, double z)
-  { return Distance(x, y, z, 24., 24., 24.) - 20.; };
-  const SurfaceResult surface = SurfaceOf(outside, Within(2.5));
-  ExpectLegal(surface);
-  double furthest = 0.;
-  for (const Triangle& t : surface.Triangles)
-  {
-    Point middle = { 0., 0., 0. };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      middle[axis] = (surface.Points[t[0]][axis] + surface.Points[t[1]][axis] +
-        surface.Points[t[2]][axis]) / 3.;
-    }
-    furthest = std::max(furthest, std::abs(outside(middle[0], middle[1], middle[2])));
-  }
-  EXPECT_LE(furthest, 2.5);
-  EXPECT_NEAR(surface.FitToTolerance.LargestDistance, furthest, 0.35);
+  // All of the surface is five voxels inside a ball, where the image is flat and its slope tells
+  // nothing.
+  const TestVolume volume = BallVolume(48, 20.);
+  const Field field(volume.Image, IsoHalf(), Alone);
+  SurfaceState state;
+  state.Sizing = SizingField(0.85f);
+  state.Mesh.Append(DividedIcosahedron({ 24., 24., 24. }, 15., 1.4));
+  state.Reset(Vector(0, 0, 0), Vector(48, 48, 48));
+  std::vector<int> all(state.Mesh.Rings.size());
+  std::iota(all.begin(), all.end(), 0);
+  state.UpdateShape(all, Alone);
+  EXPECT_NEAR(GradedSizes(state, field, Within(3.), Alone).Measure().LargestDistance, 5., 0.2);
+  EXPECT_EQ(GradedSizes(state, field, Within(3.), Alone).Measure().WithinTolerance, 0.);
+  EXPECT_EQ(GradedSizes(state, field, Within(0.2), Alone).Measure().LargestDistance, 2.)
+    << "two units are as far as is looked then";
 }
 
-TEST(GradedSurface, HasBoundsWhateverLengthIsAskedFor)
+TEST(GradedSizes, HaveBoundsWhateverLengthIsAskedFor)
 {
-  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading());
-  Grading grading = Within(1.);
-  grading.MaximumEdgeLength = 0.5; // Edges are up to 2.5 delta anywhere.
-  const SurfaceResult smallest = SurfaceOf(OutsideBoxAndBall, grading);
-  ExpectLegal(smallest);
-  EXPECT_NEAR(static_cast<double>(smallest.Points.size()), even.Points.size(),
-    0.03 * even.Points.size());
-  for (const double length : { 1e6, 1e300 })
+  const TestVolume volume = BallVolume(16, 5.);
+  const Field field(volume.Image, IsoHalf(), Alone);
+  Grading grading = Within(0.2);
+  // Lengths of edges; 2.5 delta are legal anywhere.
+  for (const auto& [length, most] : { std::array<double, 2>{ 0., 4. }, { 0.5, 1. }, { 5., 2. },
+         { 1e6, 5. }, { 1e300, 5. } })
   {
+    SCOPED_TRACE(length);
+    SurfaceState state;
+    state.Sizing = SizingField(1.f);
     grading.MaximumEdgeLength = length;
-    const SurfaceResult largest = SurfaceOf(OutsideBoxAndBall, grading);
-    ExpectLegal(largest);
-    EXPECT_LE(*std::max_element(largest.Size.begin(), largest.Size.end()),
-      1.001 * Grading::MostGrowth * largest.Delta);
+    GradedSizes(state, field, grading, Alone).Begin();
+    EXPECT_FLOAT_EQ(state.Sizing.Largest(), static_cast<float>(most));
   }
 }
 

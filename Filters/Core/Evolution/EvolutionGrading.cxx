@@ -4,11 +4,10 @@
 // A surface at rest gets longer edges where a tolerance allows, in the same visits, with the same
 // verified displacements and edits as everything else.
 
+#include "Core/Common/Select.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/GradedSizes.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <vector>
 
 namespace volumic
@@ -16,8 +15,8 @@ namespace volumic
 namespace
 {
 /**
- * By what the sizes may grow at most, round by round: what is measured tells of twice the length
- * little, so not by much at once. The last ones mend what has grown too far.
+ * By what the sizes may grow at most, round by round: what is measured tells little of edges twice
+ * as long. The last rounds mend what has grown too far.
  */
 constexpr float Growths[] = { 1.6f, 1.6f, 1.5f, 1.3f, 1.1f, 1.f };
 /** Passes in each block after the sizes have changed. */
@@ -35,8 +34,7 @@ void SurfaceEvolution::Implementation::ApplySizes(const std::vector<int>& change
     stars.push_back(v);
     stars.insert(stars.end(), ring.Item, ring.Item + ring.Count);
   }
-  std::sort(stars.begin(), stars.end());
-  stars.erase(std::unique(stars.begin(), stars.end()), stars.end());
+  SortUnique(stars);
   for (const int v : stars)
   {
     s.Active[v] = 1;
@@ -54,7 +52,7 @@ void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
   SurfaceState& s = this->State;
   GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
   sizes.Begin();
-  this->MakeBlocks(); // As wide as the longest edges that there may be want them.
+  this->MakeBlocks(); // Wider ones: their bounds are in the largest delta.
   this->LabelComponents();
   for (const int v : this->OwnVertices())
   {

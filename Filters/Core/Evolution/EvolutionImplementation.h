@@ -30,8 +30,8 @@ namespace volumic
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
  * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx makes the visits
  * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
- * EvolutionGrading.cxx gives
- * it longer edges where it is flat, EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
+ * EvolutionGrading.cxx gives it longer edges where it is flat, EvolutionVerification.cxx has a last
+ * look at it, EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation
 {

@@ -147,43 +147,7 @@ float GradedSizes::WantedSize(int v, float growth) const
   return size > this->Least ? this->MostBetweenWalls(v, size) : size;
 }
 
-void GradedSizes::LimitGrowth(LargeVector<float>& sizes) const
-{
-  // To and fro, until nothing changes: which end that has does not depend on the order.
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const float gradation = static_cast<float>(this->Wanted.Gradation);
-  bool changes = false;
-  const auto limit = [&](int v)
-  {
-    const Ring& ring = mesh.Rings[v];
-    float& size = sizes[v];
-    for (int i = 0; i < ring.Count && size > this->Least; ++i)
-    {
-      const int w = ring.Item[i];
-      if (sizes[w] < size)
-      {
-        const float most = sizes[w] +
-          gradation * std::sqrt(SquaredDistance(mesh.Position[v], mesh.Position[w]));
-        changes = changes || size > most;
-        size = std::min(size, most);
-      }
-    }
-  };
-  do
-  {
-    changes = false;
-    for (int v = 0; v < mesh.Size(); ++v)
-    {
-      limit(v);
-    }
-    for (int v = mesh.Size() - 1; v >= 0; --v)
-    {
-      limit(v);
-    }
-  } while (changes);
-}
-
-LargeVector<float> GradedSizes::LimitedAcross(const LargeVector<float>& sizes) const
+LargeVector<float> GradedSizes::Limited(const LargeVector<float>& sizes) const
 {
   const SurfaceState& s = this->State;
   const float gradation = static_cast<float>(this->Wanted.Gradation);
@@ -224,8 +188,7 @@ std::vector<int> GradedSizes::Adjust(float growth)
         }
       }
     });
-  this->LimitGrowth(sizes);
-  sizes = this->LimitedAcross(sizes);
+  sizes = this->Limited(sizes);
   std::vector<int> changed;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {

@@ -46,10 +46,11 @@ private:
   /** What the thickness of the object, or of the air in it, allows. */
   float MostBetweenWalls(int v, float size) const;
   float WantedSize(int v, float growth) const;
-  /** Until nowhere it grows by more than the gradation along an edge. */
-  void LimitGrowth(LargeVector<float>& sizes) const;
-  /** The same across space, between all vertices: what walls lie opposite to knows of them. */
-  LargeVector<float> LimitedAcross(const LargeVector<float>& sizes) const;
+  /**
+   * So that nowhere they grow by more than the gradation, along the surface or across space: of
+   * each what the least allowing vertex within reach allows.
+   */
+  LargeVector<float> Limited(const LargeVector<float>& sizes) const;
 
   SurfaceState& State;
   const Field& TheField;
