@@ -280,7 +280,9 @@ TEST(GradedSizes, HaveBoundsWhateverLengthIsAskedFor)
     SurfaceState state;
     state.Sizing = SizingField(1.f);
     grading.MaximumEdgeLength = length;
-    GradedSizes(state, field, grading, Alone).Begin();
+    GradedSizes sizes(state, field, grading, Alone);
+    sizes.Begin(state.Sizing.OfLevel());
+    sizes.Widen();
     EXPECT_FLOAT_EQ(state.Sizing.Largest(), static_cast<float>(most));
   }
 }

@@ -18,9 +18,11 @@ namespace
  * By what the sizes may grow at most, round by round: what is measured tells little of edges twice
  * as long. The last rounds mend what has grown too far.
  */
-constexpr float Growths[] = { 1.6f, 1.6f, 1.5f, 1.3f, 1.1f, 1.f };
+constexpr float Growths[] = { 2.f, 1.6f, 1.2f, 1.f };
 /** Passes in each block after the sizes have changed. */
-constexpr int Passes = 3;
+constexpr int Passes = 2;
+/** Where more than this share of a surface asks for division all of it is divided: that is faster. */
+constexpr double MostDivided = 0.5;
 }
 
 void SurfaceEvolution::Implementation::ApplySizes(const std::vector<int>& changed)
@@ -47,11 +49,38 @@ void SurfaceEvolution::Implementation::ApplySizes(const std::vector<int>& change
   }
 }
 
+bool SurfaceEvolution::Implementation::DivideWhereWanted(double delta)
+{
+  SurfaceState& s = this->State;
+  this->ForgetBlocks();
+  s.Mesh.Reorder(
+    SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
+  this->LayGrid();
+  GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
+  sizes.Begin(static_cast<float>(delta));
+  s.UpdateShape(this->OwnVertices(), this->Threads);
+  const std::vector<int> divided = sizes.Refine();
+  if (static_cast<double>(divided.size()) > MostDivided * s.Mesh.NumberOfVertices())
+  {
+    s.Sizing = SizingField(s.Sizing.OfLevel());
+    return false;
+  }
+  // The mesh stays: what is to have shorter edges is split.
+  this->MakeBlocks();
+  this->ApplySizes(divided);
+  this->LabelComponents();
+  return true;
+}
+
 void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
 {
   SurfaceState& s = this->State;
   GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
-  sizes.Begin();
+  if (!s.Sizing.IsGraded())
+  {
+    sizes.Begin(s.Sizing.OfLevel());
+  }
+  sizes.Widen();
   this->MakeBlocks(); // Wider ones: their bounds are in the largest delta.
   this->LabelComponents();
   for (const int v : this->OwnVertices())

@@ -201,6 +201,11 @@ struct SurfaceEvolution::Implementation
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(const Dynamics& dynamics);
   // EvolutionGrading.cxx:
+  /**
+   * From a level of this delta: only where what is seen on the new one asks for shorter edges.
+   * @return false, and nothing is done, if it does so nearly everywhere
+   */
+  bool DivideWhereWanted(double delta);
   void Grade(const Dynamics& dynamics);
   void ApplySizes(const std::vector<int>& changed);
   void DeleteInsideOut();

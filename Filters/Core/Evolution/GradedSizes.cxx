@@ -19,6 +19,11 @@ constexpr std::size_t VertexGrain = 2048;
 constexpr float AimedShare = 0.8f;
 /** The least factor of a change: a level's, so that an edge is split into two or three. */
 constexpr float LeastChange = 0.57735f;
+/**
+ * How far from the isopotential of a finer level a vertex may be, in units of that level, before
+ * the surface is divided there: something new has come in sight.
+ */
+constexpr float MostOffset = 0.5f;
 /** Changes of a size that are worth no visit, as a share of it. */
 constexpr float SmallChange = 0.02f;
 /**
@@ -49,9 +54,17 @@ GradedSizes::GradedSizes(
 {
 }
 
-void GradedSizes::Begin()
+void GradedSizes::Begin(float delta)
 {
-  this->State.Size.Fill(this->Least);
+  // A surface that evolves brings parts together whose sizes know nothing of each other.
+  constexpr float any = 1.f;
+  const float first = std::clamp(delta, this->Least, this->Most);
+  this->State.Size.Fill(first);
+  this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), first, any);
+}
+
+void GradedSizes::Widen()
+{
   this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), this->Most,
     static_cast<float>(this->Wanted.Gradation));
 }
@@ -62,17 +75,18 @@ float GradedSizes::Furthest() const
     FurthestInTolerances * static_cast<float>(this->Wanted.Tolerance));
 }
 
-float GradedSizes::DistanceAt(const Vector& position, const Vector& normal) const
+float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal) const
 {
   const Field::Sample sample = this->TheField.At(position);
-  const float near = std::abs(sample.Value) / this->TheField.SlopeOf(sample);
-  if (near <= static_cast<float>(this->Wanted.Tolerance))
+  const float near = sample.Value / this->TheField.SlopeOf(sample);
+  if (std::abs(near) <= static_cast<float>(this->Wanted.Tolerance))
   {
-    return near;
+    return -near;
   }
   // Where the image is steeper, or flatter, than here that is a guess: look.
   const float furthest = this->Furthest();
   const float step = furthest / DistanceSteps;
+  const float sign = sample.Value > 0 ? -1.f : 1.f;
   float before[2] = { sample.Value, sample.Value };
   for (float way = step; way < furthest; way += step)
   {
@@ -82,12 +96,17 @@ float GradedSizes::DistanceAt(const Vector& position, const Vector& normal) cons
         this->TheField.ValueAt(position + normal * (side == 0 ? way : -way));
       if ((value > 0) != (sample.Value > 0))
       {
-        return way - step * value / (value - before[side]);
+        return sign * (way - step * value / (value - before[side]));
       }
       before[side] = value;
     }
   }
-  return furthest;
+  return sign * furthest;
+}
+
+float GradedSizes::DistanceAt(const Vector& position, const Vector& normal) const
+{
+  return std::abs(this->SignedDistanceAt(position, normal));
 }
 
 float GradedSizes::LargestDistanceAbout(int v, float enough) const
@@ -173,7 +192,59 @@ LargeVector<float> GradedSizes::Limited(const LargeVector<float>& sizes) const
   return limited;
 }
 
+float GradedSizes::RefinedSize(int v, const LargeVector<float>& offsets) const
+{
+  const SurfaceMesh& mesh = this->State.Mesh;
+  const float now = this->State.Sizing.At(v);
+  if (std::abs(offsets[v]) > MostOffset * static_cast<float>(this->TheField.Image().Unit))
+  {
+    return this->Least;
+  }
+  const Ring& ring = mesh.Rings[v];
+  const Vector p = mesh.Position[v];
+  const Vector normal = this->State.Normal[v].Axis();
+  float largest = 0.f;
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const int a = ring.Item[i];
+    const int b = ring.Next(i);
+    const float atCentre =
+      this->SignedDistanceAt((p + mesh.Position[a] + mesh.Position[b]) * (1.f / 3.f), normal);
+    const float atMiddle = this->SignedDistanceAt((p + mesh.Position[a]) * 0.5f, normal);
+    largest =
+      std::max({ largest, std::abs(atCentre - (offsets[v] + offsets[a] + offsets[b]) * (1.f / 3.f)),
+        std::abs(atMiddle - (offsets[v] + offsets[a]) * 0.5f) });
+  }
+  const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
+  const float change = largest > aimed ? std::sqrt(aimed / largest) : 1.f;
+  const float size = std::max(now * change, this->Least);
+  return size > this->Least ? this->MostBetweenWalls(v, size) : size;
+}
+
+std::vector<int> GradedSizes::Refine()
+{
+  const SurfaceState& s = this->State;
+  LargeVector<float> offsets(s.Mesh.Rings.size(), 0.f);
+  this->Threads.For(offsets.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (s.Mesh.IsAlive(v))
+        {
+          offsets[v] = this->SignedDistanceAt(s.Mesh.Position[v], s.Normal[v].Axis());
+        }
+      }
+    });
+  return this->Change([&](int v) { return this->RefinedSize(v, offsets); });
+}
+
 std::vector<int> GradedSizes::Adjust(float growth)
+{
+  return this->Change([&](int v) { return this->WantedSize(v, growth); });
+}
+
+std::vector<int> GradedSizes::Change(const std::function<float(int v)>& wanted)
 {
   SurfaceState& s = this->State;
   LargeVector<float> sizes(s.Mesh.Rings.size(), this->Least);
@@ -184,7 +255,7 @@ std::vector<int> GradedSizes::Adjust(float growth)
       {
         if (s.Mesh.IsAlive(v))
         {
-          sizes[v] = this->WantedSize(v, growth);
+          sizes[v] = wanted(v);
         }
       }
     });

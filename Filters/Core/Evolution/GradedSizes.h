@@ -8,6 +8,7 @@
 #include "Core/Image/Field.h"
 #include "Core/Surface/SurfaceState.h"
 
+#include <functional>
 #include <vector>
 
 namespace volumic
@@ -25,8 +26,16 @@ class GradedSizes
 public:
   GradedSizes(SurfaceState& state, const Field& field, const Grading& grading, Executor& executor);
 
-  /** All begin with the delta of the level. */
-  void Begin();
+  /** All begin with this delta, or what is nearest to it of those allowed; the mesh is laid out. */
+  void Begin(float delta);
+  /** From here on they may be all that is allowed, and keep the gradation. */
+  void Widen();
+
+  /**
+   * Of a surface that comes from a coarser level: those that its faces, moved onto the isopotential
+   * of this one, would need. @return whose has changed
+   */
+  std::vector<int> Refine();
 
   /**
    * Changes the sizes towards what keeps the tolerance, each by a factor of at most `growth`, and
@@ -40,12 +49,18 @@ public:
 private:
   /** From a point of the surface with this normal, at most Furthest(). */
   float DistanceAt(const Vector& position, const Vector& normal) const;
+  /** The same, negative on the object's side of the isopotential. */
+  float SignedDistanceAt(const Vector& position, const Vector& normal) const;
   float Furthest() const;
   /** Of the faces about a vertex, and its edges; no more are looked at where it is enough. */
   float LargestDistanceAbout(int v, float enough) const;
   /** What the thickness of the object, or of the air in it, allows. */
   float MostBetweenWalls(int v, float size) const;
   float WantedSize(int v, float growth) const;
+  /** @param offsets of all vertices, the SignedDistanceAt() them */
+  float RefinedSize(int v, const LargeVector<float>& offsets) const;
+  /** Gives all vertices what `wanted` tells, as far as the gradation allows. @return see Adjust */
+  std::vector<int> Change(const std::function<float(int v)>& wanted);
   /**
    * So that nowhere they grow by more than the gradation, along the surface or across space: of
    * each what the least allowing vertex within reach allows.

@@ -127,7 +127,7 @@ bool IsClearOfSurface(
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
     return state.Grid.HasWithin(place, radius, state.Mesh.Position);
   };
-  const float reach = state.Sizing.SmallestReach();
+  const float reach = state.Sizing.LargestReach();
   const float radius =
     static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Sizing.OfLevel();
   if (!hasWithin(lattice.Centre(cell), radius + reach))

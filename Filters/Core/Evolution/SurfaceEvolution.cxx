@@ -198,7 +198,15 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     return true;
   }
   // After each of these steps the surface is one to hand over.
-  bool goesOn = self.IsShared ? self.LayOutInParts(divisions) : self.DivideWhole(divisions);
+  bool goesOn = true;
+  if (self.IsShared)
+  {
+    goesOn = self.LayOutInParts(divisions);
+  }
+  else if (!self.WantedGrading.IsWanted() || divisions == 0 || !self.DivideWhereWanted(coarse))
+  {
+    goesOn = self.DivideWhole(divisions);
+  }
   watch.Lap(Phase::Division);
   goesOn = self.GoOn(Monitor::Activity::Dividing, 1.) && goesOn;
   self.AgreeOnStop();

@@ -6,6 +6,7 @@
 #include "Core/Common/Box.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -21,6 +22,9 @@ constexpr float Unfolded = -0.99f;
 constexpr float LeastArea = 1e-2f;
 /** Of the clearance: edges may be a little too long until the end of an iteration. */
 constexpr float ReachShare = 1.1f;
+
+/** Times a length that was rounded: not less than it is. */
+constexpr float AboveRounding = 1.0001f;
 
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t TestedBlock = 4096;
@@ -187,14 +191,19 @@ namespace
 class FacesOfMesh
 {
 public:
-  FacesOfMesh(const SurfaceState& state, const std::function<bool(int v)>& isOwn, float longestEdge)
+  /** @param longest of all vertices: the longest edge about them, or more */
+  FacesOfMesh(const SurfaceState& state, const std::function<bool(int v)>& isOwn,
+    const LargeVector<float>& longest)
     : State(state)
     , IsOwn(isOwn)
-    , LongestEdge(longestEdge)
+    , Longest(longest)
   {
   }
 
-  /** Whether they intersect each other, or those of a vertex before it, or of one not our own. */
+  /**
+   * Whether they intersect each other, or those of a vertex whose edges are shorter (of equals:
+   * before it), or of one not our own.
+   */
   bool Intersect(int v)
   {
     this->Faces.clear();
@@ -216,13 +225,13 @@ public:
     {
       return true;
     }
-    const Box visited = all.Grown(this->LongestEdge);
+    const Box visited = all.Grown(this->Longest[v]);
     bool intersect = false;
     this->State.Grid.VisitBox(visited.Low, visited.High,
       [&](int w)
       {
         if (!intersect && w != v && visited.Contains(this->State.Mesh.Position[w]) &&
-          (w < v || !this->IsOwn(w)))
+          (this->IsBefore(w, v) || !this->IsOwn(w)))
         {
           this->VisitFaces(w,
             [&](int a, int b) { intersect = intersect || this->IntersectFaceOf(w, a, b, all); });
@@ -245,6 +254,11 @@ private:
         visit(a, b);
       }
     }
+  }
+
+  bool IsBefore(int w, int v) const
+  {
+    return this->Longest[w] != this->Longest[v] ? this->Longest[w] < this->Longest[v] : w < v;
   }
 
   bool IntersectFaceOf(int w, int a, int b, const Box& all) const
@@ -281,7 +295,7 @@ private:
 
   const SurfaceState& State;
   const std::function<bool(int v)>& IsOwn;
-  float LongestEdge;
+  const LargeVector<float>& Longest;
   std::vector<MeshTriangle> Faces;
   std::vector<NewFace> News;
 };
@@ -290,10 +304,30 @@ private:
 std::size_t CountIntersecting(const SurfaceState& state, const std::function<bool(int v)>& isOwn,
   float longestEdge, Executor& executor)
 {
+  const SurfaceMesh& mesh = state.Mesh;
+  LargeVector<float> longest(mesh.Rings.size(), longestEdge);
+  if (longestEdge == 0.f)
+  {
+    executor.For(longest.size(), TestedBlock,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+        {
+          const Ring& ring = mesh.Rings[v];
+          float squared = 0.f;
+          for (int i = 0; mesh.IsAlive(v) && i < ring.Count; ++i)
+          {
+            squared = std::max(
+              squared, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
+          }
+          longest[v] = std::sqrt(squared) * AboveRounding;
+        }
+      });
+  }
   return CountInBlocks(executor, state.Mesh.Rings.size(), TestedBlock,
     [&](std::size_t begin, std::size_t end)
     {
-      FacesOfMesh faces(state, isOwn, longestEdge);
+      FacesOfMesh faces(state, isOwn, longest);
       std::size_t count = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {

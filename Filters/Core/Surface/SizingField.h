@@ -63,6 +63,8 @@ public:
   /**
    * The same, graded: a vertex has a delta of its own, from that of the level to `most`.
    * @param sizes by vertex, which stay where they are
+   * @param gradation 1: they may differ as they like, and what may intersect is looked for as far
+   *        as where all have the largest
    */
   SizingField Graded(const LargeVector<float>& sizes, float most, float gradation) const
   {
@@ -70,7 +72,9 @@ public:
     graded.OfVertices = &sizes;
     graded.Most = std::max(most, this->LevelDelta);
     const float length = LongestEdgeInDelta * gradation;
-    graded.TimesFurther = (std::exp(length) - 1.f) / (length * (1.f - gradation));
+    graded.TimesFurther = gradation < 1.f
+      ? (std::exp(length) - 1.f) / (length * (1.f - gradation))
+      : graded.Most / graded.LevelDelta;
     return graded;
   }
   bool IsGraded() const { return this->OfVertices != nullptr; }
@@ -124,6 +128,7 @@ public:
   /** Two intersecting triangles, one of them at v, have corners nearer than this. */
   float Reach(int v) const { return this->FurtherThan(v, ReachInDelta); }
   float SmallestReach() const { return ReachInDelta * this->LevelDelta; }
+  float LargestReach() const { return ReachInDelta * this->Largest(); }
 
   /** Triangles with v as a corner that are nearer than this to others count as intersecting. */
   double Contact(int) const { return ContactInDelta * this->LevelDelta; }
