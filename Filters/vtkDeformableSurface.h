@@ -57,7 +57,8 @@
  * - `Residual` (float): the field minus IsoValue at the vertex
  * - `Motionless` (unsigned char): 1 for vertices at rest
  * - `Contact` (unsigned char): 1 where walls or gaps are thinner than the triangles can hold
- * - `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
+ * - `EdgeSize` (float): with Tolerance or ThinParts, the length of edges that is wanted there
+ * - `Thickness` (float): with ThinParts, that of the object or of the air, whichever is thinner
  *
  * Cell arrays:
  * - `Component` (int): 0 has the largest area
@@ -452,6 +453,24 @@ public:
    */
   virtual void SetGradation(double value);
   virtual double GetGradation();
+  ///@}
+
+  ///@{
+  /**
+   * Where FinestLevel is 0 (or -1): beyond level 0 the surface goes to level -1, but is divided
+   * there only where it is off the isopotential, or the object, or the air in it, is thinner than
+   * 2.5 delta, so that triangles of level 0 do not hold it: a wall of a voxel, a narrow gap, a thin
+   * vessel. All else keeps its triangles. What Recovery finds there comes with the short edges. The
+   * outcome is that of level -1, with the point arrays `EdgeSize` and `Thickness`; level 0 is what
+   * it is without. It does nothing where the run ends at a coarser level. With Tolerance, edges may
+   * become as short where the tolerance asks for it, too. Not with EdgeLength, and not without
+   * SnapToIsoValue; on several ranks all voxels are rank 0's. Default: off.
+   *
+   * No part of the paper.
+   */
+  virtual void SetThinParts(bool value);
+  virtual bool GetThinParts();
+  vtkBooleanMacro(ThinParts, bool);
   ///@}
 
   ///@{

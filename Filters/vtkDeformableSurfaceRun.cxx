@@ -108,6 +108,7 @@ volumic::SegmentationVolume vtkDeformableSurface::VolumeAsSet()
   volumic::SegmentationVolume volume;
   volume.Selection = this->GetInputArrayInformation(0);
   volume.Settings = this->Internals->Settings;
+  volume.Settings.End.FinestLevel = this->Internals->Settings.LastLevel();
   return volume;
 }
 
@@ -175,6 +176,7 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   volumic::SegmentationRequest request;
   request.Started = volumic::Deadline::Clock::now();
   request.End = this->Internals->Settings.End;
+  request.End.FinestLevel = this->Internals->Settings.LastLevel();
   const double limit = request.End.TimeLimit;
   if (!(limit >= 0.0))
   {
@@ -373,7 +375,7 @@ void vtkDeformableSurface::ShowRun(const volumic::SurfaceSegmentation& run,
   run.Results().FillOutputs(run.EndsAt(), output);
   const bool isCutOff = request.Limit.IsOver() || this->IsStopped();
   const bool isFinest =
-    run.EndsAt() <= settings.End.FinestLevel && settings.EdgeLength == 0.0;
+    run.EndsAt() <= settings.LastLevel() && settings.EdgeLength == 0.0;
   if (request.IsStep && isFinest)
   {
     run.Results().WarnOf(run.EndsAt(), settings.WantsAllParts(), request.Warn);

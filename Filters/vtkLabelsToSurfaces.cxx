@@ -90,6 +90,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(Tolerance, double, Settings.Grading.Tolerance)                   \
   MADE(MaximumEdgeLength, double, Settings.Grading.MaximumEdgeLength)   \
   MADE(Gradation, double, Settings.Grading.Gradation)                   \
+  MADE(ThinParts, bool, Settings.Grading.ThinParts)                     \
   MADE(FinestLevel, int, Settings.FinestLevel)                          \
   MADE(KeepComponents, int, Settings.KeepComponents)                    \
   MADE(MinimumComponentVolume, double, Settings.MinimumComponentVolume) \

@@ -194,6 +194,16 @@ public:
 
   ///@{
   /**
+   * As vtkDeformableSurface: with FinestLevel 0 (or -1) what is thinner than triangles as large as
+   * voxels can hold gets those of level -1, there alone. Default: off.
+   */
+  void SetThinParts(bool value);
+  bool GetThinParts();
+  vtkBooleanMacro(ThinParts, bool);
+  ///@}
+
+  ///@{
+  /**
    * As vtkDeformableSurface: 0, the default: triangles as large as voxels; 1, 2, ...: each sqrt(3)
    * times larger; -1: sqrt(3) times smaller, from the start: for what is a voxel thin. With 0 a
    * label that loses more than single voxels gets these, too.

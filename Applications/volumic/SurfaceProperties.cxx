@@ -144,6 +144,9 @@ std::vector<PropertyOption> MakeProperties()
       "the mean without; five times what edges may be without at most"),
     SURFACE_NUMBER(Gradation, "gradation", "SLOPE",
       "with --tolerance: by how much edges grow per length walked, at most 0.3"),
+    SURFACE_SWITCH(ThinParts, true, "thin-parts",
+      "shorter edges where the object, or the air in it, is thinner than two voxels, and nowhere "
+      "else: holds walls, gaps and vessels that are a voxel thin"),
     SURFACE_NUMBER(SamplingRatio, "sampling-ratio", "RATIO",
       "shortest edge of the surface in voxels of the level, 0.693 to 1; edges are up to 2.5 times "
       "as long"),
@@ -260,7 +263,7 @@ bool IsOfLabelsOnly(const PropertyOption& option)
   { #PROPERTY, [](const FilterTrio& f) { f.Labels->Set##PROPERTY(f.Surface->Get##PROPERTY()); } }
 static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
   SHARED(Metric), SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength),
-  SHARED(Gradation), SHARED(FinestLevel), SHARED(KeepComponents), SHARED(MinimumComponentVolume),
+  SHARED(Gradation), SHARED(ThinParts), SHARED(FinestLevel), SHARED(KeepComponents), SHARED(MinimumComponentVolume),
   SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory)
 };
 

@@ -141,17 +141,20 @@ LabelSurfaceMaker::LabelSurfaceMaker(
 }
 
 SegmentationVolume LabelSurfaceMaker::MakeVolume(
-  int level, vtkImageData* field, const Progress& progress) const
+  const Place& place, vtkImageData* field, const Progress& progress) const
 {
+  const int level = place.Level;
   SegmentationVolume volume;
   volume.Selection = SelectScalars();
   SegmentationSettings& settings = volume.Settings;
   settings.Options.IsoValue = this->HalfGap();
-  settings.Options.RecoverLostParts = false;
-  settings.Recovery = RecoveryType::NoRecovery;
+  // The field's iso-surface has all parts but those too thin for its triangles.
+  settings.Recovery =
+    place.IsForThinParts ? RecoveryType::RecoverObjects : RecoveryType::NoRecovery;
   settings.Metric = static_cast<Metric>(this->Settings.Metric);
   settings.EdgeLength = this->Settings.EdgeLength;
   settings.Grading = this->Settings.Grading;
+  settings.Grading.ThinParts = place.IsForThinParts;
   settings.End.KeepComponents = static_cast<KeepComponentsType>(this->Settings.KeepComponents);
   settings.End.MinimumComponentVolume = this->Settings.MinimumComponentVolume;
   settings.Initialization = InitializationType::IsoSurface;
@@ -166,7 +169,7 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   }
   // No coarser ones, not even above level -1: what is thin, or hollow, would be lost there.
   settings.CoarsestLevel = std::max(level, 0);
-  settings.BeginsBelowImage = level < 0;
+  settings.BeginsBelowImage = level < 0 && !place.IsForThinParts;
   pyramid.Levels.NumberOfLevels = settings.CoarsestLevel + 1;
   pyramid.NumberOfThreads = 1;
   pyramid.Progress = [&progress](double, const std::string&)
@@ -212,16 +215,21 @@ bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
 LabelSurface LabelSurfaceMaker::Make(
   int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const
 {
-  const int level = this->FinestLevel();
-  if (level != 0 || this->Settings.EdgeLength != 0.0)
+  Place place{ this->FinestLevel() };
+  const bool mayGoFiner = place.Level == 0 && this->Settings.EdgeLength == 0.0;
+  if (this->Settings.Grading.ThinParts && place.Level <= 0)
   {
-    return this->MakeAt(level, object, numberOfThreads, threads, progress);
+    place = { -1, true };
   }
-  LabelSurface made = this->MakeAt(0, object, numberOfThreads, threads,
+  if (!mayGoFiner)
+  {
+    return this->MakeAt(place, object, numberOfThreads, threads, progress);
+  }
+  LabelSurface made = this->MakeAt(place, object, numberOfThreads, threads,
     [&](double share, const std::string& text) { return progress(ShareOfLevel0 * share, text); });
   if (made.Surface && this->LosesParts(object, made))
   {
-    const LabelSurface finer = this->MakeAt(-1, object, numberOfThreads, threads,
+    const LabelSurface finer = this->MakeAt({ -1 }, object, numberOfThreads, threads,
       [&](double share, const std::string& text)
       { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
     // Null: it was stopped; what level 0 has is finished.
@@ -234,9 +242,10 @@ LabelSurface LabelSurfaceMaker::Make(
   return made;
 }
 
-LabelSurface LabelSurfaceMaker::MakeAt(int level, int object, int numberOfThreads,
+LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numberOfThreads,
   HostThreads& threads, const Progress& progress) const
 {
+  const int level = place.Level;
   LabelSurface made;
   made.Surface = MakeStopped(level, "vanished");
   FieldImage field = this->MakeField(level, object, threads);
@@ -254,7 +263,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(int level, int object, int numberOfThread
   const LabelField original = this->Settings.Gap > 0.0 ? field.Field : LabelField();
   try
   {
-    const SegmentationVolume volume = this->MakeVolume(level, field.Image, progress);
+    const SegmentationVolume volume = this->MakeVolume(place, field.Image, progress);
     if (!volume.Levels)
     {
       made.Surface = nullptr;

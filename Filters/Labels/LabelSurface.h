@@ -95,13 +95,19 @@ private:
   }
   /** Half of the gap, in smallest distances of voxels. */
   double HalfGap() const;
-  LabelSurface MakeAt(int level, int object, int numberOfThreads, HostThreads& threads,
+  /** A level, and whether it is for thin parts alone, level 0 for all else. */
+  struct Place
+  {
+    int Level = 0;
+    bool IsForThinParts = false;
+  };
+  LabelSurface MakeAt(const Place& place, int object, int numberOfThreads, HostThreads& threads,
     const Progress& progress) const;
   /** Whether a level finer than the image may hold what this surface leaves out. */
   bool LosesParts(int object, const LabelSurface& made) const;
   FieldImage MakeField(int level, int object, HostThreads& threads) const;
   SegmentationVolume MakeVolume(
-    int level, vtkImageData* field, const Progress& progress) const;
+    const Place& place, vtkImageData* field, const Progress& progress) const;
   /** Smallest distances of voxels from a surface within which a wrong centre is no fault of it. */
   double AllowedDistance() const;
   /** The wrong voxels that are further from the surface than that. */

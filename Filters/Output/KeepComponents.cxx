@@ -248,6 +248,10 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
       {
         part.Size.push_back(surface.Size[p]);
       }
+      if (!surface.Thickness.empty())
+      {
+        part.Thickness.push_back(surface.Thickness[p]);
+      }
     }
   }
   for (const std::array<int, 2>& pair : surface.Contacts)

@@ -191,15 +191,19 @@ void TakePointArrays(
     contact->SetValue(pair[1], 1);
   }
   polyData->GetPointData()->AddArray(contact);
-  if (!surface.Size.empty())
+  const auto addLengths = [&](const char* name, const LargeVector<float>& lengths, double factor)
   {
-    const auto size = NewLargeArray<vtkFloatArray>(n);
-    size->SetName("EdgeSize");
-    const auto rest = static_cast<float>(SizingField::RestLengthInDelta * space.WorldUnit());
-    std::transform(surface.Size.begin(), surface.Size.end(), size->GetPointer(0),
-      [rest](float delta) { return rest * delta; });
-    polyData->GetPointData()->AddArray(size);
-  }
+    if (!lengths.empty())
+    {
+      const auto array = NewLargeArray<vtkFloatArray>(n);
+      array->SetName(name);
+      std::transform(lengths.begin(), lengths.end(), array->GetPointer(0),
+        [factor](float length) { return static_cast<float>(factor * length); });
+      polyData->GetPointData()->AddArray(array);
+    }
+  };
+  addLengths("EdgeSize", surface.Size, SizingField::RestLengthInDelta * space.WorldUnit());
+  addLengths("Thickness", surface.Thickness, space.WorldUnit());
 }
 
 void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executor& executor)
@@ -244,7 +248,6 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   const auto numberOfPoints = static_cast<std::ptrdiff_t>(shape.Points.size());
   TakePoints(polyData, shape.Points, executor);
   TakeTriangles(polyData, shape.Triangles, executor);
-  const bool isGraded = !surface.Size.empty();
   TakePointArrays(polyData, surface, space, executor);
   AddField<vtkIntArray>(polyData, "Level", description.Level);
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
@@ -259,12 +262,12 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
     static_cast<int>(std::count(contacts, contacts + numberOfPoints, 1)));
   AddField<vtkDoubleArray>(
     polyData, "ResidualQuantile", ResidualQuantile(std::move(surface.Residual)));
-  if (isGraded)
+  if (surface.FitToTolerance)
   {
     AddField<vtkDoubleArray>(
-      polyData, "LargestDistance", surface.FitToTolerance.LargestDistance * space.WorldUnit());
+      polyData, "LargestDistance", surface.FitToTolerance->LargestDistance * space.WorldUnit());
     AddField<vtkDoubleArray>(
-      polyData, "WithinTolerance", surface.FitToTolerance.WithinTolerance);
+      polyData, "WithinTolerance", surface.FitToTolerance->WithinTolerance);
   }
   AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
   AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);

@@ -68,12 +68,13 @@ void SurfaceSegmentation::CheckGrading() const
   if (grading.IsWanted() &&
     (!(options.IsopotentialWeight > options.EdgeAttractionWeight) || !options.SnapToIsoValue))
   {
-    Refuse("Tolerance is ", grading.Tolerance, ", but ",
+    Refuse(WhatGrades(grading), ", but ",
       options.SnapToIsoValue
         ? "Isopotential Weight is not more than Edge Attraction Weight"
         : "Snap To Iso Value is off",
-      ": the surface does not lie at the iso-value, from which a tolerance is measured. Set it to "
-      "0, or change that.");
+      ": the surface does not lie at the iso-value, from which ",
+      grading.HasTolerance() ? "a tolerance is measured. Set it to 0" : "thickness is. Switch it off",
+      ", or change that.");
   }
 }
 
@@ -261,7 +262,8 @@ void SurfaceSegmentation::RunLevels()
       if (this->Settings.Grading.IsWanted())
       {
         this->Request.Warn(Join("Level ", level,
-          " is held, and its surface found, by the first process alone, as Tolerance is set."));
+          " is held, and its surface found, by the first process alone, as ",
+          this->Settings.Grading.HasTolerance() ? "Tolerance is set." : "Thin Parts is on."));
       }
       this->GatherVoxels(level);
     }

@@ -3,13 +3,21 @@
 #ifndef volumicCheckGrading_h
 #define volumicCheckGrading_h
 
+#include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/Grading.h"
 
 #include <cmath>
+#include <string>
 
 namespace volumic
 {
+/** Why there is a grading, for an error. */
+inline std::string WhatGrades(const Grading& grading)
+{
+  return grading.HasTolerance() ? Join("Tolerance is ", grading.Tolerance) : "Thin Parts is on";
+}
+
 /** @throws std::invalid_argument naming the property that is out of range. */
 inline void CheckGrading(const Grading& grading, double edgeLength)
 {
@@ -31,8 +39,9 @@ inline void CheckGrading(const Grading& grading, double edgeLength)
   }
   if (grading.IsWanted() && edgeLength != 0.0)
   {
-    Refuse("Tolerance is ", grading.Tolerance, " and Edge Length is ", edgeLength,
-      ": edges either keep a tolerance or are of one length. Set one of them to 0.");
+    Refuse(WhatGrades(grading), " and Edge Length is ", edgeLength, ": edges either ",
+      grading.HasTolerance() ? "keep a tolerance" : "are shorter in thin parts",
+      " or are of one length. Set Edge Length to 0, or switch the other off.");
   }
 }
 }

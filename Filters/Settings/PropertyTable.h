@@ -25,6 +25,7 @@
   MADE(Tolerance, double, Grading.Tolerance, Run, Told)                              \
   MADE(MaximumEdgeLength, double, Grading.MaximumEdgeLength, Run, Told)              \
   MADE(Gradation, double, Grading.Gradation, Run, Told)                              \
+  MADE(ThinParts, bool, Grading.ThinParts, Run, Told)                                \
   MADE(IsoValue, double, Options.IsoValue, Run, Told)                                \
   MADE(ObjectIsBright, bool, Options.ObjectIsBright, Run, Told)                      \
   MADE(Initialization, int, Initialization, Run, Hidden)                             \

@@ -87,6 +87,11 @@ struct SegmentationSettings
   bool Profile = false;     ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0; ///< iterations; 0: no snapshots
 
+  /** The level that a run ends at: -1 where thin parts are followed beyond level 0. */
+  int LastLevel() const
+  {
+    return this->Grading.ThinParts && this->End.FinestLevel == 0 ? -1 : this->End.FinestLevel;
+  }
   /**
    * Whether parts of the object that no surface has are worth a warning. Of parts that are not
    * there nobody can say whether they would have been kept.

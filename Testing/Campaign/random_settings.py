@@ -172,11 +172,12 @@ class RandomRun:
             *self.now_and_then(.1, "--keep", "largest")]
 
     def grading(self):
-        """Of any tolerance, from none that can be kept to one of some voxels."""
+        """Of any tolerance, from none that can be kept to one of some voxels; thin parts."""
+        thin = self.now_and_then(.2, "--thin-parts")
         if not self.chance(.3):
-            return []
+            return thin
         smallest = self.spacing.min()
-        return ["--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
+        return [*thin, "--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
                 *self.now_and_then(.3, "--gradation", self.number(.02, .3)),
                 *self.now_and_then(.3, "--maximum-edge-length",
                                    f"{smallest * self.rng.uniform(1, 12):.3g}")]

@@ -305,13 +305,14 @@ class OptionsTest(LabelsTest):
                   "MinimumComponentVolume": ("--minimum-component-volume", "2"),
                   "NumberOfThreads": ("--threads", "1"), "MemoryLimit": ("--memory", "3000M"),
                   "ScratchDirectory": ("--scratch", self.folder),
-                  "SelectedComponent": ("--component", "0"), "Merge": ("--merge", "on")}
+                  "ThinParts": ("--thin-parts",),
+                  "SelectedComponent": ("--component", "0"), "Merge": ("--merge",)}
         before = self.report(volume, "--labels", "2")["properties"]
         self.assertEqual(set(before), set(values))
-        for name, (option, value) in values.items():
-            arguments = (option,) if option == "--merge" else (option, value)
-            after = self.report(volume, "--labels", "2", *arguments)["properties"]
-            self.assertEqual({n: v for n, v in after.items() if v != before[n]}, {name: value})
+        for name, (option, *value) in values.items():
+            after = self.report(volume, "--labels", "2", option, *value)["properties"]
+            self.assertEqual({n: v for n, v in after.items() if v != before[n]},
+                             {name: value[0] if value else "on"})
 
     def test_properties_reach_the_filter(self):
         """What is in common with vtkDeformableSurface is set there first."""

@@ -31,7 +31,7 @@ NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurf
                                        "KeepComponents", "LabelColor", "LabelName",
                                        "MaximumEdgeLength", "MemoryLimit", "Metric",
                                        "MinimumComponentVolume", "NumberOfThreads",
-                                       "ScratchDirectory", "Tolerance"},
+                                       "ScratchDirectory", "ThinParts", "Tolerance"},
                "vtkImagePyramid": {"Controller", "MemoryLimit", "NaNIsBackground",
                                    "NumberOfThreads", "ScratchDirectory", "SelectedComponent"}}
 

@@ -77,6 +77,7 @@ std::vector<Property> AllProperties()
     VolumicTestedProperty(Tolerance, 0.25),
     VolumicTestedProperty(MaximumEdgeLength, 4.5),
     VolumicTestedProperty(Gradation, 0.3),
+    VolumicTestedProperty(ThinParts, 1),
     VolumicTestedProperty(IsoValue, 7),
     VolumicTestedProperty(ObjectIsBright, 0),
     VolumicTestedProperty(Initialization, 3),

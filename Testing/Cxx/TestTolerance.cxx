@@ -233,7 +233,7 @@ TEST(Tolerance, WhatIsWrongIsToldAndAGoodRunFollows)
     { [](vtkDeformableSurface* f) { f->SetGradation(0.31); },
       { "Gradation is 0.31", "at most 0.3" } },
     { [](vtkDeformableSurface* f) { f->SetEdgeLength(1.5); },
-      { "Tolerance is 0.2 and Edge Length is 1.5", "Set one of them to 0" } },
+      { "Tolerance is 0.2 and Edge Length is 1.5", "Set Edge Length to 0" } },
     { [](vtkDeformableSurface* f) { f->SnapToIsoValueOff(); },
       { "Tolerance is 0.2, but Snap To Iso Value is off" } },
     { [](vtkDeformableSurface* f) { f->SetIsopotentialWeight(0.); },

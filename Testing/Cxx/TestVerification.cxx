@@ -46,7 +46,10 @@ std::size_t CountIn(const Bench& bench)
     longest = std::max(longest, edge);
   }
   SequentialExecutor threads;
-  return CountIntersecting(bench.State, All, longest, threads);
+  const std::size_t found = CountIntersecting(bench.State, All, longest, threads);
+  // Each vertex looks as far as its own edges are long: the same, perhaps from the other side.
+  EXPECT_EQ(CountIntersecting(bench.State, All, 0.f, threads) > 0, found > 0);
+  return found;
 }
 
 /** Pulls a vertex through the other side. */

@@ -20,7 +20,7 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Recovery",
-         "KeepComponents")
+         "KeepComponents", "ThinParts")
 ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "Tolerance",
             "MaximumEdgeLength", "Gradation", "SamplingRatio",
             "TensionWeight", "ElasticityWeight", "IsopotentialWeight",

@@ -23,7 +23,7 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "FinestLevel",
-         "Recovery", "KeepComponents", "EdgeLength", "Tolerance")
+         "Recovery", "KeepComponents", "EdgeLength", "Tolerance", "ThinParts")
 ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize", "BorderValue", "NumberOfLevels",
             "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction", "TimeLimit",
             "MemoryLimit", "ScratchDirectory", "Resume", "SnapshotInterval")

@@ -60,7 +60,8 @@ bool SurfaceEvolution::Implementation::DivideWhereWanted(double delta)
   sizes.Begin(static_cast<float>(delta));
   s.UpdateShape(this->OwnVertices(), this->Threads);
   const std::vector<int> divided = sizes.Refine();
-  if (static_cast<double>(divided.size()) > MostDivided * s.Mesh.NumberOfVertices())
+  if (this->WantedGrading.HasTolerance() &&
+    static_cast<double>(divided.size()) > MostDivided * s.Mesh.NumberOfVertices())
   {
     s.Sizing = SizingField(s.Sizing.OfLevel());
     return false;

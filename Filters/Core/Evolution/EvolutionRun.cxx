@@ -371,7 +371,7 @@ StopReason SurfaceEvolution::Implementation::Run()
     this->BeginVisits();
     this->AgreeOnStop();
   }
-  const bool isGraded = this->WantedGrading.IsWanted() && !this->Stopped &&
+  const bool isGraded = this->WantedGrading.HasTolerance() && !this->Stopped &&
     this->State.Mesh.NumberOfVertices() > 0;
   if (isGraded)
   {

@@ -45,6 +45,9 @@ GradedSizes::GradedSizes(
   , TheField(field)
   , Wanted(grading)
   , Threads(executor)
+  , Near(grading.HasTolerance()
+        ? static_cast<float>(grading.Tolerance)
+        : MostOffset * static_cast<float>(field.Image().Unit))
   , Least(state.Sizing.OfLevel())
   , Most(grading.MaximumEdgeLength > 0.
         ? static_cast<float>(std::clamp(
@@ -79,7 +82,7 @@ float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal
 {
   const Field::Sample sample = this->TheField.At(position);
   const float near = sample.Value / this->TheField.SlopeOf(sample);
-  if (std::abs(near) <= static_cast<float>(this->Wanted.Tolerance))
+  if (std::abs(near) <= this->Near)
   {
     return -near;
   }
@@ -126,31 +129,44 @@ float GradedSizes::LargestDistanceAbout(int v, float enough) const
   return largest;
 }
 
-float GradedSizes::MostBetweenWalls(int v, float size) const
+float GradedSizes::WayToWall(int v, float side, float from, float most) const
 {
   const Vector p = this->State.Mesh.Position[v];
   const Vector normal = this->State.Normal[v].Axis();
   const float step = WallStep * this->Least;
+  float before = this->TheField.ValueAt(p + normal * (side * from));
+  if ((before > 0) != (side < 0))
+  {
+    return from; // It is thinner than that, or its normal says nothing.
+  }
+  for (float way = from + step; way < most + step; way += step)
+  {
+    const float value = this->TheField.ValueAt(p + normal * (side * way));
+    if ((value > 0) != (before > 0))
+    {
+      return std::min(way - step * value / (value - before), most);
+    }
+    before = value;
+  }
+  return most;
+}
+
+float GradedSizes::MostBetweenWalls(int v, float size) const
+{
   for (const float side : { -1.f, 1.f })
   {
-    float before = this->TheField.ValueAt(p + normal * (side * this->Least));
-    if ((before > 0) != (side < 0))
-    {
-      return this->Least; // It is thinner than that, or its normal says nothing.
-    }
-    for (float way = this->Least + step; way < WallInDelta * size + step; way += step)
-    {
-      const float value = this->TheField.ValueAt(p + normal * (side * way));
-      if ((value > 0) != (before > 0))
-      {
-        const float thickness = way - step * value / (value - before);
-        size = std::clamp(thickness / WallInDelta, this->Least, size);
-        break;
-      }
-      before = value;
-    }
+    const float most = WallInDelta * size;
+    const float way = this->WayToWall(v, side, this->Least, most);
+    size = way < most ? std::max(way / WallInDelta, this->Least) : size;
   }
   return size;
+}
+
+float GradedSizes::ThicknessAt(int v) const
+{
+  const float most = Grading::MostThickness * this->Least;
+  const float from = WallStep * this->Least;
+  return std::min(this->WayToWall(v, -1.f, from, most), this->WayToWall(v, 1.f, from, most));
 }
 
 float GradedSizes::WantedSize(int v, float growth) const
@@ -192,14 +208,9 @@ LargeVector<float> GradedSizes::Limited(const LargeVector<float>& sizes) const
   return limited;
 }
 
-float GradedSizes::RefinedSize(int v, const LargeVector<float>& offsets) const
+float GradedSizes::LargestSagAbout(int v, const LargeVector<float>& offsets) const
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  const float now = this->State.Sizing.At(v);
-  if (std::abs(offsets[v]) > MostOffset * static_cast<float>(this->TheField.Image().Unit))
-  {
-    return this->Least;
-  }
   const Ring& ring = mesh.Rings[v];
   const Vector p = mesh.Position[v];
   const Vector normal = this->State.Normal[v].Axis();
@@ -215,10 +226,23 @@ float GradedSizes::RefinedSize(int v, const LargeVector<float>& offsets) const
       std::max({ largest, std::abs(atCentre - (offsets[v] + offsets[a] + offsets[b]) * (1.f / 3.f)),
         std::abs(atMiddle - (offsets[v] + offsets[a]) * 0.5f) });
   }
-  const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
-  const float change = largest > aimed ? std::sqrt(aimed / largest) : 1.f;
-  const float size = std::max(now * change, this->Least);
-  return size > this->Least ? this->MostBetweenWalls(v, size) : size;
+  return largest;
+}
+
+float GradedSizes::RefinedSize(int v, const LargeVector<float>& offsets) const
+{
+  float size = this->State.Sizing.At(v);
+  if (std::abs(offsets[v]) > MostOffset * static_cast<float>(this->TheField.Image().Unit))
+  {
+    return this->Least;
+  }
+  if (this->Wanted.HasTolerance())
+  {
+    const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
+    const float sag = this->LargestSagAbout(v, offsets);
+    size *= sag > aimed ? std::sqrt(aimed / sag) : 1.f;
+  }
+  return size > this->Least ? this->MostBetweenWalls(v, size) : this->Least;
 }
 
 std::vector<int> GradedSizes::Refine()

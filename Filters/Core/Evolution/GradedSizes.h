@@ -14,7 +14,7 @@
 namespace volumic
 {
 /**
- * The delta that each vertex of a surface at rest should have, so that its faces keep a tolerance:
+ * The delta that each vertex of a surface at rest should have, so that its faces keep a tolerance, or thin parts are held:
  * found from how far they are from the isopotential as they are. The distance of a face's middle
  * grows with the square of its edges. Lengths: workspace.
  *
@@ -45,6 +45,11 @@ public:
 
   /** What faces are from the isopotential, at their centroids and the middles of their edges. */
   Fit Measure() const;
+  /**
+   * The lesser of what the object measures along the normal of a vertex at rest, inward, and the
+   * air, outward; no more than Grading::MostThickness of the least delta are looked through.
+   */
+  float ThicknessAt(int v) const;
 
 private:
   /** From a point of the surface with this normal, at most Furthest(). */
@@ -54,10 +59,20 @@ private:
   float Furthest() const;
   /** Of the faces about a vertex, and its edges; no more are looked at where it is enough. */
   float LargestDistanceAbout(int v, float enough) const;
+  /**
+   * How far the next side of the object (side -1), or of the air (1), is along the normal: at least
+   * `from`, at most `most`.
+   */
+  float WayToWall(int v, float side, float from, float most) const;
   /** What the thickness of the object, or of the air in it, allows. */
   float MostBetweenWalls(int v, float size) const;
   float WantedSize(int v, float growth) const;
-  /** @param offsets of all vertices, the SignedDistanceAt() them */
+  /**
+   * How far the middles of the faces and edges about a vertex would be from the isopotential, if
+   * their corners were moved onto it.
+   * @param offsets of all vertices, the SignedDistanceAt() them
+   */
+  float LargestSagAbout(int v, const LargeVector<float>& offsets) const;
   float RefinedSize(int v, const LargeVector<float>& offsets) const;
   /** Gives all vertices what `wanted` tells, as far as the gradation allows. @return see Adjust */
   std::vector<int> Change(const std::function<float(int v)>& wanted);
@@ -71,6 +86,7 @@ private:
   const Field& TheField;
   const Grading Wanted;
   Executor& Threads;
+  const float Near; ///< Distances up to this are told from value and slope.
   const float Least;
   const float Most;
 };

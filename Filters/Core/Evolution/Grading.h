@@ -16,12 +16,17 @@ struct Grading
   /** 0: AutomaticGrowth times what edges may be elsewhere; from that to MostGrowth times that. */
   double MaximumEdgeLength = 0.0;
   double Gradation = 0.2;         ///< By how much delta grows per length walked.
+  /** Edges are shorter than those of the level before only where the object, or the air, is thin. */
+  bool ThinParts = false;
 
   static constexpr double MostGradation = 0.3;
+  /** As far as the thickness is looked for, in the least delta: about four voxels. */
+  static constexpr float MostThickness = 8.f;
   static constexpr float AutomaticGrowth = 4.f;
   static constexpr float MostGrowth = 5.f;
 
-  bool IsWanted() const { return this->Tolerance != 0.0; }
+  bool IsWanted() const { return this->HasTolerance() || this->ThinParts; }
+  bool HasTolerance() const { return this->Tolerance != 0.0; }
 };
 
 /** How far a surface is from the isopotential. */

@@ -254,7 +254,10 @@ SurfaceResult SurfaceEvolution::Result() const
   result.Motionless.resize(first.back());
   result.Held.resize(first.back());
   const bool isGraded = s.Sizing.IsGraded();
+  const Grading& grading = this->Self->WantedGrading;
+  const GradedSizes sizes(this->Self->State, field, grading, threads);
   result.Size.resize(isGraded ? first.back() : 0);
+  result.Thickness.resize(grading.ThinParts ? first.back() : 0);
   LargeVector<int> index(n, -1); // As ToIndexed numbers them.
   ForBlocks(threads, n, ResultBlock,
     [&](std::size_t block, std::size_t begin, std::size_t end)
@@ -273,14 +276,17 @@ SurfaceResult SurfaceEvolution::Result() const
           {
             result.Size[point] = s.Sizing.At(static_cast<int>(v));
           }
+          if (grading.ThinParts)
+          {
+            result.Thickness[point] = sizes.ThicknessAt(static_cast<int>(v));
+          }
           index[v] = static_cast<int>(point++);
         }
       }
     });
-  if (isGraded)
+  if (grading.HasTolerance())
   {
-    result.FitToTolerance =
-      GradedSizes(this->Self->State, field, this->Self->WantedGrading, threads).Measure();
+    result.FitToTolerance = sizes.Measure();
   }
   result.Contacts = std::move(contacts.Pairs);
   for (std::array<int, 2>& pair : result.Contacts)

@@ -17,6 +17,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -116,8 +117,9 @@ struct SurfaceResult : IndexedSurface
   LargeVector<unsigned char> Held;            ///< Per point, see RemainingContacts.
   LargeVector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
   double Delta = 0.;                          ///< delta_h, workspace.
-  LargeVector<float> Size; ///< Of a graded surface delta per point, workspace; else empty.
-  Fit FitToTolerance;      ///< Of a graded surface.
+  LargeVector<float> Size;      ///< Of a graded surface delta per point, workspace; else empty.
+  LargeVector<float> Thickness; ///< With thin parts, per point, workspace; else empty.
+  std::optional<Fit> FitToTolerance; ///< With a tolerance.
 };
 
 /**
@@ -202,9 +204,9 @@ public:
   void SetMeanEdgeLength(double length);
 
   /**
-   * For the next level, which must be the last one, and of one rank: where the surface rests its
-   * edges become longer, as far as it stays within a tolerance of the isopotential. Lengths:
-   * workspace.
+   * For the next level, which must be the last one, and of one rank: it is divided only where what
+   * is seen there asks for it, and with a tolerance edges become longer where it rests, as far as
+   * it stays within that of the isopotential. Lengths: workspace.
    */
   void SetGrading(const Grading& grading);
 
