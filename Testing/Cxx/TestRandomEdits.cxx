@@ -90,7 +90,7 @@ int EditsOf(const EditCounts& counts)
   return counts.Splits + counts.Collapses + counts.Flips + counts.Cuts;
 }
 
-/** Rounds of the remesher until nothing is left to do, with a look at the surface after each pass. */
+/** Rounds of the remesher until nothing is left to do; the surface is looked at after each pass. */
 void RemeshUntilItRests(Bench& bench)
 {
   int before = -1;
