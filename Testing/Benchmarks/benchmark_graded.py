@@ -10,12 +10,13 @@ isotropic_remeshing with an Adaptive_sizing_field of that tolerance (CGAL 6); an
 with the bounds of edges and the gradation of the graded one.
 
 `within` is the share of random points of the triangles, evenly by area, that are no further from
-VTK's iso-surface (vtkFlyingEdges3D of the volume with a voxel of air around it) than the tolerance;
-`largest` is the largest distance of them all. `intersections` are pairs of triangles, counted by
-CGAL; `alike` is the share of pairs of edges that share a vertex of which one is no more than 1.5
-times as long as the other; `outside` are edges that are not in [1, 2.5] of the mean delta of their
-ends. `time` is processor seconds, those of the uniform surface included where it is made of that,
-over those of the uniform surface: one thread, medians of runs by turns.
+VTK's iso-surface than the tolerance (vtkFlyingEdges3D of the volume with a voxel of air around it,
+linearly interpolated on voxels half as wide); `largest` is the largest distance of them all.
+`intersections` are pairs of triangles, counted by CGAL; `alike` is the share of pairs of edges that
+share a vertex of which one is no more than 1.5 times as long as the other; `outside` are edges that
+are not in [1, 2.5] of the mean delta of their ends. `time` is processor seconds, those of the
+uniform surface included where it is made of that, over those of the uniform surface: one thread,
+medians of runs by turns.
 
 Exit code: 0 all was run (targets may be missed), 1 a run failed, 2 the command line is wrong.
 """

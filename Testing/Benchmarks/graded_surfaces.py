@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonCore import mutable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStaticCellLocator
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkQuadricDecimation
 from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
-from vtkmodules.vtkImagingCore import vtkImageConstantPad
+from vtkmodules.vtkImagingCore import vtkImageCast, vtkImageConstantPad, vtkImageResample
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataReader, vtkXMLPolyDataReader, vtkXMLPolyDataWriter)
 
@@ -101,20 +101,26 @@ def alike_edges(surface, most):
 
 
 class IsoSurface:
-    """VTK's, of a volume with a voxel of air around it."""
+    """VTK's, of a volume with a voxel of air around it, interpolated on voxels half as wide: that
+    of the voxels themselves cuts corners, on noise by more than a tenth of a voxel."""
 
     def __init__(self, path, iso):
-        reader, pad, contour = vtkXMLImageDataReader(), vtkImageConstantPad(), vtkFlyingEdges3D()
+        reader, pad, cast = vtkXMLImageDataReader(), vtkImageConstantPad(), vtkImageCast()
         reader.SetFileName(path)
         reader.Update()
         image = reader.GetOutput()
         self.unit = min(image.GetSpacing())
-        low, _ = image.GetScalarRange()
         pad.SetInputData(image)
-        pad.SetConstant(low)
+        pad.SetConstant(image.GetScalarRange()[0])
         pad.SetOutputWholeExtent(*(e + (1 if i % 2 else -1)
                                    for i, e in enumerate(image.GetExtent())))
-        contour.SetInputConnection(pad.GetOutputPort())
+        cast.SetInputConnection(pad.GetOutputPort())
+        cast.SetOutputScalarTypeToFloat()
+        resample, contour = vtkImageResample(), vtkFlyingEdges3D()
+        resample.SetInputConnection(cast.GetOutputPort())
+        for axis in range(3):
+            resample.SetAxisMagnificationFactor(axis, 2)
+        contour.SetInputConnection(resample.GetOutputPort())
         contour.SetValue(0, iso)
         contour.ComputeNormalsOff()
         contour.Update()
