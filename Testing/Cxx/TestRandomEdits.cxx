@@ -295,3 +295,35 @@ TEST_P(RandomVerifiedEdits, AreMendedInFewRoundsAfterWhichTheRemesherRests)
 INSTANTIATE_TEST_SUITE_P(WithAGradationOf, RandomVerifiedEdits, ::testing::Values(0, 20, 30),
   [](const ::testing::TestParamInfo<int>& info)
   { return std::to_string(info.param) + "Percent"; });
+
+TEST(GradedEdits, KeepClearOfTheMiddleOfALargeFaceThoughItsCornersAreFar)
+{
+  // The largest legal face with a delta of 1 at its middle and a gradation of .3: an edge is 2.5
+  // times the delta of its ends, which are `corner` from the middle.
+  const double gradation = 0.3;
+  const double corner = 2.5 / (std::sqrt(3.) - 2.5 * gradation);
+  const double half = 0.5 * std::sqrt(3.) * corner;
+  IndexedSurface surface;
+  surface.Points = { { corner, 0, 0 }, { -0.5 * corner, half, 0 }, { -0.5 * corner, -half, 0 },
+    { 0, 0, -1.4 * corner } };
+  surface.Triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 2, 1, 3 }, { 0, 2, 3 } };
+  IndexedSurface above; // It has a corner over the middle.
+  above.Points = { { 0.9, 0, 0.9 }, { -0.9, 0, 0.9 }, { 0, 0.55, 0.9 }, { 0, -0.55, 0.9 },
+    { 0, 0, 1.6 }, { 0, 0, 0.2 } };
+  above.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  AddSurface(surface, above);
+  Bench bench(surface);
+  SurfaceState& s = bench.State;
+  const auto most = static_cast<float>(1 + gradation * corner);
+  for (const int v : bench.All())
+  {
+    s.Size[v] = v < 4 ? most : 1;
+  }
+  s.Sizing = s.Sizing.Graded(s.Size.AsVector(), most, static_cast<float>(gradation));
+  bench.UpdateShape();
+  SurfaceEditor editor(s);
+  EXPECT_TRUE(editor.Move(9, Vector(0, 0, 0.1f), EditTolerance::Loose));
+  EXPECT_FALSE(editor.Move(9, Vector(0, 0, -0.1f), EditTolerance::Loose));
+  EXPECT_TRUE(bench.IsSound());
+}
