@@ -35,10 +35,15 @@ Surfaces of labels:
   --labels             also these: digitised shapes, the label maps of Debian's mricron-data, those
                        made of ../shared/data where that is, and one with the size of a body
   --labels-only        nothing else
+Graded triangles:
+  --graded             these, and nothing else: of the skull, and of the engine and the tooth of
+                       ../shared/data where that is, beside uniform ones, decimated ones, CGAL's
+                       adaptive remeshing (CGAL 6) and mmgs, where there is one; 3 repetitions
   --help               this text
 Tables are printed; all figures are left in build/benchmarks: every repetition of the pyramid in
 *.json, the surface in surface-NAME*.csv and surface-NAME.vtp, the others in growth-NAME*.csv,
-threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv, limit-NAME.csv, labels-NAME*.csv.
+threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv, limit-NAME.csv, labels-NAME*.csv,
+graded*.csv.
 USAGE
 }
 
@@ -47,6 +52,7 @@ repetitions=
 with_pyramid=yes
 with_surface=yes
 with_labels=
+with_graded=
 volume=
 iso=
 all_scans=
@@ -71,6 +77,12 @@ take_option()
       with_pyramid=
       with_surface=
       packages+=(mricron-data)
+      ;;
+    --graded)
+      with_graded=yes
+      with_pyramid=
+      with_surface=
+      packages+=(libeigen3-dev)
       ;;
     --slow | --no-recovery) surface_options+=("$1") ;;
     --all-scans) all_scans=yes ;;
@@ -194,6 +206,25 @@ measure_all_labels()
   measure_labels body --body 512,512,400 --runs us --threads "$(nproc)"
 }
 
+measure_graded()
+{
+  local scans=(--scan skull "$results/skull.vti" 226.5) scan name file iso
+  local options=() adaptive=$build/vtk/bin/AdaptiveRemesh
+  for scan in "engine engine_ct_u8.vti 75" "tooth tooth_ct_u16.vti 600"; do
+    read -r name file iso <<< "$scan"
+    file=$root/../shared/data/$file
+    if [ -f "$file" ]; then
+      scans+=(--scan "$name" "$file" "$iso")
+    else
+      say "The $name is left out: $(basename "$file") is not beside the checkout, in ../shared/data."
+    fi
+  done
+  [ ! -x "$adaptive" ] || options+=(--adaptive "$adaptive")
+  "$(vtk_python)" "$folder/benchmark_graded.py" --program "$build/vtk/bin/volumic" \
+    --judge "$build/vtk/bin/JudgeFiles" "${options[@]}" --repetitions "${repetitions:-3}" \
+    --csv "$results/graded.csv" "${scans[@]}" || failed=yes
+}
+
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
 if [ -n "$with_pyramid" ]; then
   pyramid=(python3 "$folder/benchmark_pyramid.py"
@@ -220,4 +251,5 @@ if [ -n "$with_surface" ]; then
   fi
 fi
 [ -z "$with_labels" ] || measure_all_labels
+[ -z "$with_graded" ] || measure_graded
 [ -z "$failed" ] || fail "Some runs failed; see above."

@@ -7,25 +7,26 @@
  *
  *     JudgeFiles [--map MAP.vti] FILE.vtp...
  *
+ * Edges and pairs are judged by the deltas that the file tells (where it is graded, by those of its
+ * points), which are world units only where the metric is World; without any they are "nan". Ratios
+ * are radius ratios.
+ *
  * With a map the files are surfaces of its labels, which their field data `Label` names: they are
  * judged against its voxels and against each other, too, and the numbers of the wrong voxels, x
  * fastest, end the line.
  */
 
 #include "LabelJudge.h"
+#include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
 #include "WrongVoxels.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -45,6 +46,7 @@ using namespace volumic::support;
 struct NamedSurface : TriangleSurface
 {
   std::set<double> Labels;
+  std::vector<double> Deltas; ///< of the points; none where the file tells of none
   std::size_t TouchingPairs = 0;  ///< of triangles with all other files
   std::size_t VerticesInside = 0; ///< of the one inside the other, both ways
   std::vector<std::size_t> WrongVoxels;
@@ -65,28 +67,12 @@ NamedSurface ReadSurface(const std::string& file)
     throw std::invalid_argument(file + " has other cells than polygons");
   }
   NamedSurface surface;
+  static_cast<TriangleSurface&>(surface) = ToTriangleSurface(data);
+  surface.Deltas = DeltasOf(data);
   vtkDataArray* labels = data->GetFieldData()->GetArray("Label");
   for (vtkIdType i = 0; labels && i < labels->GetNumberOfTuples(); ++i)
   {
     surface.Labels.insert(labels->GetComponent(i, 0));
-  }
-  surface.Points.resize(data->GetNumberOfPoints());
-  for (std::size_t p = 0; p < surface.Points.size(); ++p)
-  {
-    data->GetPoint(static_cast<vtkIdType>(p), surface.Points[p].data());
-  }
-  const auto faces = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
-  for (faces->GoToFirstCell(); !faces->IsDoneWithTraversal(); faces->GoToNextCell())
-  {
-    vtkIdType size;
-    const vtkIdType* corners;
-    faces->GetCurrentCell(size, corners);
-    if (size != 3)
-    {
-      throw std::invalid_argument(file + " has polygons that are no triangles");
-    }
-    surface.Triangles.push_back(
-      { static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2]) });
   }
   return surface;
 }
@@ -141,8 +127,21 @@ void Judge(const NamedSurface& surface)
             << ' ' << intersections.Pairs << ' ' << intersections.FlatTriangles << ' '
             << topology.UnusedPoints << ' ' << topology.Components.size() << ' '
             << topology.EulerCharacteristic << ' ' << topology.Genus << ' ' << topology.Area << ' '
-            << topology.Volume << ' ' << surface.TouchingPairs << ' ' << surface.VerticesInside
-            << ' ' << surface.WrongVoxels.size();
+            << topology.Volume;
+  if (surface.Deltas.empty())
+  {
+    std::cout << " nan nan nan nan";
+  }
+  else
+  {
+    const LengthVerdict lengths = JudgeLengths(surface, surface.Deltas);
+    std::cout << ' ' << lengths.Edges << ' ' << lengths.EdgesTooShort << ' '
+              << lengths.EdgesTooLong << ' ' << lengths.NearPairs;
+  }
+  const ShapeVerdict shapes = JudgeShapes(surface);
+  std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
+            << surface.TouchingPairs << ' ' << surface.VerticesInside << ' '
+            << surface.WrongVoxels.size();
   for (const std::size_t voxel : surface.WrongVoxels)
   {
     std::cout << ' ' << voxel;
@@ -156,7 +155,8 @@ int main(int count, char** words)
   if (count > 1 && std::string(words[1]) == "--help")
   {
     std::cout << "points triangles closed manifold oriented outward intersections flat unused "
-                 "components euler genus area volume touching overlapping wrong\n";
+                 "components euler genus area volume edges short long near ratio ratio01 "
+                 "ratiomin touching overlapping wrong\n";
     return 0;
   }
   std::cout << std::setprecision(17);

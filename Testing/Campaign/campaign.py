@@ -29,6 +29,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 from random_settings import RandomRun
 
 SLOW_SECONDS, MOST_SECONDS = 20, 150  # of processor time
+MOST_EDGES_OUTSIDE = 1e-4  # share of them
 FINISHED, STOPPED = ("converged", "limit cycle"), ("iteration limit", "time limit", "cancelled")
 
 
@@ -112,6 +113,14 @@ def faults(verdict, told):
     return found
 
 
+def faults_of_edges(verdict, told, words):
+    """Of a level that has ended, by the deltas of the file, which are lengths in the world."""
+    outside = verdict["short"] + verdict["long"]
+    if (told.get("StopReason") in FINISHED and "--metric" not in words
+            and outside > MOST_EDGES_OUTSIDE * verdict["edges"]):
+        yield f"{outside:g} of {verdict['edges']:g} edges are too short or too long"
+
+
 def judge(program, names, files, outcome):
     if not files:
         return
@@ -130,7 +139,7 @@ def judge(program, names, files, outcome):
             if told.get("StopReason") not in ("vanished", *STOPPED):
                 outcome.exceptions.append(f"{path}: empty, {told.get('StopReason')}")
             continue
-        found = faults(verdict, told)
+        found = [*faults(verdict, told), *faults_of_edges(verdict, told, outcome.run.words)]
         if outcome.run.is_of_labels:
             found += faults_of_label(verdict, told, outcome)
             for label in told["Labels"]:

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Executor.h"
+#include "Core/Surface/Remesher.h"
 #include "Core/Surface/SurfaceEditor.h"
 #include "CoreTestTools.h"
+#include "RemeshTestTools.h"
 
 #include "Core/Mesh/CycleCut.h"
 #include "Core/Mesh/EdgeCollapse.h"
@@ -13,8 +14,10 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 using namespace volumic;
 
@@ -53,6 +56,111 @@ SurfaceMesh RandomMesh(unsigned seed)
   mesh.Append(DividedIcosahedron({ 20, 0, 0 }, 4, 2));
   return mesh;
 }
+
+/** One edit of any kind at a random place. @return whether it was done */
+bool TryAny(SurfaceEditor& editor, SurfaceState& state, Dice& dice, int step)
+{
+  const int v = dice.Vertex();
+  const int w = dice.Neighbour(v);
+  const Vector shake(0.01f * (dice.Number(61) - 30), 0.01f * (dice.Number(61) - 30),
+    0.01f * (dice.Number(61) - 30));
+  switch (dice.Number(8))
+  {
+    case 0:
+      return editor.Flip(v, w, EditTolerance::Smooth).IsDone;
+    case 1:
+      return editor.Flip(v, w, EditTolerance::Loose).IsDone;
+    case 2:
+      return step % 3 != 0 && editor.Split(v, w).IsDone;
+    case 3:
+      return editor.Collapse(v, w, EditTolerance::Loose).IsDone;
+    case 4:
+      return editor.Remove(v).IsDone;
+    case 5:
+      return editor.Move(v, state.Mesh.Position[v] + shake, EditTolerance::Loose).IsDone;
+    case 6:
+      return editor.Merge(v, dice.Vertex()).IsDone;
+    default:
+      return editor.Cut(v, w, EdgeCollapse{ v, w }.ThirdCommonNeighbour(state.Mesh)).IsDone;
+  }
+}
+
+int EditsOf(const EditCounts& counts)
+{
+  return counts.Splits + counts.Collapses + counts.Flips + counts.Cuts;
+}
+
+/** Rounds of the remesher until nothing is left to do; the surface is looked at after each pass. */
+void RemeshUntilItRests(Bench& bench)
+{
+  int before = -1;
+  for (int round = 0; before != EditsOf(bench.State.Counts); ++round)
+  {
+    ASSERT_LT(round, 8) << "edits undo each other";
+    before = EditsOf(bench.State.Counts);
+    Remesher remesher(bench.State, nullptr, true);
+    std::vector<int> vertices = bench.All();
+    bench.UpdateShape();
+    remesher.Split(vertices);
+    ASSERT_TRUE(bench.IsSound()) << "splits of round " << round;
+    bench.UpdateShape();
+    remesher.Collapse(bench.All());
+    ASSERT_TRUE(bench.IsSound()) << "collapses of round " << round;
+    bench.UpdateShape();
+    remesher.Flip(bench.All());
+    ASSERT_TRUE(bench.IsSound()) << "flips of round " << round;
+  }
+}
+
+/** The parameter is the gradation of the sizes, in per cent; 0: one delta for all. */
+class RandomVerifiedEdits : public ::testing::TestWithParam<int>
+{
+protected:
+  static float Gradation() { return 0.01f * static_cast<float>(GetParam()); }
+
+  /** Sizes from 1 to 2.5 in waves across the surface, nowhere steeper than the gradation. */
+  void Grade(Bench& bench, Dice& dice) const
+  {
+    if (GetParam() == 0)
+    {
+      return;
+    }
+    SurfaceState& s = bench.State;
+    const float half = 0.75f;
+    const Vector from = s.Mesh.Position[dice.Vertex()];
+    const Vector along = Normalized(s.Mesh.Position[dice.Vertex()] - from);
+    for (const int v : bench.All())
+    {
+      const float way = Dot(s.Mesh.Position[v] - from, along);
+      s.Size[v] = 1 + half + half * std::sin(this->Gradation() / half * way);
+    }
+    s.Sizing = s.Sizing.Graded(s.Size.AsVector(), 1 + 2 * half, this->Gradation());
+    bench.UpdateShape();
+  }
+
+  /** Hardly an edge is outside its bounds, and none too long for the delta of either end. */
+  void ExpectLegalEdges(const Bench& bench) const
+  {
+    const SurfaceState& s = bench.State;
+    const float g = this->Gradation();
+    // That of an edge is the mean of both ends', so that length <= 2.5 (delta_u + g length / 2).
+    const float longest = 2.5f / (1 - 1.25f * g);
+    int edges = 0;
+    int outside = 0;
+    for (const int u : bench.All())
+    {
+      for (int i = 0; i < s.Mesh.Rings[u].Count; ++i, ++edges)
+      {
+        const int v = s.Mesh.Rings[u].Item[i];
+        const float length = Length(s.Mesh.Position[v] - s.Mesh.Position[u]);
+        EXPECT_LE(std::abs(s.Sizing.At(u) - s.Sizing.At(v)), 1.1f * g * length);
+        EXPECT_LE(length, longest * s.Sizing.At(u));
+        outside += s.Sizing.InDelta(u, v, length) < 1 || s.Sizing.InDelta(u, v, length) > 2.5f;
+      }
+    }
+    EXPECT_LE(outside, 0.005 * edges);
+  }
+};
 }
 
 TEST(RandomEdits, OfTheConnectivityKeepEveryInvariantAndCountChi)
@@ -136,63 +244,86 @@ TEST(RandomEdits, OfTheConnectivityKeepEveryInvariantAndCountChi)
   }
 }
 
-TEST(RandomEdits, VerifiedOnesNeverMakeTheSurfaceIntersectItself)
+TEST_P(RandomVerifiedEdits, NeverMakeTheSurfaceIntersectItself)
 {
-  SequentialExecutor threads;
   int edits = 0;
   for (unsigned seed = 1; seed <= 3; ++seed)
   {
-    SurfaceState state;
-    state.Mesh.Append(MakeTorus({ 0, 0, 0 }, 4, 1.3, 18, 6));
-    state.Mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 1.6, 1.2));
-    state.Sizing = SizingField(1);
-    state.Reset(Vector(-10, -10, -10), Vector(10, 10, 10));
-    std::vector<int> all(state.Mesh.Size());
-    std::iota(all.begin(), all.end(), 0);
-    state.UpdateShape(all, threads);
-    SurfaceEditor editor(state);
-    Dice dice(state.Mesh, seed);
-    for (int step = 0; step < 800 && state.Mesh.NumberOfVertices() > 20; ++step)
+    IndexedSurface surface = MakeTorus({ 0, 0, 0 }, 4, 1.3, 18, 6);
+    AddSurface(surface, DividedIcosahedron({ 0, 0, 0 }, 1.6, 1.2));
+    Bench bench(surface);
+    Dice dice(bench.State.Mesh, seed);
+    this->Grade(bench, dice);
+    SurfaceEditor editor(bench.State);
+    for (int step = 0; step < 800 && bench.State.Mesh.NumberOfVertices() > 20; ++step)
     {
-      const int v = dice.Vertex();
-      const int w = dice.Neighbour(v);
-      const Vector shake(0.01f * (dice.Number(61) - 30), 0.01f * (dice.Number(61) - 30),
-        0.01f * (dice.Number(61) - 30));
-      bool did = false;
-      switch (dice.Number(8))
-      {
-        case 0:
-          did = editor.Flip(v, w, EditTolerance::Smooth).IsDone;
-          break;
-        case 1:
-          did = editor.Flip(v, w, EditTolerance::Loose).IsDone;
-          break;
-        case 2:
-          did = step % 3 != 0 && editor.Split(v, w).IsDone;
-          break;
-        case 3:
-          did = editor.Collapse(v, w, EditTolerance::Loose).IsDone;
-          break;
-        case 4:
-          did = editor.Remove(v).IsDone;
-          break;
-        case 5:
-          did = editor.Move(v, state.Mesh.Position[v] + shake, EditTolerance::Loose).IsDone;
-          break;
-        case 6:
-          did = editor.Merge(v, dice.Vertex()).IsDone;
-          break;
-        default:
-          did = editor.Cut(v, w, EdgeCollapse{ v, w }.ThirdCommonNeighbour(state.Mesh)).IsDone;
-      }
-      if (did)
+      if (TryAny(editor, bench.State, dice, step))
       {
         ++edits;
-        ASSERT_EQ(DescribeBrokenInvariant(state.Mesh), "") << "step " << step;
-        ASSERT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
-        ASSERT_EQ(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0) << "step " << step;
+        ASSERT_TRUE(bench.IsSound()) << "step " << step;
       }
     }
   }
   EXPECT_GT(edits, 300);
+}
+
+TEST_P(RandomVerifiedEdits, AreMendedInFewRoundsAfterWhichTheRemesherRests)
+{
+  for (unsigned seed = 1; seed <= 3; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    Bench bench(MakeTorus({ 10, 10, 10 }, 16, 6, 80, 30));
+    SurfaceState& s = bench.State;
+    Dice dice(s.Mesh, seed);
+    this->Grade(bench, dice);
+    for (int turn = 0; turn < 2; ++turn) // The second one begins with edges as they are wanted.
+    {
+      SurfaceEditor editor(s);
+      for (int step = 0; step < 200; ++step)
+      {
+        const bool isDone = TryAny(editor, s, dice, step);
+        ASSERT_TRUE(!isDone || bench.IsSound()) << "step " << step << " of turn " << turn;
+      }
+      RemeshUntilItRests(bench);
+      ASSERT_FALSE(HasFatalFailure());
+      this->ExpectLegalEdges(bench);
+    }
+    EXPECT_GT(EditsOf(s.Counts), 300);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAGradationOf, RandomVerifiedEdits, ::testing::Values(0, 20, 30),
+  [](const ::testing::TestParamInfo<int>& info)
+  { return std::to_string(info.param) + "Percent"; });
+
+TEST(GradedEdits, KeepClearOfTheMiddleOfALargeFaceThoughItsCornersAreFar)
+{
+  // The largest legal face with a delta of 1 at its middle and a gradation of .3: an edge is 2.5
+  // times the delta of its ends, which are `corner` from the middle.
+  const double gradation = 0.3;
+  const double corner = 2.5 / (std::sqrt(3.) - 2.5 * gradation);
+  const double half = 0.5 * std::sqrt(3.) * corner;
+  IndexedSurface surface;
+  surface.Points = { { corner, 0, 0 }, { -0.5 * corner, half, 0 }, { -0.5 * corner, -half, 0 },
+    { 0, 0, -1.4 * corner } };
+  surface.Triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 2, 1, 3 }, { 0, 2, 3 } };
+  IndexedSurface above; // It has a corner over the middle.
+  above.Points = { { 0.9, 0, 0.9 }, { -0.9, 0, 0.9 }, { 0, 0.55, 0.9 }, { 0, -0.55, 0.9 },
+    { 0, 0, 1.6 }, { 0, 0, 0.2 } };
+  above.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
+    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  AddSurface(surface, above);
+  Bench bench(surface);
+  SurfaceState& s = bench.State;
+  const auto most = static_cast<float>(1 + gradation * corner);
+  for (const int v : bench.All())
+  {
+    s.Size[v] = v < 4 ? most : 1;
+  }
+  s.Sizing = s.Sizing.Graded(s.Size.AsVector(), most, static_cast<float>(gradation));
+  bench.UpdateShape();
+  SurfaceEditor editor(s);
+  EXPECT_TRUE(editor.Move(9, Vector(0, 0, 0.1f), EditTolerance::Loose));
+  EXPECT_FALSE(editor.Move(9, Vector(0, 0, -0.1f), EditTolerance::Loose));
+  EXPECT_TRUE(bench.IsSound());
 }

@@ -79,6 +79,40 @@ TEST(JudgeLengths, FindsSheetsTooNear)
   EXPECT_TRUE(std::isinf(verdict.NearestPair));
 }
 
+TEST(JudgeLengths, GoesByTheMeanDeltaOfBothEnds)
+{
+  const TriangleSurface sheet = Sheet(10, 0.0); // sides of 1, diagonals of 1.41
+  std::vector<double> deltas(sheet.Points.size(), 0.6);
+  EXPECT_EQ(JudgeLengths(sheet, deltas).ShareOutside, 0.0);
+  deltas[60] = 0.4; // the middle of the sheet: its edges may be from 0.5 to 1.25
+  LengthVerdict verdict = JudgeLengths(sheet, deltas);
+  EXPECT_EQ(verdict.EdgesTooShort, 0u);
+  EXPECT_EQ(verdict.EdgesTooLong, 2u);
+  deltas[60] = 1.6; // from 1.1
+  verdict = JudgeLengths(sheet, deltas);
+  EXPECT_EQ(verdict.EdgesTooShort, 4u);
+  EXPECT_EQ(verdict.EdgesTooLong, 0u);
+  EXPECT_NEAR(verdict.ShareOutside, 4.0 / 320.0, 1e-12);
+  deltas.pop_back();
+  EXPECT_THROW(JudgeLengths(sheet, deltas), std::invalid_argument);
+}
+
+TEST(JudgeLengths, KeepsApartAsFarAsTheSmallerDeltaAsks)
+{
+  TriangleSurface surface = Sheet(10, 0.0);
+  Append(surface, Sheet(10, 1.2));
+  // A pair of vertices is too near where both have a delta of 0.9, but not of 0.8.
+  std::vector<double> deltas(surface.Points.size(), 0.9);
+  EXPECT_EQ(JudgeLengths(surface, deltas).NearPairs, 121u);
+  for (const std::size_t fewer : { 60, 121 + 30 }) // one below, one above
+  {
+    deltas[fewer] = 0.8;
+  }
+  EXPECT_EQ(JudgeLengths(surface, deltas).NearPairs, 119u);
+  deltas[61] = 2.0; // there is nothing more that near to it for which it matters
+  EXPECT_EQ(JudgeLengths(surface, deltas).NearPairs, 119u);
+}
+
 TEST(JudgeLengths, CountsHopsAlongTheSurface)
 {
   // A strip of triangles along x whose far end is bent back over its beginning: vertices 2 k at

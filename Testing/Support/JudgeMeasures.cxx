@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace volumic
 {
@@ -50,11 +52,15 @@ struct Neighbours
   }
 };
 
+/** How near the vertices of a pair may be, in delta: the circumradius of the largest triangle. */
+const double NearestInDelta = LongestEdge / std::sqrt(3.0);
+
 void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int, int>>& edges,
-  double bound, LengthVerdict& verdict)
+  const std::vector<double>& deltas, LengthVerdict& verdict)
 {
   const Neighbours neighbours(surface.Points.size(), edges);
-  const PointGrid grid(surface.Points, bound);
+  const double largest = deltas.empty() ? 0.0 : *std::max_element(deltas.begin(), deltas.end());
+  const PointGrid grid(surface.Points, NearestInDelta * largest);
   // near[v] == i: v is at most EdgesThatMakeAPair - 1 edges from i.
   std::vector<int> near(surface.Points.size(), -1);
   std::vector<int> queue;
@@ -83,10 +89,13 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
         }
       }
     }
-    grid.ForEachWithin(surface.Points[p], bound * (1.0 - Rounding),
+    // A pair is looked for from the one of the smaller delta, and once where both are the same.
+    grid.ForEachWithin(surface.Points[p], NearestInDelta * deltas[p] * (1.0 - Rounding),
       [&](int other, double squared)
       {
-        if (other > vertex && near[other] != vertex &&
+        const bool isMine =
+          deltas[other] > deltas[p] || (deltas[other] == deltas[p] && other > vertex);
+        if (isMine && near[other] != vertex &&
           neighbours.Start[other] != neighbours.Start[other + 1])
         {
           ++verdict.NearPairs;
@@ -103,7 +112,17 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
 //------------------------------------------------------------------------------
 LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
 {
+  return JudgeLengths(surface, std::vector<double>(surface.Points.size(), delta));
+}
+
+LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<double>& deltas)
+{
   CheckSurface(surface);
+  if (deltas.size() != surface.Points.size())
+  {
+    throw std::invalid_argument("SurfaceJudge: " + std::to_string(deltas.size()) +
+      " deltas for " + std::to_string(surface.Points.size()) + " points");
+  }
   const std::vector<std::pair<int, int>> edges = UniqueEdges(surface);
   LengthVerdict verdict;
   verdict.Edges = edges.size();
@@ -112,6 +131,7 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
   for (const auto& e : edges)
   {
     const double length = Norm(Difference(surface.Points[e.first], surface.Points[e.second]));
+    const double delta = 0.5 * (deltas[e.first] + deltas[e.second]);
     verdict.Shortest = std::min(verdict.Shortest, length);
     verdict.Longest = std::max(verdict.Longest, length);
     verdict.EdgesTooShort += length < delta * (1.0 - Rounding);
@@ -124,7 +144,7 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
     verdict.ShareOutside =
       static_cast<double>(verdict.EdgesTooShort + verdict.EdgesTooLong) / edges.size();
   }
-  JudgePairs(surface, edges, LongestEdge / std::sqrt(3.0) * delta, verdict);
+  JudgePairs(surface, edges, deltas, verdict);
   return verdict;
 }
 

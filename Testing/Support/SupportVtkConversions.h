@@ -15,6 +15,8 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -99,6 +101,24 @@ inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* im
       { static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2]) });
   }
   return surface;
+}
+
+/**
+ * The delta of each point, world units: from `EdgeSize` where the surface is graded, else that of
+ * the whole surface; none where nothing tells of any.
+ */
+inline std::vector<double> DeltasOf(vtkPolyData* surface)
+{
+  constexpr double wantedInDelta = 1.6; // Edges may be 1 to 2.5.
+  std::vector<double> deltas;
+  vtkDataArray* sizes = surface->GetPointData()->GetArray("EdgeSize");
+  vtkDataArray* delta = surface->GetFieldData()->GetArray("Delta");
+  for (vtkIdType p = 0; (sizes || delta) && p < surface->GetNumberOfPoints(); ++p)
+  {
+    deltas.push_back(
+      sizes ? sizes->GetComponent(p, 0) / wantedInDelta : delta->GetComponent(0, 0));
+  }
+  return deltas;
 }
 
 /** What the judge takes for a scene. The scene has to stay alive. */

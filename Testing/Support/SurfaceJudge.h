@@ -11,7 +11,7 @@
  * (for anisotropic voxels that is not the world).
  *
  * All functions throw std::invalid_argument for a triangle with an index that is out of range and
- * for a coordinate that is not finite.
+ * for a coordinate that is not finite; JudgeLengths() also unless there is a delta for each point.
  */
 
 #ifndef volumicSurfaceJudge_h
@@ -104,6 +104,12 @@ struct LengthVerdict
  * points that went through float.
  */
 LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta);
+
+/**
+ * The same of a graded surface, of which each point has a delta: that of an edge is the mean of its
+ * ends', that of a pair the smaller one.
+ */
+LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<double>& deltas);
 
 //------------------------------------------------------------------------------
 /**

@@ -163,6 +163,13 @@ Edit SurfaceEditor::CollapseInto(
     return {};
   }
   const std::size_t first = this->Log.size();
+  if (s.Sizing.IsGraded())
+  {
+    // As on the edge there; else sizes would be steeper than the gradation, about an end that moves.
+    const float toKept = Length(position - s.Mesh.Position[kept]);
+    const float toRemoved = Length(position - s.Mesh.Position[removed]);
+    s.Size[kept] = (s.Size[kept] * toRemoved + s.Size[removed] * toKept) / (toKept + toRemoved);
+  }
   s.RemoveVertex(removed);
   EdgeCollapse{ kept, removed }.Apply(s.Mesh, this->Places());
   s.Velocity[kept] = (s.Velocity[kept] + s.Velocity[removed]) * 0.5f;

@@ -145,7 +145,7 @@ public:
   /** Something that is not the smooth surface about it lies within reach. */
   VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
 
-  // Grading: GradedSizes. An edge's middle gets the mean of its ends'.
+  // Grading: GradedSizes. A point of an edge, which it is split at or collapsed to, gets that there.
   /** delta about it, workspace, where the surface is graded: see SizingField. */
   VertexProperty<float> Size{ this->Properties, 0.f };
 
