@@ -120,7 +120,7 @@ std::string WhyWhole(Communicator& ranks, const SegmentationVolume& volume, vtkI
     { HasGhosts(ranks, piece), "points or cells are hidden" },
     { settings.EdgeLength != 0.0, "Edge Length is set" },
     { settings.SnapshotInterval != 0, "Snapshot Interval is set" },
-    { settings.Grading.ThinParts, "Thin Parts is on" },
+    { settings.Grading.ThinParts && settings.End.FinestLevel < 0, "Thin Parts is on" },
     { settings.End.FinestLevel < 0, "Finest Level is -1" },
     { settings.End.MemoryLimit != 0, "Memory Limit is set" },
     { !settings.End.ScratchDirectory.empty(), "Scratch Directory is set" },

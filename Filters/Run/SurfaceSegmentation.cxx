@@ -274,6 +274,7 @@ void SurfaceSegmentation::RunLevels()
       this->Evolution->SetMeanEdgeLength(
         this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit());
       Grading grading = this->Settings.Grading;
+      grading.ThinParts = grading.ThinParts && level < 0;
       grading.Tolerance /= this->Levels.GetWorkspace().WorldUnit();
       grading.MaximumEdgeLength /= this->Levels.GetWorkspace().WorldUnit();
       this->Evolution->SetGrading(grading);

@@ -3,11 +3,9 @@
 #include "Core/Evolution/GradedSizes.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/Field.h"
-#include "Core/Mesh/SelfIntersections.h"
-#include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
-#include "EvolutionTestTools.h"
+#include "GradedTestTools.h"
 #include "ThreadTestTools.h"
 
 #include <gtest/gtest.h>
@@ -24,48 +22,10 @@ using namespace volumic;
 namespace
 {
 SequentialExecutor Alone;
-Monitor Silent;
 constexpr double Tolerance = 0.2;
 
-Grading Within(double tolerance)
-{
-  Grading grading;
-  grading.Tolerance = tolerance;
-  return grading;
-}
-
-/** How far outside a box with rounded edges. */
-double OutsideBox(double x, double y, double z, const std::array<double, 3>& half, double radius)
-{
-  const double a = std::max(std::abs(x) - half[0] + radius, 0.);
-  const double b = std::max(std::abs(y) - half[1] + radius, 0.);
-  const double c = std::max(std::abs(z) - half[2] + radius, 0.);
-  return std::sqrt(a * a + b * b + c * c) - radius;
-}
-
-/** Large flat sides, edges with a radius of three voxels, and a ball beside it. */
-double OutsideBoxAndBall(double x, double y, double z)
-{
-  const double box = OutsideBox(x - 20.3, y - 19.6, z - 18.2, { 13., 12., 9. }, 3.);
-  return std::min(box, Distance(x, y, z, 20., 20., 38.) - 5.5);
-}
-
-/** A plate, turned about two axes, as a scanner shows it: all of it fades over a third of a voxel. */
-std::function<double(double, double, double)> OutsideBlurredPlate(double thickness)
-{
-  return [thickness](double x, double y, double z)
-  {
-    const double u = 0.8 * (x - 24.) + 0.6 * (y - 24.);
-    const double v = -0.6 * (x - 24.) + 0.8 * (y - 24.);
-    const double across = 0.96 * (z - 24.) + 0.28 * u;
-    const double along = 0.96 * u - 0.28 * (z - 24.);
-    const double rim = std::max(std::abs(along) - 16., std::abs(v) - 15.);
-    return std::max(3. * (std::abs(across) - 0.5 * thickness), rim);
-  };
-}
-
 /** A plate of some voxels' thickness, turned about two axes. */
-std::function<double(double, double, double)> OutsidePlate(double thickness)
+Outside OutsidePlate(double thickness)
 {
   return [thickness](double x, double y, double z)
   {
@@ -75,98 +35,6 @@ std::function<double(double, double, double)> OutsidePlate(double thickness)
     return OutsideBox(0.96 * u - 0.28 * (z - 24.), v, w, { 16., 15., 0.5 * thickness },
       std::min(1., 0.5 * thickness));
   };
-}
-
-/** The surface of what is nearer than 0 to something, on one level. */
-SurfaceResult SurfaceOf(const std::function<double(double, double, double)>& outside,
-  const Grading& grading, Executor& executor = Alone, double blockSide = 0.)
-{
-  const TestVolume volume = MakeVolume(48, [&outside](double x, double y, double z)
-    { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
-  SurfaceOptions options = IsoHalf();
-  options.BlockSide = blockSide;
-  SurfaceEvolution evolution(options, executor, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  evolution.SetGrading(grading);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  EXPECT_EQ(evolution.Verified().Found, 0);
-  return evolution.Result();
-}
-
-/** The same from a level of sqrt 3 times the edges, on the same voxels. */
-struct TwoLevels
-{
-  SurfaceResult Divided; ///< As it comes to the finer level,
-  SurfaceResult AtRest;  ///< and when it rests there.
-  SurfaceEvolution::LostParts Lost;
-};
-TwoLevels SurfaceOfTwoLevels(const std::function<double(double, double, double)>& outside,
-  const Grading& grading, double fineUnit = 1., Executor& executor = Alone, double blockSide = 0.)
-{
-  const TestVolume volume = MakeVolume(48, [&outside](double x, double y, double z)
-    { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
-  LevelImage coarse = volume.Image;
-  coarse.Unit = fineUnit * std::sqrt(3.);
-  LevelImage fine = volume.Image;
-  fine.Unit = fineUnit;
-  SurfaceOptions options = IsoHalf();
-  options.BlockSide = blockSide;
-  SurfaceEvolution evolution(options, executor, Silent);
-  evolution.StartEnclosing(coarse, 1);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  evolution.SetGrading(grading);
-  TwoLevels result;
-  EXPECT_TRUE(evolution.Divide(fine, 0));
-  result.Divided = evolution.Result();
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  EXPECT_EQ(evolution.Verified().Found, 0);
-  result.AtRest = evolution.Result();
-  result.Lost = evolution.Lost();
-  return result;
-}
-
-Grading ThinParts()
-{
-  Grading grading;
-  grading.ThinParts = true;
-  return grading;
-}
-
-/** Whatever it is: outside of the one and of the other. */
-double OutsideBoxAndPlate(double x, double y, double z)
-{
-  // A thick box, and a plate of a voxel that stands off from one of its sides.
-  return std::min(OutsideBox(x - 16.2, y - 24.1, z - 24.3, { 9., 14., 14. }, 3.),
-    OutsideBox(x - 36.4, y - 24.1, z - 24.3, { 9., 9., 0.5 }, 0.5));
-}
-
-/** Calls visit(u, v, length) for each edge, twice. */
-void VisitEdges(
-  const IndexedSurface& surface, const std::function<void(int, int, double)>& visit)
-{
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& a = surface.Points[t[k]];
-      const Point& b = surface.Points[t[(k + 1) % 3]];
-      visit(t[k], t[(k + 1) % 3], Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
-    }
-  }
-}
-
-void ExpectLegal(const SurfaceResult& surface)
-{
-  EXPECT_EQ(CountSelfIntersections(surface), 0);
-  EXPECT_NO_THROW(CheckInitialSurface(surface)) << "closed, oriented, manifold";
-  int outside = 0;
-  VisitEdges(surface,
-    [&](int u, int v, double length)
-    {
-      const double delta = 0.5 * (surface.Size[u] + surface.Size[v]);
-      outside += length < 0.999 * delta || length > 2.501 * delta;
-    });
-  EXPECT_EQ(outside, 0);
 }
 }
 
@@ -200,19 +68,22 @@ TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
     before = sizing.Reach(0);
     // From v to a point of its star, and on to a corner of a face that grows with the distance d:
     // d = .36 longest + (1 + g d) 2.5 / sqrt 3, both in delta.
-    const double longest = (std::exp(2.5 * gradation) - 1.) / (2.5 * gradation);
+    const double longest = 1. / (1. - 1.25 * gradation); // Its delta is the mean of both ends'.
     const double furthest = (.36 * longest + 2.5 / std::sqrt(3.)) /
       (1. - gradation * 2.5 / std::sqrt(3.));
     EXPECT_GT(sizing.Reach(0), furthest);
     EXPECT_EQ(sizing.Reach(1), SizingField(4.f).Reach(1)) << "nothing is larger";
   }
+  // While it evolves a part with the largest may come near to one with the least.
+  const SizingField any = even.Graded(sizes, 4.f, 1.f);
+  EXPECT_EQ(any.Reach(0), SizingField(4.f).Reach(0));
 }
 
 TEST(GradedSurface, HasFewerTrianglesWhereItIsFlatAndKeepsTheTolerance)
 {
-  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading());
+  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading(), Alone);
   EXPECT_TRUE(even.Size.empty());
-  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(Tolerance));
+  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(Tolerance), Alone);
   ASSERT_EQ(graded.Size.size(), graded.Points.size());
   ExpectLegal(graded);
   EXPECT_LT(1.8 * graded.Points.size(), even.Points.size());
@@ -241,7 +112,7 @@ TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
 {
   Grading grading = Within(2.);
   grading.MaximumEdgeLength = 5.;
-  const SurfaceResult surface = SurfaceOf(OutsideBoxAndBall, grading);
+  const SurfaceResult surface = SurfaceOf(OutsideBoxAndBall, grading, Alone);
   ExpectLegal(surface);
   double longest = 0.;
   double steepest = 0.;
@@ -260,8 +131,8 @@ TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
 
 TEST(GradedSurface, IsThatWithoutWhereTheToleranceIsTooSmall)
 {
-  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading());
-  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(1e-6));
+  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading(), Alone);
+  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(1e-6), Alone);
   ExpectLegal(graded);
   EXPECT_NEAR(static_cast<double>(graded.Points.size()), even.Points.size(),
     0.03 * even.Points.size());
@@ -274,7 +145,7 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
   for (const double thickness : { 1.5, 2.5, 4. })
   {
     SCOPED_TRACE(thickness);
-    const SurfaceResult plate = SurfaceOf(OutsidePlate(thickness), Within(1.));
+    const SurfaceResult plate = SurfaceOf(OutsidePlate(thickness), Within(1.), Alone);
     ExpectLegal(plate);
     const SurfaceFeatures features = ComputeFeatures(plate);
     EXPECT_EQ(features.Components.size(), 1u);
@@ -306,121 +177,6 @@ TEST(GradedSurface, IsTheSameOnAnyThreads)
     EXPECT_EQ(one.Size, other.Size);
     EXPECT_EQ(one.FitToTolerance->LargestDistance, other.FitToTolerance->LargestDistance);
     EXPECT_EQ(one.FitToTolerance->WithinTolerance, other.FitToTolerance->WithinTolerance);
-  }
-}
-
-TEST(GradedSurface, IsDividedOnlyWhereAToleranceAsksForIt)
-{
-  const SurfaceResult coarse = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(100.)).Divided;
-  ExpectLegal(coarse);
-  EXPECT_GT(*std::min_element(coarse.Size.begin(), coarse.Size.end()), 1.4f * 0.85f)
-    << "a tolerance that all of it keeps divides nothing";
-  constexpr double tolerance = 0.25;
-  const TwoLevels some = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(tolerance));
-  ExpectLegal(some.AtRest);
-  EXPECT_GT(some.Divided.Points.size(), 1.03 * coarse.Points.size());
-  EXPECT_LT(some.Divided.Points.size(), 2 * coarse.Points.size());
-  // It is as good as one that was divided everywhere.
-  const SurfaceResult whole = SurfaceOf(OutsideBoxAndBall, Within(tolerance));
-  EXPECT_GT(some.AtRest.FitToTolerance->WithinTolerance,
-    whole.FitToTolerance->WithinTolerance - 0.005);
-  EXPECT_LT(some.AtRest.Points.size(), 1.1 * whole.Points.size());
-  EXPECT_NEAR(ComputeFeatures(some.AtRest).Volume, ComputeFeatures(whole).Volume,
-    0.002 * ComputeFeatures(whole).Volume);
-}
-
-TEST(GradedSurface, IsDividedEverywhereWhereNearlyAllOfItAsksForThat)
-{
-  const TwoLevels all = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(1e-3));
-  EXPECT_TRUE(all.Divided.Size.empty()) << "it is even until it rests";
-  ExpectLegal(all.AtRest);
-}
-
-TEST(GradedSurface, FollowsThinPartsAloneWithShorterEdges)
-{
-  // Triangles of level 0 cannot hold the plate; those of the box are what they were.
-  const double below = 1. / std::sqrt(3.);
-  const TwoLevels levels = SurfaceOfTwoLevels(OutsideBoxAndPlate, ThinParts(), below);
-  const SurfaceResult& surface = levels.AtRest;
-  ExpectLegal(surface);
-  EXPECT_FALSE(surface.FitToTolerance);
-  const SurfaceFeatures features = ComputeFeatures(surface);
-  ASSERT_EQ(features.Components.size(), 2u);
-  EXPECT_EQ(features.Genus, 0);
-  EXPECT_EQ(levels.Lost.MissingBoundary, 0.);
-  ASSERT_EQ(surface.Thickness.size(), surface.Points.size());
-  const float delta = 0.85f;
-  std::size_t large = 0;
-  std::size_t ofBox = 0;
-  std::size_t ofPlate = 0;
-  std::size_t small = 0;
-  for (std::size_t p = 0; p < surface.Points.size(); ++p)
-  {
-    const bool isOfPlate = surface.Points[p][0] > 29.;
-    const bool isInside = surface.Points[p][0] < 43. && std::abs(surface.Points[p][1] - 24.1) < 7.;
-    const bool isFar = surface.Points[p][0] < 20.;
-    ofBox += isFar;
-    large += isFar && surface.Size[p] > 0.99f * delta;
-    ofPlate += isOfPlate && isInside;
-    small += isOfPlate && isInside && surface.Size[p] < 0.8f * delta;
-    if (isFar)
-    {
-      EXPECT_FLOAT_EQ(surface.Thickness[p], Grading::MostThickness * delta * static_cast<float>(below))
-        << "nothing is near";
-    }
-    if (isOfPlate && isInside)
-    {
-      EXPECT_NEAR(surface.Thickness[p], 1., 0.4) << "the plate is a voxel thick";
-    }
-  }
-  EXPECT_GT(large, 0.99 * ofBox);
-  EXPECT_GT(ofPlate, 200u);
-  EXPECT_GT(small, 0.95 * ofPlate);
-}
-
-TEST(GradedSurface, HoldsAnObliquePlateWithoutHoles)
-{
-  const TwoLevels levels =
-    SurfaceOfTwoLevels(OutsideBlurredPlate(1.), ThinParts(), 1. / std::sqrt(3.));
-  ExpectLegal(levels.AtRest);
-  const SurfaceFeatures features = ComputeFeatures(levels.AtRest);
-  EXPECT_EQ(features.Components.size(), 1u);
-  EXPECT_EQ(features.Genus, 0);
-  EXPECT_EQ(levels.Lost.MissingBoundary, 0.);
-}
-
-TEST(GradedSurface, HoldsWhatIsLeftOfAPlateThinnerThanAVoxel)
-{
-  // Between the voxels its values do not reach the isopotential everywhere: there are beads.
-  const auto plate = OutsideBlurredPlate(0.8);
-  const double ofEven = ComputeFeatures(SurfaceOf(plate, Grading())).Volume;
-  const TwoLevels levels = SurfaceOfTwoLevels(plate, ThinParts(), 1. / std::sqrt(3.));
-  ExpectLegal(levels.AtRest);
-  EXPECT_GT(ComputeFeatures(levels.AtRest).Volume, 20. * ofEven)
-    << "triangles of level 0 alone lose nearly all";
-  EXPECT_LT(levels.Lost.MissingBoundary, 0.01);
-}
-
-TEST(GradedSurface, OfTwoLevelsIsTheSameOnAnyThreads)
-{
-  const double below = 1. / std::sqrt(3.);
-  for (const bool thin : { false, true })
-  {
-    SCOPED_TRACE(thin);
-    const auto run = [thin, below](Executor& executor)
-    {
-      return thin
-        ? SurfaceOfTwoLevels(OutsideBoxAndPlate, ThinParts(), below, executor, 14.).AtRest
-        : SurfaceOfTwoLevels(OutsideBoxAndBall, Within(Tolerance), 1., executor, 12.).AtRest;
-    };
-    const SurfaceResult one = run(Alone);
-    ExpectLegal(one);
-    DelayedThreads three(3, 5, 40, 7);
-    const SurfaceResult other = run(three);
-    EXPECT_EQ(one.Points, other.Points);
-    EXPECT_EQ(one.Triangles, other.Triangles);
-    EXPECT_EQ(one.Size, other.Size);
-    EXPECT_EQ(one.Thickness, other.Thickness);
   }
 }
 

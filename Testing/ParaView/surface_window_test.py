@@ -20,9 +20,9 @@ from paraview import simple
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
 BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Recovery",
-         "KeepComponents", "ThinParts")
+         "KeepComponents")
 ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "Tolerance",
-            "MaximumEdgeLength", "Gradation", "SamplingRatio",
+            "MaximumEdgeLength", "Gradation", "ThinParts", "SamplingRatio",
             "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
             "BorderValue", "TopologyChanges", "SnapToIsoValue", "AttractingPositions",

@@ -16,11 +16,11 @@ namespace volumic
  * of an edge is the mean of its ends'; edges lie in [1, 2.5] of it.
  *
  * The delta of a graded surface grows by at most the gradation g for each length, along the surface
- * and across space. The longest legal edge about a vertex u is then delta_u (exp(2.5 g) - 1) / g. A
- * face with a corner at a distance d from u has edges of up to 2.5 (delta_u + g d), and no point of
- * it is further from a corner than that over sqrt 3: so what may intersect is looked for Further()
- * times as far, which is that growth of edges over 1 - g; no further than where all have the largest
- * delta. Derived in Documentation/differences.md.
+ * and across space. The longest legal edge about a vertex u is then 2.5 delta_u / (1 - 1.25 g), as
+ * its delta is the mean of both ends'. A face with a corner at a distance d from u has edges of up to
+ * 2.5 (delta_u + g d), and no point of it is further from a corner than that over sqrt 3. So what may
+ * intersect is looked for Further() times as far: a little more than that comes to; no further than
+ * where all have the largest delta. Derived in Documentation/differences.md.
  *
  * Where nothing else is said a method's `share` is a factor of its length. Lengths: workspace.
  */

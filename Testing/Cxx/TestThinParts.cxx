@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SameOutputs.h"
+#include "SurfaceTestTools.h"
+#include "vtkLabelsToSurfaces.h"
+#include "vtkVolumeToSurface.h"
+
+#include <vtkErrorCode.h>
+#include <vtkMultiBlockDataSet.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** A thick ball with a sheet of a voxel that stands off from it. */
+vtkSmartPointer<vtkImageData> Image()
+{
+  static const vtkSmartPointer<vtkImageData> image = []
+  {
+    auto made = BallImage(60, 48, 48, 0.3);
+    for (int k = 10; k < 38; ++k)
+    {
+      for (int i = 48; i < 58; ++i)
+      {
+        made->SetScalarComponentFromDouble(i, 24, k, 0, 100.0);
+      }
+    }
+    return made;
+  }();
+  return image;
+}
+
+using Choice = std::function<void(vtkVolumeToSurface*)>;
+
+vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const Choice& choose = {})
+{
+  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
+  filter->SetInputData(Image());
+  filter->SetIsoValue(50.0);
+  filter->SetThinParts(thinParts);
+  if (choose)
+  {
+    choose(filter);
+  }
+  return filter;
+}
+
+/** Run to its end. */
+vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const Choice& choose = {})
+{
+  auto filter = Filter(thinParts, choose);
+  filter->Update();
+  return filter;
+}
+
+vtkPolyData* SurfaceAt(vtkDeformableSurface* filter, unsigned int level)
+{
+  return vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+}
+
+bool HasThickness(vtkPolyData* surface)
+{
+  return surface->GetPointData()->HasArray("Thickness") != 0;
+}
+
+vtkIdType PointsOf(vtkDeformableSurface* filter)
+{
+  return filter->GetOutput()->GetNumberOfPoints();
+}
+}
+
+TEST(ThinParts, AreHeldByShorterEdgesThereAlone)
+{
+  const auto even = Made(false);
+  const auto thin = Made(true);
+  const auto fine = Made(false, [](vtkVolumeToSurface* f) { f->SetFinestLevel(-1); });
+  vtkPolyData* surface = thin->GetOutput();
+  EXPECT_EQ(FieldOf(surface, "Level"), -1);
+  EXPECT_EQ(FieldOf(surface, "Delta"), FieldOf(fine->GetOutput(), "Delta"));
+  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+  EXPECT_LT(1.5 * PointsOf(thin), PointsOf(fine)) << "the ball keeps its triangles";
+  EXPECT_GT(PointsOf(thin), PointsOf(even));
+  EXPECT_EQ(FieldOf(surface, "MissingBoundary"), 0.);
+  EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), FieldOf(fine->GetOutput(), "NumberOfComponents"));
+  // A sheet of a voxel on either side of which the next voxel is air is a voxel thick.
+  double range[2];
+  ASSERT_TRUE(HasThickness(surface));
+  surface->GetPointData()->GetArray("Thickness")->GetRange(range);
+  EXPECT_GT(range[0], 0.2);
+  EXPECT_LT(range[0], 1.2);
+  EXPECT_NEAR(range[1], 8. * FieldOf(surface, "Delta"), 1e-5);
+  surface->GetPointData()->GetArray("EdgeSize")->GetRange(range);
+  EXPECT_NEAR(range[0], 1.6 * FieldOf(surface, "Delta"), 1e-5);
+  EXPECT_NEAR(range[1], 1.6 * FieldOf(even->GetOutput(), "Delta"), 1e-5);
+  EXPECT_TRUE(std::isnan(FieldOf(surface, "WithinTolerance"))) << "no tolerance was given";
+}
+
+TEST(ThinParts, LeaveLevel0AsItIs)
+{
+  const auto even = Made(false);
+  const auto thin = Made(true);
+  EXPECT_TRUE(AreSameSurfaces(SurfaceAt(thin, 0), SurfaceAt(even, 0)));
+  EXPECT_FALSE(HasThickness(SurfaceAt(thin, 0)));
+  EXPECT_EQ(thin->GetLevels()->GetNumberOfBlocks(), even->GetLevels()->GetNumberOfBlocks() + 1);
+  EXPECT_EQ(thin->GetFinestLevel(), 0) << "what was set stays what it is";
+}
+
+TEST(ThinParts, AreThoseOfFinestLevelMinusOneToo)
+{
+  const auto one = Made(true);
+  const auto other = Made(true, [](vtkVolumeToSurface* f) { f->SetFinestLevel(-1); });
+  ExpectSameSurfaces(one->GetOutput(), other->GetOutput());
+}
+
+TEST(ThinParts, DoNothingWhereTheRunEndsBefore)
+{
+  const auto coarse = [](vtkVolumeToSurface* f) { f->SetFinestLevel(1); };
+  const auto thin = Made(true, coarse);
+  EXPECT_EQ(FieldOf(thin->GetOutput(), "Level"), 1);
+  ExpectSameSurfaces(thin->GetOutput(), Made(false, coarse)->GetOutput());
+}
+
+TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
+{
+  const auto filter = Filter(false);
+  for (const auto& [thinParts, finest, preview] : std::vector<std::array<int, 3>>{
+         { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 1, 0, 0 }, { 0, -1, 0 },
+         { 1, -1, 0 } })
+  {
+    SCOPED_TRACE(::testing::Message() << thinParts << " " << finest << " " << preview);
+    const int level = finest;
+    const bool isPreview = preview != 0;
+    const auto choose = [=](vtkVolumeToSurface* f)
+    {
+      f->SetFinestLevel(level);
+      f->SetPreview(isPreview);
+    };
+    filter->SetThinParts(thinParts != 0);
+    choose(filter);
+    filter->Update();
+    ExpectSameSurfaces(filter->GetOutput(), Made(thinParts != 0, choose)->GetOutput());
+  }
+}
+
+TEST(ThinParts, GoWithATolerance)
+{
+  // What is flat has longer edges than those of the level, what is thin has shorter ones.
+  const auto both = Made(true, [](vtkVolumeToSurface* f) { f->SetTolerance(0.4); });
+  vtkPolyData* surface = both->GetOutput();
+  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+  EXPECT_TRUE(HasThickness(surface));
+  EXPECT_GT(FieldOf(surface, "WithinTolerance"), 0.95);
+  EXPECT_EQ(FieldOf(surface, "MissingBoundary"), 0.);
+  EXPECT_LT(PointsOf(both), PointsOf(Made(true)));
+}
+
+TEST(ThinParts, AreTheSameOnAnyThreadsAndWithLittleMemory)
+{
+  const auto one = Made(true, [](vtkVolumeToSurface* f) { f->SetNumberOfThreads(1); });
+  const auto three = Made(true, [](vtkVolumeToSurface* f) { f->SetNumberOfThreads(3); });
+  const auto limited = Made(true, [](vtkVolumeToSurface* f) { f->SetMemoryLimit(200); });
+  ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
+  EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
+}
+
+TEST(ThinParts, StayWithTheComponentsThatAreKept)
+{
+  const auto filter =
+    Made(true, [](vtkVolumeToSurface* f) { f->SetKeepComponentsToLargestComponent(); });
+  vtkPolyData* surface = filter->GetOutput();
+  ASSERT_TRUE(HasThickness(surface));
+  EXPECT_EQ(surface->GetPointData()->GetArray("Thickness")->GetNumberOfTuples(),
+    surface->GetNumberOfPoints());
+}
+
+TEST(ThinParts, WhatIsWrongIsToldAndAGoodRunFollows)
+{
+  struct Case
+  {
+    Choice Break;
+    std::vector<std::string> Parts;
+  };
+  const std::vector<Case> cases = {
+    { [](vtkVolumeToSurface* f) { f->SetEdgeLength(1.5); },
+      { "Thin Parts is on and Edge Length is 1.5", "Set Edge Length to 0" } },
+    { [](vtkVolumeToSurface* f) { f->SnapToIsoValueOff(); },
+      { "Thin Parts is on, but Snap To Iso Value is off", "Switch it off" } },
+    { [](vtkVolumeToSurface* f) { f->SetIsopotentialWeight(0.); },
+      { "Thin Parts is on, but Isopotential Weight is not more than" } },
+  };
+  for (const Case& test : cases)
+  {
+    SCOPED_TRACE(test.Parts.front());
+    const auto filter = Filter(true, test.Break);
+    {
+      const MessagesOf errors(filter);
+      filter->Update();
+      for (const std::string& part : test.Parts)
+      {
+        EXPECT_TRUE(errors.Has(part)) << errors.Get();
+      }
+    }
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+    filter->SetEdgeLength(0.);
+    filter->SnapToIsoValueOn();
+    filter->SetIsopotentialWeight(1.);
+    filter->Update();
+    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+    EXPECT_TRUE(HasThickness(filter->GetOutput()));
+  }
+}
+
+TEST(ThinParts, AreOfLabelsToo)
+{
+  // A thick block, and a shell of a voxel.
+  vtkNew<vtkImageData> map;
+  map->SetDimensions(40, 40, 40);
+  map->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  for (int k = 0; k < 40; ++k)
+  {
+    for (int j = 0; j < 40; ++j)
+    {
+      for (int i = 0; i < 40; ++i)
+      {
+        const bool isBlock = std::max({ std::abs(i - 10), std::abs(j - 20), std::abs(k - 20) }) < 8;
+        const double r = std::sqrt(std::pow(i - 28.3, 2) + std::pow(j - 19.8, 2) + std::pow(k - 20.1, 2));
+        map->SetScalarComponentFromDouble(i, j, k, 0, isBlock ? 1. : r > 7.5 && r < 8.5 ? 2. : 0.);
+      }
+    }
+  }
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(map);
+  const auto surface = [&filter](unsigned int block)
+  { return vtkPolyData::SafeDownCast(filter->GetOutput()->GetBlock(block)); };
+  filter->Update();
+  const vtkIdType ofBlock = surface(0)->GetNumberOfPoints();
+  const vtkIdType ofShell = surface(1)->GetNumberOfPoints();
+  const double wrong = FieldOf(surface(1), "WrongVoxels");
+  filter->ThinPartsOn();
+  filter->Update();
+  EXPECT_LT(surface(0)->GetNumberOfPoints(), 1.3 * ofBlock);
+  EXPECT_GT(surface(1)->GetNumberOfPoints(), 1.5 * ofShell);
+  EXPECT_LT(FieldOf(surface(1), "WrongVoxels"), 0.5 * wrong);
+  for (const unsigned int block : { 0u, 1u })
+  {
+    EXPECT_TRUE(HasThickness(surface(block)));
+    EXPECT_EQ(OpenOrNonManifoldEdges(surface(block)), 0);
+  }
+}
