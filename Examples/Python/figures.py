@@ -10,6 +10,7 @@
     views      the finest surface from outside, and cut open                 Cranium.inv3
     triangles  its triangles, and its contour on slices                      Cranium.inv3
     graded     its triangles, and fewer of them within a tolerance           Cranium.inv3
+    thin       its triangles, and more of them where it is thin              Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
                with the paper's settings and with the defaults
     evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
@@ -39,8 +40,8 @@ from pyramid_picture import grey_window, index_bounds, pyramid_picture
 from read_volume import VolumeError
 from scan_runs import Scan, field, iterations, starts
 from surface_pictures import (
-    close_view, common_height, cut_open, main_component, slice_with_contour, surface_row,
-    to_index_space, visited_levels)
+    close_view, common_height, cut_open, field_value, main_component, slice_with_contour,
+    surface_row, to_index_space, visited_levels)
 from terminal import FilterError, Interrupted
 
 ROW_WIDTH = 1240  # pixels of a whole picture, about as wide as a page of a repository is shown
@@ -49,6 +50,7 @@ LARGEST = 300000  # bytes of a picture
 GREY_STEP = 5  # colours are rounded to multiples: half the size, and hardly visible
 SNAPSHOTS = (0, 50, 100, 250)  # iterations that are shown, and the surface at rest
 START_ZOOM = 1.25  # a rounded box does not reach the corners of its bounds
+EDGE_OF_THE_REST = .3, .5, .5  # of the head, a thin sheet behind the skull; shares of the bounds
 AS_PAPER = "As in the paper: {} levels, no recovery"
 
 
@@ -109,12 +111,23 @@ def triangles(skull):
 def graded(skull):
     tolerance = 0.5  # mm
     surfaces = skull.run().GetOutput(), skull.run(Tolerance=tolerance).GetOutput()
+    return beside_even(skull, surfaces, [main_component(surface)[0] for surface in surfaces],
+                       f"Within a tolerance of {tolerance} mm")
+
+
+def thin(skull):
+    surfaces = skull.run().GetOutput(), skull.run(ThinParts=True).GetOutput()
+    return beside_even(skull, surfaces, surfaces, "Thin parts", towards="P", place=EDGE_OF_THE_REST)
+
+
+def beside_even(skull, surfaces, shown, name, **view):
+    """Two surfaces' triangles, of which the first has edges of one length."""
     width = panel_width(2)
-    row = [close_view(main_component(surface)[0], skull.frame, (width, width * 3 // 10))
-           for surface in surfaces]
-    names = ("All edges of one length", f"Within a tolerance of {tolerance} mm")
+    row = [close_view(surface, skull.frame, (width, width * 3 // 10),
+                      delta=field_value(surfaces[0], "Delta"), **view) for surface in shown]
     return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)
-                                   for name, surface in zip(names, surfaces)]])
+                                   for name, surface in zip(("All edges of one length", name),
+                                                            surfaces)]])
 
 
 def without_pyramid(skull):
@@ -200,7 +213,7 @@ def compact(picture):
     return rounded
 
 
-SKULL_PICTURES = (pyramid, levels, views, triangles, graded, history, evolution)
+SKULL_PICTURES = (pyramid, levels, views, triangles, graded, thin, history, evolution)
 
 
 def write_picture(draw, scan, folder, name=None):

@@ -159,15 +159,18 @@ def cut_open(surface, point, keep_towards):
     return actor
 
 
-def close_view(surface, frame, size):
-    """The triangles near the foremost vertex of the middle, with their edges."""
+def close_view(surface, frame, size, towards="AAAL", place=(.5, .5, .5), delta=None):
+    """The triangles at a place, by its share of the bounds along each axis, with their edges.
+
+    So many as fit of an even surface with that delta, by default its own."""
     bounds = surface.GetBounds()
     # A legal mesh's edges are 1 to 2.5 delta long, and 1.6 delta in the mean.
-    width = EDGES_WIDTH * 1.6 * field_value(surface, "Delta")
-    centre = np.reshape(bounds, (3, 2)).mean(axis=1)
+    width = EDGES_WIDTH * 1.6 * (delta or field_value(surface, "Delta"))
+    low, high = np.reshape(bounds, (3, 2)).T
+    centre = low + np.array(place) * (high - low)
     half_width, half_height = render.projected(*(frame.vector(c) for c in "AS"), bounds)
     whole = 2 * max(half_width, half_height * size[0] / size[1])
-    return render.draw([render.surface_actor(surface, edges=True)], size, frame, "AAAL", "S",
+    return render.draw([render.surface_actor(surface, edges=True)], size, frame, towards, "S",
                        bounds, zoom=max(1.0, whole / width), focus=centre)
 
 

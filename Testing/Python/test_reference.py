@@ -150,6 +150,7 @@ class SurfaceTest(ReferenceTest):
         surface.SetInputData(make_image(ring_voxels(), RING_SPACING))
         surface.SetIsoValue(RING_ISO)
         surface.SetTolerance(0.3)
+        surface.ThinPartsOn()
         surface.Update()
         for kind, arrays in (("Point arrays", surface.GetOutput().GetPointData()),
                              ("Field data", surface.GetOutput().GetFieldData())):
