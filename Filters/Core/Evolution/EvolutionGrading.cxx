@@ -55,7 +55,11 @@ bool SurfaceEvolution::Implementation::DivideWhereWanted(double delta)
   this->ForgetBlocks();
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
+  // Most of it is to keep the edges that it has: so large are the cells of the grid, too.
+  const SizingField fine = s.Sizing;
+  s.Sizing = SizingField(static_cast<float>(delta));
   this->LayGrid();
+  s.Sizing = fine;
   GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
   sizes.Begin(static_cast<float>(delta));
   s.UpdateShape(this->OwnVertices(), this->Threads);
