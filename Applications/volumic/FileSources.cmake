@@ -45,9 +45,7 @@ set(volumic_writer_sources
   FileBuffer.cxx
   FileGrowth.cxx
   FullDisk.cxx
-  GltfDescription.cxx
   GltfScene.cxx
-  JsonWriter.cxx
   OutputFiles.cxx
   ProgressLine.cxx
   Ranks.cxx

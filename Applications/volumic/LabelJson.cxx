@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Names of labels in JSON: what nnU-Net, TotalSegmentator, 3D Slicer and people write.
+#include "Json.h"
 #include "LabelNames.h"
 #include "ParseNumbers.h"
 #include "Texts.h"
@@ -11,14 +12,10 @@
 #include <cmath>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
 namespace tool
 {
 namespace
 {
-using Json = nlohmann::ordered_json; // members in the order of the file
-
 /** @throws Failure, which names the line if the text is no JSON, or if it is too deep or large. */
 Json ParseJson(const std::string& text)
 {

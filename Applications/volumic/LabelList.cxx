@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelList.h"
 
-#include "JsonWriter.h"
+#include "Json.h"
 #include "Report.h"
 
 #include <algorithm>
@@ -87,29 +87,17 @@ void WriteTable(std::ostream& out, const LabelList& list)
   }
 }
 
-void WriteReport(std::ostream& out, const LabelList& list)
+std::string ReportText(const LabelList& list)
 {
-  JsonWriter json(out);
-  json.BeginObject();
-  WriteInput(json, list.VolumeName, list.Volume);
-  json.Name("labels");
-  json.BeginArray();
+  Json json = { { "input", InputFacts(list.VolumeName, list.Volume) },
+    { "labels", Json::array() } };
   for (const KnownLabel& label : list.Labels)
   {
-    std::array<double, 6> box;
-    std::copy(label.Box.begin(), label.Box.end(), box.begin());
-    json.BeginObject();
-    json.Member("label", label.Label);
-    json.Member("name", label.Name);
-    json.Numbers("color", label.Color.data(), 3);
-    json.Member("layer", label.Layer);
-    json.Member("voxels", static_cast<double>(label.Voxels));
-    json.Member("volume", VolumeOf(label, list.Volume));
-    json.Numbers("box", box.data(), 6);
-    json.EndObject();
+    json["labels"].push_back({ { "label", label.Label }, { "name", label.Name },
+      { "color", AsJsonArray(label.Color) }, { "layer", label.Layer },
+      { "voxels", label.Voxels }, { "volume", AsJson(VolumeOf(label, list.Volume)) },
+      { "box", label.Box } });
   }
-  json.EndArray();
-  WriteEnd(json, list.Warnings);
-  json.EndObject();
+  return EndedReport(json, list.Warnings);
 }
 }

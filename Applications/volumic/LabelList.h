@@ -26,7 +26,7 @@ struct LabelList
 void WriteTable(std::ostream& out, const LabelList& list);
 
 /** As JSON, `labels` with an object for each. */
-void WriteReport(std::ostream& out, const LabelList& list);
+std::string ReportText(const LabelList& list);
 }
 
 #endif

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelReport.h"
 
-#include "JsonWriter.h"
+#include "Json.h"
 #include "Report.h"
 
 #include <vtkDataArray.h>
@@ -13,35 +13,31 @@ namespace tool
 {
 namespace
 {
-void WriteNames(JsonWriter& json, const LabelSurface& surface)
+Json NameFacts(const LabelSurface& surface)
 {
-  double voxels = 0;
-  std::vector<double> labels;
+  vtkIdType voxels = 0;
+  std::vector<int> labels;
   for (const KnownLabel& label : surface.Labels)
   {
     labels.push_back(label.Label);
-    voxels += static_cast<double>(label.Voxels);
+    voxels += label.Voxels;
   }
   if (vtkDataArray* counted = surface.Surface->GetFieldData()->GetArray("LabelVoxels"))
   {
-    voxels = counted->GetComponent(0, 0);
+    voxels = static_cast<vtkIdType>(counted->GetComponent(0, 0));
   }
+  Json facts = Json::object();
   if (labels.size() == 1)
   {
-    json.Member("label", labels[0]);
+    facts["label"] = labels[0];
   }
-  json.Numbers("labels", labels.data(), static_cast<int>(labels.size()));
-  json.Member("name", surface.Name);
-  json.Numbers("color", surface.Labels[0].Color.data(), 3);
-  json.Member("layer", surface.Labels[0].Layer);
-  json.Member("voxels", voxels);
-  json.Name("files");
-  json.BeginArray();
-  for (const std::string& file : surface.Files)
-  {
-    json.Value(file);
-  }
-  json.EndArray();
+  facts["labels"] = labels;
+  facts["name"] = surface.Name;
+  facts["color"] = AsJsonArray(surface.Labels[0].Color);
+  facts["layer"] = surface.Labels[0].Layer;
+  facts["voxels"] = voxels;
+  facts["files"] = surface.Files;
+  return facts;
 }
 }
 
@@ -53,35 +49,23 @@ vtkIdType WrongVoxels(vtkPolyData* surface, const char* name)
     : 0;
 }
 
-void WriteReport(std::ostream& out, const LabelReport& report)
+std::string ReportText(const LabelReport& report)
 {
-  JsonWriter json(out);
-  json.BeginObject();
-  WriteInput(json, report.VolumeName, report.Volume);
-  json.Member("finished", report.IsFinished);
-  json.Name("labels");
-  json.BeginArray();
+  Json json = { { "input", InputFacts(report.VolumeName, report.Volume) },
+    { "finished", report.IsFinished }, { "labels", Json::array() } };
   for (const LabelSurface& each : report.Surfaces)
   {
     vtkPolyData* surface = each.Surface;
-    json.BeginObject();
-    WriteNames(json, each);
-    json.Member("seconds", each.Seconds);
-    json.Member("wrong_voxels", static_cast<double>(WrongVoxels(surface)));
-    json.Member("missed_voxels", static_cast<double>(WrongVoxels(surface, "MissedVoxels")));
-    WriteSurfaceFacts(
-      json, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
-    WriteComponents(json, surface);
-    json.EndObject();
+    Json& facts = json["labels"].emplace_back(NameFacts(each));
+    facts["seconds"] = each.Seconds;
+    facts["wrong_voxels"] = WrongVoxels(surface);
+    facts["missed_voxels"] = WrongVoxels(surface, "MissedVoxels");
+    AddSurfaceFacts(facts, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
+    facts["component_features"] = ComponentFeatures(surface);
   }
-  json.EndArray();
-  json.Name("seconds");
-  json.BeginObject();
-  json.Member("surface", report.Seconds);
-  json.EndObject();
-  WriteMemory(json, report.ReaderMemory, report.PeaksByRank);
-  WriteProperties(json, report.Filters, IsOfLabels);
-  WriteEnd(json, report.Warnings);
-  json.EndObject();
+  json["seconds"] = { { "surface", report.Seconds } };
+  json["memory"] = MemoryFacts(report.ReaderMemory, report.PeaksByRank);
+  json["properties"] = PropertyValues(report.Filters, IsOfLabels);
+  return EndedReport(json, report.Warnings);
 }
 }

@@ -7,13 +7,12 @@
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
 
-#include <iosfwd>
 #include <string>
 #include <vector>
 
 namespace tool
 {
-/** All that a report of labels tells; names in it are those of WriteReport where it has them. */
+/** All that a report of labels tells; names in it are those of ReportText where it has them. */
 struct LabelReport
 {
   std::string VolumeName;
@@ -27,8 +26,8 @@ struct LabelReport
   std::vector<double> PeaksByRank = {};
 };
 
-/** Write the report as JSON, `labels` with an object for each surface. */
-void WriteReport(std::ostream& out, const LabelReport& report);
+/** The report as JSON, `labels` with an object for each surface. */
+std::string ReportText(const LabelReport& report);
 
 /** Of a surface's field data: voxel centres on the wrong side; 0 where that is not told. */
 vtkIdType WrongVoxels(vtkPolyData* surface, const char* name = "WrongVoxels");

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report.h"
 
-#include "JsonWriter.h"
-#include "ParseNumbers.h"
+#include "Json.h"
 #include "Ranks.h"
 #include "SurfaceFields.h"
 
@@ -12,7 +11,6 @@
 #include <vtkFieldData.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
 #include <vtkVersion.h>
@@ -27,23 +25,15 @@
 
 namespace tool
 {
-void WriteInput(JsonWriter& json, const std::string& name, const VolumeFacts& volume)
+Json InputFacts(const std::string& name, const VolumeFacts& volume)
 {
-  double numbers[3];
-  json.Name("input");
-  json.BeginObject();
-  json.Member("name", name);
-  const std::array<int, 3> size = volume.Size();
-  std::copy_n(size.begin(), 3, numbers);
-  json.Numbers("dimensions", numbers, 3);
-  json.Numbers("spacing", volume.Spacing.data(), 3);
-  json.Numbers("origin", volume.Origin.data(), 3);
-  json.Member("scalar_type", vtkImageScalarTypeNameMacro(volume.Type));
-  json.Numbers("range", volume.Range.data(), 2);
-  json.EndObject();
+  return { { "name", name }, { "dimensions", volume.Size() },
+    { "spacing", AsJsonArray(volume.Spacing) }, { "origin", AsJsonArray(volume.Origin) },
+    { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
+    { "range", AsJsonArray(volume.Range) } };
 }
 
-void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize& size)
+void AddSurfaceFacts(Json& json, vtkPolyData* surface, const SurfaceSize& size)
 {
   static const char* const facts[][2] = { { "components", "NumberOfComponents" },
     { "genus", "Genus" }, { "euler_characteristic", "EulerCharacteristic" }, { "area", "Area" },
@@ -55,41 +45,38 @@ void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize
   {
     if (vtkDataArray* values = surface->GetFieldData()->GetArray(array))
     {
-      json.Member(name, values->GetComponent(0, 0));
+      json[name] = AsJson(values->GetComponent(0, 0));
     }
   }
-  json.Member("vertices", static_cast<double>(size.Vertices));
-  json.Member("triangles", static_cast<double>(size.Triangles));
-  json.Member("stop_reason", StopReason(surface));
+  json["vertices"] = size.Vertices;
+  json["triangles"] = size.Triangles;
+  json["stop_reason"] = StopReason(surface);
 }
 
-void WriteComponents(JsonWriter& json, vtkPolyData* surface)
+Json ComponentFeatures(vtkPolyData* surface)
 {
   static const char* const facts[][2] = { { "area", "ComponentArea" },
     { "volume", "ComponentVolume" }, { "genus", "ComponentGenus" },
     { "centroid", "ComponentCentroid" }, { "inertia", "ComponentInertia" } };
   vtkFieldData* fields = surface->GetFieldData();
   vtkDataArray* areas = fields->GetArray("ComponentArea");
-  json.Name("component_features");
-  json.BeginArray();
+  Json components = Json::array();
   for (vtkIdType c = 0; areas && c < areas->GetNumberOfTuples(); ++c)
   {
-    json.BeginObject();
+    Json& component = components.emplace_back(Json::object());
     for (const auto& [name, array] : facts)
     {
-      vtkDataArray* values = fields->GetArray(array);
-      if (values && values->GetNumberOfComponents() == 1)
+      if (vtkDataArray* values = fields->GetArray(array))
       {
-        json.Member(name, values->GetComponent(c, 0));
-      }
-      else if (values)
-      {
-        json.Numbers(name, values->GetTuple(c), values->GetNumberOfComponents());
+        const double* tuple = values->GetTuple(c);
+        const int count = values->GetNumberOfComponents();
+        component[name] = count == 1
+          ? AsJson(*tuple)
+          : AsJsonArray(std::vector<double>(tuple, tuple + count));
       }
     }
-    json.EndObject();
   }
-  json.EndArray();
+  return components;
 }
 
 namespace
@@ -121,36 +108,33 @@ double SecondsOf(vtkTable* history, const Counts& counts)
  * The visited levels from the coarsest to the finest; the surface may have vanished at one. Their
  * seconds add up to those of the run.
  */
-void WriteLevels(JsonWriter& json, const ReportInput& input)
+Json LevelFacts(const ReportInput& input)
 {
   vtkMultiBlockDataSet* levels = input.Filters.Surface->GetLevels();
   vtkTable* history = input.Filters.Surface->GetHistory();
   std::map<double, unsigned int, std::greater<double>> blocks;
   for (unsigned int block = 0; block < levels->GetNumberOfBlocks(); ++block)
   {
-    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(block));
-    if (surface)
+    if (auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(block)))
     {
       // The last block may be level -1.
       blocks[surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0)] = block;
     }
   }
-  json.Name("levels");
-  json.BeginArray();
+  Json told = Json::array();
   for (const auto& [level, block] : blocks)
   {
-    json.BeginObject();
-    WriteSurfaceFacts(
-      json, vtkPolyData::SafeDownCast(levels->GetBlock(block)), input.LevelSizes.at(block));
+    Json& facts = told.emplace_back(Json::object());
+    AddSurfaceFacts(
+      facts, vtkPolyData::SafeDownCast(levels->GetBlock(block)), input.LevelSizes.at(block));
     const double own = level;
-    json.Member("seconds", SecondsOf(history, [own](double of) { return of == own; }));
-    json.EndObject();
+    facts["seconds"] = SecondsOf(history, [own](double of) { return of == own; });
   }
-  json.EndArray();
+  return told;
 }
 
 /** Those of the whole surface, and, after --resume, of that what a run before has taken. */
-void WriteSeconds(JsonWriter& json, const ReportInput& input)
+Json SecondsOf(const ReportInput& input)
 {
   vtkDeformableSurface* filter = input.Filters.Surface;
   const int resumed = filter->GetResumedLevel();
@@ -158,44 +142,37 @@ void WriteSeconds(JsonWriter& json, const ReportInput& input)
   const double before = isResumed
     ? SecondsOf(filter->GetHistory(), [resumed](double of) { return of >= resumed; })
     : 0.0;
-  json.Name("seconds");
-  json.BeginObject();
-  json.Member("pyramid", input.PyramidSeconds);
-  json.Member("surface", before + input.SurfaceSeconds);
+  Json seconds = { { "pyramid", input.PyramidSeconds },
+    { "surface", before + input.SurfaceSeconds } };
   if (isResumed)
   {
-    json.Member("taken_over", before);
+    seconds["taken_over"] = before;
   }
-  json.EndObject();
+  return seconds;
 }
 }
 
-void WriteProperties(
-  JsonWriter& json, const FilterTrio& filters, bool (*isMeant)(const PropertyOption&))
+Json PropertyValues(const FilterTrio& filters, bool (*isMeant)(const PropertyOption&))
 {
-  json.Name("properties");
-  json.BeginObject();
+  Json values = Json::object();
   for (const PropertyOption& property : SurfaceProperties())
   {
     if (isMeant(property))
     {
-      json.Member(property.Property, property.Get(filters));
+      values[property.Property] = property.Get(filters);
     }
   }
-  json.EndObject();
+  return values;
 }
 
-void WriteMemory(JsonWriter& json, double reader, const std::vector<double>& byRank)
+Json MemoryFacts(double reader, const std::vector<double>& byRank)
 {
-  json.Name("memory");
-  json.BeginObject();
-  json.Member("reader", reader);
-  json.Member("peak", PeakMemory());
+  Json memory = { { "reader", reader }, { "peak", PeakMemory() } };
   if (!byRank.empty())
   {
-    json.Numbers("peak_by_rank", byRank.data(), static_cast<int>(byRank.size()));
+    memory["peak_by_rank"] = byRank;
   }
-  json.EndObject();
+  return memory;
 }
 
 std::vector<double> PeaksByRank(const Ranks& ranks)
@@ -218,39 +195,26 @@ double PeakMemory()
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-void WriteReport(std::ostream& out, const ReportInput& input)
+std::string ReportText(const ReportInput& input)
 {
   vtkDeformableSurface* filter = input.Filters.Surface;
   vtkPolyData* surface = filter->GetOutput();
-  JsonWriter json(out);
-  json.BeginObject();
-  WriteInput(json, input.VolumeName, input.Volume);
-  json.Member("iso_value", filter->GetIsoValue());
-  json.Member("finished", input.IsFinished);
-  WriteSurfaceFacts(json, surface, input.Size);
-  WriteComponents(json, surface);
-  WriteLevels(json, input);
-  WriteSeconds(json, input);
-  WriteMemory(json, input.ReaderMemory, input.PeaksByRank);
-  WriteProperties(json, input.Filters,
+  Json json = { { "input", InputFacts(input.VolumeName, input.Volume) },
+    { "iso_value", AsJson(filter->GetIsoValue()) }, { "finished", input.IsFinished } };
+  AddSurfaceFacts(json, surface, input.Size);
+  json["component_features"] = ComponentFeatures(surface);
+  json["levels"] = LevelFacts(input);
+  json["seconds"] = SecondsOf(input);
+  json["memory"] = MemoryFacts(input.ReaderMemory, input.PeaksByRank);
+  json["properties"] = PropertyValues(input.Filters,
     [](const PropertyOption& property) { return !IsOfLabelsOnly(property); });
-  WriteEnd(json, input.Warnings);
-  json.EndObject();
+  return EndedReport(json, input.Warnings);
 }
 
-void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings)
+std::string EndedReport(Json& json, const std::vector<std::string>& warnings)
 {
-  json.Name("warnings");
-  json.BeginArray();
-  for (const std::string& warning : warnings)
-  {
-    json.Value(warning);
-  }
-  json.EndArray();
-  json.Name("versions");
-  json.BeginObject();
-  json.Member("volumic", VOLUMIC_VERSION);
-  json.Member("vtk", vtkVersion::GetVTKVersion());
-  json.EndObject();
+  json["warnings"] = warnings;
+  json["versions"] = { { "volumic", VOLUMIC_VERSION }, { "vtk", vtkVersion::GetVTKVersion() } };
+  return TextOf(json);
 }
 }

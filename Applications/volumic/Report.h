@@ -7,15 +7,15 @@
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
 
-#include <iosfwd>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 class vtkPolyData;
 
 namespace tool
 {
-class JsonWriter;
 class Ranks;
 
 /**
@@ -38,29 +38,30 @@ struct ReportInput
   std::vector<double> PeaksByRank;     ///< as the function gives them
 };
 
-/** Write the report as JSON. Lengths, areas and volumes are in world units. */
-void WriteReport(std::ostream& out, const ReportInput& input);
+/** The report as JSON. Lengths, areas and volumes are in world units. */
+std::string ReportText(const ReportInput& input);
 
 // ---- Parts of reports ---------------------------------------------------------------------------
 
+using Json = nlohmann::ordered_json;
+
 /** The member `input`: what the volume is. */
-void WriteInput(JsonWriter& json, const std::string& name, const VolumeFacts& volume);
+Json InputFacts(const std::string& name, const VolumeFacts& volume);
 
 /** Members of the size and shape of a surface, from its field data. */
-void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize& size);
+void AddSurfaceFacts(Json& json, vtkPolyData* surface, const SurfaceSize& size);
 
 /** The member `component_features`: an object per component, the one of the largest area first. */
-void WriteComponents(JsonWriter& json, vtkPolyData* surface);
+Json ComponentFeatures(vtkPolyData* surface);
 
 /** The member `properties`: those that are meant, with their values. */
-void WriteProperties(
-  JsonWriter& json, const FilterTrio& filters, bool (*isMeant)(const PropertyOption&));
+Json PropertyValues(const FilterTrio& filters, bool (*isMeant)(const PropertyOption&));
 
 /** The member `memory`. @param reader PeakMemory() when the volume had been read */
-void WriteMemory(JsonWriter& json, double reader, const std::vector<double>& byRank);
+Json MemoryFacts(double reader, const std::vector<double>& byRank);
 
-/** The members `warnings` and `versions`. */
-void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings);
+/** The report with the members `warnings` and `versions` at its end, as text. */
+std::string EndedReport(Json& json, const std::vector<std::string>& warnings);
 
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();

@@ -34,7 +34,6 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <utility>
 
 namespace tool
@@ -235,9 +234,7 @@ void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   WriteLabelSurfaces(options, surfaces, style, failures);
   if (!options.Report.empty())
   {
-    std::ostringstream text;
-    WriteReport(text, report);
-    failures.Try([&] { WriteText(text.str(), options.Report); });
+    failures.Try([&] { WriteText(ReportText(report), options.Report); });
   }
   failures.Throw();
 }
@@ -298,9 +295,7 @@ void ListLabels(const ToolOptions& options, const LabelMap& map,
   }
   if (!options.Report.empty())
   {
-    std::ostringstream text;
-    WriteReport(text, list);
-    WriteText(text.str(), options.Report);
+    WriteText(ReportText(list), options.Report);
   }
   if (options.Report != "-")
   {

@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,17 +123,10 @@ void OutputWriter::WriteRest(const ReportInput& results)
   {
     this->Attempt([&] { WriteTable(this->Filter->GetHistory(), this->Options.History); });
   }
-  if (this->Options.Report.empty())
+  if (!this->Options.Report.empty())
   {
-    return;
+    this->Attempt([&] { WriteText(ReportText(results), this->Options.Report); });
   }
-  this->Attempt(
-    [&]
-    {
-      std::ostringstream report;
-      WriteReport(report, results);
-      WriteText(report.str(), this->Options.Report);
-    });
 }
 
 void OutputWriter::Finish()
