@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SlabReader.h"
 
+#include "Archive.h"
+#include "BinaryFile.h"
 #include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ParseNumbers.h"
-#include "TarFile.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
@@ -131,7 +132,7 @@ Description Describe(const std::string& plist)
 }
 
 /** Go to the file of that name. */
-void GoTo(TarFile& archive, const std::string& name)
+void GoTo(Archive& archive, const std::string& name)
 {
   while (archive.Next())
   {
@@ -143,17 +144,26 @@ void GoTo(TarFile& archive, const std::string& name)
   throw Failure("no " + name + " in it: not an InVesalius project");
 }
 
+/** The bytes of the member that the archive stands at, all of them, where its checksum is right. */
+void ReadMember(Archive& archive, char* bytes)
+{
+  if (archive.Read(bytes, archive.Size()) < archive.Size())
+  {
+    throw Failure("the archive is cut off");
+  }
+  archive.Finish();
+}
+
 Description ReadDescription(const std::string& name)
 {
-  TarFile archive(name);
+  Archive archive(Archive::Kind::Tar, Archive::TarIn(name));
   GoTo(archive, "main.plist");
   if (archive.Size() > LargestText)
   {
     throw Failure("main.plist is too large to be the description of a project");
   }
   std::string plist(archive.Size(), '\0');
-  archive.Read(plist.data());
-  archive.Finish();
+  ReadMember(archive, plist.data());
   try
   {
     return Describe(plist);
@@ -184,16 +194,16 @@ public:
   {
     auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
     const std::uint64_t expected = BytesOfVoxels(this->Type, 1, this->Size);
-    TarFile archive(this->Name);
+    Archive archive(Archive::Kind::Tar, Archive::TarIn(this->Name));
     GoTo(archive, this->File);
     if (archive.Size() != expected)
     {
       throw Failure(this->File + " has " + std::to_string(archive.Size()) +
         " bytes, the sizes in main.plist ask for " + std::to_string(expected));
     }
+    NeedPackedBytes(BinaryFile(this->Name).Size(), MostOfZlib, expected);
     values->SetNumberOfTuples(static_cast<vtkIdType>(this->Size[0]) * this->Size[1] * count);
-    archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
-    archive.Finish();
+    ReadMember(archive, static_cast<char*>(values->GetVoidPointer(0)));
     ToNativeOrder(values, false);
     return values;
   }

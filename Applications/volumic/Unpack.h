@@ -31,7 +31,7 @@ std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint6
 /** The same of data that must give just so many bytes. @throws Failure if they don't. */
 void InflateJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
 
-/** Likewise of bzip2. @throws Failure as well if the program was built without libbz2. */
+/** Likewise of bzip2. */
 void BunzipJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
 
 /** Whether a file begins as those of gzip do. */
