@@ -3,7 +3,6 @@
 
 // The classic netCDF format (its specification: NetCDF Classic Format, in netCDF's documentation).
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CheckOptions.h"
+#include "ToolOptions.h"
 
 #include "LabelOutputs.h"
 #include "ToolErrors.h"
-#include "ToolOptions.h"
 
 #include <algorithm>
 #include <iterator>

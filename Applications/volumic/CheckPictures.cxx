@@ -3,7 +3,6 @@
 
 // PNG (W3C recommendation), BMP, PGM and PPM (Netpbm), TGA (Truevision).
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 

@@ -4,7 +4,6 @@
 // The polygon file format: a text head tells of elements, and their properties; each property is a
 // number, or a list of numbers behind their count.
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -60,12 +59,7 @@ NumberType TypeOf(const std::string& type)
     { "int16", int16 }, { "uint16", uint16 }, { "int", int32 }, { "uint", int32 },
     { "int32", int32 }, { "uint32", int32 }, { "float", { 4, 0 } }, { "float32", { 4, 0 } },
     { "double", { 8, 0 } }, { "float64", { 8, 0 } } };
-  const auto found = types.find(type);
-  if (found == types.end())
-  {
-    throw Failure("its header is damaged: '" + type + "' is no type");
-  }
-  return found->second;
+  return EntryOf(types, type, "its header is damaged: '" + type + "' is no type");
 }
 
 /** Read the head; the stream stands behind it. */

@@ -5,7 +5,6 @@
 // takes a chain of pages that ends early for a whole one; vtkTIFFReader takes all pages to be like
 // the first one, and gives other bytes than those of the file for some kinds of pixels.
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 #include "Unpack.h"
@@ -77,12 +76,11 @@ struct Page
   /** The only number of a tag, or, as some have one for each sample, of all alike. */
   std::uint64_t Number(Tag tag, std::uint64_t otherwise) const
   {
-    const auto found = this->Values.find(tag);
-    if (found == this->Values.end())
+    if (!this->Has(tag))
     {
       return otherwise;
     }
-    const Numbers& values = found->second;
+    const Numbers& values = this->Values.at(tag);
     if (values.empty() || std::count(values.begin(), values.end(), values[0]) !=
         static_cast<std::ptrdiff_t>(values.size()))
     {
@@ -91,11 +89,7 @@ struct Page
     return values[0];
   }
 
-  Numbers List(Tag tag) const
-  {
-    const auto found = this->Values.find(tag);
-    return found == this->Values.end() ? Numbers() : found->second;
-  }
+  Numbers List(Tag tag) const { return EntryOr(this->Values, tag, {}); }
 };
 
 /** A TIFF file, whose entries are larger in BigTIFF. */

@@ -8,6 +8,7 @@
 #include "InputFiles.h"
 #include "ToolErrors.h"
 
+#include <vtkBase64Utilities.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLParser.h>
@@ -121,17 +122,9 @@ std::array<std::uint64_t, 3> NextNumbers(std::istream& file, const XmlMeter& met
   words.replace(there, std::string::npos, words.size() - std::min(there, words.size()), 'A');
   if (!isRaw)
   {
-    std::string decoded;
-    for (std::size_t at = 0; at < words.size(); at += 4)
-    {
-      std::uint32_t bits = 0;
-      for (std::size_t i = at; i < at + 4; ++i)
-      {
-        bits = bits << 6 | static_cast<std::uint32_t>(signs.find(words[i]));
-      }
-      decoded += { static_cast<char>(bits >> 16), static_cast<char>(bits >> 8),
-        static_cast<char>(bits) };
-    }
+    std::string decoded(3 * bytes, '\0');
+    vtkBase64Utilities::DecodeSafely(reinterpret_cast<const unsigned char*>(words.data()),
+      words.size(), reinterpret_cast<unsigned char*>(decoded.data()), decoded.size());
     words = decoded;
   }
   const auto number = [&](std::size_t which)

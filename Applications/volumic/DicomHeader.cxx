@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DicomHeader.h"
 
-#include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <algorithm>

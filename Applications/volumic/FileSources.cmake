@@ -5,11 +5,8 @@
 # LabelNames.h), with absolute paths, and volumic_file_libraries: what they need beside VTK. The
 # program has them, and the reader of the ParaView plugin.
 set(volumic_reader_sources
-  Archive.cxx
   BinaryFile.cxx
-  ByteBudget.cxx
   CheckNetcdf.cxx
-  CheckNifti.cxx
   CheckPictures.cxx
   CheckTiff.cxx
   CheckXmlInput.cxx
@@ -18,9 +15,6 @@ set(volumic_reader_sources
   LabelJson.cxx
   LabelNames.cxx
   LabelTable.cxx
-  NiftiLabels.cxx
-  NrrdSegments.cxx
-  ParseNumbers.cxx
   RawSlabs.cxx
   ReadDicom.cxx
   ReadInv3.cxx
@@ -44,10 +38,6 @@ list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
 set(volumic_writer_sources
   CheckPly.cxx
-  CheckWritten.cxx
-  FileBuffer.cxx
-  FileGrowth.cxx
-  FullDisk.cxx
   GltfScene.cxx
   OutputFiles.cxx
   ProgressLine.cxx

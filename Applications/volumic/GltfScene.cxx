@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GltfScene.h"
 
-#include "FileBuffer.h"
 #include "Json.h"
+#include "StreamedWriters.h"
 #include "SurfaceFields.h"
 #include "ToolErrors.h"
 

@@ -4,7 +4,6 @@
 // Names of labels in JSON: what nnU-Net, TotalSegmentator, 3D Slicer and people write.
 #include "Json.h"
 #include "LabelNames.h"
-#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 

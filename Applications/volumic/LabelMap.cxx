@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelMap.h"
 
-#include "Announcer.h"
 #include "LabelNames.h"
 #include "LoadVolume.h"
-#include "ParseNumbers.h"
 #include "ReadVolume.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
@@ -19,7 +18,6 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
-#include <array>
 
 namespace tool
 {
@@ -109,20 +107,12 @@ LabelNames OwnNames(const ToolOptions& options, vtkImageData* image)
 
 VolumeFacts FactsOfMap(const LabelMap& map)
 {
-  VolumeFacts facts;
-  vtkImageData* image = map.Image;
-  vtkDataArray* labels = AttributesOf(image, map.IsOfCells)->GetScalars();
-  image->GetExtent(facts.Extent.data());
+  VolumeFacts facts =
+    FactsOf(map.Image, AttributesOf(map.Image, map.IsOfCells)->GetScalars(), -1);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     facts.Extent[2 * axis + 1] -= map.IsOfCells ? 1 : 0;
   }
-  image->GetSpacing(facts.Spacing.data());
-  image->GetOrigin(facts.Origin.data());
-  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, facts.Direction.begin());
-  facts.Type = labels->GetDataType();
-  facts.Components = labels->GetNumberOfComponents();
-  facts.Range = RangeOf(labels, -1);
   return facts;
 }
 

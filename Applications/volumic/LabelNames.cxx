@@ -3,7 +3,6 @@
 #include "LabelNames.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -17,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -123,7 +121,7 @@ LabelNames ReadNamesWithin(const std::string& volume)
       return NamesInNifti(volume);
     }
   }
-  catch (const Failure&)
+  catch (const std::runtime_error&)
   {
     // Names are not worth a volume.
   }

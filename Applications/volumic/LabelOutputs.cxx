@@ -5,7 +5,7 @@
 #include "GltfScene.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
-#include "OutputChecks.h"
+#include "OutputFiles.h"
 #include "SurfaceFields.h"
 #include "Texts.h"
 #include "ToolErrors.h"

@@ -3,10 +3,12 @@
 #ifndef volumicLabelReport_h
 #define volumicLabelReport_h
 
+#include "LabelChoice.h"
 #include "LabelOutputs.h"
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,24 @@ std::string ReportText(const LabelReport& report);
 
 /** Of a surface's field data: voxel centres on the wrong side; 0 where that is not told. */
 vtkIdType WrongVoxels(vtkPolyData* surface, const char* name = "WrongVoxels");
+
+// ---- The list of labels -------------------------------------------------------------------------
+
+/** What --list-labels tells; names in it are those of LabelReport where it has them. */
+struct LabelList
+{
+  std::string VolumeName;
+  VolumeFacts Volume;
+  int Layers = 1;
+  std::vector<KnownLabel> Labels = {};
+  std::vector<std::string> Warnings = {};
+};
+
+/** As a table for the eye, a line for each label below a heading. */
+void WriteTable(std::ostream& out, const LabelList& list);
+
+/** As JSON, `labels` with an object for each. */
+std::string ReportText(const LabelList& list);
 }
 
 #endif

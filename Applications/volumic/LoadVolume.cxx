@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LoadVolume.h"
 
-#include "Announcer.h"
-#include "ParseNumbers.h"
 #include "Ranks.h"
 #include "ReadVolume.h"
 #include "RunFilter.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "VolumeImage.h"
@@ -15,7 +14,6 @@
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDeformableSurface.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -33,18 +31,6 @@ namespace tool
 {
 namespace
 {
-/** Of the voxels that a source tells of; empty: of its active scalars. */
-int ComponentsOf(vtkAlgorithm* source, const std::string& array)
-{
-  vtkInformation* info = source->GetOutputInformation(0);
-  constexpr int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  vtkInformation* told = array.empty()
-    ? vtkDataObject::GetActiveFieldInformation(info, points, vtkDataSetAttributes::SCALARS)
-    : vtkDataObject::GetNamedFieldInformation(info, points, array.c_str());
-  const bool has = told && told->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS());
-  return has ? told->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()) : 1;
-}
-
 /** Level 0 of the holder's pyramid: all slabs of the source, one behind the other. */
 vtkSmartPointer<vtkImageData> GatherSlabs(
   const std::string& name, vtkAlgorithm* source, vtkImagePyramid* holder, ProgressStyle style)
@@ -124,7 +110,7 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
     holder->SetMemoryLimit(filter->GetMemoryLimit());
     holder->SetScratchDirectory(filter->GetScratchDirectory());
     image = GatherSlabs(name, opened.Source, holder, announcer.Style);
-    loaded.Components = ComponentsOf(opened.Source, array);
+    loaded.Components = ComponentsIn(VoxelsIn(opened.Source->GetOutputInformation(0), array));
     holder->RemoveAllInputs();
   }
   Named(name, [&] { ChooseScalars(image, array); });
@@ -167,7 +153,8 @@ LoadedVolume LoadWhole(const ToolOptions& options, vtkDeformableSurface* filter,
     volume.Image->SetSpacing(options.Spacing->data());
   }
   const int component = filter->GetSelectedComponent();
-  volume.Facts = FactsOf(volume.Image, component);
+  volume.Facts =
+    FactsOf(volume.Image, volume.Image->GetPointData()->GetScalars(), component);
   Announce(options, volume.Facts, loaded.Components, component, announcer);
   return volume;
 }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutputChecks.h"
-
 #include "OutputFiles.h"
+
 #include "ToolErrors.h"
 
 #include <cerrno>

@@ -158,6 +158,18 @@ void Ranks::Agree(int kind, std::string words)
   }
 }
 
+void Ranks::ThrowAny(const std::string& failure)
+{
+  this->Together(
+    [&failure]
+    {
+      if (!failure.empty())
+      {
+        throw Failure(failure);
+      }
+    });
+}
+
 void Ranks::ThrowOnAll(const std::string& words)
 {
   this->IsAgreed = true;

@@ -3,8 +3,7 @@
 #include "RawSlabs.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
-#include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 

@@ -7,9 +7,7 @@
 #include "ReadVolume.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "DicomHeader.h"
-#include "ParseNumbers.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SlabReader.h"
 
-#include "Archive.h"
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
-#include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
+#include "Unpack.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
 
@@ -83,12 +82,7 @@ int TypeOf(const std::string& name)
     { "uint8", VTK_UNSIGNED_CHAR }, { "int16", VTK_SHORT }, { "uint16", VTK_UNSIGNED_SHORT },
     { "int32", VTK_INT }, { "uint32", VTK_UNSIGNED_INT }, { "int64", VTK_LONG_LONG },
     { "uint64", VTK_UNSIGNED_LONG_LONG }, { "float32", VTK_FLOAT }, { "float64", VTK_DOUBLE } };
-  const auto found = types.find(name);
-  if (found == types.end())
-  {
-    throw Failure("main.plist: voxels of type '" + name + "' are not read");
-  }
-  return found->second;
+  return EntryOf(types, name, "main.plist: voxels of type '" + name + "' are not read");
 }
 
 Description Describe(const std::string& plist)

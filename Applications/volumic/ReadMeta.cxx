@@ -6,9 +6,7 @@
 #include "SlabReader.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "InputFiles.h"
-#include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -43,12 +41,8 @@ int TypeOf(const std::string& name)
     { "MET_LONG", VTK_INT }, { "MET_ULONG", VTK_UNSIGNED_INT },
     { "MET_LONG_LONG", VTK_LONG_LONG }, { "MET_ULONG_LONG", VTK_UNSIGNED_LONG_LONG },
     { "MET_FLOAT", VTK_FLOAT }, { "MET_DOUBLE", VTK_DOUBLE } };
-  const auto found = types.find(name);
-  if (found == types.end())
-  {
-    throw Failure("its header is damaged: the ElementType '" + name + "' is no number's");
-  }
-  return found->second;
+  return EntryOf(
+    types, name, "its header is damaged: the ElementType '" + name + "' is no number's");
 }
 
 /** Whether a key says yes, or, where it is not there, what is so otherwise. */

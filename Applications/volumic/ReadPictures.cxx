@@ -8,13 +8,9 @@
 #include "VtkReaders.h"
 
 #include <vtkDataArray.h>
-#include <vtkImageAppend.h>
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
-#include <vtkImageReader2Factory.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkStringArray.h>
 #include <vtkTIFFReader.h>
 
 #include <algorithm>
@@ -153,16 +149,10 @@ void CheckPictures(const std::vector<std::string>& files)
       });
     const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
     Named(file, [&] { CheckChosen(reader, file); });
-    VtkMessages messages;
-    messages.ListenTo(reader);
-    reader->UpdateInformation();
+    VtkMessages().AskReader(reader, file);
     const int* extent = reader->GetDataExtent();
     const std::array<int, 4> own = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1,
       reader->GetNumberOfScalarComponents(), reader->GetDataScalarType() };
-    if (!messages.Errors.empty())
-    {
-      throw Failure(file + ": cannot be read (" + messages.JoinedErrors() + ")");
-    }
     size = file == files.front() ? own : size;
     if (own != size)
     {

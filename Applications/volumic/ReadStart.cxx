@@ -4,7 +4,6 @@
 
 #include "BinaryFile.h"
 #include "CheckInputs.h"
-#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
@@ -27,6 +26,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace tool
@@ -66,37 +66,28 @@ vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
   return ReadWith<vtkSTLReader>(name);
 }
 
+/** What VTK's reader gives of a file that the check has let through. */
+template <class Reader, void (*Check)(const std::string&)>
+vtkSmartPointer<vtkPolyData> ReadChecked(const std::string& name)
+{
+  Named(name, [&] { Check(name); });
+  return ReadWith<Reader>(name);
+}
+
 vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 {
-  const std::string suffix = SuffixOf(name);
+  using Read = vtkSmartPointer<vtkPolyData> (*)(const std::string&);
+  static const std::map<std::string, Read> readers = {
+    { ".vtp", ReadChecked<vtkXMLPolyDataReader, CheckXmlInput> },
+    { ".vtk", ReadWith<vtkPolyDataReader> }, { ".stl", ReadStl },
+    { ".ply", ReadChecked<vtkPLYReader, CheckPly> }, { ".obj", ReadChecked<vtkOBJReader, CheckObj> }
+  };
   if (!std::filesystem::exists(name))
   {
     throw Failure(name + ": no such file");
   }
-  if (suffix == ".vtp")
-  {
-    Named(name, [&] { CheckXmlInput(name); });
-    return ReadWith<vtkXMLPolyDataReader>(name);
-  }
-  if (suffix == ".vtk")
-  {
-    return ReadWith<vtkPolyDataReader>(name);
-  }
-  if (suffix == ".stl")
-  {
-    return ReadStl(name);
-  }
-  if (suffix == ".ply")
-  {
-    Named(name, [&] { CheckPly(name); }); // VTK's reader would go on with what memory holds
-    return ReadWith<vtkPLYReader>(name);
-  }
-  if (suffix == ".obj")
-  {
-    Named(name, [&] { CheckObj(name); });
-    return ReadWith<vtkOBJReader>(name);
-  }
-  throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");
+  return EntryOf(
+    readers, SuffixOf(name), name + ": .vtp, .vtk, .stl, .ply and .obj are read")(name);
 }
 
 /** The mesh, whose polygons have points that are there. */

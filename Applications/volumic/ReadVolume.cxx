@@ -137,13 +137,7 @@ FoundVolume OpenXml(const std::string& name, const Opening& opening)
   const std::string& array = opening.Array;
   CheckXmlInput(name);
   const vtkSmartPointer<Reader> reader = NewReader<Reader>(name);
-  VtkMessages messages;
-  messages.ListenTo(reader);
-  messages.Catch([&] { reader->UpdateInformation(); });
-  if (!messages.Errors.empty())
-  {
-    throw Failure("cannot be read (" + messages.JoinedErrors() + ")");
-  }
+  VtkMessages().AskReader(reader, name);
   std::string names;
   bool isThere = array.empty();
   for (int i = 0; !array.empty() && i < reader->GetNumberOfPointArrays(); ++i)

@@ -15,8 +15,6 @@
 #include <vtkVariant.h>
 #include <vtkVersion.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <functional>
 #include <map>

@@ -1,18 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentLabels.h"
+#include "Segment.h"
 
-#include "Announcer.h"
-#include "LabelList.h"
 #include "LabelMap.h"
 #include "LabelNames.h"
 #include "LabelOutputs.h"
 #include "LabelReport.h"
-#include "ParseNumbers.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceProperties.h"
+#include "Texts.h"
 #include "ToolOptions.h"
 #include "WriteResults.h"
 
@@ -162,16 +160,9 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   }
   catch (const Failure& error)
   {
-    failure = error.what();
+    failure = options.Volume + ": " + error.what();
   }
-  ranks.Together(
-    [&]
-    {
-      if (!failure.empty())
-      {
-        throw Failure(options.Volume + ": " + failure);
-      }
-    });
+  ranks.ThrowAny(failure);
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   auto* lost = vtkStringArray::SafeDownCast(blocks->GetFieldData()->GetAbstractArray("LostLabels"));
   const std::string told = lost ? InWordsOfOptions(lost->GetValue(0)) : std::string();

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceInputs.h"
 
-#include "Announcer.h"
 #include "BinaryFile.h"
 #include "InputFiles.h"
 #include "LoadVolume.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceProperties.h"
 
-#include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <vtkDeformableSurface.h>

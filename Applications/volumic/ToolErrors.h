@@ -43,6 +43,24 @@ auto Named(const std::string& name, const Work& work) -> decltype(work())
   }
 }
 
+/** What a table has under a key. @throws Failure of these words if it has nothing there. */
+template <class Table>
+const typename Table::mapped_type& EntryOf(
+  const Table& table, const typename Table::key_type& key, const std::string& words)
+{
+  const auto found = table.find(key);
+  return found != table.end() ? found->second : throw Failure(words);
+}
+
+/** The same, or what it is otherwise. */
+template <class Table>
+typename Table::mapped_type EntryOr(const Table& table, const typename Table::key_type& key,
+  const typename Table::mapped_type& otherwise)
+{
+  const auto found = table.find(key);
+  return found != table.end() ? found->second : otherwise;
+}
+
 /** Of things that are tried one after the other, what failed: it must not take the others with it. */
 class Failures
 {

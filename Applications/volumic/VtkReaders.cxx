@@ -63,13 +63,7 @@ VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing)
 ReaderSlabs::ReaderSlabs(const std::string& name, const Factory& make) : Name(name), Make(make)
 {
   const vtkSmartPointer<vtkImageReader2> reader = make();
-  VtkMessages messages;
-  messages.ListenTo(reader);
-  messages.Catch([&] { reader->UpdateInformation(); });
-  if (!messages.Errors.empty())
-  {
-    throw Failure(name + ": cannot be read (" + messages.JoinedErrors() + ")");
-  }
+  VtkMessages().AskReader(reader, name);
   const int* extent = reader->GetDataExtent();
   for (int axis = 0; axis < 3; ++axis)
   {

@@ -3,7 +3,7 @@
 #include "WriteOutputs.h"
 
 #include "GatherSurface.h"
-#include "OutputChecks.h"
+#include "OutputFiles.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "SurfaceInputs.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WriteResults.h"
 
-#include "CheckWritten.h"
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "Ranks.h"

@@ -3,12 +3,11 @@
 
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
-#include "FullDisk.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
 #include "Ranks.h"
-#include "SegmentLabels.h"
-#include "SegmentVolume.h"
+#include "RunFilter.h"
+#include "Segment.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolErrors.h"
