@@ -17,10 +17,7 @@ void NeedFile(const std::string& name)
 {
   std::error_code failed;
   const std::filesystem::file_status status = std::filesystem::status(name, failed);
-  if (std::filesystem::is_other(status))
-  {
-    throw Failure(name + ": a pipe or a device; files are read");
-  }
+  FailIf(std::filesystem::is_other(status), name + ": a pipe or a device; files are read");
 }
 
 BinaryFile::BinaryFile(const std::string& name)
@@ -29,10 +26,7 @@ BinaryFile::BinaryFile(const std::string& name)
   this->File.open(name, std::ios::binary);
   std::error_code failed;
   this->Bytes = std::filesystem::file_size(name, failed);
-  if (failed || !this->File)
-  {
-    throw Failure("cannot be opened");
-  }
+  FailIf(failed || !this->File, "cannot be opened");
 }
 
 void BinaryFile::Need(std::uint64_t at, std::uint64_t count) const
@@ -95,11 +89,9 @@ std::uint64_t BytesOfVoxels(int type, int components, const std::array<int, 3>& 
 
 std::uint64_t MostUnpacked(std::uint64_t voxels, std::uint64_t before)
 {
-  if (before > LargestHeader)
-  {
-    throw Failure("its header is damaged: the voxels begin at byte " + std::to_string(before) +
+  FailIf(before > LargestHeader,
+    "its header is damaged: the voxels begin at byte " + std::to_string(before) +
       " of what is packed, where no header is that long");
-  }
   return voxels + std::min(before, std::numeric_limits<std::uint64_t>::max() - voxels);
 }
 
@@ -113,22 +105,18 @@ void NeedPackedBytes(std::uint64_t there, std::uint64_t most, std::uint64_t need
 
 void NeedBytes(std::uint64_t there, std::uint64_t needed)
 {
-  if (there < needed)
-  {
-    throw Failure("the file is cut off: it has " + std::to_string(there) +
+  FailIf(there < needed,
+    "the file is cut off: it has " + std::to_string(there) +
       " bytes of voxels, its header asks for " + std::to_string(needed) + "; copy it again");
-  }
 }
 
 void NeedJustBytes(std::uint64_t there, std::uint64_t needed)
 {
   NeedBytes(there, needed);
-  if (there > needed)
-  {
-    throw Failure("the file is too long: it has " + std::to_string(there) +
+  FailIf(there > needed,
+    "the file is too long: it has " + std::to_string(there) +
       " bytes of voxels, its header asks for " + std::to_string(needed) +
       "; copy it again, or, if what is too much is its end, cut that off (truncate -s -" +
       std::to_string(there - needed) + ")");
-  }
 }
 }

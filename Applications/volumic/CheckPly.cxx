@@ -96,10 +96,7 @@ Head ReadHead(std::istream& file)
     }
     else if (word == "property")
     {
-      if (head.Parts.empty())
-      {
-        throw Failure("its header is damaged: a property of no element");
-      }
+      FailIf(head.Parts.empty(), "its header is damaged: a property of no element");
       Property property;
       if (type == "list")
       {
@@ -186,16 +183,11 @@ std::uint64_t CheckParts(const Head& head)
 {
   static const std::set<std::string> formats = { "ascii", "binary_little_endian",
     "binary_big_endian" };
-  if (formats.count(head.Format) == 0)
-  {
-    throw Failure("its header is damaged: the format '" + head.Format + "' is none");
-  }
+  FailIf(formats.count(head.Format) == 0,
+    "its header is damaged: the format '" + head.Format + "' is none");
   const auto points = std::find_if(head.Parts.begin(), head.Parts.end(),
     [](const Elements& part) { return part.Name == "vertex" && part.Count > 0; });
-  if (points == head.Parts.end())
-  {
-    throw Failure("has no points, or its header is damaged");
-  }
+  FailIf(points == head.Parts.end(), "has no points, or its header is damaged");
   std::set<std::string> names;
   for (const Elements& part : head.Parts)
   {
@@ -213,11 +205,9 @@ std::uint64_t CheckParts(const Head& head)
     // VTK's reader takes what comes before the polygons for points.
     const bool isLate = part.Name == "vertex" ? names.empty() : names.count("vertex") > 0;
     const bool isKnown = part.Name == "vertex" || part.Name == "face" || names.count("face") > 0;
-    if (!isLate || !isKnown)
-    {
-      throw Failure("its header is damaged, or it is no surface: '" + Shortened(part.Name, 80) +
+    FailIf(!isLate || !isKnown,
+      "its header is damaged, or it is no surface: '" + Shortened(part.Name, 80) +
         "' comes before points or polygons");
-    }
     if (!isRight || part.Properties.empty() || !names.insert(part.Name).second)
     {
       throw Failure("its header is damaged: the properties of '" + part.Name +

@@ -143,11 +143,9 @@ void CheckBlocks(std::istream& file, const XmlMeter& meter)
   {
     // The last block may be smaller.
     const auto [blocks, size, last] = NextNumbers(file, meter, isRaw);
-    if (blocks > most || last > size || (blocks > 0 ? size == 0 : last > 0))
-    {
-      throw Failure("it is damaged: an array is packed in " + std::to_string(blocks) +
-        " blocks of " + std::to_string(size) + " bytes, the last one of " + std::to_string(last));
-    }
+    FailIf(blocks > most || last > size || (blocks > 0 ? size == 0 : last > 0),
+      "it is damaged: an array is packed in " + std::to_string(blocks) + " blocks of " +
+        std::to_string(size) + " bytes, the last one of " + std::to_string(last));
   };
   for (const std::int64_t place : meter.Inline)
   {
@@ -179,10 +177,7 @@ void CheckXmlInput(std::istream& file)
   meter->SetStream(&file);
   meter->SetIgnoreCharacterData(1);
   meter->Parse();
-  if (meter->IsTooDeep)
-  {
-    throw Failure("it is damaged: elements within elements without end");
-  }
+  FailIf(meter->IsTooDeep, "it is damaged: elements within elements without end");
   if (meter->IsPacked)
   {
     CheckBlocks(file, *meter);

@@ -201,11 +201,9 @@ void Whole::Add(vtkPolyData* piece)
 vtkSmartPointer<vtkPolyData> Whole::Take()
 {
   const auto missing = std::count(this->IsThere.begin(), this->IsThere.end(), false);
-  if (missing > 0 || this->NextTriangle != this->Size.Triangles)
-  {
-    throw Failure("the pieces of the ranks are no whole surface: " + std::to_string(missing) +
+  FailIf(missing > 0 || this->NextTriangle != this->Size.Triangles,
+    "the pieces of the ranks are no whole surface: " + std::to_string(missing) +
       " points are in none of them");
-  }
   vtkNew<vtkCellArray> triangles;
   triangles->SetData(3, this->Corners);
   this->Surface->SetPolys(triangles);

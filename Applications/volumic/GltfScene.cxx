@@ -103,10 +103,7 @@ Scene::Scene(const std::vector<SceneObject>& objects)
 {
   std::copy_if(objects.begin(), objects.end(), std::back_inserter(this->Objects),
     [](const SceneObject& object) { return object.Surface->GetNumberOfPoints() > 0; });
-  if (this->Objects.empty())
-  {
-    throw Failure("cannot be written (there is no surface)");
-  }
+  FailIf(this->Objects.empty(), "cannot be written (there is no surface)");
   vtkBoundingBox box;
   std::vector<std::size_t> children(this->Objects.size());
   for (std::size_t i = 0; i < children.size(); ++i)
@@ -277,11 +274,9 @@ void WriteGlb(const std::vector<SceneObject>& objects, const std::string& path, 
   const Scene scene(objects);
   const std::string described = scene.Description();
   const std::uint64_t whole = 12 + 8 + described.size() + 8 + scene.Bytes();
-  if (whole > std::numeric_limits<std::uint32_t>::max())
-  {
-    throw Failure("cannot be written (.glb holds no more than 4 GiB; write fewer surfaces, coarser "
-                  "ones, or .vtp)");
-  }
+  FailIf(whole > std::numeric_limits<std::uint32_t>::max(),
+    "cannot be written (.glb holds no more than 4 GiB; write fewer surfaces, coarser "
+    "ones, or .vtp)");
   FileBuffer file(path);
   std::ostream out(&file);
   const auto write = [&out](std::uint64_t number)

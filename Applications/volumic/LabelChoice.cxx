@@ -160,11 +160,9 @@ std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
       isName ? std::vector<std::string>{ text } : SplitAtCommas(text))
     {
       const std::vector<std::size_t> found = FindText(part, known, background);
-      if (found.empty() && Lower(part) != "all")
-      {
-        throw Failure("there is no label '" + part + "' (--labels); there are " +
+      FailIf(found.empty() && Lower(part) != "all",
+        "there is no label '" + part + "' (--labels); there are " +
           (known.empty() ? "none" : ListOf(known)));
-      }
       chosen.insert(found.begin(), found.end());
     }
   }

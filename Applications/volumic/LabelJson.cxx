@@ -220,10 +220,7 @@ LabelNames FindNames(const Json& value)
 LabelNames ParseLabelJson(const std::string& text)
 {
   const LabelNames names = FindNames(ParseJson(text));
-  if (names.empty())
-  {
-    throw Failure("there are no labels in it such as {\"1\": \"liver\"} or {\"liver\": 1}");
-  }
+  FailIf(names.empty(), "there are no labels in it such as {\"1\": \"liver\"} or {\"liver\": 1}");
   return names;
 }
 }

@@ -38,10 +38,7 @@ bool ChooseCells(vtkImageData* image, const std::string& array)
   vtkDataArray* labels = !array.empty() ? cells->GetArray(array.c_str())
     : cells->GetScalars()               ? cells->GetScalars()
                                         : cells->GetArray(0);
-  if (!labels)
-  {
-    throw Failure("the cell array " + array + " holds no numbers");
-  }
+  FailIf(!labels, "the cell array " + array + " holds no numbers");
   if (!labels->GetName())
   {
     labels->SetName("Intensity");
@@ -120,11 +117,9 @@ VolumeFacts FactsOfMap(const LabelMap& map)
 std::vector<int> ComponentsOf(
   const ToolOptions& options, int components, int component, const LabelNames& own)
 {
-  if (component >= components)
-  {
-    throw Failure(options.Volume + ": there is no component " + NumberText(component) +
+  FailIf(component >= components,
+    options.Volume + ": there is no component " + NumberText(component) +
       " (--component); voxels have " + NumberText(components));
-  }
   if (components == 1 || component >= 0)
   {
     return { std::max(component, 0) };
@@ -138,11 +133,9 @@ std::vector<int> ComponentsOf(
       layers.push_back(layer);
     }
   }
-  if (layers.empty())
-  {
-    throw Failure(options.Volume + ": voxels have " + NumberText(components) +
+  FailIf(layers.empty(),
+    options.Volume + ": voxels have " + NumberText(components) +
       " components; choose the one that is a label with --component");
-  }
   return layers;
 }
 }

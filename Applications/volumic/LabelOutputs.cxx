@@ -119,21 +119,14 @@ LabelOutput OutputOf(const std::string& name)
 
 void CheckLabelOutput(const ToolOptions& options, const std::string& name)
 {
-  if (name == "-")
-  {
-    throw UsageError("surfaces of labels are not written to the standard output");
-  }
+  FailIf<UsageError>(name == "-", "surfaces of labels are not written to the standard output");
   if (OutputOf(name) == LabelOutput::Folder)
   {
-    if (options.HasProperty("Merge"))
-    {
-      throw UsageError(name + ": --merge makes one surface: give it a file, not a folder");
-    }
+    FailIf<UsageError>(options.HasProperty("Merge"),
+      name + ": --merge makes one surface: give it a file, not a folder");
     CheckSurfaceName("labels" + SuffixIn(options));
-    if (HasPieces(SuffixIn(options)) || SuffixIn(options) == ".pvtp")
-    {
-      throw UsageError("--format: surfaces in a folder are not written in pieces");
-    }
+    FailIf<UsageError>(HasPieces(SuffixIn(options)) || SuffixIn(options) == ".pvtp",
+      "--format: surfaces in a folder are not written in pieces");
   }
   else if (OutputOf(name) == LabelOutput::File)
   {

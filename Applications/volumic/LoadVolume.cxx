@@ -58,17 +58,12 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
   {
     throw Failure(name + ": cannot be read (" + messages.JoinedErrors() + ")");
   }
-  if (!failure.empty())
-  {
-    throw Failure(name + ": " + failure);
-  }
+  FailIf(!failure.empty(), name + ": " + failure);
   auto image = vtkSmartPointer<vtkImageData>::New();
   auto* level = vtkImageData::SafeDownCast(holder->GetOutput()->GetBlock(0));
-  if (!level)
-  {
-    throw Failure(isInterrupted ? "interrupted before there was a surface; nothing is written"
-                                : name + ": holds no image");
-  }
+  FailIf(!level,
+    isInterrupted ? "interrupted before there was a surface; nothing is written"
+                  : name + ": holds no image");
   image->ShallowCopy(level);
   vtkNew<vtkFieldData> fields; // A copy of its own, without those of a level.
   fields->ShallowCopy(level->GetFieldData());

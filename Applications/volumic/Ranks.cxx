@@ -163,10 +163,7 @@ void Ranks::ThrowAny(const std::string& failure)
   this->Together(
     [&failure]
     {
-      if (!failure.empty())
-      {
-        throw Failure(failure);
-      }
+      FailIf(!failure.empty(), failure);
     });
 }
 

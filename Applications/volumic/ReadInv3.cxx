@@ -58,20 +58,15 @@ vtkXMLDataElement* Find(vtkXMLDataElement* dictionary, const char* key)
 vtkXMLDataElement* Need(vtkXMLDataElement* dictionary, const char* key)
 {
   vtkXMLDataElement* found = Find(dictionary, key);
-  if (!found)
-  {
-    throw Failure(std::string("main.plist lacks '") + key + "'");
-  }
+  FailIf(!found, std::string("main.plist lacks '") + key + "'");
   return found;
 }
 
 /** The texts of an array of three. */
 std::array<std::string, 3> ThreeOf(vtkXMLDataElement* array, const char* key)
 {
-  if (array->GetNumberOfNestedElements() != 3)
-  {
-    throw Failure(std::string("main.plist: '") + key + "' has not three numbers");
-  }
+  FailIf(array->GetNumberOfNestedElements() != 3,
+    std::string("main.plist: '") + key + "' has not three numbers");
   return { TextOf(array->GetNestedElement(0)), TextOf(array->GetNestedElement(1)),
     TextOf(array->GetNestedElement(2)) };
 }
@@ -94,10 +89,7 @@ Description Describe(const std::string& plist)
   ignored.Catch([&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });
   vtkXMLDataElement* project =
     root && std::strcmp(root->GetName(), "plist") == 0 ? root->GetNestedElement(0) : nullptr;
-  if (!project)
-  {
-    throw Failure("main.plist cannot be parsed");
-  }
+  FailIf(!project, "main.plist cannot be parsed");
   Description description;
   vtkXMLDataElement* matrix = Need(project, "matrix");
   description.Type = TypeOf(TextOf(Need(matrix, "dtype")));
@@ -113,11 +105,9 @@ Description Describe(const std::string& plist)
     description.Size[axis] = ParseNumber<int>(shape[2 - axis]); // z, y, x
     description.Placement.Spacing[axis] = ParseNumber<double>(spacing[axis]);
   }
-  if (*std::min_element(description.Size.begin(), description.Size.end()) < 1)
-  {
-    throw Failure("main.plist: the sizes " + shape[0] + " x " + shape[1] + " x " + shape[2] +
+  FailIf(*std::min_element(description.Size.begin(), description.Size.end()) < 1,
+    "main.plist: the sizes " + shape[0] + " x " + shape[1] + " x " + shape[2] +
       " are not those of a volume");
-  }
   if (vtkXMLDataElement* orientation = Find(project, "orientation"))
   {
     description.IsAxial = TextOf(orientation) == "1";
@@ -141,10 +131,7 @@ void GoTo(Archive& archive, const std::string& name)
 /** The bytes of the member that the archive stands at, all of them, where its checksum is right. */
 void ReadMember(Archive& archive, char* bytes)
 {
-  if (archive.Read(bytes, archive.Size()) < archive.Size())
-  {
-    throw Failure("the archive is cut off");
-  }
+  FailIf(archive.Read(bytes, archive.Size()) < archive.Size(), "the archive is cut off");
   archive.Finish();
 }
 
@@ -152,10 +139,8 @@ Description ReadDescription(const std::string& name)
 {
   Archive archive(Archive::Kind::Tar, Archive::TarIn(name));
   GoTo(archive, "main.plist");
-  if (archive.Size() > LargestText)
-  {
-    throw Failure("main.plist is too large to be the description of a project");
-  }
+  FailIf(
+    archive.Size() > LargestText, "main.plist is too large to be the description of a project");
   std::string plist(archive.Size(), '\0');
   ReadMember(archive, plist.data());
   try

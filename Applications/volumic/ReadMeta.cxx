@@ -50,10 +50,7 @@ bool IsTrue(const std::string& name, const std::string& key, bool otherwise = fa
 {
   const std::string value = Lower(HeaderValue(name, key));
   static const std::set<std::string> known = { "", "true", "false", "t", "f", "1", "0" };
-  if (known.count(value) == 0)
-  {
-    throw Failure("its header is damaged: " + key + " is '" + value + "'");
-  }
+  FailIf(known.count(value) == 0, "its header is damaged: " + key + " is '" + value + "'");
   return value.empty() ? otherwise : value[0] == 't' || value[0] == '1';
 }
 
@@ -62,11 +59,9 @@ std::vector<std::string> SizesOf(const std::string& name)
   std::istringstream sizes(HeaderValue(name, "DimSize"));
   const std::vector<std::string> words{ std::istream_iterator<std::string>(sizes), {} };
   const std::size_t most = 10; // for which MetaIO has room
-  if (HeaderValue(name, "NDims") != std::to_string(words.size()) || words.empty() ||
-    words.size() > most)
-  {
-    throw Failure("its header is damaged: it has no NDims, or not as many sizes");
-  }
+  FailIf(HeaderValue(name, "NDims") != std::to_string(words.size()) || words.empty() ||
+      words.size() > most,
+    "its header is damaged: it has no NDims, or not as many sizes");
   return words;
 }
 
@@ -163,11 +158,9 @@ std::vector<std::string> FilesOfList(const std::string& name, std::uint64_t slic
 {
   std::vector<std::string> files = FilesOfVolume(name);
   files.erase(files.begin()); // the header
-  if (files.size() < slices)
-  {
-    throw Failure("its header lists " + std::to_string(files.size()) + " files for " +
-      std::to_string(slices) + " slices");
-  }
+  FailIf(files.size() < slices,
+    "its header lists " + std::to_string(files.size()) + " files for " + std::to_string(slices) +
+      " slices");
   files.resize(static_cast<std::size_t>(slices));
   return files;
 }

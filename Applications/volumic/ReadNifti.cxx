@@ -79,10 +79,8 @@ public:
     const auto bits = static_cast<std::uint32_t>(this->Number(108, 4));
     float start = 0.0f;
     std::memcpy(&start, &bits, sizeof(start));
-    if (!(start >= 0.0f && start < 1e9f) || start != std::floor(start))
-    {
-      throw Failure("its header is damaged: the voxels begin at byte " + std::to_string(start));
-    }
+    FailIf(!(start >= 0.0f && start < 1e9f) || start != std::floor(start),
+      "its header is damaged: the voxels begin at byte " + std::to_string(start));
     return static_cast<std::uint64_t>(start);
   }
 
@@ -130,26 +128,19 @@ std::uint64_t BitsOf(std::uint64_t type)
 std::uint64_t BytesOf(const NiftiHeader& header)
 {
   const std::uint64_t bits = BitsOf(header.Type());
-  if (header.Bits() != bits)
-  {
-    throw Failure("its header is damaged: voxels of type " + std::to_string(header.Type()) +
-      " have " + std::to_string(bits) + " bits, not " + std::to_string(header.Bits()));
-  }
+  FailIf(header.Bits() != bits,
+    "its header is damaged: voxels of type " + std::to_string(header.Type()) + " have " +
+      std::to_string(bits) + " bits, not " + std::to_string(header.Bits()));
   const std::uint64_t axes = header.Size(0);
-  if (axes < 1 || axes > 7)
-  {
-    throw Failure("its header is damaged: " + std::to_string(axes) + " dimensions");
-  }
+  FailIf(axes < 1 || axes > 7, "its header is damaged: " + std::to_string(axes) + " dimensions");
   std::uint64_t bytes = bits / 8;
   for (std::size_t axis = 1; axis <= axes; ++axis)
   {
     const std::uint64_t size = header.Size(axis);
     // Those behind the sixth are passed over by VTK's reader.
-    if (size < 1 || size > (axis < 6 ? 0x7FFFFFFFu : 1u))
-    {
-      throw Failure("its header is damaged, or it is no volume: the size of dimension " +
-        std::to_string(axis) + " is " + std::to_string(size));
-    }
+    FailIf(size < 1 || size > (axis < 6 ? 0x7FFFFFFFu : 1u),
+      "its header is damaged, or it is no volume: the size of dimension " + std::to_string(axis) +
+        " is " + std::to_string(size));
     bytes = Times(bytes, size);
   }
   return bytes;
@@ -166,8 +157,8 @@ std::uint64_t BytesWithin(const std::string& name, std::uint64_t most)
 }
 
 /**
- * The type and the sizes of the voxels, the size of the data, and the checksum of a packed file; VTK's
- * reader gives what memory holds where a file has been cut off or damaged.
+ * The type and the sizes of the voxels, the size of the data, and the checksum of a packed file:
+ * VTK's reader gives what memory holds where a file has been cut off or damaged.
  * @return the bytes of the file that holds the voxels, unpacked.
  */
 std::uint64_t CheckNifti(const std::string& name)
@@ -177,17 +168,13 @@ std::uint64_t CheckNifti(const std::string& name)
   const NiftiHeader header(HeadOf(headerFile, 540));
   const bool isOne = dataFile == headerFile;
   const std::string mark = header.Mark();
-  if (isOne && mark != "n+1" && mark != "n+2")
-  {
-    throw Failure("not a NIfTI file, or its header is damaged: its mark is not n+1 or n+2");
-  }
+  FailIf(isOne && mark != "n+1" && mark != "n+2",
+    "not a NIfTI file, or its header is damaged: its mark is not n+1 or n+2");
   const std::uint64_t needed = BytesOf(header);
   const std::uint64_t start = header.Start();
-  if (isOne && start < header.Length())
-  {
-    throw Failure("its header is damaged: the voxels begin at byte " + std::to_string(start) +
+  FailIf(isOne && start < header.Length(),
+    "its header is damaged: the voxels begin at byte " + std::to_string(start) +
       ", which is within the header");
-  }
   if (!isOne)
   {
     BytesWithin(headerFile, LargestHeader);
@@ -232,20 +219,14 @@ bool Place(vtkNIFTIImageReader* reader, const double* spacing, VolumePlacement& 
       failure = failure.empty() ? error.what() : failure;
     }
   }
-  if (!failure.empty())
-  {
-    throw Failure(failure);
-  }
+  FailIf(!failure.empty(), failure);
   return false;
 }
 }
 
 std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& opening)
 {
-  if (!vtkNew<vtkNIFTIImageReader>()->CanReadFile(name.c_str()))
-  {
-    throw Failure("not a NIfTI or Analyze file");
-  }
+  FailIf(!vtkNew<vtkNIFTIImageReader>()->CanReadFile(name.c_str()), "not a NIfTI or Analyze file");
   const std::uint64_t bytes = CheckNifti(name);
   const std::string lower = Lower(name);
   const bool isAlone = !EndsWith(lower, ".img") && !EndsWith(lower, ".img.gz");

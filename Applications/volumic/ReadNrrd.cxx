@@ -64,10 +64,7 @@ std::string FieldOf(const std::string& name)
  */
 Fields ParseHeader(const std::string& content, std::size_t& dataStart, Fields& pairs)
 {
-  if (content.compare(0, 7, "NRRD000") != 0)
-  {
-    throw Failure("does not start as a NRRD file does");
-  }
+  FailIf(content.compare(0, 7, "NRRD000") != 0, "does not start as a NRRD file does");
   Fields fields;
   std::size_t at = content.find('\n');
   dataStart = content.size();
@@ -127,10 +124,7 @@ std::vector<Vector3> ParseVectors(const std::string& text)
        open = text.find('(', open + 1))
   {
     const std::size_t close = text.find(')', open);
-    if (close == std::string::npos)
-    {
-      throw UsageError("'" + text + "' does not end");
-    }
+    FailIf<UsageError>(close == std::string::npos, "'" + text + "' does not end");
     const std::vector<double> numbers = ParseNumbers(text.substr(open + 1, close - open - 1), 3);
     vectors.push_back({ numbers[0], numbers[1], numbers[2] });
   }
@@ -144,18 +138,12 @@ VolumePlacement PlacementOf(const Fields& fields, bool hasComponents)
   const std::string origin = EntryOr(fields, "space origin", "(0,0,0)");
   const std::string directions = EntryOr(fields, "space directions", "");
   const std::vector<Vector3> origins = ParseVectors(origin);
-  if (origins.size() != 1)
-  {
-    throw UsageError("'" + origin + "' is no origin");
-  }
+  FailIf<UsageError>(origins.size() != 1, "'" + origin + "' is no origin");
   placement.Origin = origins[0];
   if (!directions.empty())
   {
     const std::vector<Vector3> steps = ParseVectors(directions);
-    if (steps.size() != 3)
-    {
-      throw UsageError("'" + directions + "' are not three vectors");
-    }
+    FailIf<UsageError>(steps.size() != 3, "'" + directions + "' are not three vectors");
     placement.SetSteps({ steps[0], steps[1], steps[2] });
     return placement;
   }
@@ -248,20 +236,14 @@ Header ReadHeader(const std::string& name)
   }
   header.Type = TypeOf(Lower(EntryOr(header.All, "type", "")));
   const std::string dimension = EntryOr(header.All, "dimension", "");
-  if (dimension != (hasComponents ? "4" : "3"))
-  {
-    throw Failure("dimension '" + dimension + "', which has not as many sizes");
-  }
+  FailIf(dimension != (hasComponents ? "4" : "3"),
+    "dimension '" + dimension + "', which has not as many sizes");
   const std::string endian = Lower(EntryOr(header.All, "endian", "little"));
-  if (endian != "little" && endian != "big")
-  {
-    throw Failure("endian '" + endian + "'; little and big are known");
-  }
+  FailIf(
+    endian != "little" && endian != "big", "endian '" + endian + "'; little and big are known");
   const std::string file = EntryOr(header.All, "data file", "");
-  if (file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos)
-  {
-    throw Failure("data spread over several files are not read");
-  }
+  FailIf(file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos,
+    "data spread over several files are not read");
   header.DataFile =
     file.empty() ? name : (std::filesystem::path(name).parent_path() / file).string();
   header.DataStart = file.empty() ? start : 0;

@@ -82,10 +82,7 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
     { ".vtk", ReadWith<vtkPolyDataReader> }, { ".stl", ReadStl },
     { ".ply", ReadChecked<vtkPLYReader, CheckPly> }, { ".obj", ReadChecked<vtkOBJReader, CheckObj> }
   };
-  if (!std::filesystem::exists(name))
-  {
-    throw Failure(name + ": no such file");
-  }
+  FailIf(!std::filesystem::exists(name), name + ": no such file");
   return EntryOf(
     readers, SuffixOf(name), name + ": .vtp, .vtk, .stl, .ply and .obj are read")(name);
 }
@@ -96,10 +93,7 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
   vtkNew<vtkIdList> corners;
   vtkCellArray* polygons = mesh->GetPolys();
-  if (!polygons->IsValid())
-  {
-    throw Failure(name + ": is damaged: its polygons overlap in the file");
-  }
+  FailIf(!polygons->IsValid(), name + ": is damaged: its polygons overlap in the file");
   for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
   {
     polygons->GetCellAtId(i, corners);
@@ -155,10 +149,7 @@ bool IsHeading(const std::vector<std::string>& words)
 void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
 {
   std::ifstream file(name);
-  if (!file)
-  {
-    throw Failure(name + ": cannot be opened");
-  }
+  FailIf(!file, name + ": cannot be opened");
   std::string line;
   bool isFirst = true;
   for (int number = 1; std::getline(file, line); ++number)
@@ -200,10 +191,7 @@ bool IsText(const std::string& name)
 /** The points as vertices, without arrays. */
 vtkSmartPointer<vtkPolyData> MakeVertices(vtkPoints* points, const std::string& name)
 {
-  if (!points || points->GetNumberOfPoints() == 0)
-  {
-    throw Failure(name + ": has no points");
-  }
+  FailIf(!points || points->GetNumberOfPoints() == 0, name + ": has no points");
   auto vertices = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkCellArray> cells;
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
@@ -252,10 +240,7 @@ vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& name)
   clean->SetInputData(ReadMesh(name));
   clean->SetTolerance(0.0);
   clean->Update();
-  if (clean->GetOutput()->GetNumberOfPolys() == 0)
-  {
-    throw Failure(name + ": has no polygons");
-  }
+  FailIf(clean->GetOutput()->GetNumberOfPolys() == 0, name + ": has no polygons");
   return clean->GetOutput();
 }
 }

@@ -24,8 +24,8 @@ void RunWriter(vtkAlgorithm* writer, const std::function<void()>& write, Progres
   messages.ListenTo(writer);
   vtkNew<vtkCallbackCommand> observer;
   observer->SetClientData(&line);
-  observer->SetCallback([](vtkObject* caller, unsigned long, void* shown, void*)
-    { static_cast<ProgressLine*>(shown)->Show(vtkAlgorithm::SafeDownCast(caller)->GetProgress(), ""); });
+  observer->SetCallback([](vtkObject* caller, unsigned long, void* to, void*)
+    { static_cast<ProgressLine*>(to)->Show(static_cast<vtkAlgorithm*>(caller)->GetProgress(), ""); });
   writer->AddObserver(vtkCommand::ProgressEvent, observer);
   messages.Catch(write);
   if (!messages.Errors.empty() || writer->GetErrorCode() != 0)

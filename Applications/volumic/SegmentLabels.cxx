@@ -115,11 +115,9 @@ std::vector<LabelSurface> PlanSurfaces(
       continue;
     }
     LabelSurface& merged = surfaces.front();
-    if (merged.Labels.front().Layer != known[i].Layer)
-    {
-      throw Failure("--merge: the labels lie in several layers of the file, of which those of one "
-                    "can be merged; choose it with --component");
-    }
+    FailIf(merged.Labels.front().Layer != known[i].Layer,
+      "--merge: the labels lie in several layers of the file, of which those of one "
+      "can be merged; choose it with --component");
     merged.Labels.push_back(known[i]);
   }
   return surfaces;
@@ -208,13 +206,11 @@ void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
 {
   const bool isThere = std::any_of(report.Surfaces.begin(), report.Surfaces.end(),
     [](const LabelSurface& surface) { return surface.Surface->GetNumberOfPoints() > 0; });
-  if (!isThere)
-  {
-    throw Failure(report.IsFinished
-        ? options.Volume + ": none of the labels has a surface; smaller triangles may hold them "
-                           "(--finest, --edge-length)"
-        : "interrupted before there was a surface; nothing is written");
-  }
+  FailIf(!isThere,
+    report.IsFinished ? options.Volume +
+        ": none of the labels has a surface; smaller triangles may hold them "
+        "(--finest, --edge-length)"
+                      : "interrupted before there was a surface; nothing is written");
 }
 
 /** Write surfaces and report. @throws Failure if not all could be written. */

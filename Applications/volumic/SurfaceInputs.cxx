@@ -52,10 +52,8 @@ std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
   {
     const vtkSmartPointer<vtkImageData> edges =
       LoadVoxels(options.Edges, "", filter, holder, announcer).Image;
-    if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
-    {
-      throw Failure(options.Edges + ": its size differs from the volume's");
-    }
+    FailIf(!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()),
+      options.Edges + ": its size differs from the volume's");
     name = "Edges";
     while (points->HasArray(name.c_str()))
     {

@@ -29,10 +29,7 @@ std::string JoinNames(const std::vector<std::string>& names)
 int FindName(const std::vector<std::string>& names, const std::string& name)
 {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-  {
-    throw UsageError("'" + name + "' is none of " + JoinNames(names));
-  }
+  FailIf<UsageError>(found == names.end(), "'" + name + "' is none of " + JoinNames(names));
   return static_cast<int>(found - names.begin());
 }
 

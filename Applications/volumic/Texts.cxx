@@ -170,15 +170,11 @@ int ParseMebibytes(const std::string& text)
   const auto found = units.find(unit.substr(0, 1));
   const bool isUnit = found != units.end() &&
     (unit.size() == 1 || unit.substr(1) == "b" || unit.substr(1) == "ib");
-  if (!isUnit && !(unit.empty() && number == 0.0))
-  {
-    throw UsageError("'" + text + "' has no unit: give it as 1500M or 2G; 0 is no limit");
-  }
+  FailIf<UsageError>(!isUnit && !(unit.empty() && number == 0.0),
+    "'" + text + "' has no unit: give it as 1500M or 2G; 0 is no limit");
   const double mebibytes = isUnit ? std::ceil(number * found->second) : 0.0;
-  if (!(mebibytes >= 0.0 && mebibytes <= std::numeric_limits<int>::max()))
-  {
-    throw UsageError("'" + text + "' is no amount of memory");
-  }
+  FailIf<UsageError>(!(mebibytes >= 0.0 && mebibytes <= std::numeric_limits<int>::max()),
+    "'" + text + "' is no amount of memory");
   return static_cast<int>(mebibytes);
 }
 
@@ -187,11 +183,9 @@ std::vector<double> ParseNumbers(const std::string& text, std::size_t count)
   const std::vector<std::string> parts = SplitAtCommas(text);
   std::vector<double> numbers(parts.size());
   std::transform(parts.begin(), parts.end(), numbers.begin(), ParseNumber<double>);
-  if (numbers.size() != count)
-  {
-    throw UsageError("'" + text + "' are " + std::to_string(numbers.size()) + " numbers, not " +
+  FailIf<UsageError>(numbers.size() != count,
+    "'" + text + "' are " + std::to_string(numbers.size()) + " numbers, not " +
       std::to_string(count));
-  }
   return numbers;
 }
 

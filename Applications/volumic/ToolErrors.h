@@ -29,6 +29,16 @@ struct UsageError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/** @throws Failure, or another error, of these words if it is so. */
+template <class Error = Failure>
+void FailIf(bool isSo, const std::string& words)
+{
+  if (isSo)
+  {
+    throw Error(words);
+  }
+}
+
 /** What the work gives; of an error of this kind that it throws, the words begin with the name. */
 template <class Error = Failure, class Work>
 auto Named(const std::string& name, const Work& work) -> decltype(work())

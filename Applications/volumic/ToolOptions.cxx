@@ -58,20 +58,15 @@ ProgramOption Show(const char* option, enum ToolOptions::Task task, const char* 
 void SetSpacing(ToolOptions& options, const std::string& text)
 {
   const std::vector<double> numbers = ParseNumbers(text, 3);
-  if (*std::min_element(numbers.begin(), numbers.end()) <= 0.0)
-  {
-    throw UsageError("distances of voxels are more than 0");
-  }
+  FailIf<UsageError>(*std::min_element(numbers.begin(), numbers.end()) <= 0.0,
+    "distances of voxels are more than 0");
   options.Spacing = { numbers[0], numbers[1], numbers[2] };
 }
 
 void SetPieceSize(ToolOptions& options, const std::string& text)
 {
   options.PieceSize = ParseNumber<int>(text);
-  if (options.PieceSize < 1)
-  {
-    throw UsageError("pieces have a triangle at least");
-  }
+  FailIf<UsageError>(options.PieceSize < 1, "pieces have a triangle at least");
 }
 
 const std::vector<ProgramOption>& InputOptions()
@@ -237,10 +232,7 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
     if (equals != std::string::npos)
     {
       text = word.substr(equals + 1);
-      if (!takesArgument)
-      {
-        throw UsageError("--" + name + " takes no argument");
-      }
+      FailIf<UsageError>(!takesArgument, "--" + name + " takes no argument");
     }
     else if (takesArgument)
     {

@@ -25,21 +25,17 @@ constexpr std::size_t Piece = 1 << 18; ///< bytes at a time
 /** @throws Failure if packed data have given `done` bytes, and give more than they may. */
 void NeedNoMore(std::uint64_t got, std::uint64_t done, std::uint64_t most)
 {
-  if (got > most - done)
-  {
-    throw Failure("the packed data give more than the " + std::to_string(most) +
+  FailIf(got > most - done,
+    "the packed data give more than the " + std::to_string(most) +
       " bytes that the header tells of");
-  }
 }
 
 /** @throws Failure unless packed data gave as many bytes as are needed. */
 void NeedUnpacked(std::uint64_t got, std::uint64_t needed)
 {
-  if (got < needed)
-  {
-    throw Failure("the packed data give " + std::to_string(got) + " bytes, " +
-      std::to_string(needed) + " are needed");
-  }
+  FailIf(got < needed,
+    "the packed data give " + std::to_string(got) + " bytes, " + std::to_string(needed) +
+      " are needed");
 }
 }
 
@@ -57,10 +53,7 @@ std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint6
 {
   z_stream stream = {};
   // 32: zlib or gzip, by its head; 15: the largest window
-  if (inflateInit2(&stream, 47) != Z_OK)
-  {
-    throw Failure("what unpacks the data cannot be used");
-  }
+  FailIf(inflateInit2(&stream, 47) != Z_OK, "what unpacks the data cannot be used");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
   std::vector<char> input(Piece);
   std::vector<char> output(Piece);
@@ -87,16 +80,12 @@ std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint6
     stream.avail_out = static_cast<uInt>(output.size());
     const int status = inflate(&stream, Z_NO_FLUSH);
     const std::size_t got = output.size() - stream.avail_out;
-    if (status != Z_STREAM_END && status != Z_OK && status != Z_BUF_ERROR)
-    {
-      throw Failure("the packed data are damaged: their checksum or code is wrong");
-    }
+    FailIf(status != Z_STREAM_END && status != Z_OK && status != Z_BUF_ERROR,
+      "the packed data are damaged: their checksum or code is wrong");
     NeedNoMore(got, done, most);
-    if (status != Z_STREAM_END && got == 0 && !isThere)
-    {
-      throw Failure("the packed data are cut off: they give " + std::to_string(done) + " of " +
+    FailIf(status != Z_STREAM_END && got == 0 && !isThere,
+      "the packed data are cut off: they give " + std::to_string(done) + " of " +
         std::to_string(most) + " bytes");
-    }
     sink(output.data(), got);
     done += got;
     isAtEnd = status == Z_STREAM_END && !(hasMore() && inflateReset(&stream) == Z_OK);
@@ -162,20 +151,15 @@ Archive::Archive(Kind kind, Source source)
     return static_cast<la_ssize_t>(own->Packed(own->Piece.data(), own->Piece.size()));
   };
   this->Need(archive_read_open(this->Reader.get(), this, nullptr, feed, nullptr));
-  if (!isTar && archive_filter_code(this->Reader.get(), 0) != ARCHIVE_FILTER_BZIP2)
-  {
-    throw Failure("the packed data are damaged: they do not begin as those of bzip2 do");
-  }
+  FailIf(!isTar && archive_filter_code(this->Reader.get(), 0) != ARCHIVE_FILTER_BZIP2,
+    "the packed data are damaged: they do not begin as those of bzip2 do");
 }
 
 Archive::Source Archive::TarIn(const std::string& name)
 {
   const std::shared_ptr<std::remove_pointer_t<gzFile>> file(gzopen(name.c_str(), "rb"),
     [](gzFile opened) { return opened ? gzclose(opened) : Z_OK; });
-  if (!file)
-  {
-    throw Failure("cannot be opened");
-  }
+  FailIf(!file, "cannot be opened");
   return [file](char* bytes, std::size_t count) -> std::int64_t
   {
     const int got = gzread(file.get(), bytes, static_cast<unsigned int>(count));
@@ -234,9 +218,6 @@ void Archive::Finish()
   {
     got = this->Packed(this->Piece.data(), this->Piece.size());
   }
-  if (got < 0)
-  {
-    throw Failure("the packed data are cut off or damaged");
-  }
+  FailIf(got < 0, "the packed data are cut off or damaged");
 }
 }

@@ -128,10 +128,7 @@ int RunAndTell(int argc, char* argv[], Ranks& ranks)
     ranks.OnFirst(
       []
       {
-        if (!std::cout.flush())
-        {
-          throw Failure("the standard output cannot be written; is its disk full?");
-        }
+        FailIf(!std::cout.flush(), "the standard output cannot be written; is its disk full?");
       });
     return ended;
   }
