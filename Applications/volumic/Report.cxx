@@ -15,14 +15,42 @@
 #include <vtkVariant.h>
 #include <vtkVersion.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <ostream>
 
 #include <sys/resource.h>
 
 namespace tool
 {
+std::vector<double> PeaksByRank(const Ranks& ranks)
+{
+  std::vector<double> peaks;
+  if (!ranks.IsOne())
+  {
+    for (const std::string& peak : ranks.GatherOnAll(std::to_string(PeakMemory())))
+    {
+      peaks.push_back(std::atof(peak.c_str()));
+    }
+  }
+  return peaks;
+}
+
+double PeakMemory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+namespace
+{
+/** The member `input`: what the volume is. */
 Json InputFacts(const std::string& name, const VolumeFacts& volume)
 {
   return { { "name", name }, { "dimensions", volume.Size() },
@@ -31,6 +59,7 @@ Json InputFacts(const std::string& name, const VolumeFacts& volume)
     { "range", AsJsonArray(volume.Range) } };
 }
 
+/** Members of the size and shape of a surface, from its field data. */
 void AddSurfaceFacts(Json& json, vtkPolyData* surface, const SurfaceSize& size)
 {
   static const char* const facts[][2] = { { "components", "NumberOfComponents" },
@@ -51,6 +80,7 @@ void AddSurfaceFacts(Json& json, vtkPolyData* surface, const SurfaceSize& size)
   json["stop_reason"] = StopReason(surface);
 }
 
+/** The member `component_features`: an object per component, the one of the largest area first. */
 Json ComponentFeatures(vtkPolyData* surface)
 {
   static const char* const facts[][2] = { { "area", "ComponentArea" },
@@ -77,8 +107,39 @@ Json ComponentFeatures(vtkPolyData* surface)
   return components;
 }
 
-namespace
+/** The member `properties`: those that are meant, with their values. */
+Json PropertyValues(const FilterTrio& filters, bool (*isMeant)(const PropertyOption&))
 {
+  Json values = Json::object();
+  for (const PropertyOption& property : SurfaceProperties())
+  {
+    if (isMeant(property))
+    {
+      values[property.Property] = property.Get(filters);
+    }
+  }
+  return values;
+}
+
+/** The member `memory`. @param reader PeakMemory() when the volume had been read */
+Json MemoryFacts(double reader, const std::vector<double>& byRank)
+{
+  Json memory = { { "reader", reader }, { "peak", PeakMemory() } };
+  if (!byRank.empty())
+  {
+    memory["peak_by_rank"] = byRank;
+  }
+  return memory;
+}
+
+/** The report with the members `warnings` and `versions` at its end, as text. */
+std::string EndedReport(Json& json, const std::vector<std::string>& warnings)
+{
+  json["warnings"] = warnings;
+  json["versions"] = { { "volumic", VOLUMIC_VERSION }, { "vtk", vtkVersion::GetVTKVersion() } };
+  return TextOf(json);
+}
+
 double SecondsOfRow(vtkTable* history, vtkIdType row)
 {
   double seconds = 0.0;
@@ -150,49 +211,6 @@ Json SecondsOf(const ReportInput& input)
 }
 }
 
-Json PropertyValues(const FilterTrio& filters, bool (*isMeant)(const PropertyOption&))
-{
-  Json values = Json::object();
-  for (const PropertyOption& property : SurfaceProperties())
-  {
-    if (isMeant(property))
-    {
-      values[property.Property] = property.Get(filters);
-    }
-  }
-  return values;
-}
-
-Json MemoryFacts(double reader, const std::vector<double>& byRank)
-{
-  Json memory = { { "reader", reader }, { "peak", PeakMemory() } };
-  if (!byRank.empty())
-  {
-    memory["peak_by_rank"] = byRank;
-  }
-  return memory;
-}
-
-std::vector<double> PeaksByRank(const Ranks& ranks)
-{
-  std::vector<double> peaks;
-  if (!ranks.IsOne())
-  {
-    for (const std::string& peak : ranks.GatherOnAll(std::to_string(PeakMemory())))
-    {
-      peaks.push_back(std::atof(peak.c_str()));
-    }
-  }
-  return peaks;
-}
-
-double PeakMemory()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
 std::string ReportText(const ReportInput& input)
 {
   vtkDeformableSurface* filter = input.Filters.Surface;
@@ -209,10 +227,153 @@ std::string ReportText(const ReportInput& input)
   return EndedReport(json, input.Warnings);
 }
 
-std::string EndedReport(Json& json, const std::vector<std::string>& warnings)
+// ---- Labels -------------------------------------------------------------------------------------
+
+vtkIdType WrongVoxels(vtkPolyData* surface, const char* name)
 {
-  json["warnings"] = warnings;
-  json["versions"] = { { "volumic", VOLUMIC_VERSION }, { "vtk", vtkVersion::GetVTKVersion() } };
-  return TextOf(json);
+  vtkDataArray* wrong = surface->GetFieldData()->GetArray(name);
+  return wrong && wrong->GetNumberOfTuples() > 0
+    ? static_cast<vtkIdType>(wrong->GetComponent(0, 0))
+    : 0;
+}
+
+namespace
+{
+Json NameFacts(const LabelSurface& surface)
+{
+  vtkIdType voxels = 0;
+  std::vector<int> labels;
+  for (const KnownLabel& label : surface.Labels)
+  {
+    labels.push_back(label.Label);
+    voxels += label.Voxels;
+  }
+  if (vtkDataArray* counted = surface.Surface->GetFieldData()->GetArray("LabelVoxels"))
+  {
+    voxels = static_cast<vtkIdType>(counted->GetComponent(0, 0));
+  }
+  Json facts = Json::object();
+  if (labels.size() == 1)
+  {
+    facts["label"] = labels[0];
+  }
+  facts["labels"] = labels;
+  facts["name"] = surface.Name;
+  facts["color"] = AsJsonArray(surface.Labels[0].Color);
+  facts["layer"] = surface.Labels[0].Layer;
+  facts["voxels"] = voxels;
+  facts["files"] = surface.Files;
+  return facts;
+}
+}
+
+std::string ReportText(const LabelReport& report)
+{
+  Json json = { { "input", InputFacts(report.VolumeName, report.Volume) },
+    { "finished", report.IsFinished }, { "labels", Json::array() } };
+  for (const LabelSurface& each : report.Surfaces)
+  {
+    vtkPolyData* surface = each.Surface;
+    Json& facts = json["labels"].emplace_back(NameFacts(each));
+    facts["seconds"] = each.Seconds;
+    facts["wrong_voxels"] = WrongVoxels(surface);
+    facts["missed_voxels"] = WrongVoxels(surface, "MissedVoxels");
+    AddSurfaceFacts(facts, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
+    facts["component_features"] = ComponentFeatures(surface);
+  }
+  json["seconds"] = { { "surface", report.Seconds } };
+  json["memory"] = MemoryFacts(report.ReaderMemory, report.PeaksByRank);
+  json["properties"] = PropertyValues(report.Filters, IsOfLabels);
+  return EndedReport(json, report.Warnings);
+}
+
+// ---- The list of labels -------------------------------------------------------------------------
+
+namespace
+{
+using Row = std::vector<std::string>;
+
+double VolumeOf(const KnownLabel& label, const VolumeFacts& volume)
+{
+  const Vector3& spacing = volume.Spacing;
+  return static_cast<double>(label.Voxels) * spacing[0] * spacing[1] * spacing[2];
+}
+
+/** Six digits, but no powers of ten. */
+std::string SixDigits(double value)
+{
+  const int digits = value > 0.0 ? 5 - static_cast<int>(std::floor(std::log10(value))) : 0;
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", std::clamp(digits, 0, 30), value);
+  return text;
+}
+
+std::string BoxText(const std::array<int, 6>& box)
+{
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    text += (axis > 0 ? " " : "") + std::to_string(box[2 * axis]) + ".." +
+      std::to_string(box[2 * axis + 1]);
+  }
+  return text;
+}
+
+Row RowOf(const KnownLabel& label, const LabelList& list)
+{
+  Row row = { std::to_string(label.Label), std::to_string(label.Voxels),
+    SixDigits(VolumeOf(label, list.Volume)) };
+  if (list.Layers > 1)
+  {
+    row.push_back(std::to_string(label.Layer));
+  }
+  row.push_back(BoxText(label.Box));
+  row.push_back(PlainName(label.Name)); // the last, as it may be long
+  return row;
+}
+}
+
+void WriteTable(std::ostream& out, const LabelList& list)
+{
+  std::vector<Row> rows = { { "label", "voxels", "volume" } };
+  if (list.Layers > 1)
+  {
+    rows.front().push_back("layer");
+  }
+  rows.front().emplace_back("box (first..last voxel along i, j, k)");
+  rows.front().emplace_back("name");
+  for (const KnownLabel& label : list.Labels)
+  {
+    rows.push_back(RowOf(label, list));
+  }
+  for (const Row& row : rows)
+  {
+    for (std::size_t column = 0; column < row.size(); ++column)
+    {
+      std::size_t width = 0;
+      for (const Row& other : rows)
+      {
+        width = std::max(width, other[column].size());
+      }
+      const bool isLast = column + 1 == row.size();
+      const std::string blanks(isLast ? 0 : width - row[column].size(), ' ');
+      const bool isNumber = column + 2 < row.size();
+      out << (isNumber ? blanks + row[column] : row[column] + blanks) << (isLast ? "\n" : "  ");
+    }
+  }
+}
+
+std::string ReportText(const LabelList& list)
+{
+  Json json = { { "input", InputFacts(list.VolumeName, list.Volume) },
+    { "labels", Json::array() } };
+  for (const KnownLabel& label : list.Labels)
+  {
+    json["labels"].push_back({ { "label", label.Label }, { "name", label.Name },
+      { "color", AsJsonArray(label.Color) }, { "layer", label.Layer },
+      { "voxels", label.Voxels }, { "volume", AsJson(VolumeOf(label, list.Volume)) },
+      { "box", label.Box } });
+  }
+  return EndedReport(json, list.Warnings);
 }
 }

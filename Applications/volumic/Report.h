@@ -4,13 +4,14 @@
 #define volumicReport_h
 
 #include "GatherSurface.h"
+#include "LabelChoice.h"
+#include "LabelOutputs.h"
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
 
+#include <iosfwd>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 class vtkPolyData;
 
@@ -41,33 +42,51 @@ struct ReportInput
 /** The report as JSON. Lengths, areas and volumes are in world units. */
 std::string ReportText(const ReportInput& input);
 
-// ---- Parts of reports ---------------------------------------------------------------------------
-
-using Json = nlohmann::ordered_json;
-
-/** The member `input`: what the volume is. */
-Json InputFacts(const std::string& name, const VolumeFacts& volume);
-
-/** Members of the size and shape of a surface, from its field data. */
-void AddSurfaceFacts(Json& json, vtkPolyData* surface, const SurfaceSize& size);
-
-/** The member `component_features`: an object per component, the one of the largest area first. */
-Json ComponentFeatures(vtkPolyData* surface);
-
-/** The member `properties`: those that are meant, with their values. */
-Json PropertyValues(const FilterTrio& filters, bool (*isMeant)(const PropertyOption&));
-
-/** The member `memory`. @param reader PeakMemory() when the volume had been read */
-Json MemoryFacts(double reader, const std::vector<double>& byRank);
-
-/** The report with the members `warnings` and `versions` at its end, as text. */
-std::string EndedReport(Json& json, const std::vector<std::string>& warnings);
-
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();
 
 /** That of each rank, by all of them; nothing where there is one only. */
 std::vector<double> PeaksByRank(const Ranks& ranks);
+
+// ---- Labels -------------------------------------------------------------------------------------
+
+/** All that a report of labels tells; names in it are those of ReportText where it has them. */
+struct LabelReport
+{
+  std::string VolumeName;
+  VolumeFacts Volume;
+  FilterTrio Filters;
+  const std::vector<LabelSurface>& Surfaces;
+  bool IsFinished = false;
+  double Seconds = 0.0;      ///< of the surfaces
+  double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
+  std::vector<std::string> Warnings = {};
+  std::vector<double> PeaksByRank = {};
+};
+
+/** The report as JSON, `labels` with an object for each surface. */
+std::string ReportText(const LabelReport& report);
+
+/** Of a surface's field data: voxel centres on the wrong side; 0 where that is not told. */
+vtkIdType WrongVoxels(vtkPolyData* surface, const char* name = "WrongVoxels");
+
+// ---- The list of labels -------------------------------------------------------------------------
+
+/** What --list-labels tells; names in it are those of LabelReport where it has them. */
+struct LabelList
+{
+  std::string VolumeName;
+  VolumeFacts Volume;
+  int Layers = 1;
+  std::vector<KnownLabel> Labels = {};
+  std::vector<std::string> Warnings = {};
+};
+
+/** As a table for the eye, a line for each label below a heading. */
+void WriteTable(std::ostream& out, const LabelList& list);
+
+/** As JSON, `labels` with an object for each. */
+std::string ReportText(const LabelList& list);
 }
 
 #endif

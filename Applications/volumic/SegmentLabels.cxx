@@ -5,7 +5,6 @@
 #include "LabelMap.h"
 #include "LabelNames.h"
 #include "LabelOutputs.h"
-#include "LabelReport.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
