@@ -19,10 +19,7 @@ void CheckWithoutLabels(const ToolOptions& options)
 {
   for (const auto& [property, text] : options.Properties)
   {
-    if (IsOfLabelsOnly(*property))
-    {
-      throw UsageError("--" + property->Option + " needs --labels");
-    }
+    FailIf<UsageError>(IsOfLabelsOnly(*property), "--" + property->Option + " needs --labels");
   }
   FailIf<UsageError>(!options.Format.empty(), "--format needs --labels");
   FailIf<UsageError>(!options.NamesOfLabels.empty() && options.WrittenVolume.empty(),
@@ -64,10 +61,8 @@ void CheckWithLabels(const ToolOptions& options)
   }
   for (const auto& [property, text] : options.Properties)
   {
-    if (!(options.ListsLabels ? IsOfList(*property) : IsOfLabels(*property)))
-    {
-      throw UsageError("--" + property->Option + " and " + asked + " exclude each other");
-    }
+    FailIf<UsageError>(!(options.ListsLabels ? IsOfList(*property) : IsOfLabels(*property)),
+      "--" + property->Option + " and " + asked + " exclude each other");
     if (property->Property == "KeepComponents" && (text == "at-points" || text == "not-at-seeds"))
     {
       throw UsageError("--keep " + text + " and --labels exclude each other");

@@ -88,11 +88,9 @@ Head ReadHead(std::istream& file)
     {
       head.Parts.emplace_back();
       head.Parts.back().Name = type;
-      if (!(words >> head.Parts.back().Count) ||
-        head.Parts.back().Count > std::numeric_limits<int>::max())
-      {
-        throw Failure("its header is damaged: no number of elements '" + type + "'");
-      }
+      FailIf(!(words >> head.Parts.back().Count) ||
+          head.Parts.back().Count > std::numeric_limits<int>::max(),
+        "its header is damaged: no number of elements '" + type + "'");
     }
     else if (word == "property")
     {
@@ -104,10 +102,7 @@ Head ReadHead(std::istream& file)
         property.Count = TypeOf(word);
       }
       property.Value = TypeOf(type);
-      if (!(words >> property.Name))
-      {
-        throw Failure("its header is damaged: a property has no name");
-      }
+      FailIf(!(words >> property.Name), "its header is damaged: a property has no name");
       head.Parts.back().Properties.push_back(property);
     }
     else if (word != "ply" && word != "comment" && word != "obj_info")
@@ -208,11 +203,9 @@ std::uint64_t CheckParts(const Head& head)
     FailIf(!isLate || !isKnown,
       "its header is damaged, or it is no surface: '" + Shortened(part.Name, 80) +
         "' comes before points or polygons");
-    if (!isRight || part.Properties.empty() || !names.insert(part.Name).second)
-    {
-      throw Failure("its header is damaged: the properties of '" + part.Name +
+    FailIf(!isRight || part.Properties.empty() || !names.insert(part.Name).second,
+      "its header is damaged: the properties of '" + part.Name +
         "' are not those of a surface, or it is there twice");
-    }
   }
   return points->Count;
 }

@@ -140,10 +140,8 @@ private:
     const bool isInside = size <= (this->IsWide ? 8u : 4u);
     const std::uint64_t place = entry + (this->IsWide ? 12 : 8);
     const std::uint64_t start = isInside ? place : this->File.Number(place, this->Wide(4));
-    if (!page.Values.emplace(tag, Numbers()).second)
-    {
-      throw Failure("its tag " + std::to_string(tag) + " is there twice");
-    }
+    FailIf(!page.Values.emplace(tag, Numbers()).second,
+      "its tag " + std::to_string(tag) + " is there twice");
     this->File.Need(start, size);
     if (!isInside)
     {

@@ -116,12 +116,9 @@ void Copy(vtkDataSetAttributes* piece, vtkIdList* ids, vtkDataSetAttributes* who
   {
     vtkDataArray* array = whole->GetArray(i);
     vtkDataArray* given = piece->GetArray(array->GetName());
-    if (!given || given->GetDataType() != array->GetDataType() ||
-      given->GetNumberOfComponents() != array->GetNumberOfComponents())
-    {
-      throw Failure(std::string("the pieces of the ranks differ in their array ") +
-        array->GetName());
-    }
+    FailIf(!given || given->GetDataType() != array->GetDataType() ||
+        given->GetNumberOfComponents() != array->GetNumberOfComponents(),
+      std::string("the pieces of the ranks differ in their array ") + array->GetName());
     array->InsertTuples(ids, all, given);
   }
 }

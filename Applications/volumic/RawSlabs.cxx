@@ -185,11 +185,9 @@ void RawSlabs::ReadBytes(std::uint64_t first, std::uint64_t count, char* values)
     const std::string& file = this->Files[static_cast<std::size_t>(first / share)];
     const std::uint64_t within = first % share;
     const std::uint64_t piece = std::min(end - first, share - within);
-    if (!OpenData(file, this->StartIn(file) + within)
-           .read(values, static_cast<std::streamsize>(piece)))
-    {
-      throw Failure("its voxels cannot be read: the file is cut off, or its disk fails");
-    }
+    FailIf(!OpenData(file, this->StartIn(file) + within)
+              .read(values, static_cast<std::streamsize>(piece)),
+      "its voxels cannot be read: the file is cut off, or its disk fails");
     values += piece;
     first += piece;
   }

@@ -72,10 +72,7 @@ std::array<Vector3, 3> AxesOf(const std::string& name, const std::string& key)
   std::array<Vector3, 3> axes;
   for (Vector3& axis : axes)
   {
-    if (!(words >> axis[0] >> axis[1] >> axis[2]))
-    {
-      throw Failure(key + " does not hold nine numbers");
-    }
+    FailIf(!(words >> axis[0] >> axis[1] >> axis[2]), key + " does not hold nine numbers");
   }
   return axes;
 }
@@ -134,13 +131,11 @@ std::vector<std::string> FilesOfPattern(
   const long step = numbers.size() == 3 ? numbers[2]
     : numbers.size() == 2               ? (last - first) / (steps + 1)
                                         : 1;
-  if (end == pattern.size() || pattern.find_first_of("diu", end) != end || width.size() > 3 ||
-    pattern.find('%', end) != std::string::npos || numbers.size() > 3 || slices > most ||
-    first < 0 || step < 1 || first + steps * step > last)
-  {
-    throw Failure("its header is damaged: the ElementDataFile '" + text.substr(0, 80) +
-      "' gives no " + std::to_string(slices) + " files, as 'slice%03d.raw 1 100 1' gives 100");
-  }
+  FailIf(end == pattern.size() || pattern.find_first_of("diu", end) != end || width.size() > 3 ||
+      pattern.find('%', end) != std::string::npos || numbers.size() > 3 || slices > most ||
+      first < 0 || step < 1 || first + steps * step > last,
+    "its header is damaged: the ElementDataFile '" + text.substr(0, 80) + "' gives no " +
+      std::to_string(slices) + " files, as 'slice%03d.raw 1 100 1' gives 100");
   std::vector<std::string> files;
   for (long i = 0; i <= steps; ++i)
   {

@@ -190,10 +190,8 @@ std::uint64_t CheckNifti(const std::string& name)
 /** Slope and shift that the header tells of. @throws Failure for several times. */
 std::pair<double, double> RescalingOf(vtkNIFTIImageReader* reader)
 {
-  if (reader->GetTimeDimension() > 1)
-  {
-    throw Failure(NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");
-  }
+  FailIf(reader->GetTimeDimension() > 1,
+    NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");
   const double slope = reader->GetRescaleSlope() == 0.0 ? 1.0 : reader->GetRescaleSlope();
   return { slope, reader->GetRescaleIntercept() };
 }

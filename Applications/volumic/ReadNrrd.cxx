@@ -51,10 +51,8 @@ std::string FieldOf(const std::string& name)
     "space origin", "space directions", "measurement frame" };
   const std::string lower = Lower(name);
   const std::string field = EntryOr(others, lower, lower);
-  if (known.count(field) == 0)
-  {
-    throw Failure("the header is damaged: '" + AsUtf8(name.substr(0, 80)) + "' is no field of NRRD");
-  }
+  FailIf(known.count(field) == 0,
+    "the header is damaged: '" + AsUtf8(name.substr(0, 80)) + "' is no field of NRRD");
   return field;
 }
 
@@ -227,13 +225,11 @@ Header ReadHeader(const std::string& name)
   std::istringstream sizes(EntryOr(header.All, "sizes", ""));
   std::string more;
   const bool hasComponents = FirstAxisIsComponents(header.All);
-  if ((hasComponents && !(sizes >> header.Components)) ||
-    !(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more || header.Components < 1 ||
-    *std::min_element(size.begin(), size.end()) < 1)
-  {
-    throw Failure("sizes '" + EntryOr(header.All, "sizes", "") +
+  FailIf((hasComponents && !(sizes >> header.Components)) ||
+      !(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more || header.Components < 1 ||
+      *std::min_element(size.begin(), size.end()) < 1,
+    "sizes '" + EntryOr(header.All, "sizes", "") +
       "'; a volume with one scalar component has three, one with several a list of them first");
-  }
   header.Type = TypeOf(Lower(EntryOr(header.All, "type", "")));
   const std::string dimension = EntryOr(header.All, "dimension", "");
   FailIf(dimension != (hasComponents ? "4" : "3"),

@@ -58,11 +58,9 @@ vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
   BinaryFile file(name);
   const bool isText = file.Size() < 84 || IsStlText(file);
   const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
-  if (file.Size() < 84 + 50 * triangles)
-  {
-    throw Failure(name + ": the file is cut off: it has " + std::to_string(file.Size()) +
+  FailIf(file.Size() < 84 + 50 * triangles,
+    name + ": the file is cut off: it has " + std::to_string(file.Size()) +
       " bytes, its header asks for " + std::to_string(84 + 50 * triangles));
-  }
   return ReadWith<vtkSTLReader>(name);
 }
 

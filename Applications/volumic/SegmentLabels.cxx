@@ -100,11 +100,9 @@ std::vector<LabelSurface> PlanSurfaces(
   std::vector<LabelSurface> surfaces;
   const std::vector<std::size_t> chosen = Named(options.Volume,
     [&] { return ChooseLabels(options.Labels, known, filter->GetBackgroundLabel()); });
-  if (chosen.empty())
-  {
-    throw Failure(options.Volume + ": it has no label but the background, " +
+  FailIf(chosen.empty(),
+    options.Volume + ": it has no label but the background, " +
       std::to_string(filter->GetBackgroundLabel()) + "; choose another one with --background");
-  }
   for (const std::size_t i : chosen)
   {
     if (!filter->GetMerge() || surfaces.empty())

@@ -220,10 +220,7 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
       (options.Volume.empty() ? options.Volume : options.Surfaces.emplace_back()) = word;
       continue;
     }
-    if (word.compare(0, 2, "--") != 0)
-    {
-      throw UsageError("unknown option " + word);
-    }
+    FailIf<UsageError>(word.compare(0, 2, "--") != 0, "unknown option " + word);
     const std::size_t equals = word.find('=');
     const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
     const ProgramOption& found = FindOption(name);
@@ -236,10 +233,7 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
     }
     else if (takesArgument)
     {
-      if (++i >= argc)
-      {
-        throw UsageError("--" + name + " needs an argument");
-      }
+      FailIf<UsageError>(++i >= argc, "--" + name + " needs an argument");
       text = argv[i];
     }
     Named<UsageError>("--" + name, [&] { found.Set(options, text); });
