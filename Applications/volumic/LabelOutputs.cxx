@@ -35,11 +35,9 @@ std::string SuffixIn(const ToolOptions& options)
 std::vector<std::string> InputsOf(const ToolOptions& options)
 {
   std::vector<std::string> inputs = FilesOfVolume(options.Volume);
+  const std::vector<std::string> names = FilesBeside(options.Volume);
+  inputs.insert(inputs.end(), names.begin(), names.end());
   inputs.push_back(options.NamesOfLabels);
-  for (const std::string& file : FilesBeside(options.Volume))
-  {
-    inputs.push_back(file);
-  }
   return inputs;
 }
 

@@ -5,6 +5,7 @@
 #include "Ranks.h"
 #include "ReadVolume.h"
 #include "RunFilter.h"
+#include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
@@ -99,11 +100,7 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
         0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array.c_str());
     }
     holder->SetNumberOfLevels(1);
-    holder->SetSelectedComponent(filter->GetSelectedComponent());
-    holder->SetNaNIsBackground(filter->GetNaNIsBackground());
-    holder->SetNumberOfThreads(filter->GetNumberOfThreads());
-    holder->SetMemoryLimit(filter->GetMemoryLimit());
-    holder->SetScratchDirectory(filter->GetScratchDirectory());
+    ShareWithPyramid(filter, holder);
     image = GatherSlabs(name, opened.Source, holder, announcer.Style);
     loaded.Components = ComponentsIn(VoxelsIn(opened.Source->GetOutputInformation(0), array));
     holder->RemoveAllInputs();

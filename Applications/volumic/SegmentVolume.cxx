@@ -10,6 +10,7 @@
 #include "RunFilter.h"
 #include "SurfaceFields.h"
 #include "SurfaceInputs.h"
+#include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
@@ -113,11 +114,7 @@ FilterRun GiveLevels(const Job& job)
     SetInput(job, whole);
     return FilterRun();
   }
-  pyramid->SetSelectedComponent(filter->GetSelectedComponent());
-  pyramid->SetNaNIsBackground(filter->GetNaNIsBackground());
-  pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
-  pyramid->SetMemoryLimit(filter->GetMemoryLimit());
-  pyramid->SetScratchDirectory(filter->GetScratchDirectory());
+  ShareWithPyramid(filter, pyramid);
   SetInput(job, pyramid);
   const FilterRun run = RunOnVolume(job, pyramid, "Building the pyramid", job.Says.Style);
   if (run.IsInterrupted)

@@ -69,15 +69,10 @@ std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
 std::vector<std::string> InputsOf(const ToolOptions& options)
 {
   std::vector<std::string> inputs = FilesOfVolume(options.Volume);
-  for (const std::string& file : FilesOfVolume(options.Edges))
-  {
-    inputs.push_back(file);
-  }
-  for (const std::string& file :
-    { options.Seeds, options.InitialSurface, options.AttractingPoints })
-  {
-    inputs.push_back(file);
-  }
+  const std::vector<std::string> edges = FilesOfVolume(options.Edges);
+  inputs.insert(inputs.end(), edges.begin(), edges.end());
+  inputs.insert(
+    inputs.end(), { options.Seeds, options.InitialSurface, options.AttractingPoints });
   return inputs;
 }
 

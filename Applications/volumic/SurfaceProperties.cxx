@@ -275,4 +275,13 @@ void ShareProperties(const FilterTrio& filters)
     share(filters);
   }
 }
+
+void ShareWithPyramid(vtkDeformableSurface* filter, vtkImagePyramid* pyramid)
+{
+  pyramid->SetSelectedComponent(filter->GetSelectedComponent());
+  pyramid->SetNaNIsBackground(filter->GetNaNIsBackground());
+  pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
+  pyramid->SetMemoryLimit(filter->GetMemoryLimit());
+  pyramid->SetScratchDirectory(filter->GetScratchDirectory());
+}
 }
