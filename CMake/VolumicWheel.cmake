@@ -24,6 +24,10 @@ find_package(nlohmann_json 3.9 QUIET)
 if (NOT nlohmann_json_FOUND)
   string(APPEND missing "\n  nlohmann_json 3.9 (Debian: nlohmann-json3-dev)")
 endif ()
+find_package(LibArchive QUIET)
+if (NOT LibArchive_FOUND)
+  string(APPEND missing "\n  libarchive (Debian: libarchive-dev)")
+endif ()
 if (missing)
   message(FATAL_ERROR "volumic is compiled for the VTK of this machine, and here is missing:"
     "${missing}\nWhere VTK is elsewhere, tell pip:\n"

@@ -9,8 +9,9 @@
 # build/ (prepare_paraview, prepare_vtk). And names of packages tell versions: what can be derived
 # from another package's dependencies, is, so that a new release needs no change here.
 
-# libbz2-dev: for NRRD files that are packed so. nlohmann-json3-dev: for names of labels in JSON.
-tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libbz2-dev
+# libarchive-dev: for projects of InVesalius, and NRRD packed by bzip2. nlohmann-json3-dev: for names
+# of labels, and reports.
+tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libarchive-dev
   nlohmann-json3-dev)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
 # mpi-default-bin: mpirun, without which the tests of several ranks are skipped.

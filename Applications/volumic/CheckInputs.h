@@ -3,7 +3,6 @@
 #ifndef volumicCheckInputs_h
 #define volumicCheckInputs_h
 
-#include <cstdint>
 #include <iosfwd>
 #include <string>
 
@@ -14,12 +13,6 @@ namespace tool
 // VTK's readers of these formats give what memory holds where a file has been cut off or damaged,
 // or end the program. Hence these looks at a file before: all throw a Failure, without its name,
 // with the bytes that are there and those that its header asks for.
-
-/**
- * NIfTI and Analyze: the type and the sizes of the voxels, the size of the data, and the checksum
- * of a packed file. @return the bytes of the file that holds the voxels, unpacked.
- */
-std::uint64_t CheckNifti(const std::string& name);
 
 /** netCDF of the classic form, which MINC 1 is: the size of the data. Others are passed over. */
 void CheckNetcdf(const std::string& name);

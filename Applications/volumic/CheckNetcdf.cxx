@@ -3,7 +3,6 @@
 
 // The classic netCDF format (its specification: NetCDF Classic Format, in netCDF's documentation).
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 
@@ -18,10 +17,8 @@ namespace
 std::uint64_t TypeBytes(std::uint64_t type)
 {
   static const std::uint64_t sizes[] = { 0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8 };
-  if (type == 0 || type >= 12)
-  {
-    throw Failure("its header is damaged: there is no type " + std::to_string(type));
-  }
+  FailIf(
+    type == 0 || type >= 12, "its header is damaged: there is no type " + std::to_string(type));
   return sizes[type];
 }
 
@@ -50,10 +47,7 @@ public:
   /** Go on by so many bytes, in units of four. */
   void Skip(std::uint64_t bytes)
   {
-    if (bytes > this->File.Size())
-    {
-      throw Failure("the file is cut off within its header, or that is damaged");
-    }
+    FailIf(bytes > this->File.Size(), "the file is cut off within its header, or that is damaged");
     this->At += (bytes + 3) / 4 * 4;
   }
   void SkipName() { this->Skip(this->Count()); }
@@ -92,11 +86,9 @@ public:
       values = Times(values, dimension < sizes.size() ? sizes[dimension] : 0);
     }
     const std::uint64_t most = 8;
-    if (dimensions > most || (isImage && (dimensions < 2 || values == 0)))
-    {
-      throw Failure("its header is damaged, or it is no volume: a variable has " +
-        std::to_string(dimensions) + " dimensions and " + std::to_string(values) + " values");
-    }
+    FailIf(dimensions > most || (isImage && (dimensions < 2 || values == 0)),
+      "its header is damaged, or it is no volume: a variable has " + std::to_string(dimensions) +
+        " dimensions and " + std::to_string(values) + " values");
     this->SkipAttributes();
     const std::uint64_t needed = Times(values, TypeBytes(this->Next(4)));
     this->Count(); // of bytes, which is too small a number for large variables
@@ -132,9 +124,6 @@ void CheckNetcdf(const std::string& name)
     const bool isImage = header.CheckVariable(sizes);
     hasImage = hasImage || isImage;
   }
-  if (!hasImage)
-  {
-    throw Failure("it has no image: no MINC file, or damaged");
-  }
+  FailIf(!hasImage, "it has no image: no MINC file, or damaged");
 }
 }

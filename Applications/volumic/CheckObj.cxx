@@ -4,7 +4,6 @@
 // Wavefront's .obj: lines of words. Corners of faces are numbers of points, of texture coordinates
 // and of normals, as 1/2/3, 1/2, 1//3 or 1; less than 0 they count from the last one so far.
 #include "CheckInputs.h"
-#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CheckOptions.h"
+#include "ToolOptions.h"
 
 #include "LabelOutputs.h"
 #include "ToolErrors.h"
-#include "ToolOptions.h"
 
 #include <algorithm>
 #include <iterator>
@@ -20,19 +19,11 @@ void CheckWithoutLabels(const ToolOptions& options)
 {
   for (const auto& [property, text] : options.Properties)
   {
-    if (IsOfLabelsOnly(*property))
-    {
-      throw UsageError("--" + property->Option + " needs --labels");
-    }
+    FailIf<UsageError>(IsOfLabelsOnly(*property), "--" + property->Option + " needs --labels");
   }
-  if (!options.Format.empty())
-  {
-    throw UsageError("--format needs --labels");
-  }
-  if (!options.NamesOfLabels.empty() && options.WrittenVolume.empty())
-  {
-    throw UsageError("--label-names needs --labels, or --write-volume");
-  }
+  FailIf<UsageError>(!options.Format.empty(), "--format needs --labels");
+  FailIf<UsageError>(!options.NamesOfLabels.empty() && options.WrittenVolume.empty(),
+    "--label-names needs --labels, or --write-volume");
 }
 
 /** Whether the property means something where labels are only listed. */
@@ -65,17 +56,13 @@ void CheckWithLabels(const ToolOptions& options)
     { "format", options.ListsLabels && !options.Format.empty() } };
   for (const auto& [option, isGiven] : others)
   {
-    if (isGiven)
-    {
-      throw UsageError("--" + std::string(option) + " and " + asked + " exclude each other");
-    }
+    FailIf<UsageError>(
+      isGiven, "--" + std::string(option) + " and " + asked + " exclude each other");
   }
   for (const auto& [property, text] : options.Properties)
   {
-    if (!(options.ListsLabels ? IsOfList(*property) : IsOfLabels(*property)))
-    {
-      throw UsageError("--" + property->Option + " and " + asked + " exclude each other");
-    }
+    FailIf<UsageError>(!(options.ListsLabels ? IsOfList(*property) : IsOfLabels(*property)),
+      "--" + property->Option + " and " + asked + " exclude each other");
     if (property->Property == "KeepComponents" && (text == "at-points" || text == "not-at-seeds"))
     {
       throw UsageError("--keep " + text + " and --labels exclude each other");
@@ -87,10 +74,8 @@ void CheckWithLabels(const ToolOptions& options)
     CheckLabelOutput(options, name);
     hasFolder = hasFolder || OutputOf(name) == LabelOutput::Folder;
   }
-  if (!options.Format.empty() && !hasFolder)
-  {
-    throw UsageError("--format is that of the files in a folder: give one to write to");
-  }
+  FailIf<UsageError>(!options.Format.empty() && !hasFolder,
+    "--format is that of the files in a folder: give one to write to");
 }
 }
 
@@ -100,18 +85,13 @@ void CheckOptions(const ToolOptions& options)
   {
     return;
   }
-  if (options.Volume.empty())
-  {
-    throw UsageError("no volume is given");
-  }
+  FailIf<UsageError>(options.Volume.empty(), "no volume is given");
   if (options.Task == ToolOptions::Task::ListFiles)
   {
     return;
   }
-  if (!options.WantsSurface() && options.WrittenVolume.empty())
-  {
-    throw UsageError("no file to write is given");
-  }
+  FailIf<UsageError>(
+    !options.WantsSurface() && options.WrittenVolume.empty(), "no file to write is given");
   if (options.Labels.empty())
   {
     CheckWithoutLabels(options);
@@ -120,17 +100,11 @@ void CheckOptions(const ToolOptions& options)
   {
     CheckWithLabels(options);
   }
-  if (options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"))
-  {
-    throw UsageError("--edge-attraction needs --edges");
-  }
-  if (!options.Seeds.empty() && !options.InitialSurface.empty())
-  {
-    throw UsageError("--seeds and --initial-surface exclude each other");
-  }
-  if (!options.SeedPositions.empty() && !options.InitialSurface.empty())
-  {
-    throw UsageError("--seed-position and --initial-surface exclude each other");
-  }
+  FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
+    "--edge-attraction needs --edges");
+  FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),
+    "--seeds and --initial-surface exclude each other");
+  FailIf<UsageError>(!options.SeedPositions.empty() && !options.InitialSurface.empty(),
+    "--seed-position and --initial-surface exclude each other");
 }
 }

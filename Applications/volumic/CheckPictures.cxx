@@ -3,7 +3,6 @@
 
 // PNG (W3C recommendation), BMP, PGM and PPM (Netpbm), TGA (Truevision).
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 
@@ -37,11 +36,9 @@ void CheckPng(const std::string& name)
     const std::string chunk = file.Text(at + 4, length + 4);
     const uLong sum = crc32(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(chunk.data()),
       static_cast<uInt>(chunk.size()));
-    if (sum != file.Number(at + 8 + length, 4))
-    {
-      throw Failure("the file is damaged: the checksum of its part at byte " + std::to_string(at) +
+    FailIf(sum != file.Number(at + 8 + length, 4),
+      "the file is damaged: the checksum of its part at byte " + std::to_string(at) +
         " is wrong; copy it again");
-    }
     kind = chunk.substr(0, 4);
     at += 12 + length;
   }
@@ -56,11 +53,9 @@ void CheckBmp(const std::string& name)
     return;
   }
   const std::uint64_t bits = file.Number(28, 2);
-  if ((bits != 8 && bits != 24) || file.Number(30, 4) != 0)
-  {
-    throw Failure(std::to_string(bits) + " bits for a pixel, packed by " +
-      std::to_string(file.Number(30, 4)) + "; 8 and 24 that are not packed are read");
-  }
+  FailIf((bits != 8 && bits != 24) || file.Number(30, 4) != 0,
+    std::to_string(bits) + " bits for a pixel, packed by " + std::to_string(file.Number(30, 4)) +
+      "; 8 and 24 that are not packed are read");
   const auto width = static_cast<std::uint64_t>(std::max<std::int64_t>(file.Signed(18, 4), 0));
   const auto rows = static_cast<std::uint64_t>(std::abs(file.Signed(22, 4)));
   const std::uint64_t start = file.Number(10, 4);
@@ -68,11 +63,9 @@ void CheckBmp(const std::string& name)
   // Some programs fill the file up.
   const std::uint64_t needed = Times((width * bits + 31) / 32 * 4, rows);
   file.Need(start, needed);
-  if (needed == 0 || start < 14 + file.Number(14, 4) || file.Size() - start - needed > 3)
-  {
-    throw Failure("its header is damaged: " + std::to_string(width) + " x " + std::to_string(rows) +
+  FailIf(needed == 0 || start < 14 + file.Number(14, 4) || file.Size() - start - needed > 3,
+    "its header is damaged: " + std::to_string(width) + " x " + std::to_string(rows) +
       " pixels from byte " + std::to_string(start));
-  }
 }
 
 /** PGM and PPM: a head of words, one blank and the pixels; VTK's reader takes the last bytes. */
@@ -94,19 +87,15 @@ void CheckPnm(const std::string& name)
       at = head.find_first_not_of(" \t\r\n", head.find('\n', at));
     }
     const std::size_t end = head.find_first_not_of("0123456789", std::min(at, head.size()));
-    if (at == std::string::npos || end == at || end == std::string::npos || end - at > 9)
-    {
-      throw Failure("its header is damaged, or it is no picture");
-    }
+    FailIf(at == std::string::npos || end == at || end == std::string::npos || end - at > 9,
+      "its header is damaged, or it is no picture");
     number = std::stoull(head.substr(at, end - at));
     at = end;
   }
   const std::uint64_t bytes = (head[1] == '5' ? 1 : 3) * (numbers[2] > 255 ? 2 : 1);
-  if (numbers[0] < 1 || numbers[1] < 1 || numbers[2] < 1 || numbers[2] > 65535 ||
-    std::string(" \t\r\n").find(head[at]) == std::string::npos)
-  {
-    throw Failure("its header is damaged, or it is no picture");
-  }
+  FailIf(numbers[0] < 1 || numbers[1] < 1 || numbers[2] < 1 || numbers[2] > 65535 ||
+      std::string(" \t\r\n").find(head[at]) == std::string::npos,
+    "its header is damaged, or it is no picture");
   NeedJustBytes(file.Size() - at - 1, Times(Times(numbers[0], numbers[1]), bytes));
 }
 
@@ -119,11 +108,9 @@ void CheckTga(const std::string& name)
   const std::uint64_t width = NumberOf(head.substr(12, 2), false);
   const std::uint64_t rows = NumberOf(head.substr(14, 2), false);
   const std::uint64_t most = std::numeric_limits<std::int16_t>::max();
-  if ((bytes != 3 && bytes != 4) || width < 1 || rows < 1 || width > most || rows > most ||
-    head[0] != 0 || (head[2] != 2 && head[2] != 10))
-  {
-    throw Failure("its header is damaged, or it is no picture");
-  }
+  FailIf((bytes != 3 && bytes != 4) || width < 1 || rows < 1 || width > most || rows > most ||
+      head[0] != 0 || (head[2] != 2 && head[2] != 10),
+    "its header is damaged, or it is no picture");
   std::uint64_t left = width * rows;
   std::uint64_t at = head.size();
   if (head[2] == 2)
@@ -139,11 +126,9 @@ void CheckTga(const std::string& name)
       at < packed.size() ? static_cast<unsigned char>(packed[at]) : std::uint64_t(0);
     const std::uint64_t count = packet % 128 + 1;
     at += 1 + bytes * (packet < 128 ? count : 1);
-    if (count > left || at > packed.size())
-    {
-      throw Failure("the file is cut off or damaged: its packed pixels are not as many as its rows "
-                    "ask for");
-    }
+    FailIf(count > left || at > packed.size(),
+      "the file is cut off or damaged: its packed pixels are not as many as its rows "
+      "ask for");
     left -= count;
   }
 }

@@ -4,7 +4,6 @@
 // The polygon file format: a text head tells of elements, and their properties; each property is a
 // number, or a list of numbers behind their count.
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -60,12 +59,7 @@ NumberType TypeOf(const std::string& type)
     { "int16", int16 }, { "uint16", uint16 }, { "int", int32 }, { "uint", int32 },
     { "int32", int32 }, { "uint32", int32 }, { "float", { 4, 0 } }, { "float32", { 4, 0 } },
     { "double", { 8, 0 } }, { "float64", { 8, 0 } } };
-  const auto found = types.find(type);
-  if (found == types.end())
-  {
-    throw Failure("its header is damaged: '" + type + "' is no type");
-  }
-  return found->second;
+  return EntryOf(types, type, "its header is damaged: '" + type + "' is no type");
 }
 
 /** Read the head; the stream stands behind it. */
@@ -94,18 +88,13 @@ Head ReadHead(std::istream& file)
     {
       head.Parts.emplace_back();
       head.Parts.back().Name = type;
-      if (!(words >> head.Parts.back().Count) ||
-        head.Parts.back().Count > std::numeric_limits<int>::max())
-      {
-        throw Failure("its header is damaged: no number of elements '" + type + "'");
-      }
+      FailIf(!(words >> head.Parts.back().Count) ||
+          head.Parts.back().Count > std::numeric_limits<int>::max(),
+        "its header is damaged: no number of elements '" + type + "'");
     }
     else if (word == "property")
     {
-      if (head.Parts.empty())
-      {
-        throw Failure("its header is damaged: a property of no element");
-      }
+      FailIf(head.Parts.empty(), "its header is damaged: a property of no element");
       Property property;
       if (type == "list")
       {
@@ -113,10 +102,7 @@ Head ReadHead(std::istream& file)
         property.Count = TypeOf(word);
       }
       property.Value = TypeOf(type);
-      if (!(words >> property.Name))
-      {
-        throw Failure("its header is damaged: a property has no name");
-      }
+      FailIf(!(words >> property.Name), "its header is damaged: a property has no name");
       head.Parts.back().Properties.push_back(property);
     }
     else if (word != "ply" && word != "comment" && word != "obj_info")
@@ -192,16 +178,11 @@ std::uint64_t CheckParts(const Head& head)
 {
   static const std::set<std::string> formats = { "ascii", "binary_little_endian",
     "binary_big_endian" };
-  if (formats.count(head.Format) == 0)
-  {
-    throw Failure("its header is damaged: the format '" + head.Format + "' is none");
-  }
+  FailIf(formats.count(head.Format) == 0,
+    "its header is damaged: the format '" + head.Format + "' is none");
   const auto points = std::find_if(head.Parts.begin(), head.Parts.end(),
     [](const Elements& part) { return part.Name == "vertex" && part.Count > 0; });
-  if (points == head.Parts.end())
-  {
-    throw Failure("has no points, or its header is damaged");
-  }
+  FailIf(points == head.Parts.end(), "has no points, or its header is damaged");
   std::set<std::string> names;
   for (const Elements& part : head.Parts)
   {
@@ -219,16 +200,12 @@ std::uint64_t CheckParts(const Head& head)
     // VTK's reader takes what comes before the polygons for points.
     const bool isLate = part.Name == "vertex" ? names.empty() : names.count("vertex") > 0;
     const bool isKnown = part.Name == "vertex" || part.Name == "face" || names.count("face") > 0;
-    if (!isLate || !isKnown)
-    {
-      throw Failure("its header is damaged, or it is no surface: '" + Shortened(part.Name, 80) +
+    FailIf(!isLate || !isKnown,
+      "its header is damaged, or it is no surface: '" + Shortened(part.Name, 80) +
         "' comes before points or polygons");
-    }
-    if (!isRight || part.Properties.empty() || !names.insert(part.Name).second)
-    {
-      throw Failure("its header is damaged: the properties of '" + part.Name +
+    FailIf(!isRight || part.Properties.empty() || !names.insert(part.Name).second,
+      "its header is damaged: the properties of '" + part.Name +
         "' are not those of a surface, or it is there twice");
-    }
   }
   return points->Count;
 }

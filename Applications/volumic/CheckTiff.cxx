@@ -5,7 +5,6 @@
 // takes a chain of pages that ends early for a whole one; vtkTIFFReader takes all pages to be like
 // the first one, and gives other bytes than those of the file for some kinds of pixels.
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
 #include "Unpack.h"
@@ -77,12 +76,11 @@ struct Page
   /** The only number of a tag, or, as some have one for each sample, of all alike. */
   std::uint64_t Number(Tag tag, std::uint64_t otherwise) const
   {
-    const auto found = this->Values.find(tag);
-    if (found == this->Values.end())
+    if (!this->Has(tag))
     {
       return otherwise;
     }
-    const Numbers& values = found->second;
+    const Numbers& values = this->Values.at(tag);
     if (values.empty() || std::count(values.begin(), values.end(), values[0]) !=
         static_cast<std::ptrdiff_t>(values.size()))
     {
@@ -91,11 +89,7 @@ struct Page
     return values[0];
   }
 
-  Numbers List(Tag tag) const
-  {
-    const auto found = this->Values.find(tag);
-    return found == this->Values.end() ? Numbers() : found->second;
-  }
+  Numbers List(Tag tag) const { return EntryOr(this->Values, tag, {}); }
 };
 
 /** A TIFF file, whose entries are larger in BigTIFF. */
@@ -131,10 +125,7 @@ private:
   /** Pages that share their values could have them read again and again. */
   void Take(std::uint64_t bytes)
   {
-    if (bytes > this->Left)
-    {
-      throw Failure("the file is damaged: its pages have more values than it has bytes");
-    }
+    FailIf(bytes > this->Left, "the file is damaged: its pages have more values than it has bytes");
     this->Left -= bytes;
   }
 
@@ -149,10 +140,8 @@ private:
     const bool isInside = size <= (this->IsWide ? 8u : 4u);
     const std::uint64_t place = entry + (this->IsWide ? 12 : 8);
     const std::uint64_t start = isInside ? place : this->File.Number(place, this->Wide(4));
-    if (!page.Values.emplace(tag, Numbers()).second)
-    {
-      throw Failure("its tag " + std::to_string(tag) + " is there twice");
-    }
+    FailIf(!page.Values.emplace(tag, Numbers()).second,
+      "its tag " + std::to_string(tag) + " is there twice");
     this->File.Need(start, size);
     if (!isInside)
     {
@@ -175,20 +164,16 @@ void CheckKind(const Page& page)
 {
   for (const Tag tag : { Width, Height, Colours, Offsets, Sizes })
   {
-    if (!page.Has(tag))
-    {
-      throw Failure(page.Has(TileWidth) ? "its pixels are in tiles; write it in strips"
-                                        : "it lacks the tag " + std::to_string(tag));
-    }
+    FailIf(!page.Has(tag),
+      page.Has(TileWidth) ? "its pixels are in tiles; write it in strips"
+                          : "it lacks the tag " + std::to_string(tag));
   }
   const std::uint64_t most = std::numeric_limits<int>::max();
   const std::uint64_t samples = page.Number(Samples, 1);
   const std::uint64_t pixels = Times(page.Number(Width, 0), page.Number(Height, 0));
-  if (pixels == 0 || Times(pixels, Times(4, samples)) > most)
-  {
-    throw Failure("it has " + std::to_string(page.Number(Width, 0)) + " x " +
+  FailIf(pixels == 0 || Times(pixels, Times(4, samples)) > most,
+    "it has " + std::to_string(page.Number(Width, 0)) + " x " +
       std::to_string(page.Number(Height, 0)) + " pixels");
-  }
   const std::uint64_t bits = page.Number(Bits, 1);
   const std::uint64_t packing = page.Number(Packing, 1);
   const std::uint64_t colours = page.Number(Colours, 0);
@@ -202,14 +187,12 @@ void CheckKind(const Page& page)
   const bool isWide = (bits == 16 || bits == 32) && isDecoded && isGrey && colours == 1;
   const bool isNarrow = bits == 8 && (isGrey || isColour || isMapped || colours > 3);
   const bool isSmall = (bits == 1 || bits == 2 || bits == 4) && samples == 1;
-  if ((!isWide && !isNarrow && !isSmall) || page.Number(Planes, 1) > (samples == 1 ? 2 : 1) ||
-    page.Number(Orientation, 1) - 1 >= 8 || format < 1 || format > (bits == 32 ? 3 : 2))
-  {
-    throw Failure("pixels of this kind are not read: " + std::to_string(samples) + " of " +
-      std::to_string(bits) + " bits, format " + std::to_string(format) + ", colours " +
-      std::to_string(colours) + ", packed by " + std::to_string(packing) +
+  FailIf((!isWide && !isNarrow && !isSmall) || page.Number(Planes, 1) > (samples == 1 ? 2 : 1) ||
+      page.Number(Orientation, 1) - 1 >= 8 || format < 1 || format > (bits == 32 ? 3 : 2),
+    "pixels of this kind are not read: " + std::to_string(samples) + " of " + std::to_string(bits) +
+      " bits, format " + std::to_string(format) + ", colours " + std::to_string(colours) +
+      ", packed by " + std::to_string(packing) +
       "; grey or coloured ones of 8 bits, and grey ones of 16 and 32 are");
-  }
 }
 
 /** Keep the places of the page's strips. @throws Failure if they are not those of its size. */
@@ -220,11 +203,9 @@ void CheckStrips(TiffFile& tiff, Page& page)
   const std::uint64_t height = page.Number(Height, 0);
   const std::uint64_t rows = std::min(page.Number(RowsPerStrip, height), height);
   const std::uint64_t strips = rows == 0 ? 0 : (height - 1) / rows + 1;
-  if (strips == 0 || offsets.size() != strips || sizes.size() != strips)
-  {
-    throw Failure("its strips have " + std::to_string(offsets.size()) + " places and " +
+  FailIf(strips == 0 || offsets.size() != strips || sizes.size() != strips,
+    "its strips have " + std::to_string(offsets.size()) + " places and " +
       std::to_string(sizes.size()) + " sizes, its rows ask for " + std::to_string(strips));
-  }
   const std::uint64_t rowBytes =
     (page.Number(Width, 0) * page.Number(Samples, 1) * page.Number(Bits, 1) + 7) / 8;
   const std::uint64_t packing = page.Number(Packing, 1);
@@ -233,11 +214,9 @@ void CheckStrips(TiffFile& tiff, Page& page)
     const std::uint64_t needed = rowBytes * std::min(rows, height - i * rows);
     tiff.File.Need(offsets[i], sizes[i]);
     const bool isPlain = packing == 1;
-    if (sizes[i] < (isPlain ? needed : 1))
-    {
-      throw Failure("a strip has " + std::to_string(sizes[i]) + " bytes, its rows ask for " +
+    FailIf(sizes[i] < (isPlain ? needed : 1),
+      "a strip has " + std::to_string(sizes[i]) + " bytes, its rows ask for " +
         std::to_string(needed));
-    }
     if (packing == 8)
     {
       // Of the last strip some programs pack more rows than there are.
@@ -247,10 +226,8 @@ void CheckStrips(TiffFile& tiff, Page& page)
         std::istringstream packed(tiff.File.Text(offsets[i], sizes[i]));
         tiff.Unpacked[strip] = Inflate(packed, Nowhere, Times(rowBytes, rows));
       }
-      if (tiff.Unpacked[strip] < needed)
-      {
-        throw Failure("a strip is packed from fewer bytes than its rows have");
-      }
+      FailIf(
+        tiff.Unpacked[strip] < needed, "a strip is packed from fewer bytes than its rows have");
     }
     page.Parts.push_back({ offsets[i], offsets[i] + (isPlain ? needed : sizes[i]) });
   }
@@ -264,11 +241,9 @@ void CheckLikeFirst(const Page& page, const Page& first)
   {
     const auto textOf = [tag](const Page& any)
     { return any.Has(tag) ? std::to_string(any.Number(tag, 0)) : "none"; };
-    if (textOf(page) != textOf(first))
-    {
-      throw Failure("its tag " + std::to_string(tag) + " is " + textOf(page) +
-        ", the first page's " + textOf(first) + "; pages of one kind are read");
-    }
+    FailIf(textOf(page) != textOf(first),
+      "its tag " + std::to_string(tag) + " is " + textOf(page) + ", the first page's " +
+        textOf(first) + "; pages of one kind are read");
   }
 }
 
@@ -318,11 +293,8 @@ void CheckParts(TiffFile& tiff, std::vector<Part> parts, std::uint64_t page)
   std::uint64_t end = 0;
   for (const Part& part : parts)
   {
-    if (part.Begin < end)
-    {
-      throw Failure("the file is damaged: two parts of it overlap at byte " +
-        std::to_string(part.Begin));
-    }
+    FailIf(part.Begin < end,
+      "the file is damaged: two parts of it overlap at byte " + std::to_string(part.Begin));
     if (part.Begin > end)
     {
       gaps.push_back({ end, part.Begin });

@@ -8,6 +8,7 @@
 #include "InputFiles.h"
 #include "ToolErrors.h"
 
+#include <vtkBase64Utilities.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLParser.h>
@@ -121,17 +122,9 @@ std::array<std::uint64_t, 3> NextNumbers(std::istream& file, const XmlMeter& met
   words.replace(there, std::string::npos, words.size() - std::min(there, words.size()), 'A');
   if (!isRaw)
   {
-    std::string decoded;
-    for (std::size_t at = 0; at < words.size(); at += 4)
-    {
-      std::uint32_t bits = 0;
-      for (std::size_t i = at; i < at + 4; ++i)
-      {
-        bits = bits << 6 | static_cast<std::uint32_t>(signs.find(words[i]));
-      }
-      decoded += { static_cast<char>(bits >> 16), static_cast<char>(bits >> 8),
-        static_cast<char>(bits) };
-    }
+    std::string decoded(3 * bytes, '\0');
+    vtkBase64Utilities::DecodeSafely(reinterpret_cast<const unsigned char*>(words.data()),
+      words.size(), reinterpret_cast<unsigned char*>(decoded.data()), decoded.size());
     words = decoded;
   }
   const auto number = [&](std::size_t which)
@@ -150,11 +143,9 @@ void CheckBlocks(std::istream& file, const XmlMeter& meter)
   {
     // The last block may be smaller.
     const auto [blocks, size, last] = NextNumbers(file, meter, isRaw);
-    if (blocks > most || last > size || (blocks > 0 ? size == 0 : last > 0))
-    {
-      throw Failure("it is damaged: an array is packed in " + std::to_string(blocks) +
-        " blocks of " + std::to_string(size) + " bytes, the last one of " + std::to_string(last));
-    }
+    FailIf(blocks > most || last > size || (blocks > 0 ? size == 0 : last > 0),
+      "it is damaged: an array is packed in " + std::to_string(blocks) + " blocks of " +
+        std::to_string(size) + " bytes, the last one of " + std::to_string(last));
   };
   for (const std::int64_t place : meter.Inline)
   {
@@ -186,10 +177,7 @@ void CheckXmlInput(std::istream& file)
   meter->SetStream(&file);
   meter->SetIgnoreCharacterData(1);
   meter->Parse();
-  if (meter->IsTooDeep)
-  {
-    throw Failure("it is damaged: elements within elements without end");
-  }
+  FailIf(meter->IsTooDeep, "it is damaged: elements within elements without end");
   if (meter->IsPacked)
   {
     CheckBlocks(file, *meter);

@@ -3,6 +3,8 @@
 #ifndef volumicDescriptor_h
 #define volumicDescriptor_h
 
+#include "ToolErrors.h"
+
 #include <cerrno>
 #include <cstddef>
 #include <fcntl.h>
@@ -16,6 +18,15 @@ namespace tool
 inline std::string SystemReason(int error = errno)
 {
   return std::generic_category().message(error);
+}
+
+/** @throws Failure with the system's reason, without a name, unless all could be written. */
+inline void NeedWritten(bool isWritten)
+{
+  if (!isWritten)
+  {
+    throw Failure("cannot be written (" + SystemReason() + ")");
+  }
 }
 
 /** An open file, by its name or its number, that closes itself. What fails leaves its reason in errno. */

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DicomHeader.h"
 
-#include "ParseNumbers.h"
+#include "BinaryFile.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <algorithm>
@@ -77,10 +78,7 @@ public:
 
   std::string Bytes(std::uint64_t count)
   {
-    if (count > this->Left())
-    {
-      throw Failure("it is cut off within its header");
-    }
+    FailIf(count > this->Left(), "it is cut off within its header");
     std::string bytes(count, '\0');
     this->File.read(bytes.data(), static_cast<std::streamsize>(count));
     return bytes;
@@ -89,14 +87,8 @@ public:
   /** A binary number of 2 or 4 bytes. */
   std::uint32_t Number(int bytes)
   {
-    const std::string text = this->Bytes(static_cast<std::uint64_t>(bytes));
-    std::uint32_t number = 0;
-    for (int i = 0; i < bytes; ++i)
-    {
-      const int at = this->IsBig ? i : bytes - 1 - i;
-      number = number << 8 | static_cast<unsigned char>(text[static_cast<std::size_t>(at)]);
-    }
-    return number;
+    return static_cast<std::uint32_t>(
+      NumberOf(this->Bytes(static_cast<std::uint64_t>(bytes)), this->IsBig));
   }
 
   /** Go behind a value; one of undefined length is a sequence of items, which may hold such. */
@@ -104,17 +96,11 @@ public:
   {
     if (element.Length != Undefined)
     {
-      if (element.Length > this->Left())
-      {
-        throw Failure("it is cut off within its header");
-      }
+      FailIf(element.Length > this->Left(), "it is cut off within its header");
       this->File.seekg(static_cast<std::streamoff>(element.Length), std::ios::cur);
       return;
     }
-    if (depth > 100)
-    {
-      throw Failure("its header is damaged: sequences within sequences without end");
-    }
+    FailIf(depth > 100, "its header is damaged: sequences within sequences without end");
     const bool wasExplicit = this->IsExplicit;
     this->IsExplicit = wasExplicit && element.Kind != "UN"; // PS3.5, 6.2.2
     Element inner = this->Next();
@@ -144,11 +130,9 @@ void TakeSyntax(const std::string& syntax, ElementStream& stream)
 {
   stream.IsExplicit = syntax == ExplicitLittle || syntax == ExplicitBig;
   stream.IsBig = syntax == ExplicitBig;
-  if (!stream.IsExplicit && syntax != ImplicitLittle && syntax != PrivateOfGe)
-  {
-    throw Failure("compressed (transfer syntax " + syntax +
+  FailIf(!stream.IsExplicit && syntax != ImplicitLittle && syntax != PrivateOfGe,
+    "compressed (transfer syntax " + syntax +
       "); uncompress the series first, for example with gdcmconv --raw");
-  }
 }
 
 /** What the element is called, if vtkDICOMImageReader takes a number from its text; else null. */
@@ -169,10 +153,8 @@ void CheckDecimal(const std::string& text, const char* name)
   for (std::string part; std::getline(parts, part, '\\');)
   {
     part.erase(std::remove(part.begin(), part.end(), ' '), part.end());
-    if (!AsNumber<double>(part))
-    {
-      throw Failure(std::string("its header is damaged: ") + name + " '" + text + "'");
-    }
+    FailIf(
+      !AsNumber<double>(part), std::string("its header is damaged: ") + name + " '" + text + "'");
   }
 }
 
@@ -202,10 +184,8 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
   {
     const std::string frames = Text(stream.Bytes(element.Length));
     header.Frames = frames.empty() ? 1 : std::atoi(frames.c_str());
-    if (frames.find_first_not_of("0123456789+ ") != std::string::npos || header.Frames < 1)
-    {
-      throw Failure("its header is damaged: the number of frames is '" + frames + "'");
-    }
+    FailIf(frames.find_first_not_of("0123456789+ ") != std::string::npos || header.Frames < 1,
+      "its header is damaged: the number of frames is '" + frames + "'");
   }
   else if (const char* name = NameOfDecimal(element); name && element.Length != Undefined)
   {
@@ -221,10 +201,7 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
     stream.Skip(element);
   }
 }
-}
 
-namespace
-{
 /** @throws Failure unless there are elements up to the end of the file. */
 void CheckBehindPixels(Element element, ElementStream& stream)
 {
@@ -235,10 +212,7 @@ void CheckBehindPixels(Element element, ElementStream& stream)
     {
       const std::uint32_t former = element.Tag;
       element = stream.Next();
-      if (element.Tag <= former)
-      {
-        throw Failure("");
-      }
+      FailIf(element.Tag <= former, "");
       stream.Skip(element);
     }
   }
@@ -290,10 +264,8 @@ DicomHeader ReadDicomHeader(const std::string& file)
     const Element element = stream.Next();
     if (element.Tag == Tag(0x7FE0, 0x0010))
     {
-      if (element.Length == Undefined)
-      {
-        throw Failure("compressed, against its transfer syntax " + header.Syntax);
-      }
+      FailIf(
+        element.Length == Undefined, "compressed, against its transfer syntax " + header.Syntax);
       header.HasPixels = true;
       header.PixelBytes = std::min<std::uint64_t>(element.Length, stream.Left());
       if (header.PixelBytes == element.Length)

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # Sets volumic_reader_sources: what reads volumes and the names of labels (ReadVolume.h,
-# LabelNames.h), with absolute paths. The program has them, and the reader of the ParaView plugin.
+# LabelNames.h), with absolute paths, and volumic_file_libraries: what they need beside VTK. The
+# program has them, and the reader of the ParaView plugin.
 set(volumic_reader_sources
   BinaryFile.cxx
-  ByteBudget.cxx
   CheckNetcdf.cxx
-  CheckNifti.cxx
   CheckPictures.cxx
   CheckTiff.cxx
   CheckXmlInput.cxx
@@ -16,9 +15,6 @@ set(volumic_reader_sources
   LabelJson.cxx
   LabelNames.cxx
   LabelTable.cxx
-  NiftiLabels.cxx
-  NrrdSegments.cxx
-  ParseNumbers.cxx
   RawSlabs.cxx
   ReadDicom.cxx
   ReadInv3.cxx
@@ -29,25 +25,20 @@ set(volumic_reader_sources
   ReadPictures.cxx
   ReadVolume.cxx
   SlabSource.cxx
-  TarFile.cxx
   Texts.cxx
   Unpack.cxx
   VolumeImage.cxx
   VtkMessages.cxx
   VtkReaders.cxx)
 find_package(nlohmann_json 3.9 REQUIRED) # headers, in Debian's nlohmann-json3-dev
+find_package(LibArchive REQUIRED)        # in Debian's libarchive-dev
+set(volumic_file_libraries nlohmann_json::nlohmann_json LibArchive::LibArchive)
 list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
 set(volumic_writer_sources
   CheckPly.cxx
-  CheckWritten.cxx
-  FileBuffer.cxx
-  FileGrowth.cxx
-  FullDisk.cxx
-  GltfDescription.cxx
   GltfScene.cxx
-  JsonWriter.cxx
   OutputFiles.cxx
   ProgressLine.cxx
   Ranks.cxx

@@ -38,22 +38,41 @@ vtkIdType TrianglesIn(vtkPolyData* piece)
   return piece ? piece->GetNumberOfPolys() : 0;
 }
 
-/** Which element of the whole an element of the piece is, by what tells it, if anything does. */
-vtkIdType IdOf(vtkDataSetAttributes* data, vtkIdType element)
+/** Which elements of the whole those of a piece are; from `next` on, if nothing tells. */
+vtkSmartPointer<vtkIdList> IdsOf(vtkDataSetAttributes* piece, vtkIdType count, vtkIdType next)
 {
-  vtkDataArray* ids = data->GetGlobalIds();
-  return ids ? static_cast<vtkIdType>(ids->GetComponent(element, 0)) : element;
+  auto ids = vtkSmartPointer<vtkIdList>::New();
+  ids->SetNumberOfIds(count);
+  vtkDataArray* told = piece->GetGlobalIds();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    ids->SetId(i, told ? static_cast<vtkIdType>(told->GetComponent(i, 0)) : next + i);
+  }
+  return ids;
 }
 
 /** How many points the whole has, as far as the piece tells. */
 vtkIdType VerticesBy(vtkPolyData* piece)
 {
   vtkIdType count = 0;
-  for (vtkIdType p = 0; p < PointsIn(piece); ++p)
+  if (piece)
   {
-    count = std::max(count, IdOf(piece->GetPointData(), p) + 1);
+    const auto ids = IdsOf(piece->GetPointData(), PointsIn(piece), 0);
+    for (const vtkIdType id : *ids)
+    {
+      count = std::max(count, id + 1);
+    }
   }
   return count;
+}
+
+/** The first numbers, from 0 on. */
+vtkSmartPointer<vtkIdList> First(vtkIdType count)
+{
+  auto ids = vtkSmartPointer<vtkIdList>::New();
+  ids->SetNumberOfIds(count);
+  std::iota(ids->begin(), ids->end(), vtkIdType(0));
+  return ids;
 }
 
 /** Numbers of all ranks. */
@@ -92,34 +111,16 @@ void Prepare(vtkDataSetAttributes* whole, vtkDataSetAttributes* piece, vtkIdType
 /** Puts values of a piece to their places. What comes from another rank may have another order. */
 void Copy(vtkDataSetAttributes* piece, vtkIdList* ids, vtkDataSetAttributes* whole)
 {
-  vtkNew<vtkIdList> all;
-  all->SetNumberOfIds(ids->GetNumberOfIds());
-  std::iota(all->begin(), all->end(), vtkIdType(0));
+  const auto all = First(ids->GetNumberOfIds());
   for (int i = 0; i < whole->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = whole->GetArray(i);
     vtkDataArray* given = piece->GetArray(array->GetName());
-    if (!given || given->GetDataType() != array->GetDataType() ||
-      given->GetNumberOfComponents() != array->GetNumberOfComponents())
-    {
-      throw Failure(std::string("the pieces of the ranks differ in their array ") +
-        array->GetName());
-    }
+    FailIf(!given || given->GetDataType() != array->GetDataType() ||
+        given->GetNumberOfComponents() != array->GetNumberOfComponents(),
+      std::string("the pieces of the ranks differ in their array ") + array->GetName());
     array->InsertTuples(ids, all, given);
   }
-}
-
-/** Which elements of the whole those of a piece are; from `next` on, if nothing tells. */
-vtkSmartPointer<vtkIdList> IdsOf(vtkDataSetAttributes* piece, vtkIdType count, vtkIdType next)
-{
-  auto ids = vtkSmartPointer<vtkIdList>::New();
-  ids->SetNumberOfIds(count);
-  vtkDataArray* told = piece->GetGlobalIds();
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    ids->SetId(i, told ? static_cast<vtkIdType>(told->GetComponent(i, 0)) : next + i);
-  }
-  return ids;
 }
 
 //------------------------------------------------------------------------------
@@ -176,10 +177,8 @@ void Whole::Add(vtkPolyData* piece)
   {
     this->IsThere[static_cast<std::size_t>(id)] = true;
   }
-  vtkNew<vtkIdList> all;
-  all->SetNumberOfIds(PointsIn(piece));
-  std::iota(all->begin(), all->end(), vtkIdType(0));
-  this->Surface->GetPoints()->InsertPoints(points, all, piece->GetPoints());
+  this->Surface->GetPoints()->InsertPoints(
+    points, First(PointsIn(piece)), piece->GetPoints());
   Copy(piece->GetPointData(), points, this->Surface->GetPointData());
 
   const auto triangles = IdsOf(piece->GetCellData(), count, this->NextTriangle);
@@ -199,11 +198,9 @@ void Whole::Add(vtkPolyData* piece)
 vtkSmartPointer<vtkPolyData> Whole::Take()
 {
   const auto missing = std::count(this->IsThere.begin(), this->IsThere.end(), false);
-  if (missing > 0 || this->NextTriangle != this->Size.Triangles)
-  {
-    throw Failure("the pieces of the ranks are no whole surface: " + std::to_string(missing) +
+  FailIf(missing > 0 || this->NextTriangle != this->Size.Triangles,
+    "the pieces of the ranks are no whole surface: " + std::to_string(missing) +
       " points are in none of them");
-  }
   vtkNew<vtkCellArray> triangles;
   triangles->SetData(3, this->Corners);
   this->Surface->SetPolys(triangles);

@@ -3,7 +3,6 @@
 #include "InputFiles.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "ReadVolume.h"
 #include "Texts.h"
 

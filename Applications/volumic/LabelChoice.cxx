@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelChoice.h"
 
-#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -23,18 +22,6 @@ namespace tool
 {
 namespace
 {
-std::optional<int> AsLabel(const std::string& text)
-{
-  try
-  {
-    return ParseNumber<int>(text);
-  }
-  catch (const UsageError&)
-  {
-    return std::nullopt;
-  }
-}
-
 /** "7-9", also of negative numbers: "-9--7". */
 std::optional<std::pair<int, int>> AsRange(const std::string& text)
 {
@@ -43,8 +30,8 @@ std::optional<std::pair<int, int>> AsRange(const std::string& text)
   {
     return std::nullopt;
   }
-  const std::optional<int> first = AsLabel(text.substr(0, dash));
-  const std::optional<int> last = AsLabel(text.substr(dash + 1));
+  const std::optional<int> first = AsNumber<int>(text.substr(0, dash));
+  const std::optional<int> last = AsNumber<int>(text.substr(dash + 1));
   return first && last ? std::optional(std::pair(*first, *last)) : std::nullopt;
 }
 
@@ -102,7 +89,7 @@ std::vector<std::size_t> FindNamed(
 std::vector<std::size_t> FindText(
   const std::string& text, const std::vector<KnownLabel>& known, int background)
 {
-  if (const std::optional<int> value = AsLabel(text))
+  if (const std::optional<int> value = AsNumber<int>(text))
   {
     return Find(known, [&](const KnownLabel& label) { return label.Label == *value; });
   }
@@ -140,19 +127,6 @@ std::string ListOf(const std::vector<KnownLabel>& known)
   return list +
     (known.size() > most ? " and " + std::to_string(known.size() - most) + " more" : "");
 }
-
-std::vector<std::string> SplitAtCommas(const std::string& text)
-{
-  std::vector<std::string> parts;
-  std::size_t start = 0;
-  while (start <= text.size())
-  {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    parts.push_back(Trimmed(text.substr(start, end - start)));
-    start = end + 1;
-  }
-  return parts;
-}
 }
 
 std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer)
@@ -186,11 +160,9 @@ std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
       isName ? std::vector<std::string>{ text } : SplitAtCommas(text))
     {
       const std::vector<std::size_t> found = FindText(part, known, background);
-      if (found.empty() && Lower(part) != "all")
-      {
-        throw Failure("there is no label '" + part + "' (--labels); there are " +
+      FailIf(found.empty() && Lower(part) != "all",
+        "there is no label '" + part + "' (--labels); there are " +
           (known.empty() ? "none" : ListOf(known)));
-      }
       chosen.insert(found.begin(), found.end());
     }
   }
@@ -205,7 +177,7 @@ std::vector<KnownLabel> NumberedLabels(
   {
     for (const std::string& part : SplitAtCommas(text))
     {
-      const std::optional<int> value = AsLabel(part);
+      const std::optional<int> value = AsNumber<int>(part);
       if (!value)
       {
         return {};

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Names of labels in JSON: what nnU-Net, TotalSegmentator, 3D Slicer and people write.
+#include "Json.h"
 #include "LabelNames.h"
-#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -11,14 +11,10 @@
 #include <cmath>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
 namespace tool
 {
 namespace
 {
-using Json = nlohmann::ordered_json; // members in the order of the file
-
 /** @throws Failure, which names the line if the text is no JSON, or if it is too deep or large. */
 Json ParseJson(const std::string& text)
 {
@@ -224,10 +220,7 @@ LabelNames FindNames(const Json& value)
 LabelNames ParseLabelJson(const std::string& text)
 {
   const LabelNames names = FindNames(ParseJson(text));
-  if (names.empty())
-  {
-    throw Failure("there are no labels in it such as {\"1\": \"liver\"} or {\"liver\": 1}");
-  }
+  FailIf(names.empty(), "there are no labels in it such as {\"1\": \"liver\"} or {\"liver\": 1}");
   return names;
 }
 }

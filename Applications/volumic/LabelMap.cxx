@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelMap.h"
 
-#include "Announcer.h"
 #include "LabelNames.h"
 #include "LoadVolume.h"
-#include "ParseNumbers.h"
 #include "ReadVolume.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
@@ -19,7 +18,6 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
-#include <array>
 
 namespace tool
 {
@@ -40,10 +38,7 @@ bool ChooseCells(vtkImageData* image, const std::string& array)
   vtkDataArray* labels = !array.empty() ? cells->GetArray(array.c_str())
     : cells->GetScalars()               ? cells->GetScalars()
                                         : cells->GetArray(0);
-  if (!labels)
-  {
-    throw Failure("the cell array " + array + " holds no numbers");
-  }
+  FailIf(!labels, "the cell array " + array + " holds no numbers");
   if (!labels->GetName())
   {
     labels->SetName("Intensity");
@@ -109,20 +104,12 @@ LabelNames OwnNames(const ToolOptions& options, vtkImageData* image)
 
 VolumeFacts FactsOfMap(const LabelMap& map)
 {
-  VolumeFacts facts;
-  vtkImageData* image = map.Image;
-  vtkDataArray* labels = AttributesOf(image, map.IsOfCells)->GetScalars();
-  image->GetExtent(facts.Extent.data());
+  VolumeFacts facts =
+    FactsOf(map.Image, AttributesOf(map.Image, map.IsOfCells)->GetScalars(), -1);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     facts.Extent[2 * axis + 1] -= map.IsOfCells ? 1 : 0;
   }
-  image->GetSpacing(facts.Spacing.data());
-  image->GetOrigin(facts.Origin.data());
-  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, facts.Direction.begin());
-  facts.Type = labels->GetDataType();
-  facts.Components = labels->GetNumberOfComponents();
-  facts.Range = RangeOf(labels, -1);
   return facts;
 }
 
@@ -130,11 +117,9 @@ VolumeFacts FactsOfMap(const LabelMap& map)
 std::vector<int> ComponentsOf(
   const ToolOptions& options, int components, int component, const LabelNames& own)
 {
-  if (component >= components)
-  {
-    throw Failure(options.Volume + ": there is no component " + NumberText(component) +
+  FailIf(component >= components,
+    options.Volume + ": there is no component " + NumberText(component) +
       " (--component); voxels have " + NumberText(components));
-  }
   if (components == 1 || component >= 0)
   {
     return { std::max(component, 0) };
@@ -148,11 +133,9 @@ std::vector<int> ComponentsOf(
       layers.push_back(layer);
     }
   }
-  if (layers.empty())
-  {
-    throw Failure(options.Volume + ": voxels have " + NumberText(components) +
+  FailIf(layers.empty(),
+    options.Volume + ": voxels have " + NumberText(components) +
       " components; choose the one that is a label with --component");
-  }
   return layers;
 }
 }

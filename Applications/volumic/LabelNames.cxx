@@ -3,7 +3,6 @@
 #include "LabelNames.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -17,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -31,20 +29,11 @@ namespace fs = std::filesystem;
 
 std::string ReadText(const std::string& name)
 {
-  if (fs::is_directory(name))
-  {
-    throw Failure("it is a folder");
-  }
+  FailIf(fs::is_directory(name), "it is a folder");
   BinaryFile file(name);
-  if (file.Size() > LargestNames)
-  {
-    throw Failure("it is too large for a list of names of labels");
-  }
+  FailIf(file.Size() > LargestNames, "it is too large for a list of names of labels");
   std::string text = file.Text(0, file.Size());
-  if (text.find('\0') != std::string::npos)
-  {
-    throw Failure("it is no text in UTF-8");
-  }
+  FailIf(text.find('\0') != std::string::npos, "it is no text in UTF-8");
   const std::string mark = "\xEF\xBB\xBF"; // with which some programs begin UTF-8
   return AsUtf8(text.compare(0, mark.size(), mark) == 0 ? text.substr(mark.size()) : text);
 }
@@ -79,10 +68,7 @@ LabelNames ReadLabelNames(const std::string& file)
     const bool isJson = SuffixOf(file) == ".json" ||
       (first != std::string::npos && (text[first] == '{' || text[first] == '['));
     LabelNames names = isJson ? ParseLabelJson(text) : ParseLabelTable(text);
-    if (names.empty())
-    {
-      throw Failure("it names no label");
-    }
+    FailIf(names.empty(), "it names no label");
     for (LabelName& name : names)
     {
       name.Name = PlainName(name.Name);
@@ -123,7 +109,7 @@ LabelNames ReadNamesWithin(const std::string& volume)
       return NamesInNifti(volume);
     }
   }
-  catch (const Failure&)
+  catch (const std::runtime_error&)
   {
     // Names are not worth a volume.
   }
@@ -286,11 +272,8 @@ void ScaleColors(LabelNames& names)
   {
     for (const double part : name.Color.value_or(Vector3()))
     {
-      if (!(part >= 0.0 && part <= 255.0))
-      {
-        throw Failure("the colour of label " + std::to_string(name.Label) +
-          " is not between 0 and 255");
-      }
+      FailIf(!(part >= 0.0 && part <= 255.0),
+        "the colour of label " + std::to_string(name.Label) + " is not between 0 and 255");
       largest = std::max(largest, part);
     }
   }

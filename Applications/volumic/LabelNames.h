@@ -5,7 +5,6 @@
 
 #include "VolumeImage.h"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,11 +77,8 @@ std::string PlainName(std::string text);
 
 // ---- Parts of both ------------------------------------------------------------------------------
 
-/** @throws Failure if it is no NRRD. */
+/** @throws Failure or UsageError if it is no NRRD. */
 LabelNames NamesInNrrd(const std::string& name);
-
-/** Of the pairs of keys and values in the header of a NRRD. */
-LabelNames NamesOfSegments(const std::map<std::string, std::string>& pairs, int components);
 
 /** Of a file that may be packed. */
 LabelNames NamesInNifti(const std::string& name);

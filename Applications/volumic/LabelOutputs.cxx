@@ -5,7 +5,7 @@
 #include "GltfScene.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
-#include "OutputChecks.h"
+#include "OutputFiles.h"
 #include "SurfaceFields.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -35,11 +35,9 @@ std::string SuffixIn(const ToolOptions& options)
 std::vector<std::string> InputsOf(const ToolOptions& options)
 {
   std::vector<std::string> inputs = FilesOfVolume(options.Volume);
+  const std::vector<std::string> names = FilesBeside(options.Volume);
+  inputs.insert(inputs.end(), names.begin(), names.end());
   inputs.push_back(options.NamesOfLabels);
-  for (const std::string& file : FilesBeside(options.Volume))
-  {
-    inputs.push_back(file);
-  }
   return inputs;
 }
 
@@ -119,21 +117,14 @@ LabelOutput OutputOf(const std::string& name)
 
 void CheckLabelOutput(const ToolOptions& options, const std::string& name)
 {
-  if (name == "-")
-  {
-    throw UsageError("surfaces of labels are not written to the standard output");
-  }
+  FailIf<UsageError>(name == "-", "surfaces of labels are not written to the standard output");
   if (OutputOf(name) == LabelOutput::Folder)
   {
-    if (options.HasProperty("Merge"))
-    {
-      throw UsageError(name + ": --merge makes one surface: give it a file, not a folder");
-    }
+    FailIf<UsageError>(options.HasProperty("Merge"),
+      name + ": --merge makes one surface: give it a file, not a folder");
     CheckSurfaceName("labels" + SuffixIn(options));
-    if (HasPieces(SuffixIn(options)) || SuffixIn(options) == ".pvtp")
-    {
-      throw UsageError("--format: surfaces in a folder are not written in pieces");
-    }
+    FailIf<UsageError>(HasPieces(SuffixIn(options)) || SuffixIn(options) == ".pvtp",
+      "--format: surfaces in a folder are not written in pieces");
   }
   else if (OutputOf(name) == LabelOutput::File)
   {

@@ -3,7 +3,6 @@
 
 // Names of labels in lines: what ITK-SNAP, 3D Slicer, FreeSurfer, MRIcron, BIDS and people write.
 #include "LabelNames.h"
-#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 

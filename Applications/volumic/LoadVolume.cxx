@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LoadVolume.h"
 
-#include "Announcer.h"
-#include "ParseNumbers.h"
 #include "Ranks.h"
 #include "ReadVolume.h"
 #include "RunFilter.h"
+#include "SurfaceProperties.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "VolumeImage.h"
@@ -15,7 +15,6 @@
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDeformableSurface.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -33,18 +32,6 @@ namespace tool
 {
 namespace
 {
-/** Of the voxels that a source tells of; empty: of its active scalars. */
-int ComponentsOf(vtkAlgorithm* source, const std::string& array)
-{
-  vtkInformation* info = source->GetOutputInformation(0);
-  constexpr int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  vtkInformation* told = array.empty()
-    ? vtkDataObject::GetActiveFieldInformation(info, points, vtkDataSetAttributes::SCALARS)
-    : vtkDataObject::GetNamedFieldInformation(info, points, array.c_str());
-  const bool has = told && told->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS());
-  return has ? told->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()) : 1;
-}
-
 /** Level 0 of the holder's pyramid: all slabs of the source, one behind the other. */
 vtkSmartPointer<vtkImageData> GatherSlabs(
   const std::string& name, vtkAlgorithm* source, vtkImagePyramid* holder, ProgressStyle style)
@@ -72,17 +59,12 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
   {
     throw Failure(name + ": cannot be read (" + messages.JoinedErrors() + ")");
   }
-  if (!failure.empty())
-  {
-    throw Failure(name + ": " + failure);
-  }
+  FailIf(!failure.empty(), name + ": " + failure);
   auto image = vtkSmartPointer<vtkImageData>::New();
   auto* level = vtkImageData::SafeDownCast(holder->GetOutput()->GetBlock(0));
-  if (!level)
-  {
-    throw Failure(isInterrupted ? "interrupted before there was a surface; nothing is written"
-                                : name + ": holds no image");
-  }
+  FailIf(!level,
+    isInterrupted ? "interrupted before there was a surface; nothing is written"
+                  : name + ": holds no image");
   image->ShallowCopy(level);
   vtkNew<vtkFieldData> fields; // A copy of its own, without those of a level.
   fields->ShallowCopy(level->GetFieldData());
@@ -118,13 +100,9 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
         0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array.c_str());
     }
     holder->SetNumberOfLevels(1);
-    holder->SetSelectedComponent(filter->GetSelectedComponent());
-    holder->SetNaNIsBackground(filter->GetNaNIsBackground());
-    holder->SetNumberOfThreads(filter->GetNumberOfThreads());
-    holder->SetMemoryLimit(filter->GetMemoryLimit());
-    holder->SetScratchDirectory(filter->GetScratchDirectory());
+    ShareWithPyramid(filter, holder);
     image = GatherSlabs(name, opened.Source, holder, announcer.Style);
-    loaded.Components = ComponentsOf(opened.Source, array);
+    loaded.Components = ComponentsIn(VoxelsIn(opened.Source->GetOutputInformation(0), array));
     holder->RemoveAllInputs();
   }
   Named(name, [&] { ChooseScalars(image, array); });
@@ -167,7 +145,8 @@ LoadedVolume LoadWhole(const ToolOptions& options, vtkDeformableSurface* filter,
     volume.Image->SetSpacing(options.Spacing->data());
   }
   const int component = filter->GetSelectedComponent();
-  volume.Facts = FactsOf(volume.Image, component);
+  volume.Facts =
+    FactsOf(volume.Image, volume.Image->GetPointData()->GetScalars(), component);
   Announce(options, volume.Facts, loaded.Components, component, announcer);
   return volume;
 }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutputChecks.h"
-
 #include "OutputFiles.h"
+
 #include "ToolErrors.h"
 
 #include <cerrno>
@@ -56,20 +55,14 @@ fs::path FolderThatIsThere(fs::path folder)
 /** @throws Failure unless files can be made in the folder, which a trial alone tells. */
 void TryFolder(const fs::path& folder)
 {
-  if (!fs::is_directory(folder))
-  {
-    throw Failure("cannot be written: " + folder.string() + " is no folder");
-  }
+  FailIf(!fs::is_directory(folder), "cannot be written: " + folder.string() + " is no folder");
   StagedFiles trial(folder.string());
 }
 
 void TryFile(const std::string& name)
 {
   const fs::path path = FollowLinks(name);
-  if (fs::is_directory(path))
-  {
-    throw Failure("cannot be written: it is a folder");
-  }
+  FailIf(fs::is_directory(path), "cannot be written: it is a folder");
   if (fs::exists(path) && access(path.c_str(), W_OK) != 0)
   {
     throw Failure("cannot be written: " + std::generic_category().message(errno));
@@ -79,10 +72,7 @@ void TryFile(const std::string& name)
     return;
   }
   const fs::path folder = FolderOf(path);
-  if (!fs::is_directory(folder))
-  {
-    throw Failure("there is no folder " + folder.string());
-  }
+  FailIf(!fs::is_directory(folder), "there is no folder " + folder.string());
   TryFolder(folder);
 }
 
@@ -177,10 +167,8 @@ void CheckPair(const OutputName& a, const OutputName& b)
       IsPieceName(several, place.filename().string());
   };
   // Two folders of surfaces may be one: their names begin differently.
-  if ((isSame && !isSameFolder) || holds(a, b) || holds(b, a))
-  {
-    throw Failure("cannot be written: " + b.Name + " would take the same place");
-  }
+  FailIf((isSame && !isSameFolder) || holds(a, b) || holds(b, a),
+    "cannot be written: " + b.Name + " would take the same place");
 }
 }
 

@@ -61,10 +61,7 @@ void CopyToStream(const std::string& from, const std::string& to)
   {
     isWritten = stream.Write(piece.data(), static_cast<std::size_t>(file.gcount()));
   }
-  if (!isWritten || !stream.Close())
-  {
-    throw Failure("cannot be written (" + SystemReason() + ")");
-  }
+  NeedWritten(isWritten && stream.Close());
 }
 }
 
@@ -100,10 +97,7 @@ void StagedFiles::Publish()
   for (const fs::path& file : files)
   {
     Descriptor descriptor((this->Hidden / file).string(), O_RDONLY);
-    if (!descriptor.IsOpen() || !descriptor.Flush() || !descriptor.Close())
-    {
-      throw Failure("cannot be written (" + SystemReason() + ")");
-    }
+    NeedWritten(descriptor.IsOpen() && descriptor.Flush() && descriptor.Close());
   }
   // The file that names the others comes last.
   std::sort(files.begin(), files.end(),
@@ -164,18 +158,13 @@ bool IsStreamName(const std::string& name)
 void WriteBytes(const std::string& path, const char* bytes, std::size_t count)
 {
   Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.IsOpen() || !file.Write(bytes, count) || !file.Close())
-  {
-    throw Failure("cannot be written (" + SystemReason() + ")");
-  }
+  NeedWritten(file.IsOpen() && file.Write(bytes, count) && file.Close());
 }
 
 void NeedRoom(const std::string& path, std::size_t count)
 {
   Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.IsOpen() || !file.Reserve(count) || !file.Close() || truncate(path.c_str(), 0) != 0)
-  {
-    throw Failure("cannot be written (" + SystemReason() + ")");
-  }
+  NeedWritten(file.IsOpen() && file.Reserve(count) && file.Close() &&
+    truncate(path.c_str(), 0) == 0);
 }
 }

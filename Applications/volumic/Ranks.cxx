@@ -158,6 +158,15 @@ void Ranks::Agree(int kind, std::string words)
   }
 }
 
+void Ranks::ThrowAny(const std::string& failure)
+{
+  this->Together(
+    [&failure]
+    {
+      FailIf(!failure.empty(), failure);
+    });
+}
+
 void Ranks::ThrowOnAll(const std::string& words)
 {
   this->IsAgreed = true;

@@ -50,6 +50,9 @@ public:
   /** Likewise, on the first rank only. */
   void OnFirst(const std::function<void()>& work);
 
+  /** Throw what has failed on any rank, as Together() does. @param failure empty: nothing here */
+  void ThrowAny(const std::string& failure);
+
   /** Throw a failure that all ranks have found. */
   [[noreturn]] void ThrowOnAll(const std::string& words);
 

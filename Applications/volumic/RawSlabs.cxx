@@ -3,8 +3,7 @@
 #include "RawSlabs.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
-#include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 
@@ -73,12 +72,10 @@ void ReadNumbers(std::istream& text, vtkDataArray* values)
       values->SetComponent(there / components, static_cast<int>(there % components), *number);
     }
   }
-  if (there != wanted)
-  {
-    throw Failure((there < wanted ? "the file is cut off" : "the file is too long") +
-      std::string(": it has ") + std::to_string(there) + (there > wanted ? " or more" : "") +
-      " values, its header asks for " + std::to_string(wanted));
-  }
+  FailIf(there != wanted,
+    (there < wanted ? "the file is cut off" : "the file is too long") + std::string(": it has ") +
+      std::to_string(there) + (there > wanted ? " or more" : "") + " values, its header asks for " +
+      std::to_string(wanted));
 }
 }
 
@@ -109,10 +106,8 @@ void NamelessFile::Append(const char* bytes, std::size_t count)
 std::ifstream OpenData(const std::string& name, std::uint64_t start)
 {
   std::ifstream stream(name, std::ios::binary);
-  if (!stream.seekg(static_cast<std::streamoff>(start)))
-  {
-    throw Failure("its data file " + name + " cannot be opened");
-  }
+  FailIf(!stream.seekg(static_cast<std::streamoff>(start)),
+    "its data file " + name + " cannot be opened");
   return stream;
 }
 
@@ -152,14 +147,10 @@ void RawSlabs::CheckLength(const std::string& file) const
 
 void RawSlabs::Prepare(const Opening& opening)
 {
-  if (this->Components < 1 || this->Bytes() == 0 || this->Bytes() % this->Files.size() != 0)
-  {
-    throw Failure("its header is damaged: its voxels are none, or not as many in each file");
-  }
-  if (this->Code == Packing::Text && this->Files.size() > 1)
-  {
-    throw Failure("voxels as text in several files are not read");
-  }
+  FailIf(this->Components < 1 || this->Bytes() == 0 || this->Bytes() % this->Files.size() != 0,
+    "its header is damaged: its voxels are none, or not as many in each file");
+  FailIf(this->Code == Packing::Text && this->Files.size() > 1,
+    "voxels as text in several files are not read");
   std::for_each(this->Files.begin(), this->Files.end(),
     [this](const std::string& file) { this->CheckLength(file); });
   this->HasParts = this->Code != Packing::Text;
@@ -194,11 +185,9 @@ void RawSlabs::ReadBytes(std::uint64_t first, std::uint64_t count, char* values)
     const std::string& file = this->Files[static_cast<std::size_t>(first / share)];
     const std::uint64_t within = first % share;
     const std::uint64_t piece = std::min(end - first, share - within);
-    if (!OpenData(file, this->StartIn(file) + within)
-           .read(values, static_cast<std::streamsize>(piece)))
-    {
-      throw Failure("its voxels cannot be read: the file is cut off, or its disk fails");
-    }
+    FailIf(!OpenData(file, this->StartIn(file) + within)
+              .read(values, static_cast<std::streamsize>(piece)),
+      "its voxels cannot be read: the file is cut off, or its disk fails");
     values += piece;
     first += piece;
   }

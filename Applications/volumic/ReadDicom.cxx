@@ -7,9 +7,7 @@
 #include "ReadVolume.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "DicomHeader.h"
-#include "ParseNumbers.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -64,37 +62,22 @@ double Decimal(double number)
 /** @throws Failure if the file has not what vtkDICOMImageReader takes for granted. */
 void CheckPixels(const DicomHeader& header)
 {
-  if (!header.HasPixels)
-  {
-    throw Failure("has no pixels: it is cut off, or no slice; replace it, or take it out of the "
-                  "folder");
-  }
-  if (header.Frames > 1)
-  {
-    throw Failure(NumberText(header.Frames) + " frames; files of several frames are not read");
-  }
-  if (header.Samples != 1)
-  {
-    throw Failure(NumberText(header.Samples) + " components per pixel; one is needed");
-  }
-  if (header.Bits != 8 && header.Bits != 16)
-  {
-    throw Failure(NumberText(header.Bits) + " bits per pixel; 8 and 16 are read");
-  }
-  if (header.NeededBytes() == 0)
-  {
-    throw Failure("lacks its rows or columns: it is damaged, or no slice");
-  }
+  FailIf(!header.HasPixels,
+    "has no pixels: it is cut off, or no slice; replace it, or take it out of the folder");
+  FailIf(
+    header.Frames > 1, NumberText(header.Frames) + " frames; files of several frames are not read");
+  FailIf(header.Samples != 1, NumberText(header.Samples) + " components per pixel; one is needed");
+  FailIf(header.Bits != 8 && header.Bits != 16,
+    NumberText(header.Bits) + " bits per pixel; 8 and 16 are read");
+  FailIf(header.NeededBytes() == 0, "lacks its rows or columns: it is damaged, or no slice");
   // Odd numbers of bytes are made even.
   if (header.PixelBytes > header.NeededBytes() + header.NeededBytes() % 2)
   {
     NeedJustBytes(header.PixelBytes, header.NeededBytes());
   }
-  if (header.PixelBytes < header.NeededBytes())
-  {
-    throw Failure("the pixels are cut off: " + std::to_string(header.PixelBytes) + " bytes, " +
+  FailIf(header.PixelBytes < header.NeededBytes(),
+    "the pixels are cut off: " + std::to_string(header.PixelBytes) + " bytes, " +
       std::to_string(header.NeededBytes()) + " needed; copy the file again");
-  }
 }
 
 /** The header of a slice, or of something that is no image at all. */
@@ -151,12 +134,9 @@ void CheckPlaces(const std::vector<std::string>& files, const std::vector<DicomH
 {
   for (std::size_t i = 0; headers.size() > 1 && i < headers.size(); ++i)
   {
-    if (!headers[i].HasPosition || !headers[i].HasOrientation)
-    {
-      throw Failure(files[i] + ": lacks its " +
-        (headers[i].HasPosition ? "orientation" : "position") +
+    FailIf(!headers[i].HasPosition || !headers[i].HasOrientation,
+      files[i] + ": lacks its " + (headers[i].HasPosition ? "orientation" : "position") +
         ": not a slice of a volume; take it out of the folder");
-    }
   }
 }
 
@@ -184,10 +164,7 @@ Slice ReadSlice(const std::string& file)
 #endif
   slice.Study = reader->GetStudyUID() ? reader->GetStudyUID() : "";
   slice.Image = reader->GetOutput();
-  if (!slice.Image->GetPointData()->GetScalars())
-  {
-    throw Failure(file + ": has no pixels");
-  }
+  FailIf(!slice.Image->GetPointData()->GetScalars(), file + ": has no pixels");
   return slice;
 }
 
@@ -198,12 +175,9 @@ void CheckFits(const Slice& slice, const Slice& first, const std::array<int, 2>&
   const bool isSameSize = std::equal(size.begin(), size.end(), slice.Image->GetDimensions()) &&
     std::abs(slice.Spacing[0] - first.Spacing[0]) < 1e-3 &&
     std::abs(slice.Spacing[1] - first.Spacing[1]) < 1e-3;
-  if (!isSameSeries || !isSameSize)
-  {
-    throw Failure(slice.File + ": its " +
-      (isSameSize ? "study or orientation" : "size or pixel spacing") + " differs from that of " +
-      first.File + "; one series per folder is needed");
-  }
+  FailIf(!isSameSeries || !isSameSize,
+    slice.File + ": its " + (isSameSize ? "study or orientation" : "size or pixel spacing") +
+      " differs from that of " + first.File + "; one series per folder is needed");
 }
 
 /**
@@ -221,11 +195,9 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
     (along(slices.size() - 1) - along(0)) / static_cast<double>(slices.size() - 1);
   for (std::size_t i = 1; i < slices.size(); ++i)
   {
-    if (along(i) - along(i - 1) <= 1e-4)
-    {
-      throw Failure(slices[i].File + " lies where " + slices[i - 1].File +
+    FailIf(along(i) - along(i - 1) <= 1e-4,
+      slices[i].File + " lies where " + slices[i - 1].File +
         " does; one series per folder is needed");
-    }
   }
   double shortest = mean;
   double longest = mean;
@@ -248,10 +220,8 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
     {
       aside[c] = slices[i].Position[c] - slices[i - 1].Position[c] - step * normal[c];
     }
-    if (std::sqrt(Dot(aside, aside)) > UnevenDistance * mean)
-    {
-      throw Failure("the gantry was tilted; the volume must be resampled first");
-    }
+    FailIf(std::sqrt(Dot(aside, aside)) > UnevenDistance * mean,
+      "the gantry was tilted; the volume must be resampled first");
   }
   return mean;
 }
@@ -326,10 +296,7 @@ Series ReadSeries(const std::vector<std::string>& files, bool keepsImages)
     series.Type = isWider ? pixels->GetDataType() : series.Type;
     slices.back().Image = keepsImages ? image : nullptr;
   }
-  if (slices.empty())
-  {
-    throw Failure("no DICOM image there");
-  }
+  FailIf(slices.empty(), "no DICOM image there");
   const Vector3 normal = Cross(slices[0].Across, slices[0].Down);
   series.Placement.Axes = { slices[0].Across, slices[0].Down, normal };
   std::stable_sort(slices.begin(), slices.end(),

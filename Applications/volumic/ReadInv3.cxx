@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SlabReader.h"
 
-#include "ByteBudget.h"
+#include "BinaryFile.h"
 #include "CheckInputs.h"
-#include "ParseNumbers.h"
-#include "TarFile.h"
+#include "Texts.h"
 #include "ToolErrors.h"
+#include "Unpack.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
 
@@ -58,20 +58,15 @@ vtkXMLDataElement* Find(vtkXMLDataElement* dictionary, const char* key)
 vtkXMLDataElement* Need(vtkXMLDataElement* dictionary, const char* key)
 {
   vtkXMLDataElement* found = Find(dictionary, key);
-  if (!found)
-  {
-    throw Failure(std::string("main.plist lacks '") + key + "'");
-  }
+  FailIf(!found, std::string("main.plist lacks '") + key + "'");
   return found;
 }
 
 /** The texts of an array of three. */
 std::array<std::string, 3> ThreeOf(vtkXMLDataElement* array, const char* key)
 {
-  if (array->GetNumberOfNestedElements() != 3)
-  {
-    throw Failure(std::string("main.plist: '") + key + "' has not three numbers");
-  }
+  FailIf(array->GetNumberOfNestedElements() != 3,
+    std::string("main.plist: '") + key + "' has not three numbers");
   return { TextOf(array->GetNestedElement(0)), TextOf(array->GetNestedElement(1)),
     TextOf(array->GetNestedElement(2)) };
 }
@@ -82,12 +77,7 @@ int TypeOf(const std::string& name)
     { "uint8", VTK_UNSIGNED_CHAR }, { "int16", VTK_SHORT }, { "uint16", VTK_UNSIGNED_SHORT },
     { "int32", VTK_INT }, { "uint32", VTK_UNSIGNED_INT }, { "int64", VTK_LONG_LONG },
     { "uint64", VTK_UNSIGNED_LONG_LONG }, { "float32", VTK_FLOAT }, { "float64", VTK_DOUBLE } };
-  const auto found = types.find(name);
-  if (found == types.end())
-  {
-    throw Failure("main.plist: voxels of type '" + name + "' are not read");
-  }
-  return found->second;
+  return EntryOf(types, name, "main.plist: voxels of type '" + name + "' are not read");
 }
 
 Description Describe(const std::string& plist)
@@ -99,10 +89,7 @@ Description Describe(const std::string& plist)
   ignored.Catch([&] { root.TakeReference(vtkXMLUtilities::ReadElementFromString(plist.c_str())); });
   vtkXMLDataElement* project =
     root && std::strcmp(root->GetName(), "plist") == 0 ? root->GetNestedElement(0) : nullptr;
-  if (!project)
-  {
-    throw Failure("main.plist cannot be parsed");
-  }
+  FailIf(!project, "main.plist cannot be parsed");
   Description description;
   vtkXMLDataElement* matrix = Need(project, "matrix");
   description.Type = TypeOf(TextOf(Need(matrix, "dtype")));
@@ -118,11 +105,9 @@ Description Describe(const std::string& plist)
     description.Size[axis] = ParseNumber<int>(shape[2 - axis]); // z, y, x
     description.Placement.Spacing[axis] = ParseNumber<double>(spacing[axis]);
   }
-  if (*std::min_element(description.Size.begin(), description.Size.end()) < 1)
-  {
-    throw Failure("main.plist: the sizes " + shape[0] + " x " + shape[1] + " x " + shape[2] +
+  FailIf(*std::min_element(description.Size.begin(), description.Size.end()) < 1,
+    "main.plist: the sizes " + shape[0] + " x " + shape[1] + " x " + shape[2] +
       " are not those of a volume");
-  }
   if (vtkXMLDataElement* orientation = Find(project, "orientation"))
   {
     description.IsAxial = TextOf(orientation) == "1";
@@ -131,7 +116,7 @@ Description Describe(const std::string& plist)
 }
 
 /** Go to the file of that name. */
-void GoTo(TarFile& archive, const std::string& name)
+void GoTo(Archive& archive, const std::string& name)
 {
   while (archive.Next())
   {
@@ -143,17 +128,21 @@ void GoTo(TarFile& archive, const std::string& name)
   throw Failure("no " + name + " in it: not an InVesalius project");
 }
 
+/** The bytes of the member that the archive stands at, all of them, where its checksum is right. */
+void ReadMember(Archive& archive, char* bytes)
+{
+  FailIf(archive.Read(bytes, archive.Size()) < archive.Size(), "the archive is cut off");
+  archive.Finish();
+}
+
 Description ReadDescription(const std::string& name)
 {
-  TarFile archive(name);
+  Archive archive(Archive::Kind::Tar, Archive::TarIn(name));
   GoTo(archive, "main.plist");
-  if (archive.Size() > LargestText)
-  {
-    throw Failure("main.plist is too large to be the description of a project");
-  }
+  FailIf(
+    archive.Size() > LargestText, "main.plist is too large to be the description of a project");
   std::string plist(archive.Size(), '\0');
-  archive.Read(plist.data());
-  archive.Finish();
+  ReadMember(archive, plist.data());
   try
   {
     return Describe(plist);
@@ -184,16 +173,16 @@ public:
   {
     auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
     const std::uint64_t expected = BytesOfVoxels(this->Type, 1, this->Size);
-    TarFile archive(this->Name);
+    Archive archive(Archive::Kind::Tar, Archive::TarIn(this->Name));
     GoTo(archive, this->File);
     if (archive.Size() != expected)
     {
       throw Failure(this->File + " has " + std::to_string(archive.Size()) +
         " bytes, the sizes in main.plist ask for " + std::to_string(expected));
     }
+    NeedPackedBytes(BinaryFile(this->Name).Size(), MostOfZlib, expected);
     values->SetNumberOfTuples(static_cast<vtkIdType>(this->Size[0]) * this->Size[1] * count);
-    archive.Read(static_cast<char*>(values->GetVoidPointer(0)));
-    archive.Finish();
+    ReadMember(archive, static_cast<char*>(values->GetVoidPointer(0)));
     ToNativeOrder(values, false);
     return values;
   }

@@ -6,9 +6,7 @@
 #include "SlabReader.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "InputFiles.h"
-#include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -43,12 +41,8 @@ int TypeOf(const std::string& name)
     { "MET_LONG", VTK_INT }, { "MET_ULONG", VTK_UNSIGNED_INT },
     { "MET_LONG_LONG", VTK_LONG_LONG }, { "MET_ULONG_LONG", VTK_UNSIGNED_LONG_LONG },
     { "MET_FLOAT", VTK_FLOAT }, { "MET_DOUBLE", VTK_DOUBLE } };
-  const auto found = types.find(name);
-  if (found == types.end())
-  {
-    throw Failure("its header is damaged: the ElementType '" + name + "' is no number's");
-  }
-  return found->second;
+  return EntryOf(
+    types, name, "its header is damaged: the ElementType '" + name + "' is no number's");
 }
 
 /** Whether a key says yes, or, where it is not there, what is so otherwise. */
@@ -56,10 +50,7 @@ bool IsTrue(const std::string& name, const std::string& key, bool otherwise = fa
 {
   const std::string value = Lower(HeaderValue(name, key));
   static const std::set<std::string> known = { "", "true", "false", "t", "f", "1", "0" };
-  if (known.count(value) == 0)
-  {
-    throw Failure("its header is damaged: " + key + " is '" + value + "'");
-  }
+  FailIf(known.count(value) == 0, "its header is damaged: " + key + " is '" + value + "'");
   return value.empty() ? otherwise : value[0] == 't' || value[0] == '1';
 }
 
@@ -68,11 +59,9 @@ std::vector<std::string> SizesOf(const std::string& name)
   std::istringstream sizes(HeaderValue(name, "DimSize"));
   const std::vector<std::string> words{ std::istream_iterator<std::string>(sizes), {} };
   const std::size_t most = 10; // for which MetaIO has room
-  if (HeaderValue(name, "NDims") != std::to_string(words.size()) || words.empty() ||
-    words.size() > most)
-  {
-    throw Failure("its header is damaged: it has no NDims, or not as many sizes");
-  }
+  FailIf(HeaderValue(name, "NDims") != std::to_string(words.size()) || words.empty() ||
+      words.size() > most,
+    "its header is damaged: it has no NDims, or not as many sizes");
   return words;
 }
 
@@ -83,10 +72,7 @@ std::array<Vector3, 3> AxesOf(const std::string& name, const std::string& key)
   std::array<Vector3, 3> axes;
   for (Vector3& axis : axes)
   {
-    if (!(words >> axis[0] >> axis[1] >> axis[2]))
-    {
-      throw Failure(key + " does not hold nine numbers");
-    }
+    FailIf(!(words >> axis[0] >> axis[1] >> axis[2]), key + " does not hold nine numbers");
   }
   return axes;
 }
@@ -145,13 +131,11 @@ std::vector<std::string> FilesOfPattern(
   const long step = numbers.size() == 3 ? numbers[2]
     : numbers.size() == 2               ? (last - first) / (steps + 1)
                                         : 1;
-  if (end == pattern.size() || pattern.find_first_of("diu", end) != end || width.size() > 3 ||
-    pattern.find('%', end) != std::string::npos || numbers.size() > 3 || slices > most ||
-    first < 0 || step < 1 || first + steps * step > last)
-  {
-    throw Failure("its header is damaged: the ElementDataFile '" + text.substr(0, 80) +
-      "' gives no " + std::to_string(slices) + " files, as 'slice%03d.raw 1 100 1' gives 100");
-  }
+  FailIf(end == pattern.size() || pattern.find_first_of("diu", end) != end || width.size() > 3 ||
+      pattern.find('%', end) != std::string::npos || numbers.size() > 3 || slices > most ||
+      first < 0 || step < 1 || first + steps * step > last,
+    "its header is damaged: the ElementDataFile '" + text.substr(0, 80) + "' gives no " +
+      std::to_string(slices) + " files, as 'slice%03d.raw 1 100 1' gives 100");
   std::vector<std::string> files;
   for (long i = 0; i <= steps; ++i)
   {
@@ -169,11 +153,9 @@ std::vector<std::string> FilesOfList(const std::string& name, std::uint64_t slic
 {
   std::vector<std::string> files = FilesOfVolume(name);
   files.erase(files.begin()); // the header
-  if (files.size() < slices)
-  {
-    throw Failure("its header lists " + std::to_string(files.size()) + " files for " +
-      std::to_string(slices) + " slices");
-  }
+  FailIf(files.size() < slices,
+    "its header lists " + std::to_string(files.size()) + " files for " + std::to_string(slices) +
+      " slices");
   files.resize(static_cast<std::size_t>(slices));
   return files;
 }

@@ -46,16 +46,12 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
     { 0, { VTK_UNSIGNED_CHAR, 1 } }, { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } },
     { 3, { VTK_SHORT, 2 } },
     { 4, { VTK_FLOAT, 2 } }, { 6, { VTK_UNSIGNED_SHORT, 1 } }, { 16, { VTK_UNSIGNED_CHAR, 3 } } };
-  const auto mode = modes.find(file.Number(12, 4));
-  if (mode == modes.end())
-  {
-    throw Failure("its header is damaged: the mode " + std::to_string(file.Number(12, 4)) +
-      " is no type of voxels");
-  }
+  const std::uint64_t mode = file.Number(12, 4);
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Files = { name };
   slabs->ArrayName = "ImageScalars";
-  std::tie(slabs->Type, slabs->Components) = mode->second;
+  std::tie(slabs->Type, slabs->Components) = EntryOf(modes, mode,
+    "its header is damaged: the mode " + std::to_string(mode) + " is no type of voxels");
   slabs->IsBig = file.IsBig;
   slabs->Start = 1024 + file.Number(92, 4);
   VolumePlacement& placement = slabs->Placement;

@@ -6,9 +6,7 @@
 #include "SlabReader.h"
 
 #include "BinaryFile.h"
-#include "ByteBudget.h"
 #include "LabelNames.h"
-#include "ParseNumbers.h"
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -17,11 +15,11 @@
 #include <vtkType.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <map>
 #include <memory>
 #include <set>
@@ -52,12 +50,9 @@ std::string FieldOf(const std::string& name)
     "centerings", "labels", "units", "kinds", "space", "space dimension", "space units",
     "space origin", "space directions", "measurement frame" };
   const std::string lower = Lower(name);
-  const auto other = others.find(lower);
-  const std::string field = other == others.end() ? lower : other->second;
-  if (known.count(field) == 0)
-  {
-    throw Failure("the header is damaged: '" + AsUtf8(name.substr(0, 80)) + "' is no field of NRRD");
-  }
+  const std::string field = EntryOr(others, lower, lower);
+  FailIf(known.count(field) == 0,
+    "the header is damaged: '" + AsUtf8(name.substr(0, 80)) + "' is no field of NRRD");
   return field;
 }
 
@@ -67,10 +62,7 @@ std::string FieldOf(const std::string& name)
  */
 Fields ParseHeader(const std::string& content, std::size_t& dataStart, Fields& pairs)
 {
-  if (content.compare(0, 7, "NRRD000") != 0)
-  {
-    throw Failure("does not start as a NRRD file does");
-  }
+  FailIf(content.compare(0, 7, "NRRD000") != 0, "does not start as a NRRD file does");
   Fields fields;
   std::size_t at = content.find('\n');
   dataStart = content.size();
@@ -102,12 +94,6 @@ Fields ParseHeader(const std::string& content, std::size_t& dataStart, Fields& p
   return fields;
 }
 
-std::string Field(const Fields& fields, const std::string& key, const std::string& otherwise)
-{
-  const auto found = fields.find(key);
-  return found == fields.end() ? otherwise : found->second;
-}
-
 int TypeOf(const std::string& name)
 {
   static const std::map<std::string, int> types = { { "signed char", VTK_SIGNED_CHAR },
@@ -125,12 +111,7 @@ int TypeOf(const std::string& name)
     { "ulonglong", VTK_UNSIGNED_LONG_LONG }, { "unsigned long long", VTK_UNSIGNED_LONG_LONG },
     { "uint64", VTK_UNSIGNED_LONG_LONG }, { "uint64_t", VTK_UNSIGNED_LONG_LONG },
     { "float", VTK_FLOAT }, { "double", VTK_DOUBLE } };
-  const auto found = types.find(name);
-  if (found == types.end())
-  {
-    throw Failure("the type '" + name + "' is missing or not a number type");
-  }
-  return found->second;
+  return EntryOf(types, name, "the type '" + name + "' is missing or not a number type");
 }
 
 /** "(1,0,0) (0,1,0) (0,0,1)" as vectors. */
@@ -141,13 +122,8 @@ std::vector<Vector3> ParseVectors(const std::string& text)
        open = text.find('(', open + 1))
   {
     const std::size_t close = text.find(')', open);
-    if (close == std::string::npos)
-    {
-      throw UsageError("'" + text + "' does not end");
-    }
-    std::string inner = text.substr(open + 1, close - open - 1);
-    inner.erase(std::remove(inner.begin(), inner.end(), ' '), inner.end());
-    const std::vector<double> numbers = ParseNumbers(inner, 3);
+    FailIf<UsageError>(close == std::string::npos, "'" + text + "' does not end");
+    const std::vector<double> numbers = ParseNumbers(text.substr(open + 1, close - open - 1), 3);
     vectors.push_back({ numbers[0], numbers[1], numbers[2] });
   }
   return vectors;
@@ -157,25 +133,19 @@ std::vector<Vector3> ParseVectors(const std::string& text)
 VolumePlacement PlacementOf(const Fields& fields, bool hasComponents)
 {
   VolumePlacement placement;
-  const std::string origin = Field(fields, "space origin", "(0,0,0)");
-  const std::string directions = Field(fields, "space directions", "");
+  const std::string origin = EntryOr(fields, "space origin", "(0,0,0)");
+  const std::string directions = EntryOr(fields, "space directions", "");
   const std::vector<Vector3> origins = ParseVectors(origin);
-  if (origins.size() != 1)
-  {
-    throw UsageError("'" + origin + "' is no origin");
-  }
+  FailIf<UsageError>(origins.size() != 1, "'" + origin + "' is no origin");
   placement.Origin = origins[0];
   if (!directions.empty())
   {
     const std::vector<Vector3> steps = ParseVectors(directions);
-    if (steps.size() != 3)
-    {
-      throw UsageError("'" + directions + "' are not three vectors");
-    }
+    FailIf<UsageError>(steps.size() != 3, "'" + directions + "' are not three vectors");
     placement.SetSteps({ steps[0], steps[1], steps[2] });
     return placement;
   }
-  std::istringstream spacings(Field(fields, "spacings", hasComponents ? "nan 1 1 1" : "1 1 1"));
+  std::istringstream spacings(EntryOr(fields, "spacings", hasComponents ? "nan 1 1 1" : "1 1 1"));
   std::string none;
   if (hasComponents)
   {
@@ -196,8 +166,7 @@ std::string WorldAxesOf(const std::string& space)
   static const std::map<std::string, std::string> axes = { { "right-anterior-superior", "RAS" },
     { "ras", "RAS" }, { "left-anterior-superior", "LAS" }, { "las", "LAS" },
     { "left-posterior-superior", "LPS" }, { "lps", "LPS" } };
-  const auto found = axes.find(Lower(space));
-  return found == axes.end() ? "" : found->second;
+  return EntryOr(axes, Lower(space), "");
 }
 
 /** What a header tells. */
@@ -221,12 +190,8 @@ RawSlabs::Packing PackingOf(const std::string& encoding)
     { "gzip", Packing::Zlib }, { "gz", Packing::Zlib }, { "bzip2", Packing::Bzip2 },
     { "bz2", Packing::Bzip2 }, { "text", Packing::Text }, { "txt", Packing::Text },
     { "ascii", Packing::Text } };
-  const auto found = packings.find(encoding);
-  if (found == packings.end())
-  {
-    throw Failure("the encoding '" + encoding + "' is not read: raw, gzip, bzip2 and text are");
-  }
-  return found->second;
+  return EntryOf(packings, encoding,
+    "the encoding '" + encoding + "' is not read: raw, gzip, bzip2 and text are");
 }
 
 /** Where the data are when so many lines are behind. */
@@ -244,10 +209,10 @@ std::uint64_t BehindLines(const std::string& file, std::uint64_t start, int line
 bool FirstAxisIsComponents(const Fields& fields)
 {
   static const std::vector<std::string> kinds = { "list", "vector", "covariant-vector" };
-  std::istringstream stream(Lower(Field(fields, "kinds", "")));
+  std::istringstream stream(Lower(EntryOr(fields, "kinds", "")));
   std::string kind;
   stream >> kind;
-  return Field(fields, "dimension", "") == "4" &&
+  return EntryOr(fields, "dimension", "") == "4" &&
     std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
@@ -256,46 +221,95 @@ Header ReadHeader(const std::string& name)
   Header header;
   std::size_t start = 0;
   header.All = ParseHeader(FirstText(name), start, header.Pairs);
-  try
-  {
-    std::array<int, 3>& size = header.Size;
-    std::istringstream sizes(Field(header.All, "sizes", ""));
-    std::string more;
-    const bool hasComponents = FirstAxisIsComponents(header.All);
-    if ((hasComponents && !(sizes >> header.Components)) ||
+  std::array<int, 3>& size = header.Size;
+  std::istringstream sizes(EntryOr(header.All, "sizes", ""));
+  std::string more;
+  const bool hasComponents = FirstAxisIsComponents(header.All);
+  FailIf((hasComponents && !(sizes >> header.Components)) ||
       !(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more || header.Components < 1 ||
-      *std::min_element(size.begin(), size.end()) < 1)
-    {
-      throw Failure("sizes '" + Field(header.All, "sizes", "") +
-        "'; a volume with one scalar component has three, one with several a list of them first");
-    }
-    header.Type = TypeOf(Lower(Field(header.All, "type", "")));
-    const std::string dimension = Field(header.All, "dimension", "");
-    if (dimension != (hasComponents ? "4" : "3"))
-    {
-      throw Failure("dimension '" + dimension + "', which has not as many sizes");
-    }
-    const std::string endian = Lower(Field(header.All, "endian", "little"));
-    if (endian != "little" && endian != "big")
-    {
-      throw Failure("endian '" + endian + "'; little and big are known");
-    }
-    const std::string file = Field(header.All, "data file", "");
-    if (file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos)
-    {
-      throw Failure("data spread over several files are not read");
-    }
-    header.DataFile =
-      file.empty() ? name : (std::filesystem::path(name).parent_path() / file).string();
-    header.DataStart = file.empty() ? start : 0;
-    header.Placement = PlacementOf(header.All, hasComponents);
-    header.WorldAxes = WorldAxesOf(Field(header.All, "space", ""));
-    return header;
-  }
-  catch (const UsageError& error)
+      *std::min_element(size.begin(), size.end()) < 1,
+    "sizes '" + EntryOr(header.All, "sizes", "") +
+      "'; a volume with one scalar component has three, one with several a list of them first");
+  header.Type = TypeOf(Lower(EntryOr(header.All, "type", "")));
+  const std::string dimension = EntryOr(header.All, "dimension", "");
+  FailIf(dimension != (hasComponents ? "4" : "3"),
+    "dimension '" + dimension + "', which has not as many sizes");
+  const std::string endian = Lower(EntryOr(header.All, "endian", "little"));
+  FailIf(
+    endian != "little" && endian != "big", "endian '" + endian + "'; little and big are known");
+  const std::string file = EntryOr(header.All, "data file", "");
+  FailIf(file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos,
+    "data spread over several files are not read");
+  header.DataFile =
+    file.empty() ? name : (std::filesystem::path(name).parent_path() / file).string();
+  header.DataStart = file.empty() ? start : 0;
+  header.Placement = PlacementOf(header.All, hasComponents);
+  header.WorldAxes = WorldAxesOf(EntryOr(header.All, "space", ""));
+  return header;
+}
+
+// ---- Segments -----------------------------------------------------------------------------------
+
+// As 3D Slicer tells of them in the headers of .seg.nrrd:
+//   Segment0_Name:=liver
+//   Segment0_LabelValue:=1
+//   Segment0_Color:=0.86 0.51 0.4
+//   Segment0_Layer:=0
+// Older files have a component per segment, and neither label nor layer.
+
+/** A whole number; what is none counts as missing. */
+int NumberAt(const Fields& pairs, const std::string& key, int otherwise)
+{
+  return AsNumber<int>(EntryOr(pairs, key, "")).value_or(otherwise);
+}
+
+std::optional<Vector3> ColorAt(const Fields& pairs, const std::string& key)
+{
+  std::istringstream words(EntryOr(pairs, key, ""));
+  words.imbue(std::locale::classic());
+  Vector3 color;
+  words >> color[0] >> color[1] >> color[2];
+  return words ? std::optional<Vector3>(color) : std::nullopt;
+}
+
+/** Without the marks of NRRD for line ends and backslashes. */
+std::string Unmarked(const std::string& text)
+{
+  std::string plain;
+  for (std::size_t at = 0; at < text.size(); ++at)
   {
-    throw Failure(name + ": the header cannot be parsed: " + error.what());
+    const bool isMark =
+      text[at] == '\\' && at + 1 < text.size() && (text[at + 1] == 'n' || text[at + 1] == '\\');
+    plain += !isMark ? text[at] : (text[at + 1] == 'n' ? ' ' : '\\');
+    at += isMark ? 1 : 0;
   }
+  return plain;
+}
+
+LabelNames NamesOfSegments(const Fields& pairs, int components)
+{
+  LabelNames names;
+  for (const auto& [key, text] : pairs)
+  {
+    const std::string start = key.substr(0, key.find('_') + 1);
+    if (key.compare(0, 7, "Segment") != 0 || start.size() < 9 || key != start + "Name")
+    {
+      continue;
+    }
+    const std::optional<int> number = AsNumber<int>(start.substr(7, start.size() - 8));
+    if (!number || *number == std::numeric_limits<int>::max())
+    {
+      continue; // Segmentation_..., which is about all of them
+    }
+    const bool isOld = components > 1 && pairs.count(start + "Layer") == 0;
+    LabelName name;
+    name.Name = PlainName(Unmarked(text));
+    name.Label = NumberAt(pairs, start + "LabelValue", isOld ? 1 : *number + 1);
+    name.Layer = NumberAt(pairs, start + "Layer", isOld ? *number : 0);
+    name.Color = ColorAt(pairs, start + "Color");
+    names.push_back(name);
+  }
+  return names;
 }
 }
 
@@ -314,13 +328,13 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   slabs->Type = header.Type;
   slabs->Placement = header.Placement;
   slabs->WorldAxes = header.WorldAxes;
-  slabs->IsBig = Lower(Field(header.All, "endian", "little")) == "big";
+  slabs->IsBig = Lower(EntryOr(header.All, "endian", "little")) == "big";
   slabs->Files = { header.DataFile };
-  slabs->Code = PackingOf(Lower(Field(header.All, "encoding", "raw")));
+  slabs->Code = PackingOf(Lower(EntryOr(header.All, "encoding", "raw")));
   slabs->Start = BehindLines(header.DataFile, header.DataStart,
-    ParseNumber<int>(Field(header.All, "line skip", "0")));
+    ParseNumber<int>(EntryOr(header.All, "line skip", "0")));
   // -1: the voxels are the last bytes.
-  const int skip = ParseNumber<int>(Field(header.All, "byte skip", "0"));
+  const int skip = ParseNumber<int>(EntryOr(header.All, "byte skip", "0"));
   const bool isRaw = slabs->Code == RawSlabs::Packing::None;
   slabs->AreLast = isRaw && skip < 0;
   (isRaw ? slabs->Start : slabs->Before) += static_cast<std::uint64_t>(std::max(skip, 0));

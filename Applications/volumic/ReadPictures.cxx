@@ -8,13 +8,9 @@
 #include "VtkReaders.h"
 
 #include <vtkDataArray.h>
-#include <vtkImageAppend.h>
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
-#include <vtkImageReader2Factory.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkStringArray.h>
 #include <vtkTIFFReader.h>
 
 #include <algorithm>
@@ -126,10 +122,7 @@ vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
 /** @throws Failure unless they are pictures of one kind and size. */
 void CheckPictures(const std::vector<std::string>& files)
 {
-  if (files.empty())
-  {
-    throw Failure("no pictures and no DICOM slices there");
-  }
+  FailIf(files.empty(), "no pictures and no DICOM slices there");
   std::set<std::string> suffixes;
   for (const std::string& file : files)
   {
@@ -153,23 +146,15 @@ void CheckPictures(const std::vector<std::string>& files)
       });
     const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
     Named(file, [&] { CheckChosen(reader, file); });
-    VtkMessages messages;
-    messages.ListenTo(reader);
-    reader->UpdateInformation();
+    VtkMessages().AskReader(reader, file);
     const int* extent = reader->GetDataExtent();
     const std::array<int, 4> own = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1,
       reader->GetNumberOfScalarComponents(), reader->GetDataScalarType() };
-    if (!messages.Errors.empty())
-    {
-      throw Failure(file + ": cannot be read (" + messages.JoinedErrors() + ")");
-    }
     size = file == files.front() ? own : size;
-    if (own != size)
-    {
-      throw Failure(file + ": its " +
+    FailIf(own != size,
+      file + ": its " +
         (std::equal(own.begin(), own.begin() + 2, size.begin()) ? "kind of values" : "size") +
         " differs from the first picture's");
-    }
   }
 }
 
@@ -201,11 +186,9 @@ public:
       const std::string& file = this->Files[static_cast<std::size_t>(first + i)];
       const vtkSmartPointer<vtkImageData> picture = ReadPicture(file);
       vtkDataArray* values = ValuesOf(picture, file);
-      if (values->GetDataType() != this->Type ||
-        values->GetNumberOfComponents() != this->Components)
-      {
-        throw Failure(file + ": its values are of another type than the first picture's");
-      }
+      FailIf(
+        values->GetDataType() != this->Type || values->GetNumberOfComponents() != this->Components,
+        file + ": its values are of another type than the first picture's");
       stack->InsertTuples(area * i, area, 0, values);
     }
     return stack;
@@ -215,10 +198,7 @@ private:
   static vtkDataArray* ValuesOf(vtkImageData* picture, const std::string& file)
   {
     vtkDataArray* values = picture->GetPointData()->GetScalars();
-    if (!values)
-    {
-      throw Failure(file + ": holds no picture");
-    }
+    FailIf(!values, file + ": holds no picture");
     return values;
   }
 

@@ -4,7 +4,6 @@
 
 #include "BinaryFile.h"
 #include "CheckInputs.h"
-#include "ParseNumbers.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkMessages.h"
@@ -27,6 +26,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace tool
@@ -58,45 +58,31 @@ vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
   BinaryFile file(name);
   const bool isText = file.Size() < 84 || IsStlText(file);
   const std::uint64_t triangles = isText ? 0 : file.Number(80, 4);
-  if (file.Size() < 84 + 50 * triangles)
-  {
-    throw Failure(name + ": the file is cut off: it has " + std::to_string(file.Size()) +
+  FailIf(file.Size() < 84 + 50 * triangles,
+    name + ": the file is cut off: it has " + std::to_string(file.Size()) +
       " bytes, its header asks for " + std::to_string(84 + 50 * triangles));
-  }
   return ReadWith<vtkSTLReader>(name);
+}
+
+/** What VTK's reader gives of a file that the check has let through. */
+template <class Reader, void (*Check)(const std::string&)>
+vtkSmartPointer<vtkPolyData> ReadChecked(const std::string& name)
+{
+  Named(name, [&] { Check(name); });
+  return ReadWith<Reader>(name);
 }
 
 vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 {
-  const std::string suffix = SuffixOf(name);
-  if (!std::filesystem::exists(name))
-  {
-    throw Failure(name + ": no such file");
-  }
-  if (suffix == ".vtp")
-  {
-    Named(name, [&] { CheckXmlInput(name); });
-    return ReadWith<vtkXMLPolyDataReader>(name);
-  }
-  if (suffix == ".vtk")
-  {
-    return ReadWith<vtkPolyDataReader>(name);
-  }
-  if (suffix == ".stl")
-  {
-    return ReadStl(name);
-  }
-  if (suffix == ".ply")
-  {
-    Named(name, [&] { CheckPly(name); }); // VTK's reader would go on with what memory holds
-    return ReadWith<vtkPLYReader>(name);
-  }
-  if (suffix == ".obj")
-  {
-    Named(name, [&] { CheckObj(name); });
-    return ReadWith<vtkOBJReader>(name);
-  }
-  throw Failure(name + ": .vtp, .vtk, .stl, .ply and .obj are read");
+  using Read = vtkSmartPointer<vtkPolyData> (*)(const std::string&);
+  static const std::map<std::string, Read> readers = {
+    { ".vtp", ReadChecked<vtkXMLPolyDataReader, CheckXmlInput> },
+    { ".vtk", ReadWith<vtkPolyDataReader> }, { ".stl", ReadStl },
+    { ".ply", ReadChecked<vtkPLYReader, CheckPly> }, { ".obj", ReadChecked<vtkOBJReader, CheckObj> }
+  };
+  FailIf(!std::filesystem::exists(name), name + ": no such file");
+  return EntryOf(
+    readers, SuffixOf(name), name + ": .vtp, .vtk, .stl, .ply and .obj are read")(name);
 }
 
 /** The mesh, whose polygons have points that are there. */
@@ -105,10 +91,7 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
   vtkNew<vtkIdList> corners;
   vtkCellArray* polygons = mesh->GetPolys();
-  if (!polygons->IsValid())
-  {
-    throw Failure(name + ": is damaged: its polygons overlap in the file");
-  }
+  FailIf(!polygons->IsValid(), name + ": is damaged: its polygons overlap in the file");
   for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
   {
     polygons->GetCellAtId(i, corners);
@@ -164,10 +147,7 @@ bool IsHeading(const std::vector<std::string>& words)
 void ReadPointLines(const std::string& name, std::size_t columns, PointList& list)
 {
   std::ifstream file(name);
-  if (!file)
-  {
-    throw Failure(name + ": cannot be opened");
-  }
+  FailIf(!file, name + ": cannot be opened");
   std::string line;
   bool isFirst = true;
   for (int number = 1; std::getline(file, line); ++number)
@@ -209,10 +189,7 @@ bool IsText(const std::string& name)
 /** The points as vertices, without arrays. */
 vtkSmartPointer<vtkPolyData> MakeVertices(vtkPoints* points, const std::string& name)
 {
-  if (!points || points->GetNumberOfPoints() == 0)
-  {
-    throw Failure(name + ": has no points");
-  }
+  FailIf(!points || points->GetNumberOfPoints() == 0, name + ": has no points");
   auto vertices = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkCellArray> cells;
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
@@ -261,10 +238,7 @@ vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& name)
   clean->SetInputData(ReadMesh(name));
   clean->SetTolerance(0.0);
   clean->Update();
-  if (clean->GetOutput()->GetNumberOfPolys() == 0)
-  {
-    throw Failure(name + ": has no polygons");
-  }
+  FailIf(clean->GetOutput()->GetNumberOfPolys() == 0, name + ": has no polygons");
   return clean->GetOutput();
 }
 }

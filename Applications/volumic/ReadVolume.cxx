@@ -137,13 +137,7 @@ FoundVolume OpenXml(const std::string& name, const Opening& opening)
   const std::string& array = opening.Array;
   CheckXmlInput(name);
   const vtkSmartPointer<Reader> reader = NewReader<Reader>(name);
-  VtkMessages messages;
-  messages.ListenTo(reader);
-  messages.Catch([&] { reader->UpdateInformation(); });
-  if (!messages.Errors.empty())
-  {
-    throw Failure("cannot be read (" + messages.JoinedErrors() + ")");
-  }
+  VtkMessages().AskReader(reader, name);
   std::string names;
   bool isThere = array.empty();
   for (int i = 0; !array.empty() && i < reader->GetNumberOfPointArrays(); ++i)
@@ -153,10 +147,7 @@ FoundVolume OpenXml(const std::string& name, const Opening& opening)
     isThere = isThere || array == each;
     reader->SetPointArrayStatus(each.c_str(), array == each ? 1 : 0);
   }
-  if (!isThere)
-  {
-    throw Failure("no point array " + array + (names.empty() ? "; there are none" : names));
-  }
+  FailIf(!isThere, "no point array " + array + (names.empty() ? "; there are none" : names));
   return { reader, [reader, name] { return ImageOf(reader, name); } };
 }
 
@@ -209,10 +200,7 @@ FoundVolume FindVolume(const std::string& name, const Opening& opening)
   {
     return OpenerOf(name)(name, opening);
   }
-  if (name.find_first_of("%*") == std::string::npos)
-  {
-    throw Failure("no such file or folder");
-  }
+  FailIf(name.find_first_of("%*") == std::string::npos, "no such file or folder");
   const std::vector<std::string> files = MatchFiles(name);
   return OpenSlices({ files, !files.empty() && IsDicom(files.front()) }, opening);
 }
@@ -222,10 +210,7 @@ Image ReadAll(const FoundVolume& volume)
   Image image;
   VtkMessages ignored; // VTK prints that there is no memory, and throws.
   ignored.Catch([&] { image = volume.ReadAll(); });
-  if (image->GetNumberOfPoints() == 0)
-  {
-    throw Failure("the image is empty");
-  }
+  FailIf(image->GetNumberOfPoints() == 0, "the image is empty");
   return image;
 }
 

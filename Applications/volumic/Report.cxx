@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report.h"
 
-#include "JsonWriter.h"
-#include "ParseNumbers.h"
+#include "Json.h"
 #include "Ranks.h"
 #include "SurfaceFields.h"
 
@@ -12,38 +11,56 @@
 #include <vtkFieldData.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
 #include <vtkVersion.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <ostream>
 
 #include <sys/resource.h>
 
 namespace tool
 {
-void WriteInput(JsonWriter& json, const std::string& name, const VolumeFacts& volume)
+std::vector<double> PeaksByRank(const Ranks& ranks)
 {
-  double numbers[3];
-  json.Name("input");
-  json.BeginObject();
-  json.Member("name", name);
-  const std::array<int, 3> size = volume.Size();
-  std::copy_n(size.begin(), 3, numbers);
-  json.Numbers("dimensions", numbers, 3);
-  json.Numbers("spacing", volume.Spacing.data(), 3);
-  json.Numbers("origin", volume.Origin.data(), 3);
-  json.Member("scalar_type", vtkImageScalarTypeNameMacro(volume.Type));
-  json.Numbers("range", volume.Range.data(), 2);
-  json.EndObject();
+  std::vector<double> peaks;
+  if (!ranks.IsOne())
+  {
+    for (const std::string& peak : ranks.GatherOnAll(std::to_string(PeakMemory())))
+    {
+      peaks.push_back(std::atof(peak.c_str()));
+    }
+  }
+  return peaks;
 }
 
-void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize& size)
+double PeakMemory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+namespace
+{
+/** The member `input`: what the volume is. */
+Json InputFacts(const std::string& name, const VolumeFacts& volume)
+{
+  return { { "name", name }, { "dimensions", volume.Size() },
+    { "spacing", AsJsonArray(volume.Spacing) }, { "origin", AsJsonArray(volume.Origin) },
+    { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
+    { "range", AsJsonArray(volume.Range) } };
+}
+
+/** Members of the size and shape of a surface, from its field data. */
+void AddSurfaceFacts(Json& json, vtkPolyData* surface, const SurfaceSize& size)
 {
   static const char* const facts[][2] = { { "components", "NumberOfComponents" },
     { "genus", "Genus" }, { "euler_characteristic", "EulerCharacteristic" }, { "area", "Area" },
@@ -55,45 +72,74 @@ void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize
   {
     if (vtkDataArray* values = surface->GetFieldData()->GetArray(array))
     {
-      json.Member(name, values->GetComponent(0, 0));
+      json[name] = AsJson(values->GetComponent(0, 0));
     }
   }
-  json.Member("vertices", static_cast<double>(size.Vertices));
-  json.Member("triangles", static_cast<double>(size.Triangles));
-  json.Member("stop_reason", StopReason(surface));
+  json["vertices"] = size.Vertices;
+  json["triangles"] = size.Triangles;
+  json["stop_reason"] = StopReason(surface);
 }
 
-void WriteComponents(JsonWriter& json, vtkPolyData* surface)
+/** The member `component_features`: an object per component, the one of the largest area first. */
+Json ComponentFeatures(vtkPolyData* surface)
 {
   static const char* const facts[][2] = { { "area", "ComponentArea" },
     { "volume", "ComponentVolume" }, { "genus", "ComponentGenus" },
     { "centroid", "ComponentCentroid" }, { "inertia", "ComponentInertia" } };
   vtkFieldData* fields = surface->GetFieldData();
   vtkDataArray* areas = fields->GetArray("ComponentArea");
-  json.Name("component_features");
-  json.BeginArray();
+  Json components = Json::array();
   for (vtkIdType c = 0; areas && c < areas->GetNumberOfTuples(); ++c)
   {
-    json.BeginObject();
+    Json& component = components.emplace_back(Json::object());
     for (const auto& [name, array] : facts)
     {
-      vtkDataArray* values = fields->GetArray(array);
-      if (values && values->GetNumberOfComponents() == 1)
+      if (vtkDataArray* values = fields->GetArray(array))
       {
-        json.Member(name, values->GetComponent(c, 0));
-      }
-      else if (values)
-      {
-        json.Numbers(name, values->GetTuple(c), values->GetNumberOfComponents());
+        const double* tuple = values->GetTuple(c);
+        const int count = values->GetNumberOfComponents();
+        component[name] = count == 1
+          ? AsJson(*tuple)
+          : AsJsonArray(std::vector<double>(tuple, tuple + count));
       }
     }
-    json.EndObject();
   }
-  json.EndArray();
+  return components;
 }
 
-namespace
+/** The member `properties`: those that are meant, with their values. */
+Json PropertyValues(const FilterTrio& filters, bool (*isMeant)(const PropertyOption&))
 {
+  Json values = Json::object();
+  for (const PropertyOption& property : SurfaceProperties())
+  {
+    if (isMeant(property))
+    {
+      values[property.Property] = property.Get(filters);
+    }
+  }
+  return values;
+}
+
+/** The member `memory`. @param reader PeakMemory() when the volume had been read */
+Json MemoryFacts(double reader, const std::vector<double>& byRank)
+{
+  Json memory = { { "reader", reader }, { "peak", PeakMemory() } };
+  if (!byRank.empty())
+  {
+    memory["peak_by_rank"] = byRank;
+  }
+  return memory;
+}
+
+/** The report with the members `warnings` and `versions` at its end, as text. */
+std::string EndedReport(Json& json, const std::vector<std::string>& warnings)
+{
+  json["warnings"] = warnings;
+  json["versions"] = { { "volumic", VOLUMIC_VERSION }, { "vtk", vtkVersion::GetVTKVersion() } };
+  return TextOf(json);
+}
+
 double SecondsOfRow(vtkTable* history, vtkIdType row)
 {
   double seconds = 0.0;
@@ -121,36 +167,33 @@ double SecondsOf(vtkTable* history, const Counts& counts)
  * The visited levels from the coarsest to the finest; the surface may have vanished at one. Their
  * seconds add up to those of the run.
  */
-void WriteLevels(JsonWriter& json, const ReportInput& input)
+Json LevelFacts(const ReportInput& input)
 {
   vtkMultiBlockDataSet* levels = input.Filters.Surface->GetLevels();
   vtkTable* history = input.Filters.Surface->GetHistory();
   std::map<double, unsigned int, std::greater<double>> blocks;
   for (unsigned int block = 0; block < levels->GetNumberOfBlocks(); ++block)
   {
-    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(block));
-    if (surface)
+    if (auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(block)))
     {
       // The last block may be level -1.
       blocks[surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0)] = block;
     }
   }
-  json.Name("levels");
-  json.BeginArray();
+  Json told = Json::array();
   for (const auto& [level, block] : blocks)
   {
-    json.BeginObject();
-    WriteSurfaceFacts(
-      json, vtkPolyData::SafeDownCast(levels->GetBlock(block)), input.LevelSizes.at(block));
+    Json& facts = told.emplace_back(Json::object());
+    AddSurfaceFacts(
+      facts, vtkPolyData::SafeDownCast(levels->GetBlock(block)), input.LevelSizes.at(block));
     const double own = level;
-    json.Member("seconds", SecondsOf(history, [own](double of) { return of == own; }));
-    json.EndObject();
+    facts["seconds"] = SecondsOf(history, [own](double of) { return of == own; });
   }
-  json.EndArray();
+  return told;
 }
 
 /** Those of the whole surface, and, after --resume, of that what a run before has taken. */
-void WriteSeconds(JsonWriter& json, const ReportInput& input)
+Json SecondsOf(const ReportInput& input)
 {
   vtkDeformableSurface* filter = input.Filters.Surface;
   const int resumed = filter->GetResumedLevel();
@@ -158,99 +201,179 @@ void WriteSeconds(JsonWriter& json, const ReportInput& input)
   const double before = isResumed
     ? SecondsOf(filter->GetHistory(), [resumed](double of) { return of >= resumed; })
     : 0.0;
-  json.Name("seconds");
-  json.BeginObject();
-  json.Member("pyramid", input.PyramidSeconds);
-  json.Member("surface", before + input.SurfaceSeconds);
+  Json seconds = { { "pyramid", input.PyramidSeconds },
+    { "surface", before + input.SurfaceSeconds } };
   if (isResumed)
   {
-    json.Member("taken_over", before);
+    seconds["taken_over"] = before;
   }
-  json.EndObject();
+  return seconds;
 }
 }
 
-void WriteProperties(
-  JsonWriter& json, const FilterTrio& filters, bool (*isMeant)(const PropertyOption&))
-{
-  json.Name("properties");
-  json.BeginObject();
-  for (const PropertyOption& property : SurfaceProperties())
-  {
-    if (isMeant(property))
-    {
-      json.Member(property.Property, property.Get(filters));
-    }
-  }
-  json.EndObject();
-}
-
-void WriteMemory(JsonWriter& json, double reader, const std::vector<double>& byRank)
-{
-  json.Name("memory");
-  json.BeginObject();
-  json.Member("reader", reader);
-  json.Member("peak", PeakMemory());
-  if (!byRank.empty())
-  {
-    json.Numbers("peak_by_rank", byRank.data(), static_cast<int>(byRank.size()));
-  }
-  json.EndObject();
-}
-
-std::vector<double> PeaksByRank(const Ranks& ranks)
-{
-  std::vector<double> peaks;
-  if (!ranks.IsOne())
-  {
-    for (const std::string& peak : ranks.GatherOnAll(std::to_string(PeakMemory())))
-    {
-      peaks.push_back(std::atof(peak.c_str()));
-    }
-  }
-  return peaks;
-}
-
-double PeakMemory()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-void WriteReport(std::ostream& out, const ReportInput& input)
+std::string ReportText(const ReportInput& input)
 {
   vtkDeformableSurface* filter = input.Filters.Surface;
   vtkPolyData* surface = filter->GetOutput();
-  JsonWriter json(out);
-  json.BeginObject();
-  WriteInput(json, input.VolumeName, input.Volume);
-  json.Member("iso_value", filter->GetIsoValue());
-  json.Member("finished", input.IsFinished);
-  WriteSurfaceFacts(json, surface, input.Size);
-  WriteComponents(json, surface);
-  WriteLevels(json, input);
-  WriteSeconds(json, input);
-  WriteMemory(json, input.ReaderMemory, input.PeaksByRank);
-  WriteProperties(json, input.Filters,
+  Json json = { { "input", InputFacts(input.VolumeName, input.Volume) },
+    { "iso_value", AsJson(filter->GetIsoValue()) }, { "finished", input.IsFinished } };
+  AddSurfaceFacts(json, surface, input.Size);
+  json["component_features"] = ComponentFeatures(surface);
+  json["levels"] = LevelFacts(input);
+  json["seconds"] = SecondsOf(input);
+  json["memory"] = MemoryFacts(input.ReaderMemory, input.PeaksByRank);
+  json["properties"] = PropertyValues(input.Filters,
     [](const PropertyOption& property) { return !IsOfLabelsOnly(property); });
-  WriteEnd(json, input.Warnings);
-  json.EndObject();
+  return EndedReport(json, input.Warnings);
 }
 
-void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings)
+// ---- Labels -------------------------------------------------------------------------------------
+
+vtkIdType WrongVoxels(vtkPolyData* surface, const char* name)
 {
-  json.Name("warnings");
-  json.BeginArray();
-  for (const std::string& warning : warnings)
+  vtkDataArray* wrong = surface->GetFieldData()->GetArray(name);
+  return wrong && wrong->GetNumberOfTuples() > 0
+    ? static_cast<vtkIdType>(wrong->GetComponent(0, 0))
+    : 0;
+}
+
+namespace
+{
+Json NameFacts(const LabelSurface& surface)
+{
+  vtkIdType voxels = 0;
+  std::vector<int> labels;
+  for (const KnownLabel& label : surface.Labels)
   {
-    json.Value(warning);
+    labels.push_back(label.Label);
+    voxels += label.Voxels;
   }
-  json.EndArray();
-  json.Name("versions");
-  json.BeginObject();
-  json.Member("volumic", VOLUMIC_VERSION);
-  json.Member("vtk", vtkVersion::GetVTKVersion());
-  json.EndObject();
+  if (vtkDataArray* counted = surface.Surface->GetFieldData()->GetArray("LabelVoxels"))
+  {
+    voxels = static_cast<vtkIdType>(counted->GetComponent(0, 0));
+  }
+  Json facts = Json::object();
+  if (labels.size() == 1)
+  {
+    facts["label"] = labels[0];
+  }
+  facts["labels"] = labels;
+  facts["name"] = surface.Name;
+  facts["color"] = AsJsonArray(surface.Labels[0].Color);
+  facts["layer"] = surface.Labels[0].Layer;
+  facts["voxels"] = voxels;
+  facts["files"] = surface.Files;
+  return facts;
+}
+}
+
+std::string ReportText(const LabelReport& report)
+{
+  Json json = { { "input", InputFacts(report.VolumeName, report.Volume) },
+    { "finished", report.IsFinished }, { "labels", Json::array() } };
+  for (const LabelSurface& each : report.Surfaces)
+  {
+    vtkPolyData* surface = each.Surface;
+    Json& facts = json["labels"].emplace_back(NameFacts(each));
+    facts["seconds"] = each.Seconds;
+    facts["wrong_voxels"] = WrongVoxels(surface);
+    facts["missed_voxels"] = WrongVoxels(surface, "MissedVoxels");
+    AddSurfaceFacts(facts, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
+    facts["component_features"] = ComponentFeatures(surface);
+  }
+  json["seconds"] = { { "surface", report.Seconds } };
+  json["memory"] = MemoryFacts(report.ReaderMemory, report.PeaksByRank);
+  json["properties"] = PropertyValues(report.Filters, IsOfLabels);
+  return EndedReport(json, report.Warnings);
+}
+
+// ---- The list of labels -------------------------------------------------------------------------
+
+namespace
+{
+using Row = std::vector<std::string>;
+
+double VolumeOf(const KnownLabel& label, const VolumeFacts& volume)
+{
+  const Vector3& spacing = volume.Spacing;
+  return static_cast<double>(label.Voxels) * spacing[0] * spacing[1] * spacing[2];
+}
+
+/** Six digits, but no powers of ten. */
+std::string SixDigits(double value)
+{
+  const int digits = value > 0.0 ? 5 - static_cast<int>(std::floor(std::log10(value))) : 0;
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", std::clamp(digits, 0, 30), value);
+  return text;
+}
+
+std::string BoxText(const std::array<int, 6>& box)
+{
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    text += (axis > 0 ? " " : "") + std::to_string(box[2 * axis]) + ".." +
+      std::to_string(box[2 * axis + 1]);
+  }
+  return text;
+}
+
+Row RowOf(const KnownLabel& label, const LabelList& list)
+{
+  Row row = { std::to_string(label.Label), std::to_string(label.Voxels),
+    SixDigits(VolumeOf(label, list.Volume)) };
+  if (list.Layers > 1)
+  {
+    row.push_back(std::to_string(label.Layer));
+  }
+  row.push_back(BoxText(label.Box));
+  row.push_back(PlainName(label.Name)); // the last, as it may be long
+  return row;
+}
+}
+
+void WriteTable(std::ostream& out, const LabelList& list)
+{
+  std::vector<Row> rows = { { "label", "voxels", "volume" } };
+  if (list.Layers > 1)
+  {
+    rows.front().push_back("layer");
+  }
+  rows.front().emplace_back("box (first..last voxel along i, j, k)");
+  rows.front().emplace_back("name");
+  for (const KnownLabel& label : list.Labels)
+  {
+    rows.push_back(RowOf(label, list));
+  }
+  for (const Row& row : rows)
+  {
+    for (std::size_t column = 0; column < row.size(); ++column)
+    {
+      std::size_t width = 0;
+      for (const Row& other : rows)
+      {
+        width = std::max(width, other[column].size());
+      }
+      const bool isLast = column + 1 == row.size();
+      const std::string blanks(isLast ? 0 : width - row[column].size(), ' ');
+      const bool isNumber = column + 2 < row.size();
+      out << (isNumber ? blanks + row[column] : row[column] + blanks) << (isLast ? "\n" : "  ");
+    }
+  }
+}
+
+std::string ReportText(const LabelList& list)
+{
+  Json json = { { "input", InputFacts(list.VolumeName, list.Volume) },
+    { "labels", Json::array() } };
+  for (const KnownLabel& label : list.Labels)
+  {
+    json["labels"].push_back({ { "label", label.Label }, { "name", label.Name },
+      { "color", AsJsonArray(label.Color) }, { "layer", label.Layer },
+      { "voxels", label.Voxels }, { "volume", AsJson(VolumeOf(label, list.Volume)) },
+      { "box", label.Box } });
+  }
+  return EndedReport(json, list.Warnings);
 }
 }

@@ -4,6 +4,8 @@
 #define volumicReport_h
 
 #include "GatherSurface.h"
+#include "LabelChoice.h"
+#include "LabelOutputs.h"
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
 
@@ -15,7 +17,6 @@ class vtkPolyData;
 
 namespace tool
 {
-class JsonWriter;
 class Ranks;
 
 /**
@@ -38,35 +39,54 @@ struct ReportInput
   std::vector<double> PeaksByRank;     ///< as the function gives them
 };
 
-/** Write the report as JSON. Lengths, areas and volumes are in world units. */
-void WriteReport(std::ostream& out, const ReportInput& input);
-
-// ---- Parts of reports ---------------------------------------------------------------------------
-
-/** The member `input`: what the volume is. */
-void WriteInput(JsonWriter& json, const std::string& name, const VolumeFacts& volume);
-
-/** Members of the size and shape of a surface, from its field data. */
-void WriteSurfaceFacts(JsonWriter& json, vtkPolyData* surface, const SurfaceSize& size);
-
-/** The member `component_features`: an object per component, the one of the largest area first. */
-void WriteComponents(JsonWriter& json, vtkPolyData* surface);
-
-/** The member `properties`: those that are meant, with their values. */
-void WriteProperties(
-  JsonWriter& json, const FilterTrio& filters, bool (*isMeant)(const PropertyOption&));
-
-/** The member `memory`. @param reader PeakMemory() when the volume had been read */
-void WriteMemory(JsonWriter& json, double reader, const std::vector<double>& byRank);
-
-/** The members `warnings` and `versions`. */
-void WriteEnd(JsonWriter& json, const std::vector<std::string>& warnings);
+/** The report as JSON. Lengths, areas and volumes are in world units. */
+std::string ReportText(const ReportInput& input);
 
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();
 
 /** That of each rank, by all of them; nothing where there is one only. */
 std::vector<double> PeaksByRank(const Ranks& ranks);
+
+// ---- Labels -------------------------------------------------------------------------------------
+
+/** All that a report of labels tells; names in it are those of ReportText where it has them. */
+struct LabelReport
+{
+  std::string VolumeName;
+  VolumeFacts Volume;
+  FilterTrio Filters;
+  const std::vector<LabelSurface>& Surfaces;
+  bool IsFinished = false;
+  double Seconds = 0.0;      ///< of the surfaces
+  double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
+  std::vector<std::string> Warnings = {};
+  std::vector<double> PeaksByRank = {};
+};
+
+/** The report as JSON, `labels` with an object for each surface. */
+std::string ReportText(const LabelReport& report);
+
+/** Of a surface's field data: voxel centres on the wrong side; 0 where that is not told. */
+vtkIdType WrongVoxels(vtkPolyData* surface, const char* name = "WrongVoxels");
+
+// ---- The list of labels -------------------------------------------------------------------------
+
+/** What --list-labels tells; names in it are those of LabelReport where it has them. */
+struct LabelList
+{
+  std::string VolumeName;
+  VolumeFacts Volume;
+  int Layers = 1;
+  std::vector<KnownLabel> Labels = {};
+  std::vector<std::string> Warnings = {};
+};
+
+/** As a table for the eye, a line for each label below a heading. */
+void WriteTable(std::ostream& out, const LabelList& list);
+
+/** As JSON, `labels` with an object for each. */
+std::string ReportText(const LabelList& list);
 }
 
 #endif

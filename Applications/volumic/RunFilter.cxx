@@ -8,12 +8,14 @@
 #include "VtkMessages.h"
 
 #include <vtkAlgorithm.h>
-#include <vtkCommand.h>
+#include <vtkCallbackCommand.h>
 #include <vtkNew.h>
 
 #include <chrono>
 #include <csignal>
 #include <functional>
+
+#include <unistd.h>
 
 namespace tool
 {
@@ -28,24 +30,16 @@ void Interrupt(int signal)
 }
 
 /** Shows the progress and hands the interruption on. Filters report at least every iteration. */
-class ProgressObserver : public vtkCommand
+void FollowProgress(vtkObject* caller, unsigned long, void* line, void*)
 {
-public:
-  static ProgressObserver* New() { return new ProgressObserver; }
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
+  auto* filter = static_cast<vtkAlgorithm*>(caller);
+  if (interrupted)
   {
-    auto* filter = static_cast<vtkAlgorithm*>(caller);
-    if (interrupted)
-    {
-      filter->SetAbortExecute(1);
-    }
-    const char* text = filter->GetProgressText();
-    this->Line->Show(filter->GetProgress(), text ? text : "");
+    filter->SetAbortExecute(1);
   }
-
-  ProgressLine* Line = nullptr;
-};
+  const char* text = filter->GetProgressText();
+  static_cast<ProgressLine*>(line)->Show(filter->GetProgress(), text ? text : "");
+}
 
 FilterRun Run(vtkAlgorithm* filter, const std::string& title, ProgressStyle style,
   const std::function<void()>& update)
@@ -53,8 +47,9 @@ FilterRun Run(vtkAlgorithm* filter, const std::string& title, ProgressStyle styl
   VtkMessages messages;
   messages.ListenTo(filter);
   ProgressLine line(title, style);
-  vtkNew<ProgressObserver> observer;
-  observer->Line = &line;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&line);
+  observer->SetCallback(FollowProgress);
   const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
 
   const auto started = std::chrono::steady_clock::now();
@@ -99,5 +94,37 @@ FilterRun RunFilter(
   vtkAlgorithm* filter, const std::string& title, ProgressStyle style, const Ranks& ranks)
 {
   return Run(filter, title, style, [filter, &ranks] { ranks.Update(filter); });
+}
+
+// ---- Full disks ---------------------------------------------------------------------------------
+
+namespace
+{
+/** What the handler writes, which may not make a text itself. Never freed: it may be called late. */
+const std::string* words = nullptr;
+
+void EndWithWords(int, siginfo_t* info, void*)
+{
+  if (info->si_code != BUS_ADRERR) // a fault of the program or the machine
+  {
+    std::signal(SIGBUS, SIG_DFL);
+    std::raise(SIGBUS);
+    return;
+  }
+  static_cast<void>(!write(STDERR_FILENO, words->data(), words->size()));
+  _exit(RuntimeFailure);
+}
+}
+
+void TellOfFullDisk(const std::string& directory)
+{
+  words = new std::string("volumic: the scratch directory" +
+    (directory.empty() ? std::string() : " " + directory) +
+    " can't keep what was put there: its disk is full, or fails, and its file system had not kept "
+    "the room that was reserved. Make room, choose another one with --scratch, or raise --memory\n");
+  struct sigaction action = {};
+  action.sa_sigaction = EndWithWords;
+  action.sa_flags = SA_SIGINFO;
+  sigaction(SIGBUS, &action, nullptr);
 }
 }

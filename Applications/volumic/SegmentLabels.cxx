@@ -1,18 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentLabels.h"
+#include "Segment.h"
 
-#include "Announcer.h"
-#include "LabelList.h"
 #include "LabelMap.h"
 #include "LabelNames.h"
 #include "LabelOutputs.h"
-#include "LabelReport.h"
-#include "ParseNumbers.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceProperties.h"
+#include "Texts.h"
 #include "ToolOptions.h"
 #include "WriteResults.h"
 
@@ -34,7 +31,6 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <utility>
 
 namespace tool
@@ -104,11 +100,9 @@ std::vector<LabelSurface> PlanSurfaces(
   std::vector<LabelSurface> surfaces;
   const std::vector<std::size_t> chosen = Named(options.Volume,
     [&] { return ChooseLabels(options.Labels, known, filter->GetBackgroundLabel()); });
-  if (chosen.empty())
-  {
-    throw Failure(options.Volume + ": it has no label but the background, " +
+  FailIf(chosen.empty(),
+    options.Volume + ": it has no label but the background, " +
       std::to_string(filter->GetBackgroundLabel()) + "; choose another one with --background");
-  }
   for (const std::size_t i : chosen)
   {
     if (!filter->GetMerge() || surfaces.empty())
@@ -118,11 +112,9 @@ std::vector<LabelSurface> PlanSurfaces(
       continue;
     }
     LabelSurface& merged = surfaces.front();
-    if (merged.Labels.front().Layer != known[i].Layer)
-    {
-      throw Failure("--merge: the labels lie in several layers of the file, of which those of one "
-                    "can be merged; choose it with --component");
-    }
+    FailIf(merged.Labels.front().Layer != known[i].Layer,
+      "--merge: the labels lie in several layers of the file, of which those of one "
+      "can be merged; choose it with --component");
     merged.Labels.push_back(known[i]);
   }
   return surfaces;
@@ -163,16 +155,9 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   }
   catch (const Failure& error)
   {
-    failure = error.what();
+    failure = options.Volume + ": " + error.what();
   }
-  ranks.Together(
-    [&]
-    {
-      if (!failure.empty())
-      {
-        throw Failure(options.Volume + ": " + failure);
-      }
-    });
+  ranks.ThrowAny(failure);
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   auto* lost = vtkStringArray::SafeDownCast(blocks->GetFieldData()->GetAbstractArray("LostLabels"));
   const std::string told = lost ? InWordsOfOptions(lost->GetValue(0)) : std::string();
@@ -218,13 +203,11 @@ void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
 {
   const bool isThere = std::any_of(report.Surfaces.begin(), report.Surfaces.end(),
     [](const LabelSurface& surface) { return surface.Surface->GetNumberOfPoints() > 0; });
-  if (!isThere)
-  {
-    throw Failure(report.IsFinished
-        ? options.Volume + ": none of the labels has a surface; smaller triangles may hold them "
-                           "(--finest, --edge-length)"
-        : "interrupted before there was a surface; nothing is written");
-  }
+  FailIf(!isThere,
+    report.IsFinished ? options.Volume +
+        ": none of the labels has a surface; smaller triangles may hold them "
+        "(--finest, --edge-length)"
+                      : "interrupted before there was a surface; nothing is written");
 }
 
 /** Write surfaces and report. @throws Failure if not all could be written. */
@@ -235,9 +218,7 @@ void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   WriteLabelSurfaces(options, surfaces, style, failures);
   if (!options.Report.empty())
   {
-    std::ostringstream text;
-    WriteReport(text, report);
-    failures.Try([&] { WriteText(text.str(), options.Report); });
+    failures.Try([&] { WriteText(ReportText(report), options.Report); });
   }
   failures.Throw();
 }
@@ -298,9 +279,7 @@ void ListLabels(const ToolOptions& options, const LabelMap& map,
   }
   if (!options.Report.empty())
   {
-    std::ostringstream text;
-    WriteReport(text, list);
-    WriteText(text.str(), options.Report);
+    WriteText(ReportText(list), options.Report);
   }
   if (options.Report != "-")
   {

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SegmentVolume.h"
+#include "Segment.h"
 
-#include "Announcer.h"
 #include "GatherSurface.h"
 #include "LabelMap.h"
 #include "LoadVolume.h"
-#include "ParseNumbers.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceFields.h"
 #include "SurfaceInputs.h"
+#include "SurfaceProperties.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "WriteOutputs.h"
@@ -50,12 +50,12 @@ struct Job
 };
 
 /** Of too little memory is said for which volume, and what helps. */
-[[noreturn]] void ThrowNamed(const ToolOptions& options, const std::string& text)
+std::string NamedReason(const ToolOptions& options, const std::string& text)
 {
-  throw Failure(text.find("memory") == std::string::npos
-      ? text
-      : options.Volume + ": not enough memory to segment it; " +
-        "a coarser level (--finest 1), or the volume cropped or resampled, needs less");
+  return text.find("memory") == std::string::npos
+    ? text
+    : options.Volume + ": not enough memory to segment it; " +
+      "a coarser level (--finest 1), or the volume cropped or resampled, needs less";
 }
 
 /** Run a filter on all ranks; what fails is told on all of them. */
@@ -74,32 +74,18 @@ FilterRun RunOnVolume(
     {
       throw; // The other ranks are in the filter yet.
     }
-    failure = "memory";
+    failure = NamedReason(job.Options, "memory");
   }
   catch (const Failure& error)
   {
-    failure = error.what();
+    failure = NamedReason(job.Options, error.what());
   }
   if (job.Volume.Part)
   {
     // Why voxels are missing, before what follows from it.
-    job.All.Together(
-      [&]
-      {
-        if (!job.Volume.Part->FailureOfReading().empty())
-        {
-          throw Failure(job.Volume.Part->FailureOfReading());
-        }
-      });
+    job.All.ThrowAny(job.Volume.Part->FailureOfReading());
   }
-  job.All.Together(
-    [&]
-    {
-      if (!failure.empty())
-      {
-        ThrowNamed(job.Options, failure);
-      }
-    });
+  job.All.ThrowAny(failure);
   run.IsInterrupted = job.All.IsAny(run.IsInterrupted);
   return run;
 }
@@ -128,11 +114,7 @@ FilterRun GiveLevels(const Job& job)
     SetInput(job, whole);
     return FilterRun();
   }
-  pyramid->SetSelectedComponent(filter->GetSelectedComponent());
-  pyramid->SetNaNIsBackground(filter->GetNaNIsBackground());
-  pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
-  pyramid->SetMemoryLimit(filter->GetMemoryLimit());
-  pyramid->SetScratchDirectory(filter->GetScratchDirectory());
+  ShareWithPyramid(filter, pyramid);
   SetInput(job, pyramid);
   const FilterRun run = RunOnVolume(job, pyramid, "Building the pyramid", job.Says.Style);
   if (run.IsInterrupted)

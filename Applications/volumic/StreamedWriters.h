@@ -3,11 +3,14 @@
 #ifndef volumicStreamedWriters_h
 #define volumicStreamedWriters_h
 
+#include "Descriptor.h"
 #include "ProgressLine.h"
 
 #include <vtkSmartPointer.h>
 
+#include <streambuf>
 #include <string>
+#include <vector>
 
 class vtkImageData;
 class vtkPolyData;
@@ -31,6 +34,37 @@ void WriteVti(vtkImageData* volume, const std::string& path, ProgressLine& line)
  * a table of the types of the cells of others, eight bytes each.
  */
 vtkSmartPointer<vtkPolyData> AsTriangles(vtkPolyData* surface);
+
+/**
+ * A new file for the stream of a writer of VTK. On a full disk such writers end the program, or
+ * destroy memory; so this takes all that they write, keeps the first error of the system to itself,
+ * and tells it at the end.
+ */
+class FileBuffer : public std::streambuf
+{
+public:
+  explicit FileBuffer(const std::string& path);
+
+  /** To call when all is written. @throws Failure with the system's reason, without the name. */
+  void Finish();
+
+private:
+  int_type overflow(int_type character) override;
+  int sync() override;
+  pos_type seekoff(
+    off_type distance, std::ios_base::seekdir from, std::ios_base::openmode which) override;
+  pos_type seekpos(pos_type place, std::ios_base::openmode which) override;
+
+  /** Hand the buffer to the file. */
+  void Empty();
+  void KeepError(bool isWell);
+
+  Descriptor File;
+  std::vector<char> Buffer;
+  off_type Start = 0; ///< of the buffer, in the file
+  off_type End = 0;   ///< of the file
+  int Error = 0;      ///< errno of what failed first
+};
 }
 
 #endif

@@ -3,8 +3,6 @@
 #include "SurfaceFormats.h"
 
 #include "CheckInputs.h"
-#include "CheckWritten.h"
-#include "FileGrowth.h"
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "RunWriter.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceInputs.h"
 
-#include "Announcer.h"
 #include "BinaryFile.h"
 #include "InputFiles.h"
 #include "LoadVolume.h"
@@ -53,10 +52,8 @@ std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
   {
     const vtkSmartPointer<vtkImageData> edges =
       LoadVoxels(options.Edges, "", filter, holder, announcer).Image;
-    if (!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()))
-    {
-      throw Failure(options.Edges + ": its size differs from the volume's");
-    }
+    FailIf(!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()),
+      options.Edges + ": its size differs from the volume's");
     name = "Edges";
     while (points->HasArray(name.c_str()))
     {
@@ -72,15 +69,10 @@ std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
 std::vector<std::string> InputsOf(const ToolOptions& options)
 {
   std::vector<std::string> inputs = FilesOfVolume(options.Volume);
-  for (const std::string& file : FilesOfVolume(options.Edges))
-  {
-    inputs.push_back(file);
-  }
-  for (const std::string& file :
-    { options.Seeds, options.InitialSurface, options.AttractingPoints })
-  {
-    inputs.push_back(file);
-  }
+  const std::vector<std::string> edges = FilesOfVolume(options.Edges);
+  inputs.insert(inputs.end(), edges.begin(), edges.end());
+  inputs.insert(
+    inputs.end(), { options.Seeds, options.InitialSurface, options.AttractingPoints });
   return inputs;
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfacePieces.h"
 
-#include "CheckWritten.h"
 #include "OutputFiles.h"
+#include "RunWriter.h"
 #include "StreamedWriters.h"
 
 #include <vtkCellArray.h>

@@ -6,7 +6,6 @@
 #include "ProgressLine.h"
 
 #include <string>
-#include <vector>
 
 class vtkPolyData;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceProperties.h"
 
-#include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <vtkDeformableSurface.h>
@@ -29,10 +29,7 @@ std::string JoinNames(const std::vector<std::string>& names)
 int FindName(const std::vector<std::string>& names, const std::string& name)
 {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-  {
-    throw UsageError("'" + name + "' is none of " + JoinNames(names));
-  }
+  FailIf<UsageError>(found == names.end(), "'" + name + "' is none of " + JoinNames(names));
   return static_cast<int>(found - names.begin());
 }
 
@@ -280,5 +277,14 @@ void ShareProperties(const FilterTrio& filters)
   {
     share(filters);
   }
+}
+
+void ShareWithPyramid(vtkDeformableSurface* filter, vtkImagePyramid* pyramid)
+{
+  pyramid->SetSelectedComponent(filter->GetSelectedComponent());
+  pyramid->SetNaNIsBackground(filter->GetNaNIsBackground());
+  pyramid->SetNumberOfThreads(filter->GetNumberOfThreads());
+  pyramid->SetMemoryLimit(filter->GetMemoryLimit());
+  pyramid->SetScratchDirectory(filter->GetScratchDirectory());
 }
 }

@@ -52,6 +52,9 @@ bool IsOfLabelsOnly(const PropertyOption& option);
 
 /** Give the labels' filter what it shares with that of the surface. */
 void ShareProperties(const FilterTrio& filters);
+
+/** Give a pyramid what it shares with the surface's filter. */
+void ShareWithPyramid(vtkDeformableSurface* filter, vtkImagePyramid* pyramid);
 }
 
 #endif

@@ -29,6 +29,16 @@ struct UsageError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/** @throws Failure, or another error, of these words if it is so. */
+template <class Error = Failure>
+void FailIf(bool isSo, const std::string& words)
+{
+  if (isSo)
+  {
+    throw Error(words);
+  }
+}
+
 /** What the work gives; of an error of this kind that it throws, the words begin with the name. */
 template <class Error = Failure, class Work>
 auto Named(const std::string& name, const Work& work) -> decltype(work())
@@ -41,6 +51,24 @@ auto Named(const std::string& name, const Work& work) -> decltype(work())
   {
     throw Error(name + ": " + error.what());
   }
+}
+
+/** What a table has under a key. @throws Failure of these words if it has nothing there. */
+template <class Table>
+const typename Table::mapped_type& EntryOf(
+  const Table& table, const typename Table::key_type& key, const std::string& words)
+{
+  const auto found = table.find(key);
+  return found != table.end() ? found->second : throw Failure(words);
+}
+
+/** The same, or what it is otherwise. */
+template <class Table>
+typename Table::mapped_type EntryOr(const Table& table, const typename Table::key_type& key,
+  const typename Table::mapped_type& otherwise)
+{
+  const auto found = table.find(key);
+  return found != table.end() ? found->second : otherwise;
 }
 
 /** Of things that are tried one after the other, what failed: it must not take the others with it. */

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ToolOptions.h"
 
-#include "CheckOptions.h"
-#include "ParseNumbers.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <algorithm>
@@ -15,7 +14,7 @@ namespace tool
 {
 namespace
 {
-/** An option that is not a property of a filter. */
+/** An option of the command line. */
 struct ProgramOption
 {
   std::string Option;
@@ -59,20 +58,15 @@ ProgramOption Show(const char* option, enum ToolOptions::Task task, const char* 
 void SetSpacing(ToolOptions& options, const std::string& text)
 {
   const std::vector<double> numbers = ParseNumbers(text, 3);
-  if (*std::min_element(numbers.begin(), numbers.end()) <= 0.0)
-  {
-    throw UsageError("distances of voxels are more than 0");
-  }
+  FailIf<UsageError>(*std::min_element(numbers.begin(), numbers.end()) <= 0.0,
+    "distances of voxels are more than 0");
   options.Spacing = { numbers[0], numbers[1], numbers[2] };
 }
 
 void SetPieceSize(ToolOptions& options, const std::string& text)
 {
   options.PieceSize = ParseNumber<int>(text);
-  if (options.PieceSize < 1)
-  {
-    throw UsageError("pieces have a triangle at least");
-  }
+  FailIf<UsageError>(options.PieceSize < 1, "pieces have a triangle at least");
 }
 
 const std::vector<ProgramOption>& InputOptions()
@@ -143,49 +137,33 @@ const std::vector<ProgramOption>& OutputOptions()
   return options;
 }
 
-/** What a name on the command line stands for: one of the two, or nothing. */
-struct FoundOption
+/** The properties of the filters, which are set when all of them are known. */
+std::vector<ProgramOption> MakeSegmentationOptions()
 {
-  const ProgramOption* Program = nullptr;
-  const PropertyOption* Property = nullptr;
-
-  bool TakesArgument() const
+  std::vector<ProgramOption> options;
+  for (const PropertyOption& property : SurfaceProperties())
   {
-    return !(this->Program ? this->Program->Argument : this->Property->Argument).empty();
+    options.push_back({ property.Option, property.Argument, property.Help,
+      [&property](ToolOptions& chosen, const std::string& text)
+      { chosen.Properties.emplace_back(&property, text); } });
   }
-};
+  return options;
+}
 
-FoundOption FindOption(const std::string& name)
+const ProgramOption& FindOption(const std::string& name)
 {
-  FoundOption found;
-  for (const auto* options : { &InputOptions(), &OutputOptions() })
+  static const std::vector<ProgramOption> segmentation = MakeSegmentationOptions();
+  for (const auto* options : { &InputOptions(), &segmentation, &OutputOptions() })
   {
     for (const ProgramOption& option : *options)
     {
-      found.Program = option.Option == name ? &option : found.Program;
+      if (option.Option == name)
+      {
+        return option;
+      }
     }
   }
-  for (const PropertyOption& option : SurfaceProperties())
-  {
-    found.Property = option.Option == name ? &option : found.Property;
-  }
-  if (!found.Program && !found.Property)
-  {
-    throw UsageError("unknown option --" + name);
-  }
-  return found;
-}
-
-void ApplyOption(ToolOptions& options, const FoundOption& found, const std::string& text)
-{
-  if (found.Program)
-  {
-    found.Program->Set(options, text);
-  }
-  else
-  {
-    options.Properties.emplace_back(found.Property, text);
-  }
+  throw UsageError("unknown option --" + name);
 }
 
 // ---- Help ---------------------------------------------------------------------------------------
@@ -242,31 +220,23 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
       (options.Volume.empty() ? options.Volume : options.Surfaces.emplace_back()) = word;
       continue;
     }
-    if (word.compare(0, 2, "--") != 0)
-    {
-      throw UsageError("unknown option " + word);
-    }
+    FailIf<UsageError>(word.compare(0, 2, "--") != 0, "unknown option " + word);
     const std::size_t equals = word.find('=');
     const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
-    const FoundOption found = FindOption(name);
+    const ProgramOption& found = FindOption(name);
+    const bool takesArgument = !found.Argument.empty();
     std::string text;
     if (equals != std::string::npos)
     {
       text = word.substr(equals + 1);
-      if (!found.TakesArgument())
-      {
-        throw UsageError("--" + name + " takes no argument");
-      }
+      FailIf<UsageError>(!takesArgument, "--" + name + " takes no argument");
     }
-    else if (found.TakesArgument())
+    else if (takesArgument)
     {
-      if (++i >= argc)
-      {
-        throw UsageError("--" + name + " needs an argument");
-      }
+      FailIf<UsageError>(++i >= argc, "--" + name + " needs an argument");
       text = argv[i];
     }
-    Named<UsageError>("--" + name, [&] { ApplyOption(options, found, text); });
+    Named<UsageError>("--" + name, [&] { found.Set(options, text); });
   }
   if (options.ListsLabels && options.Labels.empty())
   {

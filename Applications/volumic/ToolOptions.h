@@ -3,14 +3,17 @@
 #ifndef volumicToolOptions_h
 #define volumicToolOptions_h
 
+#include "ProgressLine.h"
 #include "SurfaceProperties.h"
 
 #include <array>
-#include <iosfwd>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 namespace tool
 {
@@ -63,6 +66,9 @@ struct ToolOptions
 /** @throws UsageError if the command line is not understood or lacks something. */
 ToolOptions ParseOptions(int argc, const char* const argv[]);
 
+/** @throws UsageError if something is missing, or options are given that make no sense together. */
+void CheckOptions(const ToolOptions& options);
+
 /** Set the chosen properties. @throws UsageError if a text is no value of its property. */
 void ApplyProperties(const ToolOptions& options, const FilterTrio& filters);
 
@@ -71,6 +77,33 @@ void PrintHelp(std::ostream& out, const FilterTrio& filters);
 
 /** A line per property: class, property, option, default; separated by tabs. */
 void PrintProperties(std::ostream& out, const FilterTrio& filters);
+
+/** What is told on stderr, unless --quiet. */
+class Announcer
+{
+public:
+  explicit Announcer(const ToolOptions& options) : IsQuiet(options.Quiet)
+  {
+    const bool isTerminal = isatty(STDERR_FILENO) != 0;
+    this->Style = options.Quiet ? ProgressStyle::None
+      : isTerminal              ? ProgressStyle::OneLine
+      : options.Progress        ? ProgressStyle::Lines
+                                : ProgressStyle::None;
+  }
+
+  void Say(const std::string& text) const
+  {
+    if (!this->IsQuiet)
+    {
+      std::cerr << "volumic: " << text << "\n";
+    }
+  }
+
+  ProgressStyle Style;
+
+private:
+  bool IsQuiet;
+};
 }
 
 #endif

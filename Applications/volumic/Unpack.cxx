@@ -5,15 +5,16 @@
 #include "ToolErrors.h"
 
 #include <vtk_zlib.h>
-#ifdef VOLUMIC_HAS_BZIP2
-#include <bzlib.h>
-#endif
 
 #include <algorithm>
 #include <fstream>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include <archive.h>
+#include <archive_entry.h>
 
 namespace tool
 {
@@ -21,124 +22,20 @@ namespace
 {
 constexpr std::size_t Piece = 1 << 18; ///< bytes at a time
 
-/** What a step of unpacking has come to. */
-enum class Step
+/** @throws Failure if packed data have given `done` bytes, and give more than they may. */
+void NeedNoMore(std::uint64_t got, std::uint64_t done, std::uint64_t most)
 {
-  UnderWay,
-  AtEnd,
-  Damaged
-};
-
-/** zlib; a file of gzip may have several members, each with this mark. */
-struct ZlibUnpacker
-{
-  static constexpr unsigned char Mark[2] = { 0x1f, 0x8b };
-  z_stream Stream = {};
-
-  // 32: zlib or gzip, by its head; 15: the largest window
-  bool Begin() { return inflateInit2(&this->Stream, 47) == Z_OK; }
-  bool BeginAgain() { return inflateReset(&this->Stream) == Z_OK; }
-  ~ZlibUnpacker() { inflateEnd(&this->Stream); }
-
-  Step Go()
-  {
-    const int status = inflate(&this->Stream, Z_NO_FLUSH);
-    return status == Z_STREAM_END               ? Step::AtEnd
-      : status == Z_OK || status == Z_BUF_ERROR ? Step::UnderWay
-                                                : Step::Damaged;
-  }
-};
-
-#ifdef VOLUMIC_HAS_BZIP2
-/** libbz2 likewise. */
-struct Bzip2Unpacker
-{
-  static constexpr unsigned char Mark[2] = { 'B', 'Z' };
-  bz_stream Stream = {};
-
-  bool Begin() { return BZ2_bzDecompressInit(&this->Stream, 0, 0) == BZ_OK; }
-  bool BeginAgain()
-  {
-    BZ2_bzDecompressEnd(&this->Stream);
-    return this->Begin();
-  }
-  ~Bzip2Unpacker() { BZ2_bzDecompressEnd(&this->Stream); }
-
-  Step Go()
-  {
-    const int status = BZ2_bzDecompress(&this->Stream);
-    return status == BZ_STREAM_END ? Step::AtEnd
-      : status == BZ_OK            ? Step::UnderWay
-                                   : Step::Damaged;
-  }
-};
-#endif
-
-template <class Unpacker>
-std::uint64_t Unpack(std::istream& packed, const UnpackedSink& sink, std::uint64_t most)
-{
-  Unpacker unpacker;
-  auto& stream = unpacker.Stream;
-  if (!unpacker.Begin())
-  {
-    throw Failure("what unpacks the data cannot be used");
-  }
-  std::vector<char> input(Piece);
-  std::vector<char> output(Piece);
-  const auto refill = [&]
-  {
-    if (stream.avail_in == 0)
-    {
-      packed.read(input.data(), static_cast<std::streamsize>(input.size()));
-      stream.next_in = reinterpret_cast<decltype(stream.next_in)>(input.data());
-      stream.avail_in = static_cast<unsigned int>(packed.gcount());
-    }
-    return stream.avail_in > 0;
-  };
-  const auto hasMore = [&]
-  {
-    const bool isThere = refill();
-    const auto* next = reinterpret_cast<const unsigned char*>(stream.next_in);
-    return isThere && next[0] == Unpacker::Mark[0] &&
-      (stream.avail_in == 1 || next[1] == Unpacker::Mark[1]);
-  };
-  std::uint64_t done = 0;
-  for (bool isAtEnd = false; !isAtEnd;)
-  {
-    const bool isThere = refill();
-    stream.next_out = reinterpret_cast<decltype(stream.next_out)>(output.data());
-    stream.avail_out = static_cast<unsigned int>(output.size());
-    const Step step = unpacker.Go();
-    const std::size_t got = output.size() - stream.avail_out;
-    if (step == Step::Damaged)
-    {
-      throw Failure("the packed data are damaged: their checksum or code is wrong");
-    }
-    if (got > most - done)
-    {
-      throw Failure("the packed data give more than the " + std::to_string(most) +
-        " bytes that the header tells of");
-    }
-    if (step == Step::UnderWay && got == 0 && !isThere)
-    {
-      throw Failure("the packed data are cut off: they give " + std::to_string(done) + " of " +
-        std::to_string(most) + " bytes");
-    }
-    sink(output.data(), got);
-    done += got;
-    isAtEnd = step == Step::AtEnd && !(hasMore() && unpacker.BeginAgain());
-  }
-  return done;
+  FailIf(got > most - done,
+    "the packed data give more than the " + std::to_string(most) +
+      " bytes that the header tells of");
 }
 
 /** @throws Failure unless packed data gave as many bytes as are needed. */
 void NeedUnpacked(std::uint64_t got, std::uint64_t needed)
 {
-  if (got < needed)
-  {
-    throw Failure("the packed data give " + std::to_string(got) + " bytes, " +
-      std::to_string(needed) + " are needed");
-  }
+  FailIf(got < needed,
+    "the packed data give " + std::to_string(got) + " bytes, " + std::to_string(needed) +
+      " are needed");
 }
 }
 
@@ -154,7 +51,46 @@ UnpackedSink Without(std::uint64_t before, const UnpackedSink& sink)
 
 std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint64_t most)
 {
-  return Unpack<ZlibUnpacker>(packed, sink, most);
+  z_stream stream = {};
+  // 32: zlib or gzip, by its head; 15: the largest window
+  FailIf(inflateInit2(&stream, 47) != Z_OK, "what unpacks the data cannot be used");
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
+  std::vector<char> input(Piece);
+  std::vector<char> output(Piece);
+  const auto refill = [&]
+  {
+    if (stream.avail_in == 0)
+    {
+      packed.read(input.data(), static_cast<std::streamsize>(input.size()));
+      stream.next_in = reinterpret_cast<Bytef*>(input.data());
+      stream.avail_in = static_cast<uInt>(packed.gcount());
+    }
+    return stream.avail_in > 0;
+  };
+  const auto hasMore = [&]
+  {
+    return refill() && stream.next_in[0] == 0x1f &&
+      (stream.avail_in == 1 || stream.next_in[1] == 0x8b);
+  };
+  std::uint64_t done = 0;
+  for (bool isAtEnd = false; !isAtEnd;)
+  {
+    const bool isThere = refill();
+    stream.next_out = reinterpret_cast<Bytef*>(output.data());
+    stream.avail_out = static_cast<uInt>(output.size());
+    const int status = inflate(&stream, Z_NO_FLUSH);
+    const std::size_t got = output.size() - stream.avail_out;
+    FailIf(status != Z_STREAM_END && status != Z_OK && status != Z_BUF_ERROR,
+      "the packed data are damaged: their checksum or code is wrong");
+    NeedNoMore(got, done, most);
+    FailIf(status != Z_STREAM_END && got == 0 && !isThere,
+      "the packed data are cut off: they give " + std::to_string(done) + " of " +
+        std::to_string(most) + " bytes");
+    sink(output.data(), got);
+    done += got;
+    isAtEnd = status == Z_STREAM_END && !(hasMore() && inflateReset(&stream) == Z_OK);
+  }
+  return done;
 }
 
 void InflateJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count)
@@ -162,17 +98,24 @@ void InflateJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t c
   NeedUnpacked(Inflate(packed, sink, count), count);
 }
 
-#ifdef VOLUMIC_HAS_BZIP2
 void BunzipJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count)
 {
-  NeedUnpacked(Unpack<Bzip2Unpacker>(packed, sink, count), count);
+  Archive archive(Archive::Kind::Bzip2,
+    [&packed](char* bytes, std::size_t most) -> std::int64_t
+    {
+      packed.read(bytes, static_cast<std::streamsize>(most));
+      return packed.gcount();
+    });
+  std::vector<char> output(Piece);
+  std::uint64_t done = 0;
+  for (std::size_t got = archive.Next() ? output.size() : 0; got == output.size(); done += got)
+  {
+    got = archive.Read(output.data(), output.size());
+    NeedNoMore(got, done, count);
+    sink(output.data(), got);
+  }
+  NeedUnpacked(done, count);
 }
-#else
-void BunzipJust(std::istream&, const UnpackedSink&, std::uint64_t)
-{
-  throw Failure("the encoding bzip2 is not read: this program was built without libbz2");
-}
-#endif
 
 bool IsGzip(const std::string& name)
 {
@@ -190,5 +133,91 @@ std::string HeadOf(const std::string& name, std::size_t count)
     file ? gzread(file.get(), bytes.data(), static_cast<unsigned int>(count)) : 0;
   bytes.resize(static_cast<std::size_t>(std::max(there, 0)));
   return bytes;
+}
+
+// ---- Archives -----------------------------------------------------------------------------------
+
+Archive::Archive(Kind kind, Source source)
+  : Packed(std::move(source)), Piece(1 << 18), Reader(archive_read_new(), archive_read_free)
+{
+  const bool isTar = kind == Kind::Tar;
+  this->Need(isTar ? archive_read_support_format_tar(this->Reader.get())
+                   : archive_read_support_format_raw(this->Reader.get()));
+  this->Need(isTar ? ARCHIVE_OK : archive_read_support_filter_bzip2(this->Reader.get()));
+  const auto feed = [](archive*, void* self, const void** bytes) -> la_ssize_t
+  {
+    auto* own = static_cast<Archive*>(self);
+    *bytes = own->Piece.data();
+    return static_cast<la_ssize_t>(own->Packed(own->Piece.data(), own->Piece.size()));
+  };
+  this->Need(archive_read_open(this->Reader.get(), this, nullptr, feed, nullptr));
+  FailIf(!isTar && archive_filter_code(this->Reader.get(), 0) != ARCHIVE_FILTER_BZIP2,
+    "the packed data are damaged: they do not begin as those of bzip2 do");
+}
+
+Archive::Source Archive::TarIn(const std::string& name)
+{
+  const std::shared_ptr<std::remove_pointer_t<gzFile>> file(gzopen(name.c_str(), "rb"),
+    [](gzFile opened) { return opened ? gzclose(opened) : Z_OK; });
+  FailIf(!file, "cannot be opened");
+  return [file](char* bytes, std::size_t count) -> std::int64_t
+  {
+    const int got = gzread(file.get(), bytes, static_cast<unsigned int>(count));
+    int error = Z_OK;
+    gzerror(file.get(), &error);
+    return error == Z_OK || error == Z_STREAM_END ? got : -1;
+  };
+}
+
+std::int64_t Archive::Need(std::int64_t result) const
+{
+  // Of a name that cannot be shown it only warns.
+  if (result < ARCHIVE_WARN)
+  {
+    const char* reason = archive_error_string(this->Reader.get());
+    throw Failure("the packed data are cut off, damaged or not of this kind" +
+      (reason ? " (" + std::string(reason) + ")" : std::string()));
+  }
+  return result;
+}
+
+bool Archive::Next()
+{
+  archive_entry* head = nullptr;
+  while (this->Need(archive_read_next_header(this->Reader.get(), &head)) != ARCHIVE_EOF)
+  {
+    // A file with holes gives more bytes than it has.
+    if (archive_entry_filetype(head) == AE_IFREG && !archive_entry_hardlink(head) &&
+      archive_entry_sparse_count(head) == 0)
+    {
+      const char* path = archive_entry_pathname(head);
+      const std::string name = path ? path : "";
+      this->MemberName = name.substr(name.find_last_of('/') + 1);
+      this->MemberSize = static_cast<std::uint64_t>(archive_entry_size(head));
+      return true;
+    }
+  }
+  return false;
+}
+
+std::size_t Archive::Read(char* bytes, std::size_t count)
+{
+  std::size_t done = 0;
+  for (std::size_t got = 1; done < count && got > 0; done += got)
+  {
+    got = static_cast<std::size_t>(
+      this->Need(archive_read_data(this->Reader.get(), bytes + done, count - done)));
+  }
+  return done;
+}
+
+void Archive::Finish()
+{
+  std::int64_t got = 1;
+  while (got > 0)
+  {
+    got = this->Packed(this->Piece.data(), this->Piece.size());
+  }
+  FailIf(got < 0, "the packed data are cut off or damaged");
 }
 }

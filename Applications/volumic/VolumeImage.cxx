@@ -59,18 +59,14 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
   double matrix[9];
   for (int a = 0; a < 3; ++a)
   {
-    if (!(placement.Spacing[a] > 0.0) || !std::isfinite(placement.Spacing[a]))
-    {
-      throw Failure("the distance of the voxels is not positive");
-    }
+    FailIf(!(placement.Spacing[a] > 0.0) || !std::isfinite(placement.Spacing[a]),
+      "the distance of the voxels is not positive");
     for (int b = 0; b < 3; ++b)
     {
       const double product = Dot(placement.Axes[a], placement.Axes[b]);
-      if (!(std::abs(product - (a == b ? 1.0 : 0.0)) < tolerance))
-      {
-        throw Failure("the voxel axes are not at right angles: such a sheared or tilted volume "
-                      "must be resampled first");
-      }
+      FailIf(!(std::abs(product - (a == b ? 1.0 : 0.0)) < tolerance),
+        "the voxel axes are not at right angles: such a sheared or tilted volume "
+        "must be resampled first");
       matrix[3 * b + a] = placement.Axes[a][b];
     }
   }

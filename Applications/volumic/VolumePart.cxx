@@ -31,14 +31,6 @@ namespace
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
 
-/** What a source tells of its voxels; null: nothing. */
-vtkInformation* VoxelsIn(vtkInformation* info, const std::string& array)
-{
-  return array.empty()
-    ? vtkDataObject::GetActiveFieldInformation(info, Points, vtkDataSetAttributes::SCALARS)
-    : vtkDataObject::GetNamedFieldInformation(info, Points, array.c_str());
-}
-
 bool IsEmpty(const int* extent)
 {
   return extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5];
@@ -47,16 +39,28 @@ bool IsEmpty(const int* extent)
 
 vtkStandardNewMacro(VolumePart);
 
+vtkInformation* VoxelsIn(vtkInformation* info, const std::string& array)
+{
+  return array.empty()
+    ? vtkDataObject::GetActiveFieldInformation(info, Points, vtkDataSetAttributes::SCALARS)
+    : vtkDataObject::GetNamedFieldInformation(info, Points, array.c_str());
+}
+
+int ComponentsIn(vtkInformation* voxels)
+{
+  const bool isCounted = voxels && voxels->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS());
+  return isCounted ? voxels->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()) : 1;
+}
+
 std::array<int, 3> VolumeFacts::Size() const
 {
   const auto& e = this->Extent;
   return { e[1] - e[0] + 1, e[3] - e[2] + 1, e[5] - e[4] + 1 };
 }
 
-VolumeFacts FactsOf(vtkImageData* image, int component)
+VolumeFacts FactsOf(vtkImageData* image, vtkDataArray* scalars, int component)
 {
   VolumeFacts facts;
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
   image->GetExtent(facts.Extent.data());
   image->GetSpacing(facts.Spacing.data());
   image->GetOrigin(facts.Origin.data());
@@ -70,13 +74,7 @@ VolumeFacts FactsOf(vtkImageData* image, int component)
 bool VolumePart::SetReader(vtkAlgorithm* reader, const std::string& name,
   const std::string& array, const double* spacing)
 {
-  VtkMessages messages;
-  messages.ListenTo(reader);
-  messages.Catch([&] { reader->UpdateInformation(); });
-  if (!messages.Errors.empty())
-  {
-    throw tool::Failure(name + ": cannot be read (" + messages.JoinedErrors() + ")");
-  }
+  VtkMessages().AskReader(reader, name);
   vtkInformation* info = reader->GetOutputInformation(0);
   vtkInformation* voxels = VoxelsIn(info, array);
   if (!voxels || !voxels->Has(vtkDataObject::FIELD_ARRAY_TYPE()) ||
@@ -88,27 +86,23 @@ bool VolumePart::SetReader(vtkAlgorithm* reader, const std::string& name,
   this->Name = name;
   this->Array = array;
   info->Get(Pipeline::WHOLE_EXTENT(), this->Known.Extent.data());
-  if (info->Has(vtkDataObject::SPACING()))
+  const auto take = [info](vtkInformationDoubleVectorKey* key, double* numbers)
   {
-    info->Get(vtkDataObject::SPACING(), this->Known.Spacing.data());
-  }
-  if (info->Has(vtkDataObject::ORIGIN()))
-  {
-    info->Get(vtkDataObject::ORIGIN(), this->Known.Origin.data());
-  }
-  if (info->Has(vtkDataObject::DIRECTION()))
-  {
-    info->Get(vtkDataObject::DIRECTION(), this->Known.Direction.data());
-  }
+    if (info->Has(key))
+    {
+      info->Get(key, numbers);
+    }
+  };
+  take(vtkDataObject::SPACING(), this->Known.Spacing.data());
+  take(vtkDataObject::ORIGIN(), this->Known.Origin.data());
+  take(vtkDataObject::DIRECTION(), this->Known.Direction.data());
   this->HasSpacing = spacing != nullptr;
   if (spacing)
   {
     std::copy_n(spacing, 3, this->Known.Spacing.begin());
   }
   this->Known.Type = voxels->Get(vtkDataObject::FIELD_ARRAY_TYPE());
-  const bool isCounted = voxels->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS());
-  this->Known.Components =
-    isCounted ? voxels->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()) : 1;
+  this->Known.Components = ComponentsIn(voxels);
   return true;
 }
 
@@ -118,7 +112,8 @@ void VolumePart::SetWhole(const Ranks& ranks, vtkImageData* image)
   std::string bytes(sizeof(VolumeFacts), '\0');
   if (image)
   {
-    const VolumeFacts facts = FactsOf(image, this->Component);
+    const VolumeFacts facts =
+      FactsOf(image, image->GetPointData()->GetScalars(), this->Component);
     std::memcpy(bytes.data(), &facts, sizeof(facts));
     bytes += image->GetPointData()->GetScalars()->GetName();
   }

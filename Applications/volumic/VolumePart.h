@@ -12,7 +12,9 @@
 #include <limits>
 #include <string>
 
+class vtkDataArray;
 class vtkImageData;
+class vtkInformation;
 
 namespace tool
 {
@@ -34,8 +36,14 @@ struct VolumeFacts
   std::array<int, 3> Size() const;
 };
 
-/** Of an image that is there, its scalars active. */
-VolumeFacts FactsOf(vtkImageData* image, int component);
+/** Of an image that is there, and these of its arrays. */
+VolumeFacts FactsOf(vtkImageData* image, vtkDataArray* scalars, int component);
+
+/** What a source tells of its voxels, empty: of its active scalars; null: nothing. */
+vtkInformation* VoxelsIn(vtkInformation* info, const std::string& array);
+
+/** How many components that says; 1: nothing. */
+int ComponentsIn(vtkInformation* voxels);
 
 /**
  * The volume as the ranks' filters ask for it, the part of each. Where its reader cannot read

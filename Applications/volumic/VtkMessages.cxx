@@ -5,7 +5,7 @@
 #include "ToolErrors.h"
 
 #include <vtkAlgorithm.h>
-#include <vtkCommand.h>
+#include <vtkCallbackCommand.h>
 #include <vtkExecutive.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -13,6 +13,7 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 namespace tool
@@ -27,22 +28,11 @@ std::string PlainMessage(const std::string& text)
   const std::string message = hasPlaceOnly ? text.substr(std::min(text.find('\n'), text.size()))
     : colon == std::string::npos           ? text
                                            : text.substr(colon + 3);
+  std::istringstream words(message);
   std::string plain;
-  for (const char c : message)
+  for (std::string word; words >> word;)
   {
-    const bool isSpace = c == ' ' || c == '\n' || c == '\r' || c == '\t';
-    if (!isSpace)
-    {
-      plain += c;
-    }
-    else if (!plain.empty() && plain.back() != ' ')
-    {
-      plain += ' ';
-    }
-  }
-  while (!plain.empty() && plain.back() == ' ')
-  {
-    plain.pop_back();
+    plain += (plain.empty() ? "" : " ") + word;
   }
   return plain;
 }
@@ -57,30 +47,16 @@ void KeepError(const std::string& text, std::vector<std::string>& errors)
   }
 }
 
-class MessageObserver : public vtkCommand
+/** An error or a warning, to the messages that listen; null: they have ended. */
+void KeepMessage(vtkObject*, unsigned long event, void* listening, void* data)
 {
-public:
-  static MessageObserver* New() { return new MessageObserver; }
-
-  void Execute(vtkObject*, unsigned long event, void* data) override
+  if (auto* messages = static_cast<VtkMessages*>(listening))
   {
-    if (!this->Messages)
-    {
-      return; // They have ended.
-    }
     const std::string text = PlainMessage(data ? static_cast<const char*>(data) : "");
-    if (event == vtkCommand::ErrorEvent)
-    {
-      KeepError(text, this->Messages->Errors);
-    }
-    else
-    {
-      this->Messages->Warnings.push_back(text);
-    }
+    event == vtkCommand::ErrorEvent ? KeepError(text, messages->Errors)
+                                    : messages->Warnings.push_back(text);
   }
-
-  VtkMessages* Messages = nullptr;
-};
+}
 
 /** Takes what VTK prints for objects that nobody listens to, such as the parts of a reader. */
 class OutputCatcher : public vtkOutputWindow
@@ -134,17 +110,18 @@ VtkMessages::VtkMessages() = default;
 
 VtkMessages::~VtkMessages()
 {
-  for (const vtkSmartPointer<vtkCommand>& observer : this->Observers)
+  for (const auto& observer : this->Observers)
   {
-    static_cast<MessageObserver*>(observer.Get())->Messages = nullptr;
+    observer->SetClientData(nullptr);
   }
 }
 
 void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
 {
-  const auto observer = vtkSmartPointer<MessageObserver>::New();
-  observer->Messages = this;
-  this->Observers.emplace_back(observer);
+  const auto observer = vtkSmartPointer<vtkCallbackCommand>::New();
+  observer->SetClientData(this);
+  observer->SetCallback(KeepMessage);
+  this->Observers.push_back(observer);
   for (vtkObject* object :
     { static_cast<vtkObject*>(algorithm), static_cast<vtkObject*>(algorithm->GetExecutive()) })
   {
@@ -187,6 +164,16 @@ void VtkMessages::UpdateReader(
   {
     const std::string reason = this->JoinedErrors();
     throw Failure(name + ": cannot be read (" + (reason.empty() ? "damaged file" : reason) + ")");
+  }
+}
+
+void VtkMessages::AskReader(vtkAlgorithm* reader, const std::string& name)
+{
+  this->ListenTo(reader);
+  this->Catch([&] { reader->UpdateInformation(); });
+  if (!this->Errors.empty())
+  {
+    throw Failure(name + ": cannot be read (" + this->JoinedErrors() + ")");
   }
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 class vtkAlgorithm;
-class vtkCommand;
+class vtkCallbackCommand;
 
 namespace tool
 {
@@ -37,6 +37,9 @@ public:
   void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true,
     const int* extent = nullptr);
 
+  /** Have the reader look at what the file is about. @throws Failure as above if it complains. */
+  void AskReader(vtkAlgorithm* reader, const std::string& name);
+
   /**
    * Run the action; what VTK would print meanwhile, for objects that nobody listens to, is kept.
    */
@@ -46,7 +49,7 @@ public:
   std::string JoinedErrors() const;
 
 private:
-  std::vector<vtkSmartPointer<vtkCommand>> Observers;
+  std::vector<vtkSmartPointer<vtkCallbackCommand>> Observers;
 };
 }
 

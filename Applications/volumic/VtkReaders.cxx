@@ -23,10 +23,7 @@ vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& n
   VtkMessages messages;
   messages.UpdateReader(reader, name);
   auto* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
-  if (!image)
-  {
-    throw Failure(name + ": holds no image");
-  }
+  FailIf(!image, name + ": holds no image");
   return image;
 }
 
@@ -36,10 +33,7 @@ vtkSmartPointer<vtkImageReader2> ReaderOf(const std::string& name)
   VtkMessages ignored; // Some of those that are asked complain of what they don't know.
   ignored.Catch(
     [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str())); });
-  if (!reader)
-  {
-    throw Failure(name + ": not a format that VTK's readers know");
-  }
+  FailIf(!reader, name + ": not a format that VTK's readers know");
   reader->SetFileName(name.c_str());
   return reader;
 }
@@ -63,22 +57,14 @@ VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing)
 ReaderSlabs::ReaderSlabs(const std::string& name, const Factory& make) : Name(name), Make(make)
 {
   const vtkSmartPointer<vtkImageReader2> reader = make();
-  VtkMessages messages;
-  messages.ListenTo(reader);
-  messages.Catch([&] { reader->UpdateInformation(); });
-  if (!messages.Errors.empty())
-  {
-    throw Failure(name + ": cannot be read (" + messages.JoinedErrors() + ")");
-  }
+  VtkMessages().AskReader(reader, name);
   const int* extent = reader->GetDataExtent();
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::int64_t size = std::int64_t(extent[2 * axis + 1]) - extent[2 * axis] + 1;
-    if (size < 1 || size > std::numeric_limits<int>::max())
-    {
-      throw Failure(name + ": its header is damaged: " + std::to_string(size) +
-        " voxels along axis " + std::to_string(axis + 1));
-    }
+    FailIf(size < 1 || size > std::numeric_limits<int>::max(),
+      name + ": its header is damaged: " + std::to_string(size) + " voxels along axis " +
+        std::to_string(axis + 1));
     this->Size[axis] = static_cast<int>(size);
   }
   this->Type = reader->GetDataScalarType();

@@ -3,7 +3,7 @@
 #include "WriteOutputs.h"
 
 #include "GatherSurface.h"
-#include "OutputChecks.h"
+#include "OutputFiles.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "SurfaceInputs.h"
@@ -21,7 +21,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,104 +42,56 @@ int LevelOf(vtkPolyData* surface)
   return static_cast<int>(surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0));
 }
 
-/** Have the first rank write what all ranks have a part of. */
-class OutputWriter
+/** What is written, and how. */
+struct Outputs
 {
-public:
-  OutputWriter(
-    const ToolOptions& options, const SurfaceWriting& writing, vtkDeformableSurface* filter,
-    Ranks& ranks)
-    : Options(options), Writing(writing), Filter(filter), All(ranks)
-  {
-  }
+  const ToolOptions& Options;
+  const SurfaceWriting& Writing;
+  Ranks& All;
+  Failures& Failed; ///< The same on all ranks.
 
-  void WriteSurfaces();
-  void WriteBlocksOf(vtkMultiBlockDataSet* blocks, const std::string& name,
-    const std::string& prefix, int (*numbers)(vtkPolyData*));
-  void WriteRest(const ReportInput& results);
-
-  /** @throws Failure if not all could be written. */
-  void Finish();
-
-private:
   /** By the first rank. */
-  template <class Write>
-  void Attempt(const Write& write)
+  void Attempt(const std::function<void()>& write) const
   {
     this->Failed.Try([&] { this->All.OnFirst(write); });
   }
-
-  const ToolOptions& Options;
-  const SurfaceWriting& Writing;
-  vtkDeformableSurface* Filter;
-  Ranks& All;
-  Failures Failed; ///< The same on all ranks.
 };
 
-void OutputWriter::WriteSurfaces()
+/** @param part of the surface, that this rank has */
+void WriteSurfaces(const Outputs& to, vtkPolyData* part)
 {
-  vtkPolyData* part = this->Filter->GetOutput();
   vtkSmartPointer<vtkPolyData> whole;
   bool isGathered = false;
-  for (const std::string& name : this->Options.Surfaces)
+  for (const std::string& name : to.Options.Surfaces)
   {
-    if (HasPieces(name) && !this->All.IsOne())
+    if (HasPieces(name) && !to.All.IsOne())
     {
-      this->Failed.Try([&] { WriteSurfaceOfRanks(part, name, this->Writing, this->All); });
+      to.Failed.Try([&] { WriteSurfaceOfRanks(part, name, to.Writing, to.All); });
       continue;
     }
     if (!std::exchange(isGathered, true))
     {
-      whole = GatherSurface(this->All, part);
+      whole = GatherSurface(to.All, part);
     }
-    this->Attempt([&] { WriteSurface(whole, name, this->Writing); });
+    to.Attempt([&] { WriteSurface(whole, name, to.Writing); });
   }
 }
 
-void OutputWriter::WriteBlocksOf(vtkMultiBlockDataSet* blocks, const std::string& name,
+/** @param blocks of which this rank has parts */
+void WriteSeveral(const Outputs& to, vtkMultiBlockDataSet* blocks, const std::string& name,
   const std::string& prefix, int (*numbers)(vtkPolyData*))
 {
   if (name.empty())
   {
     return;
   }
-  const vtkSmartPointer<vtkMultiBlockDataSet> whole = GatherBlocks(this->All, blocks);
-  this->Attempt(
+  const vtkSmartPointer<vtkMultiBlockDataSet> whole = GatherBlocks(to.All, blocks);
+  to.Attempt(
     [&]
     {
-      if (IsBlocks(name))
-      {
-        WriteBlocks(whole, name, this->Writing.Style);
-      }
-      else
-      {
-        WriteFolder(whole, name, prefix, this->Writing.Style, numbers);
-      }
+      IsBlocks(name) ? WriteBlocks(whole, name, to.Writing.Style)
+                     : WriteFolder(whole, name, prefix, to.Writing.Style, numbers);
     });
-}
-
-void OutputWriter::WriteRest(const ReportInput& results)
-{
-  if (!this->Options.History.empty())
-  {
-    this->Attempt([&] { WriteTable(this->Filter->GetHistory(), this->Options.History); });
-  }
-  if (this->Options.Report.empty())
-  {
-    return;
-  }
-  this->Attempt(
-    [&]
-    {
-      std::ostringstream report;
-      WriteReport(report, results);
-      WriteText(report.str(), this->Options.Report);
-    });
-}
-
-void OutputWriter::Finish()
-{
-  this->All.Together([this] { this->Failed.Throw(); });
 }
 }
 
@@ -179,17 +131,22 @@ void WriteOutputs(
   const SurfaceWriting writing = { std::string("volumic " VOLUMIC_VERSION) +
       (results.IsFinished ? "" : ", UNFINISHED: " + results.StopReason),
     options.PieceSize, style };
-  OutputWriter writer(options, writing, filter, ranks);
-  writer.WriteSurfaces();
-  writer.WriteBlocksOf(filter->GetLevels(), options.Levels, "level", LevelOf);
-  writer.WriteBlocksOf(filter->GetSnapshots(), options.Snapshots, "snapshot", nullptr);
+  Failures failures;
+  const Outputs to{ options, writing, ranks, failures };
+  WriteSurfaces(to, filter->GetOutput());
+  WriteSeveral(to, filter->GetLevels(), options.Levels, "level", LevelOf);
+  WriteSeveral(to, filter->GetSnapshots(), options.Snapshots, "snapshot", nullptr);
+  if (!options.History.empty())
+  {
+    to.Attempt([&] { WriteTable(filter->GetHistory(), options.History); });
+  }
   if (!options.Report.empty())
   {
     results.Size = SizeOf(ranks, filter->GetOutput());
     results.LevelSizes = SizesOf(ranks, filter->GetLevels());
     results.PeaksByRank = PeaksByRank(ranks);
+    to.Attempt([&] { WriteText(ReportText(results), options.Report); });
   }
-  writer.WriteRest(results);
-  writer.Finish();
+  ranks.Together([&] { failures.Throw(); });
 }
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WriteResults.h"
 
-#include "CheckWritten.h"
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "Ranks.h"
@@ -68,14 +67,15 @@ std::string FolderAbout(const std::string& path)
 
 /** Have `write` write to a path beside the file, which takes the file's place if all went well. */
 template <class Write>
-void WriteBeside(const std::string& name, const Write& write)
+void WriteBeside(const std::string& name, ProgressStyle style, const Write& write)
 {
   std::string beside;
   try
   {
     OutputFile file(name);
     beside = FolderAbout(file.Path());
-    write(file.Path());
+    ProgressLine line(TitleOf(name), style);
+    write(file.Path(), line);
     file.Publish();
   }
   catch (const std::exception& error)
@@ -87,12 +87,10 @@ void WriteBeside(const std::string& name, const Write& write)
 
 void CheckSurfaceName(const std::string& name)
 {
-  if (!FindSurfaceFormat(name))
-  {
-    throw UsageError(name +
+  FailIf<UsageError>(!FindSurfaceFormat(name),
+    name +
       ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
       ".obj .glb .iv .g .geo .facet .tri");
-  }
 }
 
 bool IsScene(const std::string& name)
@@ -108,10 +106,9 @@ bool HasPieces(const std::string& name)
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing)
 {
   const SurfaceFormat* format = FindSurfaceFormat(name);
-  WriteBeside(name,
-    [&](const std::string& path)
+  WriteBeside(name, writing.Style,
+    [&](const std::string& path, ProgressLine& line)
     {
-      ProgressLine line(TitleOf(name), writing.Style);
       const SurfaceFile file{ surface, path, writing.Remark, writing.PieceSize, line };
       format->Write(file);
       if (format->Check)
@@ -187,18 +184,14 @@ void WriteSurfaceOfRanks(
 
 void CheckVolumeName(const std::string& name)
 {
-  if (SuffixOf(name) != ".vti")
-  {
-    throw UsageError(name + ": a volume is written as .vti");
-  }
+  FailIf<UsageError>(SuffixOf(name) != ".vti", name + ": a volume is written as .vti");
 }
 
 void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle style)
 {
-  WriteBeside(name,
-    [&](const std::string& path)
+  WriteBeside(name, style,
+    [&](const std::string& path, ProgressLine& line)
     {
-      ProgressLine line(TitleOf(name), style);
       WriteVti(volume, path, line);
       CheckXml(path);
     });
@@ -207,10 +200,9 @@ void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle st
 void WriteScene(
   const std::vector<SceneObject>& objects, const std::string& name, ProgressStyle style)
 {
-  WriteBeside(name,
-    [&](const std::string& path)
+  WriteBeside(name, style,
+    [&](const std::string& path, ProgressLine& line)
     {
-      ProgressLine line(TitleOf(name), style);
       WriteGlb(objects, path, line);
     });
 }
@@ -226,10 +218,9 @@ void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, Progress
       triangles->SetBlock(i, AsTriangles(surface));
     }
   }
-  WriteBeside(name,
-    [&](const std::string& path)
+  WriteBeside(name, style,
+    [&](const std::string& path, ProgressLine& line)
     {
-      ProgressLine line(TitleOf(name), style);
       vtkNew<vtkXMLMultiBlockDataWriter> writer;
       writer->SetInputData(triangles);
       writer->SetFileName(path.c_str());
@@ -274,15 +265,14 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
 
 void WriteTable(vtkTable* table, const std::string& name)
 {
-  WriteBeside(name,
-    [&](const std::string& path)
+  WriteBeside(name, ProgressStyle::None,
+    [&](const std::string& path, ProgressLine& line)
     {
       vtkNew<vtkDelimitedTextWriter> writer;
       writer->SetInputData(table);
       writer->SetFileName(path.c_str());
       writer->SetFieldDelimiter(",");
-      ProgressLine noLine("", ProgressStyle::None);
-      RunWriter(writer.Get(), noLine);
+      RunWriter(writer.Get(), line);
       CheckLines(path, 1 + static_cast<std::uint64_t>(table->GetNumberOfRows()));
     });
 }
@@ -294,6 +284,7 @@ void WriteText(const std::string& text, const std::string& name)
     std::cout << text;
     return;
   }
-  WriteBeside(name, [&](const std::string& path) { WriteBytes(path, text.data(), text.size()); });
+  WriteBeside(name, ProgressStyle::None,
+    [&](const std::string& path, ProgressLine&) { WriteBytes(path, text.data(), text.size()); });
 }
 }

@@ -3,12 +3,11 @@
 
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
-#include "FullDisk.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
 #include "Ranks.h"
-#include "SegmentLabels.h"
-#include "SegmentVolume.h"
+#include "RunFilter.h"
+#include "Segment.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -129,10 +128,7 @@ int RunAndTell(int argc, char* argv[], Ranks& ranks)
     ranks.OnFirst(
       []
       {
-        if (!std::cout.flush())
-        {
-          throw Failure("the standard output cannot be written; is its disk full?");
-        }
+        FailIf(!std::cout.flush(), "the standard output cannot be written; is its disk full?");
       });
     return ended;
   }

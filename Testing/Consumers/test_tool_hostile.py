@@ -8,11 +8,14 @@ Each of them once crashed the program, hung, or filled the memory or the disk.
 import base64
 import gzip
 import importlib.util
+import io
+import plistlib
 import re
 import resource
 import signal
 import struct
 import subprocess
+import tarfile
 import unittest
 import zlib
 
@@ -193,6 +196,29 @@ class NestingTest(HostileTest):
                                  b'WholeExtent="0 1 0 1 0 1"><Piece Extent="0 1 0 1 0 1" '
                                  b'Source="a.vti"/></PImageData></VTKFile>')
                 self.refused("b.pvti", "elements within elements")
+
+    def test_archives_that_tell_of_more_than_they_have(self):
+        sides = [4096, 4096, 2048]
+        project = {"matrix": {"dtype": "int16", "filename": "matrix.dat", "shape": sides},
+                   "spacing": SPACING.tolist()}
+        plist = plistlib.dumps(project)
+        voxels = tarfile.TarInfo("matrix.dat")
+        voxels.size = 2 * int(np.prod(sides))
+        holes = tarfile.TarInfo("matrix.dat")
+        holes.pax_headers = {"GNU.sparse.major": "1", "GNU.sparse.minor": "0",
+                             "GNU.sparse.name": "matrix.dat", "GNU.sparse.realsize": str(voxels.size)}
+        for member, data, reason in ((voxels, b"", "cut off"),
+                                     (holes, b"1\n0\n512\n".ljust(1024, b"\0"), "no matrix.dat")):
+            content = io.BytesIO()
+            with tarfile.open(fileobj=content, mode="w", format=tarfile.PAX_FORMAT) as archive:
+                head = tarfile.TarInfo("main.plist")
+                head.size = len(plist)
+                archive.addfile(head, io.BytesIO(plist))
+                member.size = member.size or len(data)
+                archive.addfile(member)
+                content.write(data)
+            with self.subTest(reason):
+                self.refused_bytes("a.inv3", content.getvalue(), reason, modes=((),))
 
     def test_what_is_not_deep_is_read(self):
         self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
