@@ -91,6 +91,17 @@ class VolumeWindowTest(window.WindowTestCase):
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
         self.assertEqual(testing.field(surface, "StopReason"), "converged")
 
+    def test_thin_parts_after_a_run_without(self):
+        path, save = self.saved_state("thin.pvsm")
+        self.play(VOLUME + [
+            FILTER, set_iso_value(230), APPLY, gui.pause(1500),
+            window.set_box("ThinParts", True), APPLY, gui.pause(1500),
+            window.as_wide_as_the_panel(), *save], "volume-thin-parts")
+        surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
+        self.assertEqual(testing.field(surface, "Level"), -1)
+        for name in ("EdgeSize", "Thickness"):
+            self.assertTrue(surface.GetPointData().HasArray(name), name)
+
     def test_button_that_finds_the_iso_value_again(self):
         self.play(VOLUME + [
             FILTER, set_iso_value(111), gui.pause(500),
