@@ -203,10 +203,10 @@ bool Archive::Next()
 std::size_t Archive::Read(char* bytes, std::size_t count)
 {
   std::size_t done = 0;
-  for (std::size_t got = 1; done < count && got > 0; done += got)
+  for (std::int64_t got = 1; done < count && got > 0; done += static_cast<std::size_t>(got))
   {
-    got = static_cast<std::size_t>(
-      this->Need(archive_read_data(this->Reader.get(), bytes + done, count - done)));
+    got = this->Need(archive_read_data(this->Reader.get(), bytes + done, count - done));
+    FailIf(got < 0, "the packed data are damaged"); // What is a warning elsewhere is no number here.
   }
   return done;
 }
