@@ -419,10 +419,10 @@ public:
   ///@{
   /**
    * Graded triangles: how far a face of the finest level's surface may be from the isopotential, in
-   * world units; 0, the default: edges of one length, delta to 2.5 delta, everywhere. Where the
-   * surface has come to rest, edges become longer wherever the faces stay within the tolerance, up
-   * to MaximumEdgeLength, by the same verified steps: it stays closed, manifold and free of
-   * self-intersections. No edge becomes shorter than without it, so where the uniform surface is
+   * world units; 0, the default: edges of one length, delta to 2.5 delta, everywhere. The surface is
+   * divided for that level only where it asks for it, and where it has come to rest, edges become
+   * longer wherever the faces stay within the tolerance, up to MaximumEdgeLength, by the same
+   * verified steps: it stays closed, manifold and free of self-intersections. No edge becomes shorter than without it, so where the uniform surface is
    * further away (it is too coarse there, or held by a contact) so is this one: the field data
    * `WithinTolerance` and `LargestDistance` tell. About a fifth of a voxel halves the number of
    * vertices of a thick object. Not with EdgeLength, and not without SnapToIsoValue. Coarser
@@ -447,7 +447,7 @@ public:
 
   ///@{
   /**
-   * With Tolerance: by how much the wanted length of edges, in delta, grows for each length that is
+   * With Tolerance or ThinParts: by how much the wanted length of edges, in delta, grows for each length that is
    * walked, along the surface or across a wall; more than 0, at most 0.3. Little makes triangles
    * even, much makes few of them. Default: 0.2.
    */
@@ -462,7 +462,7 @@ public:
    * 2.5 delta, so that triangles of level 0 do not hold it: a wall of a voxel, a narrow gap, a thin
    * vessel. All else keeps its triangles. What Recovery finds there comes with the short edges. The
    * outcome is that of level -1, with the point arrays `EdgeSize` and `Thickness`; level 0 is what
-   * it is without. It does nothing where the run ends at a coarser level. With Tolerance, edges may
+   * it is without ThinParts and Tolerance. It does nothing where the run ends at a coarser level. With Tolerance, edges may
    * become as short where the tolerance asks for it, too. Not with EdgeLength, and not without
    * SnapToIsoValue; on several ranks all voxels are rank 0's. Default: off.
    *

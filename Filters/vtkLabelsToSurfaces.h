@@ -195,7 +195,8 @@ public:
   ///@{
   /**
    * As vtkDeformableSurface: with FinestLevel 0 (or -1) what is thinner than triangles as large as
-   * voxels can hold gets those of level -1, there alone. Default: off.
+   * voxels can hold gets those of level -1, there alone; a label that loses more than single voxels
+   * even so gets them everywhere, as without, and has no `EdgeSize` and `Thickness`. Default: off.
    */
   void SetThinParts(bool value);
   bool GetThinParts();

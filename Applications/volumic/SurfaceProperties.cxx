@@ -140,7 +140,7 @@ std::vector<PropertyOption> MakeProperties()
       "with --tolerance: no edge is to be longer, in world units; 0: automatic, about six times "
       "the mean without; five times what edges may be without at most"),
     SURFACE_NUMBER(Gradation, "gradation", "SLOPE",
-      "with --tolerance: by how much edges grow per length walked, at most 0.3"),
+      "with --tolerance or --thin-parts: by how much edges grow per length walked, at most 0.3"),
     SURFACE_SWITCH(ThinParts, true, "thin-parts",
       "shorter edges where the object, or the air in it, is thinner than two voxels, and nowhere "
       "else: holds walls, gaps and vessels that are a voxel thin"),
@@ -260,8 +260,8 @@ bool IsOfLabelsOnly(const PropertyOption& option)
   { #PROPERTY, [](const FilterTrio& f) { f.Labels->Set##PROPERTY(f.Surface->Get##PROPERTY()); } }
 static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
   SHARED(Metric), SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength),
-  SHARED(Gradation), SHARED(ThinParts), SHARED(FinestLevel), SHARED(KeepComponents), SHARED(MinimumComponentVolume),
-  SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory)
+  SHARED(Gradation), SHARED(ThinParts), SHARED(FinestLevel), SHARED(KeepComponents),
+  SHARED(MinimumComponentVolume), SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory)
 };
 
 bool IsOfLabels(const PropertyOption& option)

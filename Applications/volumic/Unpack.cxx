@@ -143,7 +143,9 @@ Archive::Archive(Kind kind, Source source)
   const bool isTar = kind == Kind::Tar;
   this->Need(isTar ? archive_read_support_format_tar(this->Reader.get())
                    : archive_read_support_format_raw(this->Reader.get()));
-  this->Need(isTar ? ARCHIVE_OK : archive_read_support_filter_bzip2(this->Reader.get()));
+  // One layer; who asks which it is unpacks as many as there are. Not by a program: that warns.
+  FailIf(!isTar && archive_read_append_filter(this->Reader.get(), ARCHIVE_FILTER_BZIP2) != ARCHIVE_OK,
+    "what unpacks the data cannot be used");
   const auto feed = [](archive*, void* self, const void** bytes) -> la_ssize_t
   {
     auto* own = static_cast<Archive*>(self);
@@ -151,8 +153,6 @@ Archive::Archive(Kind kind, Source source)
     return static_cast<la_ssize_t>(own->Packed(own->Piece.data(), own->Piece.size()));
   };
   this->Need(archive_read_open(this->Reader.get(), this, nullptr, feed, nullptr));
-  FailIf(!isTar && archive_filter_code(this->Reader.get(), 0) != ARCHIVE_FILTER_BZIP2,
-    "the packed data are damaged: they do not begin as those of bzip2 do");
 }
 
 Archive::Source Archive::TarIn(const std::string& name)
@@ -194,6 +194,8 @@ bool Archive::Next()
       const std::string name = path ? path : "";
       this->MemberName = name.substr(name.find_last_of('/') + 1);
       this->MemberSize = static_cast<std::uint64_t>(archive_entry_size(head));
+      this->MemberDone = 0;
+      this->BlockLeft = 0;
       return true;
     }
   }
@@ -203,10 +205,29 @@ bool Archive::Next()
 std::size_t Archive::Read(char* bytes, std::size_t count)
 {
   std::size_t done = 0;
-  for (std::int64_t got = 1; done < count && got > 0; done += static_cast<std::size_t>(got))
+  while (done < count)
   {
-    got = this->Need(archive_read_data(this->Reader.get(), bytes + done, count - done));
-    FailIf(got < 0, "the packed data are damaged"); // What is a warning elsewhere is no number here.
+    if (this->BlockLeft == 0)
+    {
+      const void* block = nullptr;
+      la_int64_t place = 0;
+      const auto result =
+        archive_read_data_block(this->Reader.get(), &block, &this->BlockLeft, &place);
+      if (result == ARCHIVE_EOF)
+      {
+        break;
+      }
+      FailIf(this->Need(result) != ARCHIVE_OK, "the packed data are damaged");
+      FailIf(this->BlockLeft > 0 && static_cast<std::uint64_t>(place) != this->MemberDone,
+        "the packed data have holes");
+      this->Block = static_cast<const char*>(block);
+    }
+    const std::size_t some = std::min(this->BlockLeft, count - done);
+    std::copy_n(this->Block, some, bytes + done);
+    this->Block += some;
+    this->BlockLeft -= some;
+    this->MemberDone += some;
+    done += some;
   }
   return done;
 }

@@ -91,6 +91,9 @@ private:
   std::unique_ptr<archive, int (*)(archive*)> Reader;
   std::string MemberName;
   std::uint64_t MemberSize = 0;
+  std::uint64_t MemberDone = 0; ///< bytes of it that have been read
+  const char* Block = nullptr;  ///< the next ones,
+  std::size_t BlockLeft = 0;    ///< so many
 };
 }
 

@@ -41,7 +41,9 @@ inline void CheckGrading(const Grading& grading, double edgeLength)
   {
     Refuse(WhatGrades(grading), " and Edge Length is ", edgeLength, ": edges either ",
       grading.HasTolerance() ? "keep a tolerance" : "are shorter in thin parts",
-      " or are of one length. Set Edge Length to 0, or switch the other off.");
+      " or are of one length. Set Edge Length to 0, or switch ",
+      grading.HasTolerance() && grading.ThinParts ? "Tolerance and Thin Parts" : "the other",
+      " off.");
   }
 }
 }

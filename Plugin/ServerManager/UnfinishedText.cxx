@@ -46,7 +46,9 @@ std::string TellUnfinished(vtkPVDataInformation* surfaces, vtkSMProxy* filter)
     text += ", level " + std::to_string(static_cast<int>(level->GetComponentRange(0)[0]));
     const bool isPlanned = filter && filter->GetProperty("EdgeLength") &&
       vtkSMPropertyHelper(filter, "EdgeLength").GetAsDouble() != 0.0;
-    text += filter && filter->GetProperty("FinestLevel") && !isPlanned
+    const bool goesFurther = filter && filter->GetProperty("ThinParts") &&
+      vtkSMPropertyHelper(filter, "ThinParts").GetAsInt() != 0; // To level -1, perhaps.
+    text += filter && filter->GetProperty("FinestLevel") && !isPlanned && !goesFurther
       ? " of " + std::to_string(vtkSMPropertyHelper(filter, "FinestLevel").GetAsInt())
       : "";
   }

@@ -6,6 +6,7 @@ Each of them once crashed the program, hung, or filled the memory or the disk.
 """
 
 import base64
+import bz2
 import gzip
 import importlib.util
 import io
@@ -219,6 +220,36 @@ class NestingTest(HostileTest):
                 content.write(data)
             with self.subTest(reason):
                 self.refused_bytes("a.inv3", content.getvalue(), reason, modes=((),))
+
+    def test_a_hole_beyond_the_end_of_an_archive_s_member(self):
+        # libarchive forgets of such a hole, and gives zeros.
+        side, real = 8, 2 * 8**3
+        plist = plistlib.dumps({"matrix": {"dtype": "int16", "filename": "matrix.dat",
+                                           "shape": [side] * 3}, "spacing": [1., 1., 1.]})
+        content = (self.old_head("main.plist", len(plist), b"0")
+                   + plist.ljust(-len(plist) % 512 + len(plist), b"\0")
+                   + self.old_head("matrix.dat", 512, b"S", hole=(real + 100, 512, real))
+                   + b"A" * 512 + bytes(1024))
+        self.refused_bytes("a.inv3", content, "holes", modes=((),))
+
+    @staticmethod
+    def old_head(name, size, kind, hole=None):
+        """Of a member of a tar archive of old GNU tar."""
+        head = bytearray(512)
+        for place, text in ((0, name.encode()), (100, b"0000644\0"), (124, b"%011o\0" % size),
+                            (156, kind), (257, b"ustar  \0"), (148, b" " * 8)):
+            head[place:place + len(text)] = text
+        for place, value in zip((386, 398, 483), hole or ()):
+            head[place:place + 12] = b"%011o\0" % value
+        head[148:156] = b"%06o\0 " % sum(head)
+        return bytes(head)
+
+    def test_packed_again_and_again(self):
+        empty = bz2.compress(b"")
+        twice = bz2.compress(bz2.compress(empty * 200000) * 20000)
+        head = b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 4 4\nencoding: bzip2\n\n"
+        for content in (twice, bz2.compress(bz2.compress(bytes(range(64))))):
+            self.refused_bytes("a.nrrd", head + content, "more than the 64 bytes", modes=((),))
 
     def test_what_is_not_deep_is_read(self):
         self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))

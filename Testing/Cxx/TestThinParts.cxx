@@ -149,6 +149,14 @@ TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
   }
 }
 
+TEST(ThinParts, AreNoMoreThanThatWhateverTheLongestEdgeIs)
+{
+  // That is for a tolerance.
+  const auto thin = Made(true);
+  const auto other = Made(true, [](vtkVolumeToSurface* f) { f->SetMaximumEdgeLength(0.1); });
+  ExpectSameSurfaces(thin->GetOutput(), other->GetOutput());
+}
+
 TEST(ThinParts, GoWithATolerance)
 {
   // What is flat has longer edges than those of the level, what is thin has shorter ones.
@@ -190,6 +198,8 @@ TEST(ThinParts, WhatIsWrongIsToldAndAGoodRunFollows)
   const std::vector<Case> cases = {
     { [](vtkVolumeToSurface* f) { f->SetEdgeLength(1.5); },
       { "Thin Parts is on and Edge Length is 1.5", "Set Edge Length to 0" } },
+    { [](vtkVolumeToSurface* f) { f->SetEdgeLength(1.5); f->SetTolerance(0.2); },
+      { "Tolerance is 0.2 and Edge Length is 1.5", "switch Tolerance and Thin Parts off" } },
     { [](vtkVolumeToSurface* f) { f->SnapToIsoValueOff(); },
       { "Thin Parts is on, but Snap To Iso Value is off", "Switch it off" } },
     { [](vtkVolumeToSurface* f) { f->SetIsopotentialWeight(0.); },
@@ -210,6 +220,7 @@ TEST(ThinParts, WhatIsWrongIsToldAndAGoodRunFollows)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
     filter->SetEdgeLength(0.);
+    filter->SetTolerance(0.);
     filter->SnapToIsoValueOn();
     filter->SetIsopotentialWeight(1.);
     filter->Update();

@@ -199,6 +199,41 @@ TEST(Tolerance, TakesNoPartForMissingAsItsTrianglesAreLarge)
   EXPECT_GT(FieldOf(even->GetOutput(), "LostParts"), 0) << "or there was nothing to miss";
 }
 
+TEST(Tolerance, LosesNothingThatIsThinBesideASurfaceThatKeepsItsTriangles)
+{
+  // A sheet of a voxel, two voxels beside a ball; no coarser level shows it.
+  const auto image = BallImage(40, 40, 40, 0.3);
+  for (int k = 4; k < 36; ++k)
+  {
+    for (int i = 3; i < 6; ++i)
+    {
+      image->SetScalarComponentFromDouble(i, 19, k, 0, 100.0);
+    }
+  }
+  const auto input = [&image](vtkDeformableSurface* f) { f->SetInputData(image); };
+  const auto even = Graded(0.0, input);
+  even->Update();
+  ASSERT_EQ(FieldOf(even->GetOutput(), "NumberOfComponents"), 2.);
+  for (const double tolerance : { 0.1, 0.2, 0.5, 2. })
+  {
+    SCOPED_TRACE(tolerance);
+    const auto graded = Graded(tolerance, input);
+    graded->Update();
+    for (const char* name : { "MissingParts", "MissingBoundary", "NumberOfComponents" })
+    {
+      EXPECT_EQ(FieldOf(graded->GetOutput(), name), FieldOf(even->GetOutput(), name)) << name;
+    }
+    // It is as long as it is.
+    double bounds[6];
+    double ofEven[6];
+    graded->GetOutput()->GetBounds(bounds);
+    even->GetOutput()->GetBounds(ofEven);
+    EXPECT_NEAR(bounds[0], ofEven[0], 0.5);
+    EXPECT_NEAR(bounds[4], ofEven[4], 1.);
+    EXPECT_NEAR(bounds[5], ofEven[5], 1.);
+  }
+}
+
 TEST(Tolerance, StaysWithTheComponentsThatAreKept)
 {
   const auto filter =

@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A surface at rest gets longer edges where a tolerance allows, in the same visits, with the same
-// verified displacements and edits as everything else.
+// A surface is divided only where it is asked for, and where it rests gets longer edges as far as a
+// tolerance allows; in the same visits, with the same verified displacements and edits as everything
+// else.
 
 #include "Core/Common/Select.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/GradedSizes.h"
+#include "Core/Image/VoxelNumbers.h"
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace volumic
@@ -75,6 +79,21 @@ bool SurfaceEvolution::Implementation::DivideWhereWanted(double delta)
   this->ApplySizes(divided);
   this->LabelComponents();
   return true;
+}
+
+void SurfaceEvolution::Implementation::DivideNear(const LostBoundary& lost)
+{
+  const LevelImage& image = this->TheField->Image();
+  const VoxelNumbers numbers(image.Size);
+  std::vector<Vector> places;
+  for (const std::int64_t voxel : lost.Voxels())
+  {
+    const std::array<int, 3> index = numbers.PlaceOf(voxel);
+    places.emplace_back(static_cast<float>(index[0] * image.Step[0]),
+      static_cast<float>(index[1] * image.Step[1]), static_cast<float>(index[2] * image.Step[2]));
+  }
+  GradedSizes sizes(this->State, *this->TheField, this->WantedGrading, this->Threads);
+  this->ApplySizes(sizes.ShrinkNear(places));
 }
 
 void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)

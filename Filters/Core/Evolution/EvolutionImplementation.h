@@ -30,8 +30,8 @@ namespace volumic
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
  * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx makes the visits
  * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
- * EvolutionGrading.cxx gives it longer edges where it is flat, EvolutionVerification.cxx has a last
- * look at it, EvolutionHistory.cxx tells of it.
+ * EvolutionGrading.cxx divides it here and there, and gives it longer edges where it is flat,
+ * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -203,9 +203,12 @@ struct SurfaceEvolution::Implementation
   // EvolutionGrading.cxx:
   /**
    * From a level of this delta: only where what is seen on the new one asks for shorter edges.
-   * @return false, and nothing is done, if it does so nearly everywhere
+   * @return false where a tolerance asks for them at more than half of the vertices: then all is to
+   *         be divided, and laid out
    */
   bool DivideWhereWanted(double delta);
+  /** The same about parts that are lost, so that these can be enclosed beside it. */
+  void DivideNear(const LostBoundary& lost);
   void Grade(const Dynamics& dynamics);
   void ApplySizes(const std::vector<int>& changed);
   void DeleteInsideOut();

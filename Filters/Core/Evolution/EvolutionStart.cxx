@@ -142,9 +142,17 @@ void SurfaceEvolution::Implementation::Recover()
   }
   const auto find = [&](PartKind kind, double from, double to)
   {
-    LostPartCover cover = FindLostParts(this->State, *this->TheField, kind,
-      this->Options.MinimumPartSize, this->Threads,
-      this->CheckpointOf(Monitor::Activity::Recovering, from, to), part.get());
+    const auto look = [&]
+    {
+      return FindLostParts(this->State, *this->TheField, kind, this->Options.MinimumPartSize,
+        this->Threads, this->CheckpointOf(Monitor::Activity::Recovering, from, to), part.get());
+    };
+    LostPartCover cover = look();
+    if (cover.Found > 0 && recovers && this->State.Sizing.IsGraded())
+    {
+      this->DivideNear(cover.Boundary); // Else nothing that is near would be clear of it.
+      cover = look();
+    }
     this->AgreeOnStop();
     return cover;
   };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace volumic
@@ -24,6 +25,11 @@ constexpr float LeastChange = 0.57735f;
  * the surface is divided there: something new has come in sight.
  */
 constexpr float MostOffset = 0.5f;
+/**
+ * From a lost voxel to what must have the least delta for a part about it to be enclosed, in that:
+ * twice the circumradius of a cell of the cover, and the longest reach. See FindLostParts.
+ */
+constexpr float NearLostInDelta = 9.f;
 /** Changes of a size that are worth no visit, as a share of it. */
 constexpr float SmallChange = 0.02f;
 /**
@@ -61,7 +67,8 @@ void GradedSizes::Begin(float delta)
 {
   // A surface that evolves brings parts together whose sizes know nothing of each other.
   constexpr float any = 1.f;
-  const float first = std::clamp(delta, this->Least, this->Most);
+  const float most = this->Wanted.HasTolerance() ? this->Most : delta;
+  const float first = std::max(this->Least, std::min(delta, most));
   this->State.Size.Fill(first);
   this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), first, any);
 }
@@ -261,6 +268,17 @@ std::vector<int> GradedSizes::Refine()
       }
     });
   return this->Change([&](int v) { return this->RefinedSize(v, offsets); });
+}
+
+std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& places)
+{
+  const SurfaceState& s = this->State;
+  LargeVector<std::uint8_t> isNear(s.Mesh.Rings.size(), 0);
+  for (const Vector& place : places)
+  {
+    s.Grid.Visit(place, NearLostInDelta * this->Least, [&](int v) { isNear[v] = 1; });
+  }
+  return this->Change([&](int v) { return isNear[v] ? this->Least : s.Sizing.At(v); });
 }
 
 std::vector<int> GradedSizes::Adjust(float growth)

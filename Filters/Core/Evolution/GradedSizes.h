@@ -14,8 +14,8 @@
 namespace volumic
 {
 /**
- * The delta that each vertex of a surface at rest should have, so that its faces keep a tolerance, or thin parts are held:
- * found from how far they are from the isopotential as they are. The distance of a face's middle
+ * The delta that each vertex of a surface should have, so that its faces keep a tolerance, or thin
+ * parts are held: found from how far they are from the isopotential as they are. The distance of a face's middle
  * grows with the square of its edges. Lengths: workspace.
  *
  * The peers take the curvature alone (CGAL's Adaptive_sizing_field, MMG's hausd); what is measured
@@ -36,6 +36,8 @@ public:
    * of this one, would need. @return whose has changed
    */
   std::vector<int> Refine();
+  /** The least about these places, as far as what would be enclosed there reaches. */
+  std::vector<int> ShrinkNear(const std::vector<Vector>& places);
 
   /**
    * Changes the sizes towards what keeps the tolerance, each by a factor of at most `growth`, and

@@ -7,7 +7,7 @@ namespace volumic
 {
 /**
  * How the edges of a surface may differ: as long as a tolerance allows where the isopotential is
- * flat, no shorter than elsewhere where it is not.
+ * flat, as short as the finest level's where that, or what is thin, asks for it.
  */
 struct Grading
 {

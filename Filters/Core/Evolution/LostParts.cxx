@@ -117,26 +117,54 @@ std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, const VoxelNumb
   return cells;
 }
 
+/** Two triangles that intersect, one of them about v, have corners nearer than this. */
+float ReachAbout(const SurfaceState& state, int v)
+{
+  const float least = state.Sizing.SmallestReach();
+  if (!state.Sizing.IsGraded())
+  {
+    return least;
+  }
+  // That of a surface whose longest edges are those of the faces about it.
+  const SurfaceMesh& mesh = state.Mesh;
+  const Ring& ring = mesh.Rings[v];
+  float squared = 0.f;
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    const Vector p = mesh.Position[ring.Item[i]];
+    squared = std::max({ squared, SquaredDistance(mesh.Position[v], p),
+      SquaredDistance(p, mesh.Position[ring.Next(i)]) });
+  }
+  return std::max(least,
+    std::sqrt(squared) * (SizingField::ReachInDelta / SizingField::LongestEdgeInDelta));
+}
+
 /** Whether no triangle of the surface can reach the cell. */
 bool IsClearOfSurface(
   const SurfaceState& state, const CellLattice& lattice, const CellLattice::Cell& cell)
 {
-  const auto hasWithin = [&state](const Point& p, float radius)
+  const auto hasWithin = [&state](const Point& p, float more)
   {
     const Vector place(
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-    return state.Grid.HasWithin(place, radius, state.Mesh.Position);
+    bool found = false;
+    state.Grid.Visit(place, state.Sizing.LargestReach() + more,
+      [&](int v)
+      {
+        const float reach = ReachAbout(state, v) + more;
+        found = found || SquaredDistance(place, state.Mesh.Position[v]) <= reach * reach;
+      });
+    return found;
   };
-  const float reach = state.Sizing.LargestReach();
   const float radius =
     static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Sizing.OfLevel();
-  if (!hasWithin(lattice.Centre(cell), radius + reach))
+  if (!hasWithin(lattice.Centre(cell), radius))
   {
     return true;
   }
   for (int i = 0; i < CellLattice::NumberOfCorners; ++i)
   {
-    if (hasWithin(lattice.Corner(cell, i), reach))
+    if (hasWithin(lattice.Corner(cell, i), 0.f))
     {
       return false;
     }

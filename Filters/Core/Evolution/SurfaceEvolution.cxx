@@ -284,7 +284,7 @@ SurfaceResult SurfaceEvolution::Result() const
         }
       }
     });
-  if (grading.HasTolerance())
+  if (s.Sizing.KeepsGradation()) // It has come to rest, or was at it.
   {
     result.FitToTolerance = sizes.Measure();
   }

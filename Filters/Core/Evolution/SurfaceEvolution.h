@@ -119,7 +119,7 @@ struct SurfaceResult : IndexedSurface
   double Delta = 0.;                          ///< delta_h, workspace.
   LargeVector<float> Size;      ///< Of a graded surface delta per point, workspace; else empty.
   LargeVector<float> Thickness; ///< With thin parts, per point, workspace; else empty.
-  std::optional<Fit> FitToTolerance; ///< With a tolerance.
+  std::optional<Fit> FitToTolerance; ///< With a tolerance, from the time on when it rested.
 };
 
 /**

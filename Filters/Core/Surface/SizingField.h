@@ -72,12 +72,15 @@ public:
     graded.OfVertices = &sizes;
     graded.Most = std::max(most, this->LevelDelta);
     const float length = LongestEdgeInDelta * gradation;
-    graded.TimesFurther = gradation < 1.f
+    graded.HasGradation = gradation < 1.f;
+    graded.TimesFurther = graded.HasGradation
       ? (std::exp(length) - 1.f) / (length * (1.f - gradation))
       : graded.Most / graded.LevelDelta;
     return graded;
   }
   bool IsGraded() const { return this->OfVertices != nullptr; }
+  /** Whether it is, and its delta grows by no more than a gradation. */
+  bool KeepsGradation() const { return this->HasGradation; }
   /** How many times further what may intersect is than where all are alike. */
   float Further() const { return this->TimesFurther; }
   /** A length in delta that something about a vertex reaches, so many times further. */
@@ -137,6 +140,7 @@ private:
   float LevelDelta = 1;
   float Most = 1;
   float TimesFurther = 1;
+  bool HasGradation = false;
   const LargeVector<float>* OfVertices = nullptr; ///< Null: all have that of the level.
 };
 }

@@ -110,7 +110,7 @@ Edit SurfaceEditor::Split(int u, int v)
   s.PreviousPosition[m] = (before(u) + before(v)) * 0.5f;
   s.NearOthers[m] = s.NearOthers[u] | s.NearOthers[v];
   s.FieldValue[m] = 0.5f * (s.FieldValue[u] + s.FieldValue[v]);
-  s.Size[m] = 0.5f * (s.Size[u] + s.Size[v]);
+  s.Size[m] = s.Sizing.OfEdge(u, v);
   ++this->Counts().Splits;
   this->TouchStar(m);
   return this->Done(first, m);
@@ -168,7 +168,9 @@ Edit SurfaceEditor::CollapseInto(
     // As on the edge there; else sizes would be steeper than the gradation, about an end that moves.
     const float toKept = Length(position - s.Mesh.Position[kept]);
     const float toRemoved = Length(position - s.Mesh.Position[removed]);
-    s.Size[kept] = (s.Size[kept] * toRemoved + s.Size[removed] * toKept) / (toKept + toRemoved);
+    const float length = toKept + toRemoved;
+    const float share = length > 0.f ? toRemoved / length : 1.f;
+    s.Size[kept] = s.Sizing.At(kept) * share + s.Sizing.At(removed) * (1.f - share);
   }
   s.RemoveVertex(removed);
   EdgeCollapse{ kept, removed }.Apply(s.Mesh, this->Places());
