@@ -16,7 +16,10 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexGrain = 2048;
-/** Share of the tolerance that is aimed at: the regularisation moves vertices along the surface. */
+/**
+ * Share of the tolerance that is aimed at: the regularisation moves vertices along the surface. With
+ * 1 a tenth fewer vertices keep it at 97 % of the points of GradedSurface.HasFewerTriangles*.
+ */
 constexpr float AimedShare = 0.8f;
 /** The least factor of a change: a level's, so that an edge is split into two or three. */
 constexpr float LeastChange = 0.57735f;

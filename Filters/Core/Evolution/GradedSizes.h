@@ -15,8 +15,8 @@ namespace volumic
 {
 /**
  * The delta that each vertex of a surface should have, so that its faces keep a tolerance, or thin
- * parts are held: found from how far they are from the isopotential as they are. The distance of a face's middle
- * grows with the square of its edges. Lengths: workspace.
+ * parts are held: found from how far they are from the isopotential as they are. The distance of a
+ * face's middle grows with the square of its edges. Lengths: workspace.
  *
  * The peers take the curvature alone (CGAL's Adaptive_sizing_field, MMG's hausd); what is measured
  * holds where the curvature is that of noise, too.
