@@ -6,6 +6,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceCheck.h"
+#include "Core/Surface/SurfaceBlocks.h"
 #include "EvolutionTestTools.h"
 
 #include <gtest/gtest.h>
@@ -44,26 +45,30 @@ inline double OutsideBoxAndBall(double x, double y, double z)
 using Outside = std::function<double(double x, double y, double z)>;
 
 /** What is nearer than 0 to something is more than half. */
-inline TestVolume VolumeOf(const Outside& outside)
+inline TestVolume VolumeOf(const Outside& outside, int size = 48)
 {
-  return MakeVolume(48, [&outside](double x, double y, double z)
+  return MakeVolume(size, [&outside](double x, double y, double z)
     { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
 }
 
 /** The surface of something, on one level. */
 inline SurfaceResult SurfaceOf(
-  const Outside& outside, const Grading& grading, Executor& executor, double blockSide = 0.)
+  const Outside& outside, const Grading& grading, Executor& executor, int size = 48)
 {
-  const TestVolume volume = VolumeOf(outside);
-  SurfaceOptions options = IsoHalf();
-  options.BlockSide = blockSide;
+  const TestVolume volume = VolumeOf(outside, size);
   Monitor silent;
-  SurfaceEvolution evolution(options, executor, silent);
+  SurfaceEvolution evolution(IsoHalf(), executor, silent);
   evolution.StartEnclosing(volume.Image, 0);
   evolution.SetGrading(grading);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   EXPECT_EQ(evolution.Verified().Found, 0);
   return evolution.Result();
+}
+
+/** Whether a volume of so many voxels is visited in several blocks, where this is the largest delta. */
+inline bool HasSeveralBlocks(double size, double delta)
+{
+  return SurfaceBlocks::FrameOf({ size, size, size }, SurfaceBlocks::SideInDelta * delta).Size[0] > 1;
 }
 
 /** Calls visit(u, v, length) for each edge, twice. */

@@ -193,15 +193,16 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
 
 TEST(GradedSurface, IsTheSameOnAnyThreads)
 {
-  // With edges of up to 3 voxels and blocks of 24 times 1.2 of them there are several.
+  constexpr int size = 60;
   Grading grading = Within(0.5);
   grading.MaximumEdgeLength = 3.;
+  EXPECT_TRUE(HasSeveralBlocks(size, grading.MaximumEdgeLength / 2.5));
   for (const double gradation : { 0.2, Grading::MostGradation })
   {
     SCOPED_TRACE(gradation);
     grading.Gradation = gradation;
     const auto run = [&grading](Executor& executor)
-    { return SurfaceOf(OutsideBoxAndBall, grading, executor, 12.); };
+    { return SurfaceOf(OutsideBoxAndBall, grading, executor, size); };
     const SurfaceResult one = run(Alone);
     ExpectLegal(one);
     DelayedThreads three(3, 5, 40, 7);

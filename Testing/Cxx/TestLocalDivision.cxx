@@ -38,17 +38,15 @@ struct TwoLevels
   SurfaceEvolution::LostParts Lost;
 };
 TwoLevels SurfaceOfTwoLevels(const Outside& outside,
-  const Grading& grading, double fineUnit = 1., Executor& executor = Alone, double blockSide = 0.)
+  const Grading& grading, double fineUnit = 1., Executor& executor = Alone, int size = 48)
 {
-  const TestVolume volume = VolumeOf(outside);
+  const TestVolume volume = VolumeOf(outside, size);
   LevelImage coarse = volume.Image;
   coarse.Unit = fineUnit * std::sqrt(3.);
   LevelImage fine = volume.Image;
   fine.Unit = fineUnit;
-  SurfaceOptions options = IsoHalf();
-  options.BlockSide = blockSide;
   Monitor silent;
-  SurfaceEvolution evolution(options, executor, silent);
+  SurfaceEvolution evolution(IsoHalf(), executor, silent);
   evolution.StartEnclosing(coarse, 1);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   evolution.SetGrading(grading);
@@ -173,14 +171,17 @@ TEST(LocalDivision, HoldsWhatIsLeftOfAPlateThinnerThanAVoxel)
 TEST(LocalDivision, OfTwoLevelsIsTheSameOnAnyThreads)
 {
   const double below = 1. / std::sqrt(3.);
+  constexpr int size = 60;
+  Grading grading = Within(0.25);
+  grading.MaximumEdgeLength = 3.;
+  EXPECT_TRUE(HasSeveralBlocks(size, grading.MaximumEdgeLength / 2.5));
   for (const bool thin : { false, true })
   {
     SCOPED_TRACE(thin);
-    const auto run = [thin, below](Executor& executor)
+    const auto run = [&](Executor& executor)
     {
-      return thin
-        ? SurfaceOfTwoLevels(OutsideBoxAndPlate, ThinParts(), below, executor, 14.).AtRest
-        : SurfaceOfTwoLevels(OutsideBoxAndBall, Within(0.25), 1., executor, 12.).AtRest;
+      return thin ? SurfaceOfTwoLevels(OutsideBoxAndPlate, ThinParts(), below, executor, size).AtRest
+                  : SurfaceOfTwoLevels(OutsideBoxAndBall, grading, 1., executor, size).AtRest;
     };
     const SurfaceResult one = run(Alone);
     ExpectLegal(one);
