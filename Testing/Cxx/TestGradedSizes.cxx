@@ -234,6 +234,30 @@ TEST(GradedSizes, MeasureByLookingForTheIsopotential)
     << "two units are as far as is looked then";
 }
 
+TEST(GradedSizes, AreTheLeastWhereTheFinerLevelShowsSomethingElse)
+{
+  const TestVolume volume = BallVolume(48, 20.);
+  const Field field(volume.Image, IsoHalf(), Alone);
+  Grading grading;
+  grading.ThinParts = true;
+  for (const double radius : { 20., 19.3 })
+  {
+    SCOPED_TRACE(radius);
+    SurfaceState state;
+    state.Sizing = SizingField(0.85f);
+    state.Mesh.Append(DividedIcosahedron({ 24., 24., 24. }, radius, 1.4));
+    state.Reset(Vector(0, 0, 0), Vector(48, 48, 48));
+    std::vector<int> all(state.Mesh.Rings.size());
+    std::iota(all.begin(), all.end(), 0);
+    state.UpdateShape(all, Alone);
+    GradedSizes sizes(state, field, grading, Alone);
+    sizes.Begin(1.47f);
+    const std::vector<int> changed = sizes.Refine();
+    EXPECT_EQ(changed.size(), radius == 20. ? 0u : all.size());
+    EXPECT_EQ(state.Sizing.At(0), radius == 20. ? 1.47f : 0.85f);
+  }
+}
+
 TEST(GradedSizes, HaveBoundsWhateverLengthIsAskedFor)
 {
   const TestVolume volume = BallVolume(16, 5.);
