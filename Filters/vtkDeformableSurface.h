@@ -422,11 +422,12 @@ public:
    * world units; 0, the default: edges of one length, delta to 2.5 delta, everywhere. The surface is
    * divided for that level only where it asks for it, and where it has come to rest, edges become
    * longer wherever the faces stay within the tolerance, up to MaximumEdgeLength, by the same
-   * verified steps: it stays closed, manifold and free of self-intersections. No edge becomes shorter than without it, so where the uniform surface is
-   * further away (it is too coarse there, or held by a contact) so is this one: the field data
-   * `WithinTolerance` and `LargestDistance` tell. About a fifth of a voxel halves the number of
-   * vertices of a thick object. Not with EdgeLength, and not without SnapToIsoValue. Coarser
-   * levels are not graded; on several ranks the finest level is rank 0's.
+   * verified steps: it stays closed, manifold and free of self-intersections. Without ThinParts no
+   * edge becomes shorter than without a tolerance, so where the uniform surface is further away (it
+   * is too coarse there, or held by a contact) so is this one: the field data `WithinTolerance` and
+   * `LargestDistance` tell. About a fifth of a voxel halves the number of vertices of a thick object.
+   * Not with EdgeLength, and not without SnapToIsoValue. Coarser levels are not graded; on several
+   * ranks the finest level is rank 0's.
    *
    * The peers take the curvature (CGAL's adaptive remeshing, MMG's hausd); here distances are
    * measured, see Documentation/differences.md. No part of the paper.
@@ -447,9 +448,9 @@ public:
 
   ///@{
   /**
-   * With Tolerance or ThinParts: by how much the wanted length of edges, in delta, grows for each length that is
-   * walked, along the surface or across a wall; more than 0, at most 0.3. Little makes triangles
-   * even, much makes few of them. Default: 0.2.
+   * With Tolerance or ThinParts: by how much the wanted length of edges, in delta, grows for each
+   * length that is walked, along the surface or across a wall; more than 0, at most 0.3. Little makes
+   * triangles even, much makes few of them. Default: 0.2.
    */
   virtual void SetGradation(double value);
   virtual double GetGradation();
@@ -462,9 +463,10 @@ public:
    * 2.5 delta, so that triangles of level 0 do not hold it: a wall of a voxel, a narrow gap, a thin
    * vessel. All else keeps its triangles. What Recovery finds there comes with the short edges. The
    * outcome is that of level -1, with the point arrays `EdgeSize` and `Thickness`; level 0 is what
-   * it is without ThinParts and Tolerance. It does nothing where the run ends at a coarser level. With Tolerance, edges may
-   * become as short where the tolerance asks for it, too. Not with EdgeLength, and not without
-   * SnapToIsoValue; on several ranks all voxels are rank 0's. Default: off.
+   * it is without ThinParts and Tolerance. It does nothing where the run ends at a coarser level.
+   * With Tolerance, edges may become as short where the tolerance asks for it, too. Not with
+   * EdgeLength, and not without SnapToIsoValue; on several ranks all voxels are rank 0's. Default:
+   * off.
    *
    * No part of the paper.
    */

@@ -86,6 +86,14 @@ inline void VisitEdges(
   }
 }
 
+inline void ExpectSame(const SurfaceResult& one, const SurfaceResult& other)
+{
+  EXPECT_EQ(one.Points, other.Points);
+  EXPECT_EQ(one.Triangles, other.Triangles);
+  EXPECT_EQ(one.Size, other.Size);
+  EXPECT_EQ(one.Thickness, other.Thickness);
+}
+
 inline void ExpectLegal(const SurfaceResult& surface)
 {
   EXPECT_EQ(CountSelfIntersections(surface), 0);

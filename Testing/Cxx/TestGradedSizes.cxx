@@ -207,9 +207,7 @@ TEST(GradedSurface, IsTheSameOnAnyThreads)
     ExpectLegal(one);
     DelayedThreads three(3, 5, 40, 7);
     const SurfaceResult other = run(three);
-    EXPECT_EQ(one.Points, other.Points);
-    EXPECT_EQ(one.Triangles, other.Triangles);
-    EXPECT_EQ(one.Size, other.Size);
+    ExpectSame(one, other);
     EXPECT_EQ(one.FitToTolerance->LargestDistance, other.FitToTolerance->LargestDistance);
     EXPECT_EQ(one.FitToTolerance->WithinTolerance, other.FitToTolerance->WithinTolerance);
   }

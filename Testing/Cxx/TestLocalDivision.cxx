@@ -186,10 +186,6 @@ TEST(LocalDivision, OfTwoLevelsIsTheSameOnAnyThreads)
     const SurfaceResult one = run(Alone);
     ExpectLegal(one);
     DelayedThreads three(3, 5, 40, 7);
-    const SurfaceResult other = run(three);
-    EXPECT_EQ(one.Points, other.Points);
-    EXPECT_EQ(one.Triangles, other.Triangles);
-    EXPECT_EQ(one.Size, other.Size);
-    EXPECT_EQ(one.Thickness, other.Thickness);
+    ExpectSame(one, run(three));
   }
 }
