@@ -10,6 +10,7 @@
 #include <vtkFeatureEdges.h>
 #include <vtkFieldData.h>
 #include <vtkMath.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -69,6 +70,12 @@ inline double EnclosedVolume(vtkPolyData* surface)
     volume += vtkMath::Dot(p[0], cross) / 6.0;
   }
   return volume;
+}
+
+/** What is at a level of the output Levels. */
+inline vtkPolyData* SurfaceAt(vtkDeformableSurface* filter, unsigned int level)
+{
+  return vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
 }
 
 /** How many edges do not have two triangles. */

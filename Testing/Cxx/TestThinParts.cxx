@@ -60,11 +60,6 @@ vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const Choice& choose = 
   return filter;
 }
 
-vtkPolyData* SurfaceAt(vtkDeformableSurface* filter, unsigned int level)
-{
-  return vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
-}
-
 bool HasThickness(vtkPolyData* surface)
 {
   return surface->GetPointData()->HasArray("Thickness") != 0;
@@ -242,7 +237,7 @@ TEST(ThinParts, AreOfLabelsToo)
       for (int i = 0; i < 40; ++i)
       {
         const bool isBlock = std::max({ std::abs(i - 10), std::abs(j - 20), std::abs(k - 20) }) < 8;
-        const double r = std::sqrt(std::pow(i - 28.3, 2) + std::pow(j - 19.8, 2) + std::pow(k - 20.1, 2));
+        const double r = std::hypot(i - 28.3, j - 19.8, k - 20.1);
         map->SetScalarComponentFromDouble(i, j, k, 0, isBlock ? 1. : r > 7.5 && r < 8.5 ? 2. : 0.);
       }
     }

@@ -41,11 +41,6 @@ vtkSmartPointer<vtkDeformableSurface> Graded(double tolerance, const Choice& cho
   return filter;
 }
 
-vtkPolyData* SurfaceAt(vtkDeformableSurface* filter, unsigned int level)
-{
-  return vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
-}
-
 bool IsGraded(vtkPolyData* surface)
 {
   return surface && surface->GetPointData()->HasArray("EdgeSize") != 0;
