@@ -35,14 +35,17 @@ public:
   int SplitLongEdges();
   int CollapseShortEdges();
   int FlipEdges();
+  /** Triangles with a small angle: their shortest edge is collapsed, or their longest flipped. */
+  int RemoveSlivers();
 
 private:
   bool MayCollapse(int u, int v);
-  /** Where the vertex goes that two become. */
-  Vector PlaceOf(int kept, int removed) const;
-  bool TryCollapse(int kept, int removed);
+  /** With the vertex in the middle, where both are alike, or at either end. */
+  bool TryCollapse(int u, int v);
+  bool TryCollapseAt(const Vector& place, int kept, int removed);
   void Collapse(int kept, int removed, const Vector& place);
-  bool TryFlip(int u, int v);
+  /** @param flatness cosine of the angle that there may be between the faces */
+  bool TryFlip(int u, int v, double flatness);
   void Split(int u, int v);
   float SquaredEdge(int u, int v) const
   {

@@ -20,9 +20,9 @@ namespace volumic
 namespace
 {
 /** Rounds of edits and steps, */
-static int Steps=getenv("VS")?atoi(getenv("VS")):2; static int FirstPush=getenv("VF")?atoi(getenv("VF")):3; static int Rounds = getenv("VR")?atoi(getenv("VR")):8;
+static int Steps=getenv("VS")?atoi(getenv("VS")):2; static int FirstPush=getenv("VF")?atoi(getenv("VF")):2; static int Rounds = getenv("VR")?atoi(getenv("VR")):5;
 /** then of flips and steps alone. */
-static int LastRounds = getenv("VL")?atoi(getenv("VL")):4;
+static int LastRounds = getenv("VL")?atoi(getenv("VL")):2;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
@@ -153,7 +153,8 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, double edge, Executor& exe
 {
   clock_t last = clock();
   const auto lap = [&](const char* n) { if (getenv("VT")) printf("  %s %.3f\n", n, double(clock()-last)/CLOCKS_PER_SEC); last = clock(); };
-  InterfaceMesh mesh = MakeInterfaceStart(fields, getenv("VP") ? atoi(getenv("VP")) : 1, executor);
+  InterfaceMesh mesh = InterfaceLattice(fields, edge, executor).Start(executor);
+  if (getenv("VT")) printf("pitch %d\n", InterfaceLattice(fields, edge, executor).Pitch());
   lap("start");
   const double tolerance = ToleranceOfEdge * edge;
   int all = Rounds + LastRounds;
@@ -169,6 +170,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, double edge, Executor& exe
       }
       lap("edits");
       int c=remesher.FlipEdges();
+      if (round>1) { int d = remesher.RemoveSlivers(); if (getenv("VT")) printf("slivers %d\n", d); }
       lap("flips");
       if (getenv("VT")) printf("round %d: splits %d collapses %d flips %d faces %zu\n", round,a,b,c,mesh.Faces.size());
     }
