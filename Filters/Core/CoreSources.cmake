@@ -36,6 +36,7 @@ set(volumic_core_sources
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
   Labels/LabelSides.cxx
+  Labels/SmallParts.cxx
   Labels/TouchingSurfaces.cxx
   Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx
@@ -101,6 +102,7 @@ set(volumic_core_sources
   Evolution/SurfaceIteration.cxx
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
+  Interfaces/InterfaceFit.cxx
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
   Interfaces/InterfaceRemesher.cxx

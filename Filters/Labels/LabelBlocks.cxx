@@ -215,6 +215,18 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   return JoinedBy(" ", warnings);
 }
 
+void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface)
+{
+  std::vector<vtkIdType> voxels;
+  for (const int label : choice.Labels)
+  {
+    voxels.push_back(image.Labels().at(label).Count);
+  }
+  AddField<vtkIntArray>(surface, "Label", choice.Labels);
+  AddNames(surface, choice.Labels, choice.Names);
+  AddField<vtkIdTypeArray>(surface, "LabelVoxels", voxels);
+}
+
 void FillEmptyBlocks(const std::vector<std::string>& names, vtkMultiBlockDataSet* output)
 {
   for (std::size_t i = 0; i < names.size(); ++i)

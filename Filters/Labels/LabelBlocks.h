@@ -38,6 +38,9 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
   vtkMultiBlockDataSet* output);
 
+/** Names, colours and voxels of all labels, for a surface that has them all. */
+void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface);
+
 /**
  * The same blocks, empty, for ranks that have no surfaces: writers and readers of ParaView wait for
  * each other where ranks have different ones.

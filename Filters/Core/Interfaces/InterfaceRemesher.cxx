@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace volumic
 {
@@ -62,9 +63,9 @@ double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
   return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
 }
 
-InterfaceRemesher::InterfaceRemesher(
-  InterfaceMesh& mesh, double shortest, double longest, double tolerance)
-  : Mesh(mesh), Clearance(mesh, tolerance), Shortest(static_cast<float>(shortest * shortest)),
+InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest,
+  double tolerance, std::function<bool()> goOn)
+  : Mesh(mesh), GoOn(std::move(goOn)), Clearance(mesh, tolerance), Shortest(static_cast<float>(shortest * shortest)),
     Longest(static_cast<float>(longest * longest))
 {
   this->Clearance.Reset(std::max(mesh.LongestEdge(), longest));
@@ -74,7 +75,7 @@ int InterfaceRemesher::SplitLongEdges()
 {
   int count = 0;
   // New faces are looked at in their turn.
-  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
     const InterfaceMesh::Face face = this->Mesh.Faces[f];
     if (!face.IsThere())
@@ -127,7 +128,7 @@ void InterfaceRemesher::Split(int u, int v)
 int InterfaceRemesher::CollapseShortEdges()
 {
   int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
     for (int k = 0; k < 3 && this->Mesh.Faces[f].IsThere(); ++k)
     {
@@ -273,7 +274,7 @@ void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
 int InterfaceRemesher::RemoveSlivers()
 {
   int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
     const std::array<int, 3> v = this->Mesh.Faces[f].Vertex;
     if (!this->Mesh.Faces[f].IsThere())
@@ -304,7 +305,7 @@ int InterfaceRemesher::RemoveSlivers()
 int InterfaceRemesher::FlipEdges()
 {
   int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
     for (int k = 0; k < 3; ++k)
     {

@@ -6,6 +6,7 @@
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 
+#include <functional>
 #include <vector>
 
 namespace volumic
@@ -28,8 +29,10 @@ public:
   /**
    * @param shortest, longest between which edges are wanted; lengths of the workspace
    * @param tolerance nearer than that triangles are never
+   * @param goOn      asked now and then; after false no more edits are made
    */
-  InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance);
+  InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance,
+    std::function<bool()> goOn);
 
   /** All edits once. @return how many were made */
   int SplitLongEdges();
@@ -39,6 +42,8 @@ public:
   int RemoveSlivers();
 
 private:
+  /** Whether to look at this face and those after it. */
+  bool GoesOn(std::size_t face) { return face % FacesPerQuestion != 0 || this->GoOn(); }
   bool MayCollapse(int u, int v);
   /** With the vertex in the middle, where both are alike, or at either end. */
   bool TryCollapse(int u, int v);
@@ -53,7 +58,10 @@ private:
       this->Mesh.Position[static_cast<std::size_t>(v)]);
   }
 
+  static constexpr std::size_t FacesPerQuestion = 4096;
+
   InterfaceMesh& Mesh;
+  std::function<bool()> GoOn;
   InterfaceClearance Clearance;
   InterfaceClearance::Memory Memory;
   float Shortest; ///< squared

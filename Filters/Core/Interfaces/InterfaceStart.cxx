@@ -73,6 +73,8 @@ public:
     }
   }
 
+  /** Has voxels be of the object whose field is the largest there. */
+  void FollowFields(Executor& executor);
   void FindMiddles(Executor& executor);
   void CutBrick(int i, int j, int k);
   InterfaceMesh Take()
@@ -102,7 +104,7 @@ private:
     const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front);
 
   const InterfaceFields& Fields;
-  const LabelMap& Map;
+  LabelMap Map;
   int Pitch;
   std::array<int, 3> Corners; ///< of cubes, along each axis
   VoxelBox Middles;           ///< of cubes
@@ -170,6 +172,27 @@ Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) const
 {
   return this->Map.Voxels[static_cast<std::size_t>(
     VoxelBox::Of(this->Map.Size).NumberOf(voxel[0], voxel[1], voxel[2]))];
+}
+
+void LatticeCutter::FollowFields(Executor& executor)
+{
+  constexpr int side = LabelBricks::Side;
+  ForBlocks(executor, static_cast<std::size_t>(this->Map.Size[2]), 1,
+    [&](std::size_t layer, std::size_t, std::size_t)
+    {
+      const int k = static_cast<int>(layer);
+      for (int j = 0; j < this->Map.Size[1]; ++j)
+      {
+        for (int i = 0; i < this->Map.Size[0]; ++i)
+        {
+          if (this->Fields.HasInterfaces(i / side, j / side, k / side))
+          {
+            this->Map.Voxels[static_cast<std::size_t>(
+              VoxelBox::Of(this->Map.Size).NumberOf(i, j, k))] = this->Fields.LargestAt(i, j, k);
+          }
+        }
+      }
+    });
 }
 
 LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
@@ -536,6 +559,7 @@ InterfaceLattice::InterfaceLattice(
 InterfaceMesh InterfaceLattice::Start(Executor& executor) const
 {
   LatticeCutter cutter(this->Fields, this->Distance);
+  cutter.FollowFields(executor);
   cutter.FindMiddles(executor);
   const std::array<int, 3>& bricks = this->Fields.Bricks().Size();
   for (int k = 0; k < bricks[2]; ++k)
