@@ -48,18 +48,17 @@ double EdgeOf(const LabelSettings& settings, const Workspace& space)
 }
 }
 
-LabelMap LabelInterfaceMaker::WithOutside(const LabelMap& map, int objects)
+LabelMap LabelInterfaceMaker::Padded(const LabelMap& map, int objects)
 {
   LabelMap padded;
   padded.Spacing = map.Spacing;
-  padded.NumberOfObjects = objects + 1;
-  const auto outside = static_cast<LabelMap::Number>(objects + 1);
+  padded.NumberOfObjects = objects;
   for (int axis = 0; axis < 3; ++axis)
   {
     padded.Size[axis] = map.Size[axis] + 2 * Margin;
   }
   const VoxelBox all = VoxelBox::Of(padded.Size);
-  padded.Voxels.assign(static_cast<std::size_t>(all.Count()), outside);
+  padded.Voxels.resize(static_cast<std::size_t>(all.Count()), 0);
   const LabelMap::Number* from = map.Voxels.data();
   for (int k = 0; k < map.Size[2]; ++k)
   {
@@ -67,8 +66,7 @@ LabelMap LabelInterfaceMaker::WithOutside(const LabelMap& map, int objects)
     {
       std::transform(from, from + map.Size[0],
         padded.Voxels.begin() + all.NumberOf(Margin, j + Margin, k + Margin),
-        [&](LabelMap::Number object)
-        { return object == 0 || object > objects ? outside : object; });
+        [&](LabelMap::Number object) { return object > objects ? LabelMap::Number(0) : object; });
       from += map.Size[0];
     }
   }
@@ -88,7 +86,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
       static_cast<std::int64_t>(std::ceil(settings.MinimumComponentVolume / ofVoxel)),
       keep == KeepComponentsType::LargestComponent);
   }
-  this->Map = WithOutside(map, objects);
+  this->Map = Padded(map, objects);
   threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
 }
 
@@ -199,7 +197,7 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
 
 std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) const
 {
-  std::vector<LabelSurface> surfaces(static_cast<std::size_t>(this->Map.NumberOfObjects) - 1);
+  std::vector<LabelSurface> surfaces(static_cast<std::size_t>(this->Map.NumberOfObjects));
   std::vector<std::vector<int>> faces = this->Mesh.FindFacesOfObjects();
   faces.resize(surfaces.size() + 1);
   threads.Run(
@@ -242,17 +240,16 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
     sides->InsertNextTypedTuple(nothing);
   }
   const auto labelOf = [&](int object)
-  {
-    return object <= static_cast<int>(labels.size())
-      ? labels[static_cast<std::size_t>(object) - 1]
-      : outside;
-  };
+  { return object > 0 ? labels[static_cast<std::size_t>(object) - 1] : outside; };
   vtkNew<vtkCellArray> triangles;
-  const int second = this->Space.IsMirrored() ? 2 : 1;
   for (const InterfaceMesh::Face& face : this->Mesh.Faces)
   {
+    // What faces the outside is seen from there.
+    const bool isTurned = face.Behind == 0;
+    const int second = this->Space.IsMirrored() != isTurned ? 2 : 1;
     triangles->InsertNextCell({ face.Vertex[0], face.Vertex[second], face.Vertex[3 - second] });
-    const int both[2] = { labelOf(face.Behind), labelOf(face.Front) };
+    const int both[2] = { labelOf(isTurned ? face.Front : face.Behind),
+      labelOf(isTurned ? face.Behind : face.Front) };
     sides->InsertNextTypedTuple(both);
   }
   interfaces->SetPoints(points);

@@ -48,8 +48,8 @@ public:
   vtkSmartPointer<vtkPolyData> Interfaces(const std::vector<int>& labels, int outside) const;
 
 private:
-  /** The map with a margin, so that all about the labels is an object of its own, the last. */
-  static LabelMap WithOutside(const LabelMap& map, int objects);
+  /** The map with a margin, and 0 for all that is no object of a label. */
+  static LabelMap Padded(const LabelMap& map, int objects);
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
 

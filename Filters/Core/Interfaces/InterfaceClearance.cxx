@@ -104,6 +104,7 @@ void InterfaceClearance::Change(int face)
   const float longest = std::max({ SquaredDistance(at[v[0]], at[v[1]]),
     SquaredDistance(at[v[1]], at[v[2]]), SquaredDistance(at[v[2]], at[v[0]]) });
   const float reach = static_cast<float>(ReachOfEdge * std::sqrt(longest) + this->Tolerance);
+  this->LongestReach = std::max(this->LongestReach, reach);
   for (const int w : v)
   {
     float& of = this->Reach[static_cast<std::size_t>(w)];

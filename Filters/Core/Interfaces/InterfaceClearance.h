@@ -25,7 +25,7 @@ public:
    */
   InterfaceClearance(const InterfaceMesh& mesh, double tolerance);
 
-  /** Lays its grid afresh. @param longest no edge will be longer */
+  /** Lays its grid afresh. @param longest of the edges, about */
   void Reset(double longest);
   void Add(int v)
   {

@@ -61,13 +61,13 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   const std::function<bool(double share)>& goOn)
   : Map(bricks), Lengths(step)
 {
-  const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects);
+  const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
   // The largest first, as none should be waited for at the end.
   std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 1);
+  std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b)
     { return bricks.ExtentOf(a).Bricks.Count() > bricks.ExtentOf(b).Bricks.Count(); });
-  std::vector<BricksOfObject> made(count + 1);
+  std::vector<BricksOfObject> made(count);
   std::atomic<std::size_t> done{ 0 };
   std::atomic<bool> goesOn{ true };
   ForBlocks(executor, count, 1,
@@ -82,7 +82,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
       const double share = static_cast<double>(++done) / static_cast<double>(count);
       goesOn = goOn(share) && goesOn;
     });
-  this->Shifts.assign(count + 1, 0.f);
+  this->Shifts.assign(count, 0.f);
   this->First.assign(static_cast<std::size_t>(VoxelBox::Of(bricks.Size()).Count()) + 1, 0);
   for (const BricksOfObject& of : made)
   {
@@ -95,7 +95,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   this->Objects.resize(this->First.back());
   this->Values.resize(this->First.back() * VoxelsOfBrick);
   std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
-  for (std::size_t object = 1; object <= count; ++object)
+  for (std::size_t object = 0; object < count; ++object)
   {
     BricksOfObject& of = made[object];
     for (std::size_t n = 0; n < of.Bricks.size(); ++n)

@@ -22,7 +22,7 @@ namespace volumic
  * fields are the same: they cover space without gap or overlap, whatever the fields are. At the
  * centres of voxels that is what the map says, as each field has the right sign there.
  *
- * Each voxel of the map must be of an object: what is around all others is one, too.
+ * Object 0, what is about all others, is one of them.
  */
 class InterfaceFields
 {
@@ -80,7 +80,7 @@ public:
   LabelMap::Number LargestAt(int i, int j, int k) const;
 
 private:
-  static constexpr float MostShift = 0.08f; ///< smallest distances of voxels
+  static constexpr float MostShift = 0.2f; ///< smallest distances of voxels
   static constexpr int Side = LabelBricks::Side;
   static constexpr std::size_t VoxelsOfBrick = static_cast<std::size_t>(Side) * Side * Side;
 

@@ -20,19 +20,22 @@ constexpr int VolumeSweeps = 200;
 /** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
 constexpr float PushOfWrong = 0.25f;
 
-/** Of each object but the last the voxels that its surface has on the wrong side. */
+/** Of each object but 0 the voxels that its surface has on the wrong side. */
 std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
   const InterfaceFields& fields, double tolerance, Executor& executor)
 {
   const LabelBricks& bricks = fields.Bricks();
   std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
-  // The last one has no end.
   std::vector<std::vector<std::int64_t>> wrong(
-    static_cast<std::size_t>(bricks.Map().NumberOfObjects));
+    static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1);
   faces.resize(wrong.size());
   ForBlocks(executor, wrong.size(), 1,
     [&](std::size_t object, std::size_t, std::size_t)
     {
+      if (object == 0)
+      {
+        return; // It has no end.
+      }
       std::vector<int> vertices;
       IndexedSurface surface = mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices);
       for (Point& p : surface.Points)
@@ -55,12 +58,12 @@ std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
 void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
 {
   const LabelBricks& bricks = fields.Bricks();
-  const auto last = static_cast<std::size_t>(bricks.Map().NumberOfObjects);
+  const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
   const std::array<double, 3>& step = fields.Step();
   const double ofVoxel = step[0] * step[1] * step[2];
-  std::vector<double> missing(last + 1, 0.);
+  std::vector<double> missing(count, 0.);
   std::map<std::array<std::size_t, 2>, double> areas;
-  for (std::size_t object = 1; object < last; ++object)
+  for (std::size_t object = 1; object < count; ++object)
   {
     missing[object] =
       ofVoxel * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
@@ -77,9 +80,9 @@ void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
       areas[{ face.Behind, face.Front }] += 0.5 * Length(across);
     }
   }
-  std::vector<double> shifts(last + 1, 0.);
-  std::vector<double> sums(last + 1);
-  std::vector<double> weights(last + 1);
+  std::vector<double> shifts(count, 0.);
+  std::vector<double> sums(count);
+  std::vector<double> weights(count);
   for (int sweep = 0; sweep < VolumeSweeps; ++sweep)
   {
     sums = missing;
@@ -94,12 +97,12 @@ void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
       weights[a] += area;
       weights[b] += area;
     }
-    for (std::size_t object = 1; object < last; ++object)
+    for (std::size_t object = 1; object < count; ++object)
     {
       shifts[object] = weights[object] > 0. ? sums[object] / weights[object] : 0.;
     }
   }
-  for (std::size_t object = 1; object < last; ++object)
+  for (std::size_t object = 1; object < count; ++object)
   {
     fields.Shift(static_cast<int>(object), static_cast<float>(shifts[object]));
   }
@@ -112,16 +115,15 @@ std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, 
   const VoxelNumbers numbers(map.Size);
   const std::vector<std::vector<std::int64_t>> wrong =
     FindWrong(mesh, fields, tolerance, executor);
-  const int outside = map.NumberOfObjects;
   std::size_t count = 0;
   for (std::size_t object = 1; object < wrong.size(); ++object)
   {
     for (const std::int64_t voxel : wrong[object])
     {
       fields.Push(static_cast<int>(object), numbers.PlaceOf(voxel), PushOfWrong);
-      if (map.Voxels[static_cast<std::size_t>(voxel)] == outside)
+      if (map.Voxels[static_cast<std::size_t>(voxel)] == 0)
       {
-        fields.Push(outside, numbers.PlaceOf(voxel), PushOfWrong);
+        fields.Push(0, numbers.PlaceOf(voxel), PushOfWrong);
       }
     }
     count += wrong[object].size();

@@ -287,10 +287,7 @@ private:
 
   void TakeBackIntersecting(const std::vector<int>& faces, bool isFirst, std::vector<int>& back)
   {
-    for (const int v : back)
-    {
-      this->Clearance.Move(v);
-    }
+    this->Follow(back);
     std::vector<std::vector<std::array<int, 2>>> ofBlocks((faces.size() + BlockSize - 1) / BlockSize);
     ForBlocks(this->Threads, faces.size(), BlockSize,
       [&](std::size_t block, std::size_t begin, std::size_t end)
@@ -316,9 +313,16 @@ private:
         }
       }
     }
+    this->Follow(back);
+  }
+
+  /** What has been taken back is where it is found from now on. */
+  void Follow(const std::vector<int>& back)
+  {
     for (const int v : back)
     {
       this->Clearance.Move(v);
+      this->Mesh.ForFaces(v, [&](int f) { this->Clearance.Change(f); });
     }
   }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <tuple>
 #include <unordered_map>
@@ -150,8 +151,8 @@ Number LatticeCutter::ObjectBetween(int i, int j, int k) const
   }
   std::sort(about.begin(), about.end());
   const auto* end = std::unique(about.begin(), about.end());
-  Number best = 0;
-  float most = 0.f;
+  Number best = about[0];
+  float most = -std::numeric_limits<float>::max();
   for (const auto* object = about.begin(); object != end; ++object)
   {
     float sum = 0.f;
@@ -159,7 +160,7 @@ Number LatticeCutter::ObjectBetween(int i, int j, int k) const
     {
       sum += this->Fields.At(*object, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
     }
-    if (best == 0 || sum > most)
+    if (sum > most)
     {
       best = *object;
       most = sum;

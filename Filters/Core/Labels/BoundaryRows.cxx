@@ -51,7 +51,9 @@ BoundaryRows::BoundaryRows(const LabelBricks& bricks, int object)
   }
   const VoxelBox all = VoxelBox::Of(this->Count);
   const VoxelBox map = VoxelBox::Of(bricks.Size());
-  std::vector<unsigned char> sides(static_cast<std::size_t>(all.Count()), isOther);
+  // Outside the map all is 0.
+  std::vector<unsigned char> sides(
+    static_cast<std::size_t>(all.Count()), object == 0 ? isObject : isOther);
   for (int k = 0; k < this->Count[2]; ++k)
   {
     for (int j = 0; j < this->Count[1]; ++j)
@@ -63,6 +65,7 @@ BoundaryRows::BoundaryRows(const LabelBricks& bricks, int object)
         {
           continue;
         }
+        sides[static_cast<std::size_t>(all.NumberOf(i, j, k))] = isOther;
         const LabelBricks::Range found = bricks.ObjectsIn(at[0], at[1], at[2]);
         if (found.Has(static_cast<LabelMap::Number>(object)))
         {

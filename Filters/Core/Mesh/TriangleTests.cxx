@@ -190,7 +190,11 @@ bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tol
   if (shared == 2)
   {
     const Plane planeG = PlaneOf(g.Corner);
-    return Dot(planeF.Normal, planeG.Normal) < FoldedCosine * planeF.Size * planeG.Size;
+    // Neighbours of one orientation go along their edge in opposite directions.
+    const bool isForwardInF = (inF[1] - inF[0] + 3) % 3 == 1;
+    const bool isForwardInG = (inG[1] - inG[0] + 3) % 3 == 1;
+    const double side = isForwardInF != isForwardInG ? 1. : -1.;
+    return side * Dot(planeF.Normal, planeG.Normal) < FoldedCosine * planeF.Size * planeG.Size;
   }
   if (shared == 1)
   {
