@@ -90,7 +90,7 @@ void CheckSurfaceName(const std::string& name)
   FailIf<UsageError>(!FindSurfaceFormat(name),
     name +
       ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
-      ".obj .glb .iv .g .geo .facet .tri");
+      ".obj .glb .iv .g .geo .facet .tri .msh .smesh .poly");
 }
 
 bool IsScene(const std::string& name)
