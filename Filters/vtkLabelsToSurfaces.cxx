@@ -14,6 +14,7 @@
 #include "Input/Workspace.h"
 #include "Labels/LabelBlocks.h"
 #include "Labels/LabelImage.h"
+#include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
 #include "Labels/LabelSurface.h"
 #include "Labels/LabelSurfaces.h"
@@ -30,6 +31,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
@@ -69,6 +71,7 @@ public:
 //------------------------------------------------------------------------------
 vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInternals>())
 {
+  this->SetNumberOfOutputPorts(2);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
   this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
@@ -85,6 +88,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(Smoothing, double, Settings.Smoothing)                           \
   MADE(VoxelTolerance, double, Settings.VoxelTolerance)                 \
   MADE(Gap, double, Settings.Gap)                                       \
+  MADE(SharedInterfaces, bool, Settings.SharedInterfaces)               \
   MADE(Metric, int, Settings.Metric)                                    \
   MADE(EdgeLength, double, Settings.EdgeLength)                         \
   MADE(Tolerance, double, Settings.Grading.Tolerance)                   \
@@ -228,6 +232,17 @@ int vtkLabelsToSurfaces::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+int vtkLabelsToSurfaces::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkMultiBlockDataSet" : "vtkPolyData");
+  return 1;
+}
+
+vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
 //------------------------------------------------------------------------------
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
@@ -267,7 +282,8 @@ void vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input, vtkInformatio
 
 //------------------------------------------------------------------------------
 void vtkLabelsToSurfaces::MakeSurfaces(
-  volumic::Communicator& ranks, vtkDataObject* input, vtkMultiBlockDataSet* output)
+  volumic::Communicator& ranks, vtkDataObject* input, vtkMultiBlockDataSet* output,
+  vtkPolyData* interfaces)
 {
   const vtkInternals& internals = *this->Internals;
   this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
@@ -287,12 +303,25 @@ void vtkLabelsToSurfaces::MakeSurfaces(
   }
   labels.Share(ranks);
   volumic::HostThreads threads(internals.NumberOfThreads);
-  std::optional<volumic::LabelBricks> bricks;
-  threads.Run([&] { bricks.emplace(labels.Map, threads); });
-  volumic::LabelSurfaceMaker maker(*bricks, labels.Frame, internals.Settings);
-  const std::vector<volumic::LabelSurface> surfaces =
-    volumic::MakeLabelSurfaces(ranks, maker, *bricks, labels.Names, internals.NumberOfThreads,
-      threads, show, std::move(this->Internals->Stopped));
+  std::vector<volumic::LabelSurface> surfaces;
+  bool mayKeep = false;
+  if (!internals.Settings.SharedInterfaces)
+  {
+    std::optional<volumic::LabelBricks> bricks;
+    threads.Run([&] { bricks.emplace(labels.Map, threads); });
+    volumic::LabelSurfaceMaker maker(*bricks, labels.Frame, internals.Settings);
+    surfaces = volumic::MakeLabelSurfaces(ranks, maker, *bricks, labels.Names,
+      internals.NumberOfThreads, threads, show, std::move(this->Internals->Stopped));
+    mayKeep = !maker.KeepsApart();
+  }
+  else if (ranks.Rank() == 0)
+  {
+    volumic::LabelInterfaceMaker maker(labels.Map, static_cast<int>(labels.Names.size()),
+      labels.Frame, internals.Settings, threads);
+    maker.Make(threads, show);
+    surfaces = maker.Surfaces(threads);
+    interfaces->ShallowCopy(maker.Interfaces(choice.Labels, internals.BackgroundLabel));
+  }
   if (ranks.Rank() != 0)
   {
     volumic::FillEmptyBlocks(labels.Names, output);
@@ -304,7 +333,7 @@ void vtkLabelsToSurfaces::MakeSurfaces(
   }
   const bool isFinished = std::all_of(surfaces.begin(), surfaces.end(),
     [](const volumic::LabelSurface& surface) { return surface.IsFinished; });
-  if (!isFinished && volumic::SegmentationCache::MayKeep(this) && !maker.KeepsApart())
+  if (!isFinished && mayKeep && volumic::SegmentationCache::MayKeep(this))
   {
     this->Internals->Stopped = surfaces;
   }
@@ -350,7 +379,7 @@ int vtkLabelsToSurfaces::RequestData(
     [&]
     {
       this->MakeSurfaces(*ranks, vtkDataObject::GetData(inputVector[0]),
-        vtkMultiBlockDataSet::GetData(outputVector));
+        vtkMultiBlockDataSet::GetData(outputVector), vtkPolyData::GetData(outputVector, 1));
       for (const std::string& warning : this->Internals->Memory.TakeWarnings())
       {
         vtkWarningMacro(<< warning);

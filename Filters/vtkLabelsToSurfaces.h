@@ -85,6 +85,7 @@
 class vtkDataObject;
 class vtkMultiBlockDataSet;
 class vtkMultiProcessController;
+class vtkPolyData;
 namespace volumic
 {
 class Communicator;
@@ -166,6 +167,18 @@ public:
    */
   void SetGap(double gap);
   double GetGap();
+  ///@}
+
+  ///@{
+  /**
+   * One mesh of all labels, in which neighbours have the same triangles between them, instead of
+   * surfaces that overlap, or leave a gap: no pair of its triangles intersects, what is between two
+   * labels is there once, at output port 1, and each block of port 0 is a closed surface of the same
+   * points. What nobody has chosen is outside. Not with Gap, Tolerance or ThinParts. Default: off.
+   */
+  void SetSharedInterfaces(bool shared);
+  bool GetSharedInterfaces();
+  vtkBooleanMacro(SharedInterfaces, bool);
   ///@}
 
   ///@{
@@ -269,6 +282,9 @@ public:
   vtkMultiProcessController* GetController();
   ///@}
 
+  /** Output port 1: see SharedInterfaces. */
+  vtkPolyData* GetInterfaces();
+
   /**
    * Seconds that the work on the surface of a block took at the last update: of the one thread that
    * made it, or, of a large label, of all together. No field data, as these are the same at each
@@ -289,6 +305,7 @@ protected:
   ~vtkLabelsToSurfaces() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(
@@ -297,8 +314,8 @@ protected:
 private:
   class vtkInternals;
   /** By all ranks together. Errors are thrown. */
-  void MakeSurfaces(
-    volumic::Communicator& ranks, vtkDataObject* input, vtkMultiBlockDataSet* output);
+  void MakeSurfaces(volumic::Communicator& ranks, vtkDataObject* input,
+    vtkMultiBlockDataSet* output, vtkPolyData* interfaces);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 
   vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;

@@ -99,6 +99,13 @@ set(volumic_core_sources
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
+  Interfaces/InterfaceClearance.cxx
+  Interfaces/InterfaceFields.cxx
+  Interfaces/InterfaceMesh.cxx
+  Interfaces/InterfaceMotion.cxx
+  Interfaces/InterfaceRemesher.cxx
+  Interfaces/InterfaceStart.cxx
+  Interfaces/MakeInterfaces.cxx
   Evolution/VerticesOfSlabs.cxx)
 set(volumic_core_headers
   Common/Blocks.h

@@ -47,6 +47,19 @@ void LabelSettings::Check(double unit) const
     Refuse("Gap is ", this->Gap, "; it must be at most ", MostGap * unit,
       ", eight times the smallest distance of voxels: fields of labels reach no further.");
   }
+  if (this->SharedInterfaces && this->Gap > 0.0)
+  {
+    Refuse("Shared Interfaces are asked for and a Gap of ", this->Gap,
+      ": neighbours have the same triangles, or space between them. Set Gap to 0, or Shared "
+      "Interfaces off.");
+  }
+  if (this->SharedInterfaces && (this->Grading.Tolerance > 0.0 || this->Grading.ThinParts))
+  {
+    Refuse(this->Grading.ThinParts ? "Thin Parts are" : "A Tolerance is",
+      " asked for and Shared Interfaces, whose triangles have one size. Set ",
+      this->Grading.ThinParts ? "Thin Parts off" : "Tolerance to 0",
+      ", or Shared Interfaces off; a shorter Edge Length makes all triangles smaller.");
+  }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);
   CheckNumber("Minimum Component Volume", this->MinimumComponentVolume);

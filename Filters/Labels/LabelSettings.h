@@ -13,6 +13,7 @@ struct LabelSettings
   double Smoothing = 2.0; ///< smallest distances of voxels, or 5/8 of the longest
   double VoxelTolerance = 0.0; ///< smallest distances of voxels
   double Gap = 0.0;            ///< world units
+  bool SharedInterfaces = false;
   int Metric = 1;
   double EdgeLength = 0.0;
   volumic::Grading Grading;

@@ -115,6 +115,16 @@ void ScaleResidual(vtkPolyData* surface, double unit)
 }
 }
 
+LabelFieldOptions LabelSurfaceMaker::FieldOptions(
+  const LabelSettings& settings, const LabelMap& map)
+{
+  const double longest = *std::max_element(map.Spacing.begin(), map.Spacing.end());
+  LabelFieldOptions options;
+  options.Sigma = settings.Smoothing * std::max(1.0, ShareOfLongest * longest);
+  options.Tolerance = settings.VoxelTolerance;
+  return options;
+}
+
 LabelSurfaceMaker::LabelSurfaceMaker(
   const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings)
   : Bricks(bricks)
@@ -123,10 +133,7 @@ LabelSurfaceMaker::LabelSurfaceMaker(
   , Claims(bricks)
   , Lowered(static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1)
 {
-  const std::array<double, 3>& spacing = bricks.Map().Spacing;
-  const double longest = *std::max_element(spacing.begin(), spacing.end());
-  this->Options.Sigma = settings.Smoothing * std::max(1.0, ShareOfLongest * longest);
-  this->Options.Tolerance = settings.VoxelTolerance;
+  this->Options = FieldOptions(settings, bricks.Map());
   if (settings.EdgeLength != 0.0)
   {
     // Fields get as much room as their levels need, whatever the size of the image.

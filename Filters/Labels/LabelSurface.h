@@ -50,6 +50,9 @@ public:
   LabelSurfaceMaker(
     const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings);
 
+  /** How the fields of objects are made. */
+  static LabelFieldOptions FieldOptions(const LabelSettings& settings, const LabelMap& map);
+
   /** Where objects meet by threes: first of all objects, before any surface is made. */
   bool HasClaims() const { return this->Bricks.HasContested(); }
   void AddClaim(int object, HostThreads& threads);

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceClearance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** A point of a triangle is at most so far from the nearest corner, in its longest edge. */
+constexpr double ReachOfEdge = 0.5773503;
+
+struct Box
+{
+  Vector Low;
+  Vector High;
+
+  explicit Box(const MeshTriangle& t)
+    : Low(static_cast<float>(std::min({ t.Corner[0].X, t.Corner[1].X, t.Corner[2].X })),
+        static_cast<float>(std::min({ t.Corner[0].Y, t.Corner[1].Y, t.Corner[2].Y })),
+        static_cast<float>(std::min({ t.Corner[0].Z, t.Corner[1].Z, t.Corner[2].Z }))),
+      High(static_cast<float>(std::max({ t.Corner[0].X, t.Corner[1].X, t.Corner[2].X })),
+        static_cast<float>(std::max({ t.Corner[0].Y, t.Corner[1].Y, t.Corner[2].Y })),
+        static_cast<float>(std::max({ t.Corner[0].Z, t.Corner[1].Z, t.Corner[2].Z })))
+  {
+  }
+  void Add(const Box& other)
+  {
+    this->Low = Vector(std::min(this->Low.X, other.Low.X), std::min(this->Low.Y, other.Low.Y),
+      std::min(this->Low.Z, other.Low.Z));
+    this->High = Vector(std::max(this->High.X, other.High.X),
+      std::max(this->High.Y, other.High.Y), std::max(this->High.Z, other.High.Z));
+  }
+};
+
+bool IsFaceApart(const Vector& a, const Vector& b, const Vector& c, const Vector& low,
+  const Vector& high)
+{
+  return (a.X < low.X && b.X < low.X && c.X < low.X) ||
+    (a.X > high.X && b.X > high.X && c.X > high.X) ||
+    (a.Y < low.Y && b.Y < low.Y && c.Y < low.Y) ||
+    (a.Y > high.Y && b.Y > high.Y && c.Y > high.Y) ||
+    (a.Z < low.Z && b.Z < low.Z && c.Z < low.Z) || (a.Z > high.Z && b.Z > high.Z && c.Z > high.Z);
+}
+}
+
+MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices)
+{
+  MeshTriangle triangle;
+  for (int k = 0; k < 3; ++k)
+  {
+    triangle.Vertex[k] = vertices[k];
+    triangle.Corner[k] = VectorD(mesh.Position[static_cast<std::size_t>(vertices[k])]);
+  }
+  return triangle;
+}
+
+InterfaceClearance::InterfaceClearance(const InterfaceMesh& mesh, double tolerance)
+  : Mesh(mesh), Tolerance(tolerance)
+{
+}
+
+void InterfaceClearance::Reset(double longest)
+{
+  const std::vector<Vector>& positions = this->Mesh.Position;
+  Vector low;
+  Vector high;
+  if (!positions.empty())
+  {
+    low = high = positions.front();
+  }
+  for (const Vector& p : positions)
+  {
+    low = Vector(std::min(low.X, p.X), std::min(low.Y, p.Y), std::min(low.Z, p.Z));
+    high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
+  }
+  this->Reach = static_cast<float>(ReachOfEdge * longest + this->Tolerance);
+  this->Grid.Reset(low, high, static_cast<float>(std::max(longest, 1e-6)));
+  this->Grid.Resize(positions.size());
+  for (int v = 0; v < static_cast<int>(positions.size()); ++v)
+  {
+    if (this->Mesh.IsVertex(v))
+    {
+      this->Insert(v);
+    }
+  }
+}
+
+void InterfaceClearance::FindNear(const Vector& low, const Vector& high, Memory& memory) const
+{
+  memory.Seen.resize(this->Mesh.Faces.size(), 0);
+  memory.Near.clear();
+  ++memory.Now;
+  const Vector margin(this->Reach, this->Reach, this->Reach);
+  const float tolerance = static_cast<float>(this->Tolerance);
+  const Vector thick(tolerance, tolerance, tolerance);
+  const Vector from = low - thick;
+  const Vector to = high + thick;
+  this->Grid.VisitBox(low - margin, high + margin,
+    [&](int w)
+    {
+      this->Mesh.ForFaces(w,
+        [&](int face)
+        {
+          int& seen = memory.Seen[static_cast<std::size_t>(face)];
+          if (seen == memory.Now)
+          {
+            return;
+          }
+          seen = memory.Now;
+          const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+          const Vector* at = this->Mesh.Position.data();
+          if (!IsFaceApart(at[v[0]], at[v[1]], at[v[2]], from, to))
+          {
+            memory.Near.push_back(face);
+          }
+        });
+    });
+}
+
+int InterfaceClearance::FindIntersecting(int face, int first, Memory& memory) const
+{
+  const MeshTriangle triangle =
+    TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
+  const Box box(triangle);
+  this->FindNear(box.Low, box.High, memory);
+  for (const int other : memory.Near)
+  {
+    if (other != face && other >= first &&
+      TrianglesIntersect(triangle,
+        TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex),
+        this->Tolerance))
+    {
+      return other;
+    }
+  }
+  return -1;
+}
+
+bool InterfaceClearance::AreClear(const std::vector<MeshTriangle>& triangles,
+  const std::vector<int>& replaced, Memory& memory) const
+{
+  if (triangles.empty())
+  {
+    return true;
+  }
+  Box all(triangles.front());
+  for (const MeshTriangle& triangle : triangles)
+  {
+    all.Add(Box(triangle));
+  }
+  this->FindNear(all.Low, all.High, memory);
+  for (std::size_t n = 0; n < triangles.size(); ++n)
+  {
+    for (std::size_t m = n + 1; m < triangles.size(); ++m)
+    {
+      if (TrianglesIntersect(triangles[n], triangles[m], this->Tolerance))
+      {
+        return false;
+      }
+    }
+  }
+  for (const int face : memory.Near)
+  {
+    if (std::find(replaced.begin(), replaced.end(), face) != replaced.end())
+    {
+      continue;
+    }
+    const MeshTriangle other =
+      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
+    for (const MeshTriangle& triangle : triangles)
+    {
+      if (TrianglesIntersect(triangle, other, this->Tolerance))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+}

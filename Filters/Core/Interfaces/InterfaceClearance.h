@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInterfaceClearance_h
+#define volumicInterfaceClearance_h
+
+#include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Mesh/TriangleTests.h"
+#include "Core/Mesh/VertexGrid.h"
+
+#include <array>
+#include <vector>
+
+namespace volumic
+{
+/** Corners of a triangle that there is not yet, and the vertices that they are. */
+MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
+
+/** Which triangles of interfaces are near others, and whether they intersect them. */
+class InterfaceClearance
+{
+public:
+  /**
+   * @param mesh must outlive it
+   * @param tolerance triangles nearer than that count as intersecting
+   */
+  InterfaceClearance(const InterfaceMesh& mesh, double tolerance);
+
+  /** Lays its grid afresh, for edges up to this length. */
+  void Reset(double longest);
+  void Add(int v)
+  {
+    this->Grid.Resize(this->Mesh.Position.size());
+    this->Insert(v);
+  }
+  void Remove(int v) { this->Grid.Remove(v); }
+  void Move(int v) { this->Grid.Move(v, this->Mesh.Position[static_cast<std::size_t>(v)]); }
+
+  /** What one thread remembers while it looks at faces. */
+  struct Memory
+  {
+    std::vector<int> Seen; ///< of each face, when
+    int Now = 0;
+    std::vector<int> Near; ///< what was found last
+  };
+  /** Faces that may come near a box, in Memory::Near. */
+  void FindNear(const Vector& low, const Vector& high, Memory& memory) const;
+  /** A face that this one intersects, of those from `first` on; -1: none. */
+  int FindIntersecting(int face, int first, Memory& memory) const;
+  /** Whether triangles may take the place of some faces: they intersect nothing else, nor each other. */
+  bool AreClear(const std::vector<MeshTriangle>& triangles, const std::vector<int>& replaced,
+    Memory& memory) const;
+
+private:
+  void Insert(int v) { this->Grid.Insert(v, this->Mesh.Position[static_cast<std::size_t>(v)]); }
+
+  const InterfaceMesh& Mesh;
+  double Tolerance;
+  float Reach = 0.f; ///< of a face beyond the nearest of its vertices
+  VertexGrid Grid;
+};
+}
+
+#endif

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceFields.h"
+
+#include "Core/Labels/BoundaryRows.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace volumic
+{
+namespace
+{
+/** The values of one object: brick after brick. */
+struct BricksOfObject
+{
+  std::vector<std::size_t> Bricks;
+  LargeVector<float> Values;
+};
+
+BricksOfObject CopyBricks(const LabelField& field, const LabelBricks& map, int object)
+{
+  constexpr int side = LabelBricks::Side;
+  BricksOfObject copied;
+  const BoundaryRows rows(map, object);
+  const std::array<int, 3>& first = rows.Box().First;
+  const VoxelBox all = VoxelBox::Of(map.Size());
+  for (int k = 0; k < rows.Box().Length(2) / side; ++k)
+  {
+    for (int j = 0; j < rows.Box().Length(1) / side; ++j)
+    {
+      for (int i = 0; i < rows.Box().Length(0) / side; ++i)
+      {
+        const std::array<int, 3> at = { first[0] / side + i, first[1] / side + j,
+          first[2] / side + k };
+        if (!all.Contains(at) || !rows.Has(i, j, k))
+        {
+          continue;
+        }
+        copied.Bricks.push_back(static_cast<std::size_t>(all.NumberOf(at[0], at[1], at[2])));
+        for (int z = at[2] * side; z < (at[2] + 1) * side; ++z)
+        {
+          for (int y = at[1] * side; y < (at[1] + 1) * side; ++y)
+          {
+            const float* row =
+              field.Values.data() + field.Box.NumberOf(at[0] * side, y, z);
+            copied.Values.insert(copied.Values.end(), row, row + side);
+          }
+        }
+      }
+    }
+  }
+  return copied;
+}
+}
+
+InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
+  const std::array<double, 3>& step, Executor& executor,
+  const std::function<bool(double share)>& progress)
+  : Map(bricks), Lengths(step)
+{
+  const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects);
+  // The largest first, as none should be waited for at the end.
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 1);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b)
+    { return bricks.ExtentOf(a).Bricks.Count() > bricks.ExtentOf(b).Bricks.Count(); });
+  std::vector<BricksOfObject> made(count + 1);
+  std::atomic<std::size_t> done{ 0 };
+  std::atomic<bool> goesOn{ true };
+  ForBlocks(executor, count, 1,
+    [&](std::size_t n, std::size_t, std::size_t)
+    {
+      const int object = order[n];
+      if (goesOn && bricks.ExtentOf(object).Voxels > 0)
+      {
+        const LabelField field = MakeLabelField(bricks, object, options, OnThisThread());
+        made[static_cast<std::size_t>(object)] = CopyBricks(field, bricks, object);
+      }
+      const double share = static_cast<double>(++done) / static_cast<double>(count);
+      goesOn = progress(share) && goesOn;
+    });
+  this->First.assign(static_cast<std::size_t>(VoxelBox::Of(bricks.Size()).Count()) + 1, 0);
+  for (const BricksOfObject& of : made)
+  {
+    for (const std::size_t brick : of.Bricks)
+    {
+      ++this->First[brick + 1];
+    }
+  }
+  std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
+  this->Objects.resize(this->First.back());
+  this->Values.resize(this->First.back() * VoxelsOfBrick);
+  std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
+  for (std::size_t object = 1; object <= count; ++object)
+  {
+    BricksOfObject& of = made[object];
+    for (std::size_t n = 0; n < of.Bricks.size(); ++n)
+    {
+      const std::size_t place = next[of.Bricks[n]]++;
+      this->Objects[place] = static_cast<LabelMap::Number>(object);
+      std::copy_n(of.Values.data() + n * VoxelsOfBrick, VoxelsOfBrick,
+        this->Values.data() + place * VoxelsOfBrick);
+    }
+    of = BricksOfObject();
+  }
+}
+
+const float* InterfaceFields::ValuesIn(std::size_t brick, int object) const
+{
+  for (std::size_t n = this->First[brick]; n < this->First[brick + 1]; ++n)
+  {
+    if (this->Objects[n] == object)
+    {
+      return this->Values.data() + n * VoxelsOfBrick;
+    }
+  }
+  return nullptr;
+}
+
+float InterfaceFields::At(int object, int i, int j, int k) const
+{
+  const float* values =
+    this->ValuesIn(this->NumberOfBrick(i / Side, j / Side, k / Side), object);
+  if (!values)
+  {
+    return this->Map.Map().At(i, j, k) == object ? LabelField::Far : -LabelField::Far;
+  }
+  return values[static_cast<std::size_t>(((k % Side) * Side + j % Side) * Side + i % Side)];
+}
+
+InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& place) const
+{
+  const std::array<int, 3>& size = this->Map.Map().Size;
+  const float places[3] = { place.X, place.Y, place.Z };
+  int low[3];
+  float share[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const float at = places[axis] / static_cast<float>(this->Lengths[axis]);
+    low[axis] = std::clamp(static_cast<int>(std::floor(at)), 0, size[axis] - 2);
+    share[axis] = at - static_cast<float>(low[axis]);
+  }
+  float corner[2][2][2];
+  const bool isInOneBrick =
+    low[0] % Side < Side - 1 && low[1] % Side < Side - 1 && low[2] % Side < Side - 1;
+  const float* values = isInOneBrick
+    ? this->ValuesIn(this->NumberOfBrick(low[0] / Side, low[1] / Side, low[2] / Side), object)
+    : nullptr;
+  for (int c = 0; c < 2; ++c)
+  {
+    for (int b = 0; b < 2; ++b)
+    {
+      for (int a = 0; a < 2; ++a)
+      {
+        corner[c][b][a] = values
+          ? values[((low[2] + c) % Side * Side + (low[1] + b) % Side) * Side + (low[0] + a) % Side]
+          : this->At(object, low[0] + a, low[1] + b, low[2] + c);
+      }
+    }
+  }
+  const auto between = [](float first, float last, float t) { return first + t * (last - first); };
+  float row[2][2];   // by z and y
+  float along[2][2]; // its derivative by x
+  for (int c = 0; c < 2; ++c)
+  {
+    for (int b = 0; b < 2; ++b)
+    {
+      row[c][b] = between(corner[c][b][0], corner[c][b][1], share[0]);
+      along[c][b] = corner[c][b][1] - corner[c][b][0];
+    }
+  }
+  const float layer[2] = { between(row[0][0], row[0][1], share[1]),
+    between(row[1][0], row[1][1], share[1]) };
+  Sample sample;
+  sample.Value = between(layer[0], layer[1], share[2]);
+  const float x = between(
+    between(along[0][0], along[0][1], share[1]), between(along[1][0], along[1][1], share[1]), share[2]);
+  const float y = between(row[0][1] - row[0][0], row[1][1] - row[1][0], share[2]);
+  sample.Gradient = Vector(x / static_cast<float>(this->Lengths[0]),
+    y / static_cast<float>(this->Lengths[1]),
+    (layer[1] - layer[0]) / static_cast<float>(this->Lengths[2]));
+  return sample;
+}
+}

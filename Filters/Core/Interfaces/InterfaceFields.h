@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInterfaceFields_h
+#define volumicInterfaceFields_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Common/Vector.h"
+#include "Core/Labels/LabelBricks.h"
+#include "Core/Labels/LabelField.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * The fields of all objects of a label map, in the bricks about their boundaries. A place belongs
+ * to the object whose field is the largest there, and the interface of two objects is where their
+ * fields are the same: they cover space without gap or overlap, whatever the fields are. At the
+ * centres of voxels that is what the map says, as each field has the right sign there.
+ *
+ * Each voxel of the map must be of an object: what is around all others is one, too.
+ */
+class InterfaceFields
+{
+public:
+  /**
+   * @param step     lengths of a voxel in the workspace
+   * @param progress told the share that is done, on any thread; after false all ends soon
+   */
+  InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
+    const std::array<double, 3>& step, Executor& executor,
+    const std::function<bool(double share)>& progress);
+
+  const LabelBricks& Bricks() const { return this->Map; }
+  const std::array<double, 3>& Step() const { return this->Lengths; }
+
+  /** Whether there is more than one object in a brick, or beside it. */
+  bool HasInterfaces(int i, int j, int k) const
+  {
+    const std::size_t brick = this->NumberOfBrick(i, j, k);
+    return this->First[brick + 1] > this->First[brick];
+  }
+
+  /** The field of an object at a voxel of the map; far from its boundary +-LabelField::Far. */
+  float At(int object, int i, int j, int k) const;
+
+  /** The field between the voxels, and its gradient by the lengths of the workspace. */
+  struct Sample
+  {
+    float Value;
+    Vector Gradient;
+  };
+  Sample Interpolate(int object, const Vector& place) const;
+  float ValueAt(int object, const Vector& place) const
+  {
+    return this->Interpolate(object, place).Value;
+  }
+
+private:
+  static constexpr int Side = LabelBricks::Side;
+  static constexpr std::size_t VoxelsOfBrick = static_cast<std::size_t>(Side) * Side * Side;
+
+  std::size_t NumberOfBrick(int i, int j, int k) const
+  {
+    return static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).NumberOf(i, j, k));
+  }
+  /** The values of a brick, x fastest; null: it has none of this object. */
+  const float* ValuesIn(std::size_t brick, int object) const;
+
+  const LabelBricks& Map;
+  std::array<double, 3> Lengths;
+  std::vector<std::size_t> First; ///< of each brick, in Objects
+  std::vector<LabelMap::Number> Objects; ///< those of a brick sorted
+  LargeVector<float> Values; ///< a brick of each
+};
+}
+
+#endif

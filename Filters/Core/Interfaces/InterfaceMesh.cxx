@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceMesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+int InterfaceMesh::AddVertex(const Vector& position, Stratum stratum)
+{
+  this->Position.push_back(position);
+  this->StratumOf.push_back(stratum);
+  this->Head.push_back(-1);
+  return static_cast<int>(this->Position.size()) - 1;
+}
+
+void InterfaceMesh::Link(int corner, int v)
+{
+  this->Next[static_cast<std::size_t>(corner)] = this->Head[static_cast<std::size_t>(v)];
+  this->Head[static_cast<std::size_t>(v)] = corner;
+}
+
+void InterfaceMesh::Unlink(int corner, int v)
+{
+  int* at = &this->Head[static_cast<std::size_t>(v)];
+  while (*at != corner)
+  {
+    at = &this->Next[static_cast<std::size_t>(*at)];
+  }
+  *at = this->Next[static_cast<std::size_t>(corner)];
+}
+
+int InterfaceMesh::AddFace(const Face& face)
+{
+  const int number = static_cast<int>(this->Faces.size());
+  this->Faces.push_back(face);
+  this->Next.resize(3 * this->Faces.size());
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Link(3 * number + k, face.Vertex[k]);
+  }
+  return number;
+}
+
+void InterfaceMesh::RemoveFace(int face)
+{
+  Face& removed = this->Faces[static_cast<std::size_t>(face)];
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Unlink(3 * face + k, removed.Vertex[k]);
+  }
+  removed.Vertex = { -1, -1, -1 };
+}
+
+void InterfaceMesh::ReplaceVertex(int face, int old, int vertex)
+{
+  Face& changed = this->Faces[static_cast<std::size_t>(face)];
+  const int k = changed.Vertex[0] == old ? 0 : changed.Vertex[1] == old ? 1 : 2;
+  this->Unlink(3 * face + k, old);
+  changed.Vertex[k] = vertex;
+  this->Link(3 * face + k, vertex);
+}
+
+void InterfaceMesh::FindFaces(int u, int v, std::vector<int>& faces) const
+{
+  faces.clear();
+  this->ForFaces(u,
+    [&](int face)
+    {
+      if (this->Faces[static_cast<std::size_t>(face)].Has(v))
+      {
+        faces.push_back(face);
+      }
+    });
+}
+
+bool InterfaceMesh::HasEdge(int u, int v) const
+{
+  bool has = false;
+  this->ForFaces(
+    u, [&](int face) { has = has || this->Faces[static_cast<std::size_t>(face)].Has(v); });
+  return has;
+}
+
+void InterfaceMesh::FindNeighbours(int v, std::vector<int>& neighbours) const
+{
+  neighbours.clear();
+  this->ForFaces(v,
+    [&](int face)
+    {
+      for (const int w : this->Faces[static_cast<std::size_t>(face)].Vertex)
+      {
+        if (w != v)
+        {
+          neighbours.push_back(w);
+        }
+      }
+    });
+  std::sort(neighbours.begin(), neighbours.end());
+}
+
+void InterfaceMesh::FindObjects(int v, std::vector<int>& objects) const
+{
+  objects.clear();
+  this->ForFaces(v,
+    [&](int face)
+    {
+      objects.push_back(this->Faces[static_cast<std::size_t>(face)].Behind);
+      objects.push_back(this->Faces[static_cast<std::size_t>(face)].Front);
+    });
+  std::sort(objects.begin(), objects.end());
+  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+}
+
+void InterfaceMesh::FindStrata()
+{
+  std::vector<int> neighbours;
+  for (int v = 0; v < static_cast<int>(this->Position.size()); ++v)
+  {
+    this->FindNeighbours(v, neighbours);
+    int lines = 0;
+    for (std::size_t n = 0; n < neighbours.size();)
+    {
+      std::size_t end = n;
+      while (end < neighbours.size() && neighbours[end] == neighbours[n])
+      {
+        ++end;
+      }
+      lines += end - n > 2 ? 1 : 0;
+      n = end;
+    }
+    this->StratumOf[static_cast<std::size_t>(v)] = lines == 0 ? Stratum::Interface
+      : lines == 2                                            ? Stratum::Line
+                                                              : Stratum::Corner;
+  }
+}
+
+std::vector<std::array<int, 2>> InterfaceMesh::FindLines() const
+{
+  std::vector<std::array<int, 2>> lines;
+  std::vector<int> neighbours;
+  for (int v = 0; v < static_cast<int>(this->Position.size()); ++v)
+  {
+    if (this->StratumOf[static_cast<std::size_t>(v)] == Stratum::Interface)
+    {
+      continue;
+    }
+    this->FindNeighbours(v, neighbours);
+    for (std::size_t n = 0; n + 2 < neighbours.size(); ++n)
+    {
+      const int w = neighbours[n];
+      if (v < w && neighbours[n + 2] == w && (n == 0 || neighbours[n - 1] != w))
+      {
+        lines.push_back({ v, w });
+      }
+    }
+  }
+  return lines;
+}
+
+VectorD InterfaceMesh::NormalOf(const Face& face) const
+{
+  const VectorD a(this->Position[static_cast<std::size_t>(face.Vertex[0])]);
+  const VectorD b(this->Position[static_cast<std::size_t>(face.Vertex[1])]);
+  const VectorD c(this->Position[static_cast<std::size_t>(face.Vertex[2])]);
+  return Cross(b - a, c - a);
+}
+
+double InterfaceMesh::LongestEdge() const
+{
+  float longest = 0.f;
+  for (const Face& face : this->Faces)
+  {
+    for (int k = 0; k < 3 && face.IsThere(); ++k)
+    {
+      longest = std::max(longest,
+        SquaredDistance(this->Position[static_cast<std::size_t>(face.Vertex[k])],
+          this->Position[static_cast<std::size_t>(face.Vertex[(k + 1) % 3])]));
+    }
+  }
+  return std::sqrt(static_cast<double>(longest));
+}
+
+void InterfaceMesh::Compact()
+{
+  InterfaceMesh kept;
+  std::vector<int> number(this->Position.size(), -1);
+  for (std::size_t v = 0; v < this->Position.size(); ++v)
+  {
+    if (this->Head[v] >= 0)
+    {
+      number[v] = kept.AddVertex(this->Position[v], this->StratumOf[v]);
+    }
+  }
+  for (Face face : this->Faces)
+  {
+    if (face.IsThere())
+    {
+      for (int& v : face.Vertex)
+      {
+        v = number[static_cast<std::size_t>(v)];
+      }
+      kept.AddFace(face);
+    }
+  }
+  *this = std::move(kept);
+}
+}

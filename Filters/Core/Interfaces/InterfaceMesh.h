@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInterfaceMesh_h
+#define volumicInterfaceMesh_h
+
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Common/Vector.h"
+#include "Core/Labels/LabelMap.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * What a vertex of interfaces lies on. Interfaces end at junction lines, where three of them or
+ * more meet, and these at junction points.
+ */
+enum class Stratum : unsigned char
+{
+  Interface = 0,
+  Line = 1,
+  Corner = 2
+};
+
+/**
+ * The interfaces of the objects of a label map: triangles between two objects each, of which any
+ * number may share an edge. The triangles of an object, taken together, are a closed manifold
+ * surface. Lengths: workspace.
+ */
+class InterfaceMesh
+{
+public:
+  struct Face
+  {
+    std::array<int, 3> Vertex; ///< counter-clockwise seen from Front; the first -1: it is removed
+    LabelMap::Number Behind;   ///< object
+    LabelMap::Number Front;    ///< object, of a larger number
+
+    bool IsThere() const { return this->Vertex[0] >= 0; }
+    bool Has(int v) const
+    {
+      return this->Vertex[0] == v || this->Vertex[1] == v || this->Vertex[2] == v;
+    }
+    /** The third vertex, of a face that has both. */
+    int Opposite(int u, int v) const
+    {
+      return this->Vertex[0] + this->Vertex[1] + this->Vertex[2] - u - v;
+    }
+  };
+
+  std::vector<Vector> Position;
+  std::vector<Stratum> StratumOf;
+  std::vector<Face> Faces;
+
+  int AddVertex(const Vector& position, Stratum stratum);
+  int AddFace(const Face& face);
+  void RemoveFace(int face);
+  /** Has a face have another vertex in the place of one. */
+  void ReplaceVertex(int face, int old, int vertex);
+
+  bool IsVertex(int v) const { return this->Head[static_cast<std::size_t>(v)] >= 0; }
+
+  /** Calls visit(face) for the faces of a vertex, in an order that the edits before have made. */
+  template <typename Visitor>
+  void ForFaces(int v, Visitor&& visit) const
+  {
+    for (int corner = this->Head[static_cast<std::size_t>(v)]; corner >= 0;)
+    {
+      const int next = this->Next[static_cast<std::size_t>(corner)];
+      visit(corner / 3);
+      corner = next;
+    }
+  }
+  /** The faces at an edge. */
+  void FindFaces(int u, int v, std::vector<int>& faces) const;
+  bool HasEdge(int u, int v) const;
+  /** Other vertices of the faces of a vertex, sorted; each as often as there are faces at the edge. */
+  void FindNeighbours(int v, std::vector<int>& neighbours) const;
+  /** The objects about a vertex, sorted. */
+  void FindObjects(int v, std::vector<int>& objects) const;
+
+  /** Of all vertices, by the faces at their edges. */
+  void FindStrata();
+
+  /** The edges of junction lines, the lower vertex first. */
+  std::vector<std::array<int, 2>> FindLines() const;
+
+  VectorD NormalOf(const Face& face) const; ///< twice the area long
+  double LongestEdge() const;
+
+  /** Takes what is removed out of all arrays. */
+  void Compact();
+
+private:
+  void Link(int corner, int v);
+  void Unlink(int corner, int v);
+
+  std::vector<int> Head; ///< of each vertex its last corner, 3 times the face and its place in it
+  std::vector<int> Next; ///< of each corner another one of the same vertex
+};
+}
+
+#endif

@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceRemesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace volumic
+{
+namespace
+{
+/** Cosine of the angle by which an edit may turn a face. */
+constexpr double LeastTurnCosine = 0.4;
+/** Cosine of the angle between two faces whose edge is flipped. */
+constexpr double LeastFlatCosine = 0.85;
+/** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
+constexpr double LeastRatio = 0.3;
+/** By how much a flip must make the smallest angle larger, radian. */
+constexpr double LeastGain = 0.02;
+
+double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c)
+{
+  const auto angle = [](const VectorD& at, const VectorD& p, const VectorD& q)
+  {
+    const VectorD first = p - at;
+    const VectorD second = q - at;
+    return std::atan2(Length(Cross(first, second)), Dot(first, second));
+  };
+  return std::min({ angle(a, b, c), angle(b, c, a), angle(c, a, b) });
+}
+
+double RadiusRatio(const MeshTriangle& t)
+{
+  return volumic::RadiusRatio(t.Corner[0], t.Corner[1], t.Corner[2]);
+}
+
+VectorD NormalOf(const MeshTriangle& t)
+{
+  return Cross(t.Corner[1] - t.Corner[0], t.Corner[2] - t.Corner[0]);
+}
+
+double CosineOf(const VectorD& a, const VectorD& b)
+{
+  const double lengths = Length(a) * Length(b);
+  return lengths > 0. ? Dot(a, b) / lengths : 0.;
+}
+}
+
+double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
+{
+  const double ab = Length(b - a);
+  const double bc = Length(c - b);
+  const double ca = Length(a - c);
+  const double product = ab * bc * ca * (ab + bc + ca);
+  return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
+}
+
+InterfaceRemesher::InterfaceRemesher(
+  InterfaceMesh& mesh, double shortest, double longest, double tolerance)
+  : Mesh(mesh), Clearance(mesh, tolerance), Shortest(static_cast<float>(shortest * shortest)),
+    Longest(static_cast<float>(longest * longest))
+{
+  this->Clearance.Reset(std::max(mesh.LongestEdge(), longest));
+}
+
+int InterfaceRemesher::SplitLongEdges()
+{
+  int count = 0;
+  // New faces are looked at in their turn.
+  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  {
+    const InterfaceMesh::Face face = this->Mesh.Faces[f];
+    if (!face.IsThere())
+    {
+      continue;
+    }
+    int longest = 0;
+    float length = 0.f;
+    for (int k = 0; k < 3; ++k)
+    {
+      const float squared = this->SquaredEdge(face.Vertex[k], face.Vertex[(k + 1) % 3]);
+      if (squared > length)
+      {
+        longest = k;
+        length = squared;
+      }
+    }
+    if (length > this->Longest)
+    {
+      this->Split(face.Vertex[longest], face.Vertex[(longest + 1) % 3]);
+      ++count;
+    }
+  }
+  return count;
+}
+
+void InterfaceRemesher::Split(int u, int v)
+{
+  this->Mesh.FindFaces(u, v, this->AtEdge);
+  const Vector middle = (this->Mesh.Position[static_cast<std::size_t>(u)] +
+                          this->Mesh.Position[static_cast<std::size_t>(v)]) * 0.5f;
+  const int added = this->Mesh.AddVertex(
+    middle, this->AtEdge.size() > 2 ? Stratum::Line : Stratum::Interface);
+  for (const int f : this->AtEdge)
+  {
+    InterfaceMesh::Face half = this->Mesh.Faces[static_cast<std::size_t>(f)];
+    std::replace(half.Vertex.begin(), half.Vertex.end(), u, added);
+    this->Mesh.ReplaceVertex(f, v, added);
+    this->Mesh.AddFace(half);
+  }
+  this->Clearance.Add(added);
+}
+
+int InterfaceRemesher::CollapseShortEdges()
+{
+  int count = 0;
+  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  {
+    for (int k = 0; k < 3 && this->Mesh.Faces[f].IsThere(); ++k)
+    {
+      const int u = this->Mesh.Faces[f].Vertex[k];
+      const int v = this->Mesh.Faces[f].Vertex[(k + 1) % 3];
+      if (this->SquaredEdge(u, v) < this->Shortest && this->MayCollapse(u, v))
+      {
+        const bool keepsFirst = this->Mesh.StratumOf[static_cast<std::size_t>(u)] >=
+          this->Mesh.StratumOf[static_cast<std::size_t>(v)];
+        count += this->TryCollapse(keepsFirst ? u : v, keepsFirst ? v : u) ? 1 : 0;
+      }
+    }
+  }
+  return count;
+}
+
+bool InterfaceRemesher::MayCollapse(int u, int v)
+{
+  const Stratum lower = std::min(this->Mesh.StratumOf[static_cast<std::size_t>(u)],
+    this->Mesh.StratumOf[static_cast<std::size_t>(v)]);
+  if (lower == Stratum::Corner)
+  {
+    return false;
+  }
+  this->Mesh.FindFaces(u, v, this->AtEdge);
+  const bool isOnLine = this->AtEdge.size() > 2;
+  if (isOnLine != (lower == Stratum::Line))
+  {
+    return false; // Two lines would meet, or a vertex leave its own.
+  }
+  this->Mesh.FindNeighbours(u, this->First);
+  this->Mesh.FindNeighbours(v, this->Second);
+  const auto countOf = [](const std::vector<int>& neighbours, int w)
+  { return std::count(neighbours.begin(), neighbours.end(), w); };
+  for (const int f : this->AtEdge)
+  {
+    const int w = this->Mesh.Faces[static_cast<std::size_t>(f)].Opposite(u, v);
+    if (countOf(this->First, w) > 2 && countOf(this->Second, w) > 2)
+    {
+      return false;
+    }
+  }
+  const auto unique = [](std::vector<int>& neighbours)
+  { neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end()); };
+  unique(this->First);
+  unique(this->Second);
+  std::vector<int>& common = this->Changed;
+  common.clear();
+  std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
+    this->Second.end(), std::back_inserter(common));
+  return common.size() == this->AtEdge.size();
+}
+
+Vector InterfaceRemesher::PlaceOf(int kept, int removed) const
+{
+  const Vector& place = this->Mesh.Position[static_cast<std::size_t>(kept)];
+  const bool isAlike = this->Mesh.StratumOf[static_cast<std::size_t>(kept)] ==
+    this->Mesh.StratumOf[static_cast<std::size_t>(removed)];
+  return isAlike ? (place + this->Mesh.Position[static_cast<std::size_t>(removed)]) * 0.5f : place;
+}
+
+bool InterfaceRemesher::TryCollapse(int kept, int removed)
+{
+  const Vector place = this->PlaceOf(kept, removed);
+  this->Made.clear();
+  this->Changed.clear();
+  double worst = 1.;
+  bool isFair = true;
+  for (const int v : { kept, removed })
+  {
+    this->Mesh.ForFaces(v,
+      [&](int f)
+      {
+        const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
+        const MeshTriangle before = TriangleOf(this->Mesh, face.Vertex);
+        worst = std::min(worst, RadiusRatio(before));
+        if (face.Has(kept) && face.Has(removed))
+        {
+          if (v == kept)
+          {
+            this->Changed.push_back(f);
+          }
+          return;
+        }
+        this->Changed.push_back(f);
+        MeshTriangle after = before;
+        for (int k = 0; k < 3; ++k)
+        {
+          if (after.Vertex[k] == v)
+          {
+            after.Vertex[k] = kept;
+            after.Corner[k] = VectorD(place);
+          }
+          else
+          {
+            isFair = isFair &&
+              SquaredDistance(after.Corner[k], VectorD(place)) <= this->Longest;
+          }
+        }
+        isFair = isFair && CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
+        this->Made.push_back(after);
+      });
+  }
+  const double least = std::min(worst, LeastRatio);
+  isFair = isFair &&
+    std::all_of(this->Made.begin(), this->Made.end(),
+      [least](const MeshTriangle& triangle) { return RadiusRatio(triangle) >= least; });
+  if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Memory))
+  {
+    return false;
+  }
+  this->Collapse(kept, removed, place);
+  return true;
+}
+
+void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
+{
+  for (const int f : this->Changed)
+  {
+    const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
+    if (face.Has(kept) && face.Has(removed))
+    {
+      this->Mesh.RemoveFace(f);
+    }
+    else if (face.Has(removed))
+    {
+      this->Mesh.ReplaceVertex(f, removed, kept);
+    }
+  }
+  this->Clearance.Remove(removed);
+  this->Mesh.Position[static_cast<std::size_t>(kept)] = place;
+  this->Clearance.Move(kept);
+}
+
+int InterfaceRemesher::FlipEdges()
+{
+  int count = 0;
+  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const InterfaceMesh::Face& face = this->Mesh.Faces[f];
+      if (face.IsThere() && this->TryFlip(face.Vertex[k], face.Vertex[(k + 1) % 3]))
+      {
+        ++count;
+        break;
+      }
+    }
+  }
+  return count;
+}
+
+bool InterfaceRemesher::TryFlip(int u, int v)
+{
+  this->Mesh.FindFaces(u, v, this->AtEdge);
+  if (this->AtEdge.size() != 2)
+  {
+    return false;
+  }
+  const int f = this->AtEdge[0];
+  const int g = this->AtEdge[1];
+  InterfaceMesh::Face first = this->Mesh.Faces[static_cast<std::size_t>(f)];
+  InterfaceMesh::Face second = this->Mesh.Faces[static_cast<std::size_t>(g)];
+  const int p = first.Opposite(u, v);
+  const int q = second.Opposite(u, v);
+  if (p == q || this->SquaredEdge(p, q) > this->Longest)
+  {
+    return false;
+  }
+  const MeshTriangle before[2] = { TriangleOf(this->Mesh, first.Vertex),
+    TriangleOf(this->Mesh, second.Vertex) };
+  std::replace(first.Vertex.begin(), first.Vertex.end(), v, q);
+  std::replace(second.Vertex.begin(), second.Vertex.end(), u, p);
+  this->Made = { TriangleOf(this->Mesh, first.Vertex), TriangleOf(this->Mesh, second.Vertex) };
+  const auto smallest = [](const MeshTriangle& t)
+  { return SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]); };
+  if (std::min(smallest(this->Made[0]), smallest(this->Made[1])) <
+    std::min(smallest(before[0]), smallest(before[1])) + LeastGain)
+  {
+    return false;
+  }
+  const VectorD normals[2] = { NormalOf(before[0]), NormalOf(before[1]) };
+  const VectorD both = normals[0] + normals[1];
+  this->Changed = { f, g };
+  if (CosineOf(normals[0], normals[1]) < LeastFlatCosine ||
+    CosineOf(NormalOf(this->Made[0]), both) < LeastTurnCosine ||
+    CosineOf(NormalOf(this->Made[1]), both) < LeastTurnCosine || this->Mesh.HasEdge(p, q) ||
+    !this->Clearance.AreClear(this->Made, this->Changed, this->Memory))
+  {
+    return false;
+  }
+  this->Mesh.ReplaceVertex(f, v, q);
+  this->Mesh.ReplaceVertex(g, u, p);
+  return true;
+}
+}

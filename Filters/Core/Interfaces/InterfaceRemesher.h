@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInterfaceRemesher_h
+#define volumicInterfaceRemesher_h
+
+#include "Core/Interfaces/InterfaceClearance.h"
+#include "Core/Interfaces/InterfaceMesh.h"
+
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Edits of interfaces that keep what meets where: junction lines and points stay, and each object's
+ * surface keeps its topology. None makes triangles intersect: each is tried by itself, one after
+ * another, in the order of the faces.
+ *
+ * - Splits are at the middle of an edge, of all faces at it.
+ * - Collapses take a vertex into another of its stratum, or of a higher one: from an interface into
+ *   anything, along a junction line into one of its vertices, or its end. Vertices that have both
+ *   ends as neighbours must be those of the faces at the edge (the link condition), and at most one
+ *   edge of these faces may be of a junction line.
+ * - Flips are between two faces of the same objects.
+ */
+class InterfaceRemesher
+{
+public:
+  /**
+   * @param shortest, longest between which edges are wanted; lengths of the workspace
+   * @param tolerance nearer than that triangles are never
+   */
+  InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance);
+
+  /** All edits once. @return how many were made */
+  int SplitLongEdges();
+  int CollapseShortEdges();
+  int FlipEdges();
+
+private:
+  bool MayCollapse(int u, int v);
+  /** Where the vertex goes that two become. */
+  Vector PlaceOf(int kept, int removed) const;
+  bool TryCollapse(int kept, int removed);
+  void Collapse(int kept, int removed, const Vector& place);
+  bool TryFlip(int u, int v);
+  void Split(int u, int v);
+  float SquaredEdge(int u, int v) const
+  {
+    return SquaredDistance(this->Mesh.Position[static_cast<std::size_t>(u)],
+      this->Mesh.Position[static_cast<std::size_t>(v)]);
+  }
+
+  InterfaceMesh& Mesh;
+  InterfaceClearance Clearance;
+  InterfaceClearance::Memory Memory;
+  float Shortest; ///< squared
+  float Longest;  ///< squared
+  std::vector<int> AtEdge;
+  std::vector<int> Changed;
+  std::vector<int> First;
+  std::vector<int> Second;
+  std::vector<MeshTriangle> Made;
+};
+
+/** Twice the radius of the inner circle over that of the outer one: 1 of a regular triangle. */
+double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c);
+}
+
+#endif

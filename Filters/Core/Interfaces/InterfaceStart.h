@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInterfaceStart_h
+#define volumicInterfaceStart_h
+
+#include "Core/Interfaces/InterfaceFields.h"
+#include "Core/Interfaces/InterfaceMesh.h"
+
+namespace volumic
+{
+/**
+ * First interfaces: those of the objects to which the points of a body-centred cubic lattice
+ * belong, the centres of voxels and of the cubes between eight of them. Each tetrahedron of the
+ * lattice whose corners are of several objects is cut between these: with two objects by one
+ * triangle or two, with more by a fan about a point inside it, from the curves that its faces show.
+ * So neighbours agree on each face, and interfaces are closed, meet along lines only, and do not
+ * intersect, by construction; the surface of each object is a manifold.
+ *
+ * It is multi-label marching tetrahedra. Vertices on edges are where the fields of their ends'
+ * objects are the same, as far as a share of the edge keeps them from its ends.
+ */
+InterfaceMesh MakeInterfaceStart(const InterfaceFields& fields, Executor& executor);
+}
+
+#endif

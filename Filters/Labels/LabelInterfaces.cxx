@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Labels/LabelInterfaces.h"
+
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Interfaces/MakeInterfaces.h"
+#include "Core/Labels/WrongVoxels.h"
+#include "Core/Surface/SizingField.h"
+#include "Output/SurfaceOutput.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+
+namespace volumic
+{
+namespace
+{
+/** Voxels of nothing about the map: a brick, so that nothing is cut off by its end. */
+constexpr int Margin = LabelBricks::Side;
+/** Of the whole work. */
+constexpr double FieldShare = 0.4;
+
+double EdgeOf(const LabelSettings& settings, const Workspace& space)
+{
+  return settings.EdgeLength != 0.0
+    ? settings.EdgeLength / space.WorldUnit()
+    : SizingField::RestLengthInDelta * SurfaceOptions().SamplingRatio *
+      std::pow(std::sqrt(3.0), settings.FinestLevel);
+}
+}
+
+LabelMap LabelInterfaceMaker::WithOutside(const LabelMap& map, int objects)
+{
+  LabelMap padded;
+  padded.Spacing = map.Spacing;
+  padded.NumberOfObjects = objects + 1;
+  const auto outside = static_cast<LabelMap::Number>(objects + 1);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    padded.Size[axis] = map.Size[axis] + 2 * Margin;
+  }
+  const VoxelBox all = VoxelBox::Of(padded.Size);
+  padded.Voxels.assign(static_cast<std::size_t>(all.Count()), outside);
+  const LabelMap::Number* from = map.Voxels.data();
+  for (int k = 0; k < map.Size[2]; ++k)
+  {
+    for (int j = 0; j < map.Size[1]; ++j)
+    {
+      std::transform(from, from + map.Size[0],
+        padded.Voxels.begin() + all.NumberOf(Margin, j + Margin, k + Margin),
+        [&](LabelMap::Number object)
+        { return object == 0 || object > objects ? outside : object; });
+      from += map.Size[0];
+    }
+  }
+  return padded;
+}
+
+LabelInterfaceMaker::LabelInterfaceMaker(const LabelMap& map, int objects, vtkImageData* image,
+  const LabelSettings& settings, HostThreads& threads)
+  : Settings(settings), Map(WithOutside(map, objects)),
+    Space(image, static_cast<Metric>(settings.Metric))
+{
+  threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
+}
+
+void LabelInterfaceMaker::Make(HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
+{
+  threads.Run(
+    [&]
+    {
+      this->Fields.emplace(*this->Bricks, LabelSurfaceMaker::FieldOptions(this->Settings, this->Map),
+        this->Space.Step(), threads, [](double) { return true; });
+      this->IsFinished = true;
+      this->Mesh = MakeInterfaces(*this->Fields, EdgeOf(this->Settings, this->Space), threads,
+        [&](double share)
+        {
+          this->IsFinished =
+            progress(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels") &&
+            this->IsFinished;
+          return this->IsFinished;
+        });
+    });
+}
+
+Point LabelInterfaceMaker::InWorkspace(const Vector& place) const
+{
+  const std::array<double, 3>& step = this->Space.Step();
+  return { place.X - Margin * step[0], place.Y - Margin * step[1], place.Z - Margin * step[2] };
+}
+
+LabelSurface LabelInterfaceMaker::SurfaceOf(int object) const
+{
+  const std::array<double, 3>& step = this->Space.Step();
+  SurfaceResult surface;
+  IndexedSurface inVoxels;
+  std::vector<int> numbers(this->Mesh.Position.size(), -1);
+  std::vector<int> vertices;
+  std::vector<VectorD> normals;
+  for (const InterfaceMesh::Face& face : this->Mesh.Faces)
+  {
+    if (face.Behind != object && face.Front != object)
+    {
+      continue;
+    }
+    const VectorD across = this->Mesh.NormalOf(face) * (face.Behind == object ? 1.0 : -1.0);
+    Triangle triangle;
+    for (int k = 0; k < 3; ++k)
+    {
+      int& number = numbers[static_cast<std::size_t>(face.Vertex[k])];
+      if (number < 0)
+      {
+        number = static_cast<int>(vertices.size());
+        vertices.push_back(face.Vertex[k]);
+        normals.emplace_back();
+      }
+      normals[static_cast<std::size_t>(number)] += across;
+      triangle[k] = number;
+    }
+    if (face.Front == object)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+    surface.Triangles.push_back(triangle);
+  }
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("GlobalIds");
+  std::vector<int> objects;
+  for (std::size_t n = 0; n < vertices.size(); ++n)
+  {
+    const Vector& place = this->Mesh.Position[static_cast<std::size_t>(vertices[n])];
+    surface.Points.push_back(this->InWorkspace(place));
+    inVoxels.Points.push_back({ place.X / step[0], place.Y / step[1], place.Z / step[2] });
+    const VectorD normal = Normalized(normals[n]);
+    surface.Normals.push_back({ static_cast<float>(normal.X), static_cast<float>(normal.Y),
+      static_cast<float>(normal.Z) });
+    this->Mesh.FindObjects(vertices[n], objects);
+    float others = -2.f * LabelField::Far;
+    for (const int other : objects)
+    {
+      others = other != object ? std::max(others, this->Fields->ValueAt(other, place)) : others;
+    }
+    surface.Residual.push_back(static_cast<float>(
+      0.5 * this->Space.WorldUnit() * (this->Fields->ValueAt(object, place) - others)));
+    surface.Motionless.push_back(this->IsFinished ? 1 : 0);
+    surface.Held.push_back(0);
+    ids->InsertNextValue(vertices[n]);
+  }
+  inVoxels.Triangles = surface.Triangles;
+  surface.Delta = EdgeOf(this->Settings, this->Space) / SizingField::RestLengthInDelta;
+  SurfaceDescription description;
+  description.Level = this->Settings.FinestLevel;
+  description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
+  description.StopReason = Describe(
+    this->IsFinished ? StopReason::Converged : StopReason::Cancelled);
+  LabelSurface made;
+  made.IsFinished = this->IsFinished;
+  const std::vector<std::int64_t> wrong = FindWrongVoxels(*this->Bricks, object, inVoxels);
+  made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
+  made.MissedVoxels = static_cast<vtkIdType>(
+    FindMissedVoxels(this->Map, wrong, inVoxels, this->Settings.VoxelTolerance).size());
+  made.Surface = MakePolyData(std::move(surface), description, this->Space);
+  made.Surface->GetPointData()->SetGlobalIds(ids);
+  return made;
+}
+
+std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) const
+{
+  std::vector<LabelSurface> surfaces(static_cast<std::size_t>(this->Map.NumberOfObjects) - 1);
+  threads.Run(
+    [&]
+    {
+      threads.For(surfaces.size(), 1,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t n = begin; n < end; ++n)
+          {
+            surfaces[n] = this->SurfaceOf(static_cast<int>(n) + 1);
+          }
+        });
+    });
+  return surfaces;
+}
+
+vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
+  const std::vector<int>& labels, int outside) const
+{
+  auto interfaces = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkUnsignedCharArray> junction;
+  junction->SetName("Junction");
+  for (std::size_t v = 0; v < this->Mesh.Position.size(); ++v)
+  {
+    points->InsertNextPoint(
+      this->Space.ToWorld(this->InWorkspace(this->Mesh.Position[v])).data());
+    junction->InsertNextValue(static_cast<unsigned char>(this->Mesh.StratumOf[v]));
+  }
+  vtkNew<vtkIntArray> sides;
+  sides->SetName("BoundaryLabels");
+  sides->SetNumberOfComponents(2);
+  vtkNew<vtkCellArray> lines;
+  for (const std::array<int, 2>& edge : this->Mesh.FindLines())
+  {
+    lines->InsertNextCell({ edge[0], edge[1] });
+    const int nothing[2] = { outside, outside };
+    sides->InsertNextTypedTuple(nothing);
+  }
+  const auto labelOf = [&](int object)
+  {
+    return object <= static_cast<int>(labels.size())
+      ? labels[static_cast<std::size_t>(object) - 1]
+      : outside;
+  };
+  vtkNew<vtkCellArray> triangles;
+  const int second = this->Space.IsMirrored() ? 2 : 1;
+  for (const InterfaceMesh::Face& face : this->Mesh.Faces)
+  {
+    triangles->InsertNextCell({ face.Vertex[0], face.Vertex[second], face.Vertex[3 - second] });
+    const int both[2] = { labelOf(face.Behind), labelOf(face.Front) };
+    sides->InsertNextTypedTuple(both);
+  }
+  interfaces->SetPoints(points);
+  interfaces->SetLines(lines);
+  interfaces->SetPolys(triangles);
+  interfaces->GetCellData()->AddArray(sides);
+  interfaces->GetPointData()->AddArray(junction);
+  return interfaces;
+}
+}

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLabelInterfaces_h
+#define volumicLabelInterfaces_h
+
+#include "Core/Interfaces/InterfaceFields.h"
+#include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Labels/LabelBricks.h"
+#include "Core/Labels/LabelMap.h"
+#include "Host/HostThreads.h"
+#include "Input/Workspace.h"
+#include "Labels/LabelSettings.h"
+#include "Labels/LabelSurface.h"
+
+#include <vtkSmartPointer.h>
+
+#include <optional>
+#include <vector>
+
+class vtkImageData;
+class vtkPolyData;
+
+namespace volumic
+{
+/** Makes the surfaces of all labels with what they share, as one mesh. */
+class LabelInterfaceMaker
+{
+public:
+  /**
+   * @param map     objects up to `objects` are the labels', others are outside
+   * @param image   its geometry is the map's
+   * Settings must outlive it.
+   */
+  LabelInterfaceMaker(const LabelMap& map, int objects, vtkImageData* image,
+    const LabelSettings& settings, HostThreads& threads);
+
+  /** @param progress as LabelSurfaceMaker's; after false what there is is not finished. */
+  void Make(HostThreads& threads, const LabelSurfaceMaker::Progress& progress);
+
+  /** A surface per label, whose points are those of the interfaces: `GlobalIds`. */
+  std::vector<LabelSurface> Surfaces(HostThreads& threads) const;
+
+  /**
+   * All interfaces, each once, with `BoundaryLabels` and `Junction`, and the lines where they meet.
+   * @param labels of the objects, from 1 on
+   * @param outside the value outside
+   */
+  vtkSmartPointer<vtkPolyData> Interfaces(const std::vector<int>& labels, int outside) const;
+
+private:
+  /** The map with a margin, so that all about the labels is an object of its own, the last. */
+  static LabelMap WithOutside(const LabelMap& map, int objects);
+  LabelSurface SurfaceOf(int object) const;
+  Point InWorkspace(const Vector& place) const;
+
+  const LabelSettings& Settings;
+  LabelMap Map;
+  Workspace Space;
+  std::optional<LabelBricks> Bricks;
+  std::optional<InterfaceFields> Fields;
+  InterfaceMesh Mesh;
+  bool IsFinished = false;
+};
+}
+
+#endif
