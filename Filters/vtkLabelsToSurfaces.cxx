@@ -320,7 +320,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(
       labels.Frame, internals.Settings, threads);
     maker.Make(threads, show);
     surfaces = maker.Surfaces(threads);
-    interfaces->ShallowCopy(maker.Interfaces(choice.Labels, internals.BackgroundLabel));
+    interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
+    volumic::DescribeInterfaces(choice, *image, interfaces);
   }
   if (ranks.Rank() != 0)
   {

@@ -98,6 +98,12 @@ bool IsScene(const std::string& name)
   return SuffixOf(name) == ".glb";
 }
 
+bool IsOfSolids(const std::string& name)
+{
+  const std::string suffix = SuffixOf(name);
+  return suffix == ".msh" || suffix == ".smesh" || suffix == ".poly";
+}
+
 bool HasPieces(const std::string& name)
 {
   return SuffixOf(name) == ".pvtp";

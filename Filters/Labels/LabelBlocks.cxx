@@ -60,19 +60,29 @@ void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const Label
   surface->GetCellData()->AddArray(array);
 }
 
-/** What each of the labels is called, and its colour. */
-void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelNames& names)
+/** Labels, what they are called, and their colours. */
+void AddNames(vtkPolyData* surface, const std::vector<int>& labels,
+  const std::vector<std::string>& texts, const LabelNames& names)
 {
-  std::vector<std::string> texts;
   std::vector<double> colors;
   for (const int label : labels)
   {
-    texts.push_back(names.NameOf(label));
     const LabelNames::Color color = names.ColorOf(label);
     colors.insert(colors.end(), color.begin(), color.end());
   }
+  AddField<vtkIntArray>(surface, "Label", labels);
   AddField<vtkStringArray>(surface, "LabelName", texts);
   AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
+}
+
+vtkIdType VoxelsOf(const LabelImage& image, const std::vector<int>& labels)
+{
+  vtkIdType voxels = 0;
+  for (const int label : labels)
+  {
+    voxels += image.Labels().at(label).Count;
+  }
+  return voxels;
 }
 
 /** Why what is there may not be in a surface, and what helps, if anything does. */
@@ -124,6 +134,16 @@ std::vector<int> LabelChoice::LabelsOf(std::size_t surface) const
   return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
 }
 
+std::vector<int> LabelChoice::FirstLabels() const
+{
+  std::vector<int> labels;
+  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
+  {
+    labels.push_back(this->LabelsOf(i).front());
+  }
+  return labels;
+}
+
 std::vector<std::string> LabelChoice::SurfaceNames() const
 {
   std::vector<std::string> names;
@@ -147,19 +167,19 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     const std::vector<int> labels = choice.LabelsOf(i);
-    vtkIdType voxels = 0;
-    for (const int label : labels)
-    {
-      voxels += image.Labels().at(label).Count;
-    }
+    const vtkIdType voxels = VoxelsOf(image, labels);
     const std::string name = choice.Names.NameOf(labels);
     vtkNew<vtkPolyData> surface;
     const bool isThere = surfaces[i].Surface != nullptr;
     surface->ShallowCopy(isThere ? surfaces[i].Surface
                                  : MakeStopped(0, Describe(StopReason::Cancelled)));
     AddLabels(surface, labels, image);
-    AddField<vtkIntArray>(surface, "Label", labels);
-    AddNames(surface, labels, choice.Names);
+    std::vector<std::string> texts;
+    for (const int label : labels)
+    {
+      texts.push_back(choice.Names.NameOf(label));
+    }
+    AddNames(surface, labels, texts, choice.Names);
     AddField<vtkIdTypeArray>(surface, "LabelVoxels", std::vector<vtkIdType>{ voxels });
     AddField<vtkIdTypeArray>(
       surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });
@@ -213,6 +233,18 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
       Listed(touching) + ". Try a larger Gap.");
   }
   return JoinedBy(" ", warnings);
+}
+
+void DescribeInterfaces(
+  const LabelChoice& choice, const LabelImage& image, vtkPolyData* interfaces)
+{
+  std::vector<vtkIdType> voxels;
+  for (std::size_t i = 0; i < choice.NumberOfSurfaces(); ++i)
+  {
+    voxels.push_back(VoxelsOf(image, choice.LabelsOf(i)));
+  }
+  AddNames(interfaces, choice.FirstLabels(), choice.SurfaceNames(), choice.Names);
+  AddField<vtkIdTypeArray>(interfaces, "LabelVoxels", voxels);
 }
 
 void FillEmptyBlocks(const std::vector<std::string>& names, vtkMultiBlockDataSet* output)

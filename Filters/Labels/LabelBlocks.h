@@ -12,6 +12,7 @@
 #include <vector>
 
 class vtkMultiBlockDataSet;
+class vtkPolyData;
 
 namespace volumic
 {
@@ -25,6 +26,8 @@ struct LabelChoice
   std::size_t NumberOfSurfaces() const { return this->IsMerged ? 1 : this->Labels.size(); }
   /** Of a surface. */
   std::vector<int> LabelsOf(std::size_t surface) const;
+  /** The first label of each surface: the number that interfaces have for it. */
+  std::vector<int> FirstLabels() const;
   /** The names of all surfaces. */
   std::vector<std::string> SurfaceNames() const;
 };
@@ -37,6 +40,10 @@ struct LabelChoice
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
   vtkMultiBlockDataSet* output);
+
+/** Give interfaces field data of their labels, as blocks have it: an entry for each surface. */
+void DescribeInterfaces(
+  const LabelChoice& choice, const LabelImage& image, vtkPolyData* interfaces);
 
 /**
  * The same blocks, empty, for ranks that have no surfaces: writers and readers of ParaView wait for
