@@ -103,39 +103,22 @@ Point LabelInterfaceMaker::InWorkspace(const Vector& place) const
   return { place.X - Margin * step[0], place.Y - Margin * step[1], place.Z - Margin * step[2] };
 }
 
-LabelSurface LabelInterfaceMaker::SurfaceOf(int object) const
+LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& faces) const
 {
   const std::array<double, 3>& step = this->Space.Step();
-  SurfaceResult surface;
-  IndexedSurface inVoxels;
-  std::vector<int> numbers(this->Mesh.Position.size(), -1);
   std::vector<int> vertices;
-  std::vector<VectorD> normals;
-  for (const InterfaceMesh::Face& face : this->Mesh.Faces)
+  SurfaceResult surface;
+  static_cast<IndexedSurface&>(surface) = this->Mesh.SurfaceOf(object, faces, vertices);
+  IndexedSurface inVoxels = surface;
+  std::vector<VectorD> normals(vertices.size());
+  for (std::size_t n = 0; n < faces.size(); ++n)
   {
-    if (face.Behind != object && face.Front != object)
-    {
-      continue;
-    }
+    const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(faces[n])];
     const VectorD across = this->Mesh.NormalOf(face) * (face.Behind == object ? 1.0 : -1.0);
-    Triangle triangle;
-    for (int k = 0; k < 3; ++k)
+    for (const int corner : surface.Triangles[n])
     {
-      int& number = numbers[static_cast<std::size_t>(face.Vertex[k])];
-      if (number < 0)
-      {
-        number = static_cast<int>(vertices.size());
-        vertices.push_back(face.Vertex[k]);
-        normals.emplace_back();
-      }
-      normals[static_cast<std::size_t>(number)] += across;
-      triangle[k] = number;
+      normals[static_cast<std::size_t>(corner)] += across;
     }
-    if (face.Front == object)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-    surface.Triangles.push_back(triangle);
   }
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName("GlobalIds");
@@ -143,8 +126,8 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object) const
   for (std::size_t n = 0; n < vertices.size(); ++n)
   {
     const Vector& place = this->Mesh.Position[static_cast<std::size_t>(vertices[n])];
-    surface.Points.push_back(this->InWorkspace(place));
-    inVoxels.Points.push_back({ place.X / step[0], place.Y / step[1], place.Z / step[2] });
+    surface.Points[n] = this->InWorkspace(place);
+    inVoxels.Points[n] = { place.X / step[0], place.Y / step[1], place.Z / step[2] };
     const VectorD normal = Normalized(normals[n]);
     surface.Normals.push_back({ static_cast<float>(normal.X), static_cast<float>(normal.Y),
       static_cast<float>(normal.Z) });
@@ -160,7 +143,6 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object) const
     surface.Held.push_back(0);
     ids->InsertNextValue(vertices[n]);
   }
-  inVoxels.Triangles = surface.Triangles;
   surface.Delta = EdgeOf(this->Settings, this->Space) / SizingField::RestLengthInDelta;
   SurfaceDescription description;
   description.Level = this->Settings.FinestLevel;
@@ -181,6 +163,8 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object) const
 std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) const
 {
   std::vector<LabelSurface> surfaces(static_cast<std::size_t>(this->Map.NumberOfObjects) - 1);
+  std::vector<std::vector<int>> faces = this->Mesh.FindFacesOfObjects();
+  faces.resize(surfaces.size() + 1);
   threads.Run(
     [&]
     {
@@ -189,7 +173,7 @@ std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) co
         {
           for (std::size_t n = begin; n < end; ++n)
           {
-            surfaces[n] = this->SurfaceOf(static_cast<int>(n) + 1);
+            surfaces[n] = this->SurfaceOf(static_cast<int>(n) + 1, faces[n + 1]);
           }
         });
     });

@@ -50,7 +50,7 @@ public:
 private:
   /** The map with a margin, so that all about the labels is an object of its own, the last. */
   static LabelMap WithOutside(const LabelMap& map, int objects);
-  LabelSurface SurfaceOf(int object) const;
+  LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
 
   const LabelSettings& Settings;

@@ -76,7 +76,7 @@ void InterfaceClearance::Reset(double longest)
     low = Vector(std::min(low.X, p.X), std::min(low.Y, p.Y), std::min(low.Z, p.Z));
     high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
   }
-  this->Reach = static_cast<float>(ReachOfEdge * longest + this->Tolerance);
+  this->LongestReach = static_cast<float>(ReachOfEdge * longest + this->Tolerance);
   this->Grid.Reset(low, high, static_cast<float>(std::max(longest, 1e-6)));
   this->Grid.Resize(positions.size());
   for (int v = 0; v < static_cast<int>(positions.size()); ++v)
@@ -86,6 +86,29 @@ void InterfaceClearance::Reset(double longest)
       this->Insert(v);
     }
   }
+  this->Reach.assign(positions.size(), 0.f);
+  for (int face = 0; face < static_cast<int>(this->Mesh.Faces.size()); ++face)
+  {
+    this->Change(face);
+  }
+}
+
+void InterfaceClearance::Change(int face)
+{
+  const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  if (v[0] < 0)
+  {
+    return;
+  }
+  const Vector* at = this->Mesh.Position.data();
+  const float longest = std::max({ SquaredDistance(at[v[0]], at[v[1]]),
+    SquaredDistance(at[v[1]], at[v[2]]), SquaredDistance(at[v[2]], at[v[0]]) });
+  const float reach = static_cast<float>(ReachOfEdge * std::sqrt(longest) + this->Tolerance);
+  for (const int w : v)
+  {
+    float& of = this->Reach[static_cast<std::size_t>(w)];
+    of = std::max(of, reach);
+  }
 }
 
 void InterfaceClearance::FindNear(const Vector& low, const Vector& high, Memory& memory) const
@@ -93,7 +116,7 @@ void InterfaceClearance::FindNear(const Vector& low, const Vector& high, Memory&
   memory.Seen.resize(this->Mesh.Faces.size(), 0);
   memory.Near.clear();
   ++memory.Now;
-  const Vector margin(this->Reach, this->Reach, this->Reach);
+  const Vector margin(this->LongestReach, this->LongestReach, this->LongestReach);
   const float tolerance = static_cast<float>(this->Tolerance);
   const Vector thick(tolerance, tolerance, tolerance);
   const Vector from = low - thick;
@@ -101,6 +124,13 @@ void InterfaceClearance::FindNear(const Vector& low, const Vector& high, Memory&
   this->Grid.VisitBox(low - margin, high + margin,
     [&](int w)
     {
+      const Vector& p = this->Mesh.Position[static_cast<std::size_t>(w)];
+      const float reach = this->Reach[static_cast<std::size_t>(w)];
+      if (p.X < low.X - reach || p.X > high.X + reach || p.Y < low.Y - reach ||
+        p.Y > high.Y + reach || p.Z < low.Z - reach || p.Z > high.Z + reach)
+      {
+        return;
+      }
       this->Mesh.ForFaces(w,
         [&](int face)
         {
@@ -147,9 +177,14 @@ bool InterfaceClearance::AreClear(const std::vector<MeshTriangle>& triangles,
     return true;
   }
   Box all(triangles.front());
+  std::vector<Box> boxes;
+  const float thick = static_cast<float>(this->Tolerance);
   for (const MeshTriangle& triangle : triangles)
   {
-    all.Add(Box(triangle));
+    boxes.emplace_back(triangle);
+    all.Add(boxes.back());
+    boxes.back().Low -= Vector(thick, thick, thick);
+    boxes.back().High += Vector(thick, thick, thick);
   }
   this->FindNear(all.Low, all.High, memory);
   for (std::size_t n = 0; n < triangles.size(); ++n)
@@ -168,11 +203,12 @@ bool InterfaceClearance::AreClear(const std::vector<MeshTriangle>& triangles,
     {
       continue;
     }
-    const MeshTriangle other =
-      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
-    for (const MeshTriangle& triangle : triangles)
+    const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+    const Vector* at = this->Mesh.Position.data();
+    for (std::size_t n = 0; n < triangles.size(); ++n)
     {
-      if (TrianglesIntersect(triangle, other, this->Tolerance))
+      if (!IsFaceApart(at[v[0]], at[v[1]], at[v[2]], boxes[n].Low, boxes[n].High) &&
+        TrianglesIntersect(triangles[n], TriangleOf(this->Mesh, v), this->Tolerance))
       {
         return false;
       }

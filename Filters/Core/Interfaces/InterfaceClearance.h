@@ -25,15 +25,18 @@ public:
    */
   InterfaceClearance(const InterfaceMesh& mesh, double tolerance);
 
-  /** Lays its grid afresh, for edges up to this length. */
+  /** Lays its grid afresh. @param longest no edge will be longer */
   void Reset(double longest);
   void Add(int v)
   {
     this->Grid.Resize(this->Mesh.Position.size());
+    this->Reach.resize(this->Mesh.Position.size(), 0.f);
     this->Insert(v);
   }
   void Remove(int v) { this->Grid.Remove(v); }
   void Move(int v) { this->Grid.Move(v, this->Mesh.Position[static_cast<std::size_t>(v)]); }
+  /** To be called of each face that is new, or has another corner, or a corner elsewhere. */
+  void Change(int face);
 
   /** What one thread remembers while it looks at faces. */
   struct Memory
@@ -55,7 +58,8 @@ private:
 
   const InterfaceMesh& Mesh;
   double Tolerance;
-  float Reach = 0.f; ///< of a face beyond the nearest of its vertices
+  float LongestReach = 0.f;
+  std::vector<float> Reach; ///< of each vertex, how far a face goes at most of which it is nearest
   VertexGrid Grid;
 };
 }

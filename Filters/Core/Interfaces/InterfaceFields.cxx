@@ -128,7 +128,35 @@ float InterfaceFields::At(int object, int i, int j, int k) const
   {
     return this->Map.Map().At(i, j, k) == object ? LabelField::Far : -LabelField::Far;
   }
-  return values[static_cast<std::size_t>(((k % Side) * Side + j % Side) * Side + i % Side)];
+  return values[PlaceInBrick(i, j, k)];
+}
+
+void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by)
+{
+  const LabelMap& map = this->Map.Map();
+  const LabelMap::Number own = map.At(voxel[0], voxel[1], voxel[2]);
+  const auto add = [&](const std::array<int, 3>& at, float size)
+  {
+    const std::size_t brick = this->NumberOfBrick(at[0] / Side, at[1] / Side, at[2] / Side);
+    if (const float* values = this->ValuesIn(brick, object))
+    {
+      this->Values[static_cast<std::size_t>(values - this->Values.data()) +
+        PlaceInBrick(at[0], at[1], at[2])] += own == object ? size : -size;
+    }
+  };
+  add(voxel, by);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const int step : { -1, 1 })
+    {
+      std::array<int, 3> at = voxel;
+      at[axis] += step;
+      if (map.At(at[0], at[1], at[2]) == own && VoxelBox::Of(map.Size).Contains(at))
+      {
+        add(at, 0.5f * by);
+      }
+    }
+  }
 }
 
 InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& place) const

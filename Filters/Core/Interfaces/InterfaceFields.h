@@ -59,6 +59,12 @@ public:
     return this->Interpolate(object, place).Value;
   }
 
+  /**
+   * Takes the field of an object further from 0 at a voxel, and half as much at those of the same
+   * object as it beside it, so that no sign changes: where triangles have cut the voxel off.
+   */
+  void Push(int object, const std::array<int, 3>& voxel, float by);
+
 private:
   static constexpr int Side = LabelBricks::Side;
   static constexpr std::size_t VoxelsOfBrick = static_cast<std::size_t>(Side) * Side * Side;
@@ -66,6 +72,10 @@ private:
   std::size_t NumberOfBrick(int i, int j, int k) const
   {
     return static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).NumberOf(i, j, k));
+  }
+  static std::size_t PlaceInBrick(int i, int j, int k)
+  {
+    return static_cast<std::size_t>(((k % Side) * Side + j % Side) * Side + i % Side);
   }
   /** The values of a brick, x fastest; null: it has none of this object. */
   const float* ValuesIn(std::size_t brick, int object) const;

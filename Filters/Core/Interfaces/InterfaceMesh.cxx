@@ -159,6 +159,57 @@ std::vector<std::array<int, 2>> InterfaceMesh::FindLines() const
   return lines;
 }
 
+std::vector<std::vector<int>> InterfaceMesh::FindFacesOfObjects() const
+{
+  std::vector<std::vector<int>> faces;
+  for (int f = 0; f < static_cast<int>(this->Faces.size()); ++f)
+  {
+    const Face& face = this->Faces[static_cast<std::size_t>(f)];
+    if (face.IsThere())
+    {
+      faces.resize(std::max<std::size_t>(faces.size(), face.Front + std::size_t(1)));
+      faces[face.Behind].push_back(f);
+      faces[face.Front].push_back(f);
+    }
+  }
+  return faces;
+}
+
+IndexedSurface InterfaceMesh::SurfaceOf(
+  int object, const std::vector<int>& faces, std::vector<int>& vertices) const
+{
+  vertices.clear();
+  for (const int f : faces)
+  {
+    const std::array<int, 3>& corners = this->Faces[static_cast<std::size_t>(f)].Vertex;
+    vertices.insert(vertices.end(), corners.begin(), corners.end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  IndexedSurface surface;
+  for (const int v : vertices)
+  {
+    const Vector& p = this->Position[static_cast<std::size_t>(v)];
+    surface.Points.push_back({ p.X, p.Y, p.Z });
+  }
+  for (const int f : faces)
+  {
+    const Face& face = this->Faces[static_cast<std::size_t>(f)];
+    Triangle triangle;
+    for (int k = 0; k < 3; ++k)
+    {
+      triangle[k] = static_cast<int>(
+        std::lower_bound(vertices.begin(), vertices.end(), face.Vertex[k]) - vertices.begin());
+    }
+    if (face.Front == object)
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+    surface.Triangles.push_back(triangle);
+  }
+  return surface;
+}
+
 VectorD InterfaceMesh::NormalOf(const Face& face) const
 {
   const VectorD a(this->Position[static_cast<std::size_t>(face.Vertex[0])]);

@@ -87,6 +87,12 @@ public:
   /** The edges of junction lines, the lower vertex first. */
   std::vector<std::array<int, 2>> FindLines() const;
 
+  /** Of each object, from 0 on, its faces. */
+  std::vector<std::vector<int>> FindFacesOfObjects() const;
+  /** The closed surface of an object, of its faces; vertices[n] is point n of it. */
+  IndexedSurface SurfaceOf(
+    int object, const std::vector<int>& faces, std::vector<int>& vertices) const;
+
   VectorD NormalOf(const Face& face) const; ///< twice the area long
   double LongestEdge() const;
 

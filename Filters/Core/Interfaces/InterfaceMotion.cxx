@@ -17,8 +17,14 @@ namespace
 constexpr std::size_t BlockSize = 1024;
 /** Of the shortest edge, what a vertex may go. */
 constexpr float MostOfEdge = 0.5f;
+/** Shorter steps are none. */
+constexpr float LeastPart = 0.1f;
 /** Cosine of the angle by which a face may turn. */
 constexpr double LeastTurnCosine = 0.3;
+/** How far a junction line's vertices go to between their neighbours. */
+constexpr float LineSmoothing = 0.5f;
+/** At most, workspace: less than that voxels' centres are from lines. */
+constexpr float MostSmoothing = 0.15f;
 /** Keeps Newton's steps small where the fields say little, as a share of their squared slopes. */
 constexpr double Damping = 0.02;
 
@@ -26,8 +32,9 @@ constexpr double Damping = 0.02;
 class Targets
 {
 public:
-  Targets(const InterfaceMesh& mesh, const InterfaceFields& fields, double share)
-    : Mesh(mesh), Fields(fields), Share(static_cast<float>(share))
+  Targets(const InterfaceMesh& mesh, const InterfaceFields& fields, double share, double shortest)
+    : Mesh(mesh), Fields(fields), Share(static_cast<float>(share)),
+      Shortest(static_cast<float>(shortest))
   {
   }
 
@@ -56,13 +63,40 @@ public:
         break;
     }
     target += this->ToInterfaces(target);
+    if (this->Mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Line)
+    {
+      const Vector way = this->Straightening(target) * LineSmoothing;
+      const float length = Length(way);
+      target += length > MostSmoothing ? way * (MostSmoothing / length) : way;
+    }
     const Vector way = target - place;
     const float length = Length(way);
     const float most = MostOfEdge * std::sqrt(shortest);
-    return length > most ? place + way * (most / length) : target;
+    float part = length > most ? most / length : 1.f;
+    while (part > LeastPart && this->Shortens(place, place + way * part))
+    {
+      part *= 0.5f;
+    }
+    return part > LeastPart ? place + way * part : place;
   }
 
 private:
+  /**
+   * Whether it would make an edge too short, if the neighbour did the same: two corners of the same
+   * objects want to be in one place.
+   */
+  bool Shortens(const Vector& place, const Vector& target) const
+  {
+    return std::any_of(this->Neighbours.begin(), this->Neighbours.end(),
+      [&](int w)
+      {
+        const Vector& other = this->Mesh.Position[static_cast<std::size_t>(w)];
+        const float before = Length(other - place);
+        const float least = 0.5f * (before + std::min(before, this->Shortest));
+        return SquaredDistance(other, target) < least * least;
+      });
+  }
+
   /** To the middle of its faces, by their areas, without what is across. */
   Vector AlongInterface(int v) const
   {
@@ -98,8 +132,32 @@ private:
   /** To the middle of its two neighbours on the line, without what is across. */
   Vector AlongLine(int v) const
   {
-    const Vector place = this->Mesh.Position[static_cast<std::size_t>(v)];
     std::array<Vector, 2> ends;
+    if (!this->FindEnds(ends))
+    {
+      return Vector();
+    }
+    const Vector along = Normalized(ends[1] - ends[0]);
+    return along *
+      Dot(along, (ends[0] + ends[1]) * 0.5f - this->Mesh.Position[static_cast<std::size_t>(v)]);
+  }
+
+  /** From a place to the straight line between the neighbours on the junction line. */
+  Vector Straightening(const Vector& place) const
+  {
+    std::array<Vector, 2> ends;
+    if (!this->FindEnds(ends))
+    {
+      return Vector();
+    }
+    const Vector along = Normalized(ends[1] - ends[0]);
+    const Vector way = (ends[0] + ends[1]) * 0.5f - place;
+    return way - along * Dot(along, way);
+  }
+
+  /** The two neighbours on its junction line. */
+  bool FindEnds(std::array<Vector, 2>& ends) const
+  {
     int count = 0;
     for (std::size_t n = 0; n + 2 < this->Neighbours.size(); ++n)
     {
@@ -110,12 +168,7 @@ private:
         ends[static_cast<std::size_t>(count++)] = this->Mesh.Position[static_cast<std::size_t>(w)];
       }
     }
-    if (count < 2)
-    {
-      return Vector();
-    }
-    const Vector along = Normalized(ends[1] - ends[0]);
-    return along * Dot(along, (ends[0] + ends[1]) * 0.5f - place);
+    return count == 2;
   }
 
   /** The least step that makes the fields of all objects about it the same. */
@@ -156,6 +209,7 @@ private:
   const InterfaceMesh& Mesh;
   const InterfaceFields& Fields;
   float Share;
+  float Shortest;
   std::vector<int> Neighbours;
   std::vector<int> Objects;
 };
@@ -288,14 +342,14 @@ private:
 }
 
 double MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, double share,
-  double tolerance, Executor& executor)
+  double shortest, double tolerance, Executor& executor)
 {
   const std::vector<Vector> before = mesh.Position;
   std::vector<Vector> after = before;
   ForBlocks(executor, before.size(), BlockSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      Targets targets(mesh, fields, share);
+      Targets targets(mesh, fields, share, shortest);
       for (std::size_t v = begin; v < end; ++v)
       {
         if (mesh.IsVertex(static_cast<int>(v)))

@@ -15,11 +15,12 @@ namespace volumic
  * same (Newton). No vertex goes further than half of its shortest edge; those whose triangles would
  * intersect, or turn too far, stay where they are, which is safe as all was safe before.
  *
+ * @param shortest  no edge is made shorter than that; workspace
  * @param tolerance nearer than that triangles are never; workspace
  * @return the largest way, in the workspace
  */
 double MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, double share,
-  double tolerance, Executor& executor);
+  double shortest, double tolerance, Executor& executor);
 }
 
 #endif

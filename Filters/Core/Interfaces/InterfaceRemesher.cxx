@@ -16,6 +16,8 @@ constexpr double LeastTurnCosine = 0.4;
 constexpr double LeastFlatCosine = 0.85;
 /** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
 constexpr double LeastRatio = 0.3;
+/** Those are slivers, by the same. */
+constexpr double MostSliver = 0.15;
 /** By how much a flip must make the smallest angle larger, radian. */
 constexpr double LeastGain = 0.02;
 
@@ -102,14 +104,20 @@ void InterfaceRemesher::Split(int u, int v)
                           this->Mesh.Position[static_cast<std::size_t>(v)]) * 0.5f;
   const int added = this->Mesh.AddVertex(
     middle, this->AtEdge.size() > 2 ? Stratum::Line : Stratum::Interface);
-  for (const int f : this->AtEdge)
+  const std::size_t count = this->AtEdge.size();
+  for (std::size_t n = 0; n < count; ++n)
   {
+    const int f = this->AtEdge[n];
     InterfaceMesh::Face half = this->Mesh.Faces[static_cast<std::size_t>(f)];
     std::replace(half.Vertex.begin(), half.Vertex.end(), u, added);
     this->Mesh.ReplaceVertex(f, v, added);
-    this->Mesh.AddFace(half);
+    this->AtEdge.push_back(this->Mesh.AddFace(half));
   }
   this->Clearance.Add(added);
+  for (const int f : this->AtEdge)
+  {
+    this->Clearance.Change(f);
+  }
 }
 
 int InterfaceRemesher::CollapseShortEdges()
@@ -136,13 +144,9 @@ bool InterfaceRemesher::MayCollapse(int u, int v)
 {
   const Stratum lower = std::min(this->Mesh.StratumOf[static_cast<std::size_t>(u)],
     this->Mesh.StratumOf[static_cast<std::size_t>(v)]);
-  if (lower == Stratum::Corner)
-  {
-    return false;
-  }
   this->Mesh.FindFaces(u, v, this->AtEdge);
   const bool isOnLine = this->AtEdge.size() > 2;
-  if (isOnLine != (lower == Stratum::Line))
+  if (isOnLine != (lower != Stratum::Interface))
   {
     return false; // Two lines would meet, or a vertex leave its own.
   }
@@ -215,7 +219,9 @@ bool InterfaceRemesher::TryCollapse(int kept, int removed)
               SquaredDistance(after.Corner[k], VectorD(place)) <= this->Longest;
           }
         }
-        isFair = isFair && CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
+        // The normals of slivers say nothing.
+        isFair = isFair && (RadiusRatio(before) < MostSliver ||
+          CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine);
         this->Made.push_back(after);
       });
   }
@@ -248,6 +254,10 @@ void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
   this->Clearance.Remove(removed);
   this->Mesh.Position[static_cast<std::size_t>(kept)] = place;
   this->Clearance.Move(kept);
+  for (const int f : this->Changed)
+  {
+    this->Clearance.Change(f);
+  }
 }
 
 int InterfaceRemesher::FlipEdges()
@@ -309,6 +319,8 @@ bool InterfaceRemesher::TryFlip(int u, int v)
   }
   this->Mesh.ReplaceVertex(f, v, q);
   this->Mesh.ReplaceVertex(g, u, p);
+  this->Clearance.Change(f);
+  this->Clearance.Change(g);
   return true;
 }
 }

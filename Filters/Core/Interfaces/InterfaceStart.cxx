@@ -20,8 +20,8 @@ using Number = LabelMap::Number;
 constexpr float LeastShare = 0.15f;
 
 /**
- * A point of the lattice, in halves of voxels: all even, a voxel's centre, or all odd, the middle
- * between eight of them.
+ * A point of the lattice, in halves of its pitch: all even, a corner of a cube, or all odd, the
+ * middle of one.
  */
 struct LatticeSite
 {
@@ -55,11 +55,15 @@ struct Tetrahedron
 class LatticeCutter
 {
 public:
-  explicit LatticeCutter(const InterfaceFields& fields)
-    : Fields(fields), Map(fields.Bricks().Map()),
-      Middles(VoxelBox{ { 0, 0, 0 },
-        { Map.Size[0] - 1, Map.Size[1] - 1, Map.Size[2] - 1 } })
+  /** @param pitch in voxels, 1 or 2 */
+  LatticeCutter(const InterfaceFields& fields, int pitch)
+    : Fields(fields), Map(fields.Bricks().Map()), Pitch(pitch)
   {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Corners[axis] = (this->Map.Size[axis] - 1) / pitch + 1;
+      this->Middles.End[axis] = this->Corners[axis] - 1;
+    }
   }
 
   void FindMiddles(Executor& executor);
@@ -73,9 +77,11 @@ public:
 private:
   using Key = std::uint64_t;
 
+  /** That whose field is the largest in the middle of eight voxels. */
   Number ObjectBetween(int i, int j, int k) const;
+  Number ObjectOf(const std::array<int, 3>& voxel) const;
   LatticeSite SiteAt(const std::array<int, 3>& halves) const;
-  void CutAbout(const std::array<int, 3>& voxel);
+  void CutAbout(const std::array<int, 3>& cube);
   void Cut(const Tetrahedron& cell);
   void CutInTwo(const Tetrahedron& cell);
   void CutInMore(const Tetrahedron& cell);
@@ -90,7 +96,9 @@ private:
 
   const InterfaceFields& Fields;
   const LabelMap& Map;
-  VoxelBox Middles;
+  int Pitch;
+  std::array<int, 3> Corners; ///< of cubes, along each axis
+  VoxelBox Middles;           ///< of cubes
   std::vector<Number> ObjectOfMiddle;
   std::unordered_map<Key, int> OnEdge;
   std::unordered_map<Key, int> OnFace;
@@ -109,7 +117,9 @@ void LatticeCutter::FindMiddles(Executor& executor)
       {
         for (int i = 0; i < this->Middles.End[0]; ++i)
         {
-          this->ObjectOfMiddle[at++] = this->ObjectBetween(i, j, k);
+          this->ObjectOfMiddle[at++] = this->Pitch == 1
+            ? this->ObjectBetween(i, j, k)
+            : this->ObjectOf({ 2 * i + 1, 2 * j + 1, 2 * k + 1 });
         }
       }
     });
@@ -149,26 +159,30 @@ Number LatticeCutter::ObjectBetween(int i, int j, int k) const
   return best;
 }
 
+Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) const
+{
+  return this->Map.Voxels[static_cast<std::size_t>(
+    VoxelBox::Of(this->Map.Size).NumberOf(voxel[0], voxel[1], voxel[2]))];
+}
+
 LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
 {
-  const int i = halves[0] >> 1;
-  const int j = halves[1] >> 1;
-  const int k = halves[2] >> 1;
+  const std::array<int, 3> cube = { halves[0] >> 1, halves[1] >> 1, halves[2] >> 1 };
   return { halves,
-    (halves[0] & 1) != 0
-      ? this->ObjectOfMiddle[static_cast<std::size_t>(this->Middles.NumberOf(i, j, k))]
-      : this->Map.Voxels[static_cast<std::size_t>(
-          VoxelBox::Of(this->Map.Size).NumberOf(i, j, k))] };
+    (halves[0] & 1) != 0 ? this->ObjectOfMiddle[static_cast<std::size_t>(
+                             this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
+                         : this->ObjectOf({ this->Pitch * cube[0], this->Pitch * cube[1],
+                             this->Pitch * cube[2] }) };
 }
 
 void LatticeCutter::CutBrick(int i, int j, int k)
 {
-  constexpr int side = LabelBricks::Side;
-  for (int z = k * side; z < std::min((k + 1) * side, this->Map.Size[2]); ++z)
+  const int side = LabelBricks::Side / this->Pitch;
+  for (int z = k * side; z < std::min((k + 1) * side, this->Corners[2]); ++z)
   {
-    for (int y = j * side; y < std::min((j + 1) * side, this->Map.Size[1]); ++y)
+    for (int y = j * side; y < std::min((j + 1) * side, this->Corners[1]); ++y)
     {
-      for (int x = i * side; x < std::min((i + 1) * side, this->Map.Size[0]); ++x)
+      for (int x = i * side; x < std::min((i + 1) * side, this->Corners[0]); ++x)
       {
         this->CutAbout({ x, y, z });
       }
@@ -176,20 +190,20 @@ void LatticeCutter::CutBrick(int i, int j, int k)
   }
 }
 
-void LatticeCutter::CutAbout(const std::array<int, 3>& voxel)
+void LatticeCutter::CutAbout(const std::array<int, 3>& cube)
 {
-  // Each tetrahedron has one edge between voxels, and one between middles of cubes: it belongs to
+  // Each tetrahedron has one edge between corners of cubes, and one between middles of cubes: it belongs to
   // the lower end of the former.
   for (int axis = 0; axis < 3; ++axis)
   {
     const int first = (axis + 1) % 3;
     const int second = (axis + 2) % 3;
-    if (voxel[axis] + 1 >= this->Map.Size[axis] || voxel[first] < 1 || voxel[second] < 1 ||
-      voxel[first] + 1 >= this->Map.Size[first] || voxel[second] + 1 >= this->Map.Size[second])
+    if (cube[axis] + 1 >= this->Corners[axis] || cube[first] < 1 || cube[second] < 1 ||
+      cube[first] + 1 >= this->Corners[first] || cube[second] + 1 >= this->Corners[second])
     {
       continue; // All is of one object there.
     }
-    std::array<int, 3> halves = { 2 * voxel[0], 2 * voxel[1], 2 * voxel[2] };
+    std::array<int, 3> halves = { 2 * cube[0], 2 * cube[1], 2 * cube[2] };
     const LatticeSite own = this->SiteAt(halves);
     halves[axis] += 2;
     const LatticeSite next = this->SiteAt(halves);
@@ -332,10 +346,11 @@ void LatticeCutter::CutInMore(const Tetrahedron& cell)
 
 float LatticeCutter::ValueAt(const LatticeSite& site, int object) const
 {
-  const int i = site.At[0] >> 1;
-  const int j = site.At[1] >> 1;
-  const int k = site.At[2] >> 1;
-  if ((site.At[0] & 1) == 0)
+  // In halves of voxels; with a pitch of 2 all sites are voxels.
+  const int i = this->Pitch * site.At[0] >> 1;
+  const int j = this->Pitch * site.At[1] >> 1;
+  const int k = this->Pitch * site.At[2] >> 1;
+  if (this->Pitch == 2 || (site.At[0] & 1) == 0)
   {
     return this->Fields.At(object, i, j, k);
   }
@@ -350,8 +365,10 @@ float LatticeCutter::ValueAt(const LatticeSite& site, int object) const
 Vector LatticeCutter::PlaceOf(const LatticeSite& site) const
 {
   const std::array<double, 3>& step = this->Fields.Step();
-  return Vector(static_cast<float>(0.5 * step[0] * site.At[0]),
-    static_cast<float>(0.5 * step[1] * site.At[1]), static_cast<float>(0.5 * step[2] * site.At[2]));
+  const double half = 0.5 * this->Pitch;
+  return Vector(static_cast<float>(half * step[0] * site.At[0]),
+    static_cast<float>(half * step[1] * site.At[1]),
+    static_cast<float>(half * step[2] * site.At[2]));
 }
 
 LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
@@ -437,9 +454,9 @@ void LatticeCutter::AddTriangle(
 }
 }
 
-InterfaceMesh MakeInterfaceStart(const InterfaceFields& fields, Executor& executor)
+InterfaceMesh MakeInterfaceStart(const InterfaceFields& fields, int pitch, Executor& executor)
 {
-  LatticeCutter cutter(fields);
+  LatticeCutter cutter(fields, pitch);
   cutter.FindMiddles(executor);
   const std::array<int, 3>& bricks = fields.Bricks().Size();
   for (int k = 0; k < bricks[2]; ++k)

@@ -19,7 +19,7 @@ namespace volumic
  * It is multi-label marching tetrahedra. Vertices on edges are where the fields of their ends'
  * objects are the same, as far as a share of the edge keeps them from its ends.
  */
-InterfaceMesh MakeInterfaceStart(const InterfaceFields& fields, Executor& executor);
+InterfaceMesh MakeInterfaceStart(const InterfaceFields& fields, int pitch, Executor& executor);
 }
 
 #endif

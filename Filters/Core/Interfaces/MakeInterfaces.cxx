@@ -5,6 +5,12 @@
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceStart.h"
+#include "Core/Image/VoxelNumbers.h"
+#include "Core/Labels/WrongVoxels.h"
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
 
 namespace volumic
 {
@@ -17,31 +23,100 @@ constexpr int LastRounds = 4;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
+/** No step makes an edge shorter, in the same. */
+constexpr double LeastShare = 0.5;
 /** Nearer triangles count as intersecting, in the mean length of edges. */
 constexpr double ToleranceOfEdge = 1e-3;
 /** How far vertices go to the middle of their neighbours. */
 constexpr double StepShare = 0.7;
+/** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
+constexpr float PushOfWrong = 0.3f;
+
+/** Of each object the voxels that its surface has on the wrong side. */
+std::vector<std::vector<std::int64_t>> FindWrong(
+  const InterfaceMesh& mesh, const InterfaceFields& fields, Executor& executor)
+{
+  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
+  // The last one is what is about all others, and has no end.
+  std::vector<std::vector<std::int64_t>> wrong(
+    static_cast<std::size_t>(fields.Bricks().Map().NumberOfObjects));
+  ForBlocks(executor, std::min(wrong.size(), faces.size()), 1,
+    [&](std::size_t object, std::size_t, std::size_t)
+    {
+      std::vector<int> vertices;
+      IndexedSurface surface =
+        mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices);
+      for (Point& p : surface.Points)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          p[axis] /= fields.Step()[axis];
+        }
+      }
+      wrong[object] =
+        FindWrongVoxels(fields.Bricks(), static_cast<int>(object), surface);
+    });
+  return wrong;
 }
 
-InterfaceMesh MakeInterfaces(const InterfaceFields& fields, double edge, Executor& executor,
+/** Has interfaces pass wrong voxels on the other side, after a step. @return how many there are */
+std::size_t PushWrong(const InterfaceMesh& mesh, InterfaceFields& fields, Executor& executor)
+{
+  const LabelMap& map = fields.Bricks().Map();
+  const VoxelNumbers numbers(map.Size);
+  const std::vector<std::vector<std::int64_t>> wrong = FindWrong(mesh, fields, executor);
+  std::size_t count = 0;
+  const int outside = map.NumberOfObjects;
+  for (std::size_t object = 0; object < wrong.size(); ++object)
+  {
+    for (const std::int64_t voxel : wrong[object])
+    {
+      fields.Push(static_cast<int>(object), numbers.PlaceOf(voxel), PushOfWrong);
+      if (map.Voxels[static_cast<std::size_t>(voxel)] == outside)
+      {
+        fields.Push(outside, numbers.PlaceOf(voxel), PushOfWrong);
+      }
+    }
+    count += wrong[object].size();
+  }
+  return count;
+}
+}
+
+InterfaceMesh MakeInterfaces(InterfaceFields& fields, double edge, Executor& executor,
   const std::function<bool(double share)>& progress)
 {
-  InterfaceMesh mesh = MakeInterfaceStart(fields, executor);
+  clock_t last = clock();
+  const auto lap = [&](const char* n) { if (getenv("VT")) printf("  %s %.3f\n", n, double(clock()-last)/CLOCKS_PER_SEC); last = clock(); };
+  InterfaceMesh mesh = MakeInterfaceStart(fields, getenv("VP") ? atoi(getenv("VP")) : 1, executor);
+  lap("start");
   const double tolerance = ToleranceOfEdge * edge;
   constexpr int all = Rounds + LastRounds;
   for (int round = 0; round < all && progress((round + 1.) / (all + 1.)); ++round)
   {
     {
       InterfaceRemesher remesher(mesh, ShortestShare * edge, LongestShare * edge, tolerance);
+      int a=0,b=0;
       if (round < Rounds)
       {
-        remesher.SplitLongEdges();
-        remesher.CollapseShortEdges();
+        a=remesher.SplitLongEdges();
+        b=remesher.CollapseShortEdges();
       }
-      remesher.FlipEdges();
+      lap("edits");
+      int c=remesher.FlipEdges();
+      lap("flips");
+      if (getenv("VT")) printf("round %d: splits %d collapses %d flips %d faces %zu\n", round,a,b,c,mesh.Faces.size());
     }
     mesh.Compact();
-    MoveInterfaces(mesh, fields, StepShare, tolerance, executor);
+    lap("compact");
+    if (round >= Rounds && (round - Rounds)%2==0)
+    {
+      auto w=PushWrong(mesh, fields, executor);
+      if (getenv("VT")) printf("wrong %zu\n", w);
+      lap("push");
+    }
+    MoveInterfaces(mesh, fields, StepShare, LeastShare * edge, tolerance, executor);
+    lap("move");
   }
   progress(1.);
   return mesh;
