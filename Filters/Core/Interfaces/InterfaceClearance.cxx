@@ -111,7 +111,8 @@ void InterfaceClearance::Change(int face)
   }
 }
 
-void InterfaceClearance::FindNear(const Vector& low, const Vector& high, Memory& memory) const
+void InterfaceClearance::FindNear(
+  const Vector& low, const Vector& high, int first, Memory& memory) const
 {
   memory.Seen.resize(this->Mesh.Faces.size(), 0);
   memory.Near.clear();
@@ -135,7 +136,7 @@ void InterfaceClearance::FindNear(const Vector& low, const Vector& high, Memory&
         [&](int face)
         {
           int& seen = memory.Seen[static_cast<std::size_t>(face)];
-          if (seen == memory.Now)
+          if (face < first || seen == memory.Now)
           {
             return;
           }
@@ -155,10 +156,10 @@ int InterfaceClearance::FindIntersecting(int face, int first, Memory& memory) co
   const MeshTriangle triangle =
     TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
   const Box box(triangle);
-  this->FindNear(box.Low, box.High, memory);
+  this->FindNear(box.Low, box.High, first, memory);
   for (const int other : memory.Near)
   {
-    if (other != face && other >= first &&
+    if (other != face &&
       TrianglesIntersect(triangle,
         TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex),
         this->Tolerance))
@@ -186,7 +187,7 @@ bool InterfaceClearance::AreClear(const std::vector<MeshTriangle>& triangles,
     boxes.back().Low -= Vector(thick, thick, thick);
     boxes.back().High += Vector(thick, thick, thick);
   }
-  this->FindNear(all.Low, all.High, memory);
+  this->FindNear(all.Low, all.High, 0, memory);
   for (std::size_t n = 0; n < triangles.size(); ++n)
   {
     for (std::size_t m = n + 1; m < triangles.size(); ++m)

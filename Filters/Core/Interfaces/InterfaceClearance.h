@@ -45,8 +45,8 @@ public:
     int Now = 0;
     std::vector<int> Near; ///< what was found last
   };
-  /** Faces that may come near a box, in Memory::Near. */
-  void FindNear(const Vector& low, const Vector& high, Memory& memory) const;
+  /** Faces from `first` on that may come near a box, in Memory::Near. */
+  void FindNear(const Vector& low, const Vector& high, int first, Memory& memory) const;
   /** A face that this one intersects, of those from `first` on; -1: none. */
   int FindIntersecting(int face, int first, Memory& memory) const;
   /** Whether triangles may take the place of some faces: they intersect nothing else, nor each other. */

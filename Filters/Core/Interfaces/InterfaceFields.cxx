@@ -82,6 +82,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
       const double share = static_cast<double>(++done) / static_cast<double>(count);
       goesOn = progress(share) && goesOn;
     });
+  this->Shifts.assign(count + 1, 0.f);
   this->First.assign(static_cast<std::size_t>(VoxelBox::Of(bricks.Size()).Count()) + 1, 0);
   for (const BricksOfObject& of : made)
   {
@@ -203,7 +204,8 @@ InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& p
   const float layer[2] = { between(row[0][0], row[0][1], share[1]),
     between(row[1][0], row[1][1], share[1]) };
   Sample sample;
-  sample.Value = between(layer[0], layer[1], share[2]);
+  sample.Value =
+    between(layer[0], layer[1], share[2]) + this->Shifts[static_cast<std::size_t>(object)];
   const float x = between(
     between(along[0][0], along[0][1], share[1]), between(along[1][0], along[1][1], share[1]), share[2]);
   const float y = between(row[0][1] - row[0][0], row[1][1] - row[1][0], share[2]);

@@ -65,6 +65,9 @@ public:
    */
   void Push(int object, const std::array<int, 3>& voxel, float by);
 
+  /** Adds a number to the whole field of an object, near its boundary. */
+  void Shift(int object, float by) { this->Shifts[static_cast<std::size_t>(object)] += by; }
+
 private:
   static constexpr int Side = LabelBricks::Side;
   static constexpr std::size_t VoxelsOfBrick = static_cast<std::size_t>(Side) * Side * Side;
@@ -85,6 +88,7 @@ private:
   std::vector<std::size_t> First; ///< of each brick, in Objects
   std::vector<LabelMap::Number> Objects; ///< those of a brick sorted
   LargeVector<float> Values; ///< a brick of each
+  std::vector<float> Shifts; ///< of each object
 };
 }
 

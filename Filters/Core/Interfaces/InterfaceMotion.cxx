@@ -341,30 +341,27 @@ private:
 };
 }
 
-double MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, double share,
+void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
   double shortest, double tolerance, Executor& executor)
 {
   const std::vector<Vector> before = mesh.Position;
   std::vector<Vector> after = before;
-  ForBlocks(executor, before.size(), BlockSize,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      Targets targets(mesh, fields, share, shortest);
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        if (mesh.IsVertex(static_cast<int>(v)))
-        {
-          after[v] = targets.Of(static_cast<int>(v));
-        }
-      }
-    });
-  mesh.Position.swap(after);
-  Verification(mesh, before, tolerance, executor).Run();
-  float most = 0.f;
-  for (std::size_t v = 0; v < before.size(); ++v)
+  for (int step = 0; step < steps; ++step)
   {
-    most = std::max(most, SquaredDistance(before[v], mesh.Position[v]));
+    ForBlocks(executor, before.size(), BlockSize,
+      [&](std::size_t, std::size_t begin, std::size_t end)
+      {
+        Targets targets(mesh, fields, share, shortest);
+        for (std::size_t v = begin; v < end; ++v)
+        {
+          if (mesh.IsVertex(static_cast<int>(v)))
+          {
+            after[v] = targets.Of(static_cast<int>(v));
+          }
+        }
+      });
+    mesh.Position.swap(after);
   }
-  return std::sqrt(static_cast<double>(most));
+  Verification(mesh, before, tolerance, executor).Run();
 }
 }

@@ -10,16 +10,16 @@
 namespace volumic
 {
 /**
- * One step of all vertices at once: along their interface or junction line to the middle of their
+ * Steps of all vertices at once: along their interface or junction line to the middle of their
  * neighbours, by this share of the way, then to where the fields of all objects about them are the
- * same (Newton). No vertex goes further than half of its shortest edge; those whose triangles would
- * intersect, or turn too far, stay where they are, which is safe as all was safe before.
+ * same (Newton). No vertex goes further than half of its shortest edge in a step. Those whose triangles
+ * intersect after the last one, or have turned too far, are taken back to where they were before the
+ * first, which is safe as all was safe then.
  *
  * @param shortest  no edge is made shorter than that; workspace
  * @param tolerance nearer than that triangles are never; workspace
- * @return the largest way, in the workspace
  */
-double MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, double share,
+void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
   double shortest, double tolerance, Executor& executor);
 }
 

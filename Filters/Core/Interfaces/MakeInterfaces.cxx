@@ -8,6 +8,9 @@
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Labels/WrongVoxels.h"
 #include <chrono>
+#include <map>
+#include <array>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -17,9 +20,9 @@ namespace volumic
 namespace
 {
 /** Rounds of edits and steps, */
-constexpr int Rounds = 8;
+static int Steps=getenv("VS")?atoi(getenv("VS")):2; static int FirstPush=getenv("VF")?atoi(getenv("VF")):3; static int Rounds = getenv("VR")?atoi(getenv("VR")):8;
 /** then of flips and steps alone. */
-constexpr int LastRounds = 4;
+static int LastRounds = getenv("VL")?atoi(getenv("VL")):4;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
@@ -29,8 +32,12 @@ constexpr double LeastShare = 0.5;
 constexpr double ToleranceOfEdge = 1e-3;
 /** How far vertices go to the middle of their neighbours. */
 constexpr double StepShare = 0.7;
+/** Sweeps over the equations of the shifts. */
+constexpr int VolumeSweeps = 200;
+/** Fields are shifted at most by that, in smallest distances of voxels: their signs are to stay. */
+constexpr double MostShift = 0.08;
 /** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
-constexpr float PushOfWrong = 0.3f;
+static float PushOfWrong = getenv("VW")?atof(getenv("VW")):.2f;
 
 /** Of each object the voxels that its surface has on the wrong side. */
 std::vector<std::vector<std::int64_t>> FindWrong(
@@ -57,6 +64,64 @@ std::vector<std::vector<std::int64_t>> FindWrong(
         FindWrongVoxels(fields.Bricks(), static_cast<int>(object), surface);
     });
   return wrong;
+}
+
+/**
+ * Shifts all fields so that, to first order, each object but the last gets the volume of its voxels:
+ * an interface moves by half of what its two fields are shifted by.
+ */
+void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
+{
+  const LabelBricks& bricks = fields.Bricks();
+  const auto last = static_cast<std::size_t>(bricks.Map().NumberOfObjects);
+  const std::array<double, 3>& step = fields.Step();
+  const double ofVoxel = step[0] * step[1] * step[2];
+  std::vector<double> missing(last + 1, 0.);
+  std::map<std::array<std::size_t, 2>, double> areas;
+  for (std::size_t object = 1; object < last; ++object)
+  {
+    missing[object] =
+      ofVoxel * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
+  }
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    if (face.IsThere())
+    {
+      const VectorD across = mesh.NormalOf(face);
+      const double volume =
+        Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
+      missing[face.Behind] -= volume;
+      missing[face.Front] += volume;
+      areas[{ face.Behind, face.Front }] += 0.5 * Length(across);
+    }
+  }
+  std::vector<double> shifts(last + 1, 0.);
+  std::vector<double> sums(last + 1);
+  std::vector<double> weights(last + 1);
+  for (int sweep = 0; sweep < VolumeSweeps; ++sweep)
+  {
+    sums = missing;
+    std::fill(weights.begin(), weights.end(), 0.);
+    for (const auto& pair : areas)
+    {
+      const std::size_t a = pair.first[0];
+      const std::size_t b = pair.first[1];
+      const double area = 0.5 * pair.second;
+      sums[a] += area * shifts[b];
+      sums[b] += area * shifts[a];
+      weights[a] += area;
+      weights[b] += area;
+    }
+    for (std::size_t object = 1; object < last; ++object)
+    {
+      shifts[object] = weights[object] > 0. ? sums[object] / weights[object] : 0.;
+    }
+  }
+  for (std::size_t object = 1; object < last; ++object)
+  {
+    fields.Shift(static_cast<int>(object),
+      static_cast<float>(std::clamp(shifts[object], -MostShift, MostShift)));
+  }
 }
 
 /** Has interfaces pass wrong voxels on the other side, after a step. @return how many there are */
@@ -91,7 +156,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, double edge, Executor& exe
   InterfaceMesh mesh = MakeInterfaceStart(fields, getenv("VP") ? atoi(getenv("VP")) : 1, executor);
   lap("start");
   const double tolerance = ToleranceOfEdge * edge;
-  constexpr int all = Rounds + LastRounds;
+  int all = Rounds + LastRounds;
   for (int round = 0; round < all && progress((round + 1.) / (all + 1.)); ++round)
   {
     {
@@ -109,13 +174,14 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, double edge, Executor& exe
     }
     mesh.Compact();
     lap("compact");
-    if (round >= Rounds && (round - Rounds)%2==0)
+    if (round >= FirstPush && round < all-1)
     {
+      CorrectVolumes(mesh, fields);
       auto w=PushWrong(mesh, fields, executor);
       if (getenv("VT")) printf("wrong %zu\n", w);
       lap("push");
     }
-    MoveInterfaces(mesh, fields, StepShare, LeastShare * edge, tolerance, executor);
+    MoveInterfaces(mesh, fields, round>0 ? Steps : 1, StepShare, LeastShare * edge, tolerance, executor);
     lap("move");
   }
   progress(1.);
