@@ -47,6 +47,24 @@ class ExportTest(testing.PluginTestCase):
         image = label_maps.add_names(label_maps.image(), **names)
         return simple.LabelstoSurfaces(testing.produce(image), FinestLevel=1)
 
+    def test_interfaces_for_meshers_of_solids(self):
+        source = self.labels()
+        source.SharedInterfaces = 1
+        interfaces = testing.fetch(source, 1)
+        for suffix in ("msh", "smesh"):
+            writer = servermanager.writers.ExportSurfaces(
+                Input=servermanager.OutputPort(source, 1),
+                FileName=os.path.join(self.folder, "organs." + suffix))
+            writer.UpdatePipeline()
+        with open(os.path.join(self.folder, "organs.msh"), encoding="utf-8") as file:
+            text = file.read()
+        for name in label_maps.NAMES.values():
+            self.assertRegex(text, f'\n3 \\d+ "{name}"\n')
+        with open(os.path.join(self.folder, "organs.smesh"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertEqual(len([line for line in text.splitlines() if line.startswith("3 ")
+                              and len(line.split()) == 5]), interfaces.GetNumberOfPolys())
+
     def test_a_file_for_each_label(self):
         source = self.labels()
         blocks = testing.fetch(source)
