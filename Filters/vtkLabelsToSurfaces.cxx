@@ -22,14 +22,17 @@
 #include "Run/SegmentationCache.h"
 #include "Settings/PropertyValues.h"
 
+#include <vtkCellData.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkMultiProcessController.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -321,7 +324,14 @@ void vtkLabelsToSurfaces::MakeSurfaces(
     maker.Make(threads, show);
     surfaces = maker.Surfaces(threads);
     interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
-    volumic::DescribeInterfaces(choice, *image, interfaces);
+    volumic::AddLabelFields(choice, *image, interfaces);
+    if (choice.IsMerged)
+    {
+      vtkNew<vtkIntArray> nearest;
+      nearest->SetNumberOfTuples(interfaces->GetNumberOfCells());
+      image->FindNearest(interfaces, choice.Labels, nearest);
+      interfaces->GetCellData()->GetArray("BoundaryLabels")->CopyComponent(0, nearest, 0);
+    }
   }
   if (ranks.Rank() != 0)
   {

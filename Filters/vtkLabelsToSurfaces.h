@@ -38,8 +38,8 @@
  * where interfaces meet, and then the triangles of all labels, each once. Points in double precision,
  * with `Junction` (unsigned char: 0 on an interface, 1 on a line where interfaces meet, 2 where lines
  * meet); `BoundaryLabels` of cells (int, 2 components: the label behind the triangle, and the one that
- * its normal points into; BackgroundLabel outside, and of lines); field data `Label`, `LabelName`,
- * `LabelColor` and `LabelVoxels` with an entry for each surface. Points of blocks at port 0 have
+ * its normal points into; BackgroundLabel outside, and of lines; with Merge the nearest label, and the
+ * outside); field data `Label`, `LabelName`, `LabelColor` and `LabelVoxels`, an entry per label. Points of blocks at port 0 have
  * `GlobalIds` (vtkIdType): their numbers here.
  *
  * @par Algorithm:

@@ -112,8 +112,9 @@ bool LabelSurface::IsUnfinished() const
 
 bool SharesInterfaces(const ToolOptions& options)
 {
+  const bool isMerged = options.HasProperty("Merge"); // to one surface, which is a file of its own
   return options.HasProperty("SharedInterfaces") ||
-    std::any_of(options.Surfaces.begin(), options.Surfaces.end(), IsOfSolids);
+    (!isMerged && std::any_of(options.Surfaces.begin(), options.Surfaces.end(), IsOfSolids));
 }
 
 LabelOutput OutputOf(const ToolOptions& options, const std::string& name)
@@ -122,8 +123,8 @@ LabelOutput OutputOf(const ToolOptions& options, const std::string& name)
   const bool isFolder =
     EndsWith(name, "/") || SuffixOf(name).empty() || fs::is_directory(name, failed);
   const std::string suffix = SuffixOf(name);
-  const bool isOfAll = IsOfSolids(name) ||
-    (SharesInterfaces(options) && (suffix == ".vtp" || suffix == ".vtk"));
+  const bool isOfAll = SharesInterfaces(options) &&
+    (suffix == ".vtp" || suffix == ".vtk" || (IsOfSolids(name) && !options.HasProperty("Merge")));
   return isFolder                       ? LabelOutput::Folder
     : suffix == ".vtm" || IsScene(name) ? LabelOutput::Blocks
     : isOfAll                           ? LabelOutput::Interfaces

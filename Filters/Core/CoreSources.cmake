@@ -36,6 +36,7 @@ set(volumic_core_sources
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
   Labels/LabelSides.cxx
+  Labels/SmallParts.cxx
   Labels/TouchingSurfaces.cxx
   Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx
@@ -60,6 +61,7 @@ set(volumic_core_sources
   Mesh/VertexRemoval.cxx
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
+  Interfaces/InterfaceFit.cxx
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
   Interfaces/InterfaceRemesher.cxx
@@ -163,6 +165,7 @@ set(volumic_core_headers
   Labels/LabelHold.h
   Labels/LabelMap.h
   Labels/LabelSides.h
+  Labels/SmallParts.h
   Labels/TouchingSurfaces.h
   Labels/WrongVoxels.h
   Mesh/CellSurface.h
@@ -189,6 +192,7 @@ set(volumic_core_headers
   Mesh/VertexRemoval.h
   Interfaces/InterfaceClearance.h
   Interfaces/InterfaceFields.h
+  Interfaces/InterfaceFit.h
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
   Interfaces/InterfaceRemesher.h

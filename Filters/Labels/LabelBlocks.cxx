@@ -60,29 +60,19 @@ void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const Label
   surface->GetCellData()->AddArray(array);
 }
 
-/** Labels, what they are called, and their colours. */
-void AddNames(vtkPolyData* surface, const std::vector<int>& labels,
-  const std::vector<std::string>& texts, const LabelNames& names)
+/** What each of the labels is called, and its colour. */
+void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelNames& names)
 {
+  std::vector<std::string> texts;
   std::vector<double> colors;
   for (const int label : labels)
   {
+    texts.push_back(names.NameOf(label));
     const LabelNames::Color color = names.ColorOf(label);
     colors.insert(colors.end(), color.begin(), color.end());
   }
-  AddField<vtkIntArray>(surface, "Label", labels);
   AddField<vtkStringArray>(surface, "LabelName", texts);
   AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
-}
-
-vtkIdType VoxelsOf(const LabelImage& image, const std::vector<int>& labels)
-{
-  vtkIdType voxels = 0;
-  for (const int label : labels)
-  {
-    voxels += image.Labels().at(label).Count;
-  }
-  return voxels;
 }
 
 /** Why what is there may not be in a surface, and what helps, if anything does. */
@@ -167,19 +157,19 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     const std::vector<int> labels = choice.LabelsOf(i);
-    const vtkIdType voxels = VoxelsOf(image, labels);
+    vtkIdType voxels = 0;
+    for (const int label : labels)
+    {
+      voxels += image.Labels().at(label).Count;
+    }
     const std::string name = choice.Names.NameOf(labels);
     vtkNew<vtkPolyData> surface;
     const bool isThere = surfaces[i].Surface != nullptr;
     surface->ShallowCopy(isThere ? surfaces[i].Surface
                                  : MakeStopped(0, Describe(StopReason::Cancelled)));
     AddLabels(surface, labels, image);
-    std::vector<std::string> texts;
-    for (const int label : labels)
-    {
-      texts.push_back(choice.Names.NameOf(label));
-    }
-    AddNames(surface, labels, texts, choice.Names);
+    AddField<vtkIntArray>(surface, "Label", labels);
+    AddNames(surface, labels, choice.Names);
     AddField<vtkIdTypeArray>(surface, "LabelVoxels", std::vector<vtkIdType>{ voxels });
     AddField<vtkIdTypeArray>(
       surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });
@@ -235,16 +225,16 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   return JoinedBy(" ", warnings);
 }
 
-void DescribeInterfaces(
-  const LabelChoice& choice, const LabelImage& image, vtkPolyData* interfaces)
+void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface)
 {
   std::vector<vtkIdType> voxels;
-  for (std::size_t i = 0; i < choice.NumberOfSurfaces(); ++i)
+  for (const int label : choice.Labels)
   {
-    voxels.push_back(VoxelsOf(image, choice.LabelsOf(i)));
+    voxels.push_back(image.Labels().at(label).Count);
   }
-  AddNames(interfaces, choice.FirstLabels(), choice.SurfaceNames(), choice.Names);
-  AddField<vtkIdTypeArray>(interfaces, "LabelVoxels", voxels);
+  AddField<vtkIntArray>(surface, "Label", choice.Labels);
+  AddNames(surface, choice.Labels, choice.Names);
+  AddField<vtkIdTypeArray>(surface, "LabelVoxels", voxels);
 }
 
 void FillEmptyBlocks(const std::vector<std::string>& names, vtkMultiBlockDataSet* output)

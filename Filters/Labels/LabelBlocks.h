@@ -12,7 +12,6 @@
 #include <vector>
 
 class vtkMultiBlockDataSet;
-class vtkPolyData;
 
 namespace volumic
 {
@@ -26,7 +25,7 @@ struct LabelChoice
   std::size_t NumberOfSurfaces() const { return this->IsMerged ? 1 : this->Labels.size(); }
   /** Of a surface. */
   std::vector<int> LabelsOf(std::size_t surface) const;
-  /** The first label of each surface: the number that interfaces have for it. */
+  /** The first label of each surface. */
   std::vector<int> FirstLabels() const;
   /** The names of all surfaces. */
   std::vector<std::string> SurfaceNames() const;
@@ -41,9 +40,8 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
   vtkMultiBlockDataSet* output);
 
-/** Give interfaces field data of their labels, as blocks have it: an entry for each surface. */
-void DescribeInterfaces(
-  const LabelChoice& choice, const LabelImage& image, vtkPolyData* interfaces);
+/** Names, colours and voxels of all labels, for a surface that has them all. */
+void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface);
 
 /**
  * The same blocks, empty, for ranks that have no surfaces: writers and readers of ParaView wait for

@@ -4,9 +4,11 @@
 
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Interfaces/MakeInterfaces.h"
+#include "Core/Labels/SmallParts.h"
 #include "Core/Labels/WrongVoxels.h"
 #include "Core/Surface/SizingField.h"
 #include "Output/SurfaceOutput.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -21,9 +23,12 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <thread>
+#include <utility>
 
 namespace volumic
 {
@@ -70,31 +75,54 @@ LabelMap LabelInterfaceMaker::WithOutside(const LabelMap& map, int objects)
   return padded;
 }
 
-LabelInterfaceMaker::LabelInterfaceMaker(const LabelMap& map, int objects, vtkImageData* image,
+LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData* image,
   const LabelSettings& settings, HostThreads& threads)
-  : Settings(settings), Map(WithOutside(map, objects)),
-    Space(image, static_cast<Metric>(settings.Metric))
+  : Settings(settings), Space(image, static_cast<Metric>(settings.Metric))
 {
+  const auto keep = static_cast<KeepComponentsType>(settings.KeepComponents);
+  if (keep != KeepComponentsType::AllComponents)
+  {
+    const double ofVoxel =
+      map.Spacing[0] * map.Spacing[1] * map.Spacing[2] * std::pow(this->Space.WorldUnit(), 3.0);
+    GiveAwaySmallParts(map, objects,
+      static_cast<std::int64_t>(std::ceil(settings.MinimumComponentVolume / ofVoxel)),
+      keep == KeepComponentsType::LargestComponent);
+  }
+  this->Map = WithOutside(map, objects);
   threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
 }
 
 void LabelInterfaceMaker::Make(HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
 {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> goesOn{ true };
+  const auto tell = [&](double share, const char* text)
+  {
+    if (std::this_thread::get_id() == caller && !progress(share, text))
+    {
+      goesOn = false;
+    }
+    return goesOn.load();
+  };
   threads.Run(
     [&]
     {
-      this->Fields.emplace(*this->Bricks, LabelSurfaceMaker::FieldOptions(this->Settings, this->Map),
-        this->Space.Step(), threads, [](double) { return true; });
-      this->IsFinished = true;
-      this->Mesh = MakeInterfaces(*this->Fields, EdgeOf(this->Settings, this->Space), threads,
-        [&](double share)
-        {
-          this->IsFinished =
-            progress(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels") &&
-            this->IsFinished;
-          return this->IsFinished;
-        });
+      this->Fields.emplace(*this->Bricks,
+        LabelSurfaceMaker::FieldOptions(this->Settings, this->Map), this->Space.Step(), threads,
+        [&](double share) { return tell(FieldShare * share, "Fields of the labels"); });
+      if (goesOn)
+      {
+        InterfaceOptions options;
+        options.Edge = EdgeOf(this->Settings, this->Space);
+        options.VoxelTolerance = this->Settings.VoxelTolerance;
+        this->Mesh = MakeInterfaces(*this->Fields, options, threads,
+          [&](double share)
+          {
+            return tell(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels");
+          });
+      }
     });
+  this->IsFinished = goesOn;
 }
 
 Point LabelInterfaceMaker::InWorkspace(const Vector& place) const
@@ -105,6 +133,17 @@ Point LabelInterfaceMaker::InWorkspace(const Vector& place) const
 
 LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& faces) const
 {
+  LabelSurface made;
+  made.IsFinished = this->IsFinished;
+  made.WrongVoxels = made.MissedVoxels = this->Bricks->ExtentOf(object).Voxels;
+  if (faces.empty())
+  {
+    if (this->IsFinished)
+    {
+      made.Surface = MakeStopped(this->Settings.FinestLevel, "vanished");
+    }
+    return made;
+  }
   const std::array<double, 3>& step = this->Space.Step();
   std::vector<int> vertices;
   SurfaceResult surface;
@@ -149,8 +188,6 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
   description.StopReason = Describe(
     this->IsFinished ? StopReason::Converged : StopReason::Cancelled);
-  LabelSurface made;
-  made.IsFinished = this->IsFinished;
   const std::vector<std::int64_t> wrong = FindWrongVoxels(*this->Bricks, object, inVoxels);
   made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
   made.MissedVoxels = static_cast<vtkIdType>(

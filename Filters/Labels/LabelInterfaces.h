@@ -31,7 +31,7 @@ public:
    * @param image   its geometry is the map's
    * Settings must outlive it.
    */
-  LabelInterfaceMaker(const LabelMap& map, int objects, vtkImageData* image,
+  LabelInterfaceMaker(LabelMap map, int objects, vtkImageData* image,
     const LabelSettings& settings, HostThreads& threads);
 
   /** @param progress as LabelSurfaceMaker's; after false what there is is not finished. */

@@ -58,7 +58,7 @@ BricksOfObject CopyBricks(const LabelField& field, const LabelBricks& map, int o
 
 InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
   const std::array<double, 3>& step, Executor& executor,
-  const std::function<bool(double share)>& progress)
+  const std::function<bool(double share)>& goOn)
   : Map(bricks), Lengths(step)
 {
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects);
@@ -80,7 +80,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
         made[static_cast<std::size_t>(object)] = CopyBricks(field, bricks, object);
       }
       const double share = static_cast<double>(++done) / static_cast<double>(count);
-      goesOn = progress(share) && goesOn;
+      goesOn = goOn(share) && goesOn;
     });
   this->Shifts.assign(count + 1, 0.f);
   this->First.assign(static_cast<std::size_t>(VoxelBox::Of(bricks.Size()).Count()) + 1, 0);
@@ -130,6 +130,23 @@ float InterfaceFields::At(int object, int i, int j, int k) const
     return this->Map.Map().At(i, j, k) == object ? LabelField::Far : -LabelField::Far;
   }
   return values[PlaceInBrick(i, j, k)];
+}
+
+LabelMap::Number InterfaceFields::LargestAt(int i, int j, int k) const
+{
+  const std::size_t brick = this->NumberOfBrick(i / Side, j / Side, k / Side);
+  LabelMap::Number best = this->Map.Map().At(i, j, k);
+  float most = this->At(best, i, j, k);
+  for (std::size_t n = this->First[brick]; n < this->First[brick + 1]; ++n)
+  {
+    const float value = this->Values[n * VoxelsOfBrick + PlaceInBrick(i, j, k)];
+    if (value > most)
+    {
+      best = this->Objects[n];
+      most = value;
+    }
+  }
+  return best;
 }
 
 void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by)

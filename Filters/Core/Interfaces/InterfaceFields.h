@@ -8,6 +8,7 @@
 #include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelField.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -28,11 +29,11 @@ class InterfaceFields
 public:
   /**
    * @param step     lengths of a voxel in the workspace
-   * @param progress told the share that is done, on any thread; after false all ends soon
+   * @param goOn told the share that is done, on any thread; after false what there is is of no use
    */
   InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
     const std::array<double, 3>& step, Executor& executor,
-    const std::function<bool(double share)>& progress);
+    const std::function<bool(double share)>& goOn);
 
   const LabelBricks& Bricks() const { return this->Map; }
   const std::array<double, 3>& Step() const { return this->Lengths; }
@@ -65,10 +66,21 @@ public:
    */
   void Push(int object, const std::array<int, 3>& voxel, float by);
 
-  /** Adds a number to the whole field of an object, near its boundary. */
-  void Shift(int object, float by) { this->Shifts[static_cast<std::size_t>(object)] += by; }
+  /**
+   * Adds a number to the whole field of an object. All of these together stay so small that signs at
+   * voxels, which are a Margin of LabelFieldOptions from 0, do not change.
+   */
+  void Shift(int object, float by)
+  {
+    float& shift = this->Shifts[static_cast<std::size_t>(object)];
+    shift = std::clamp(shift + by, -MostShift, MostShift);
+  }
+
+  /** The object whose field is the largest at a voxel. */
+  LabelMap::Number LargestAt(int i, int j, int k) const;
 
 private:
+  static constexpr float MostShift = 0.08f; ///< smallest distances of voxels
   static constexpr int Side = LabelBricks::Side;
   static constexpr std::size_t VoxelsOfBrick = static_cast<std::size_t>(Side) * Side * Side;
 

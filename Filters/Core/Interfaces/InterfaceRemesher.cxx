@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace volumic
 {
@@ -14,6 +15,10 @@ namespace
 constexpr double LeastTurnCosine = 0.4;
 /** Cosine of the angle between two faces whose edge is flipped. */
 constexpr double LeastFlatCosine = 0.85;
+/** The same where one of them is a sliver. */
+constexpr double LeastSliverCosine = 0.5;
+/** Triangles with a smaller angle are slivers, radian. */
+constexpr double LeastAngle = 0.5;
 /** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
 constexpr double LeastRatio = 0.3;
 /** Those are slivers, by the same. */
@@ -58,9 +63,9 @@ double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
   return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
 }
 
-InterfaceRemesher::InterfaceRemesher(
-  InterfaceMesh& mesh, double shortest, double longest, double tolerance)
-  : Mesh(mesh), Clearance(mesh, tolerance), Shortest(static_cast<float>(shortest * shortest)),
+InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest,
+  double tolerance, std::function<bool()> goOn)
+  : Mesh(mesh), GoOn(std::move(goOn)), Clearance(mesh, tolerance), Shortest(static_cast<float>(shortest * shortest)),
     Longest(static_cast<float>(longest * longest))
 {
   this->Clearance.Reset(std::max(mesh.LongestEdge(), longest));
@@ -70,7 +75,7 @@ int InterfaceRemesher::SplitLongEdges()
 {
   int count = 0;
   // New faces are looked at in their turn.
-  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
     const InterfaceMesh::Face face = this->Mesh.Faces[f];
     if (!face.IsThere())
@@ -123,18 +128,13 @@ void InterfaceRemesher::Split(int u, int v)
 int InterfaceRemesher::CollapseShortEdges()
 {
   int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
     for (int k = 0; k < 3 && this->Mesh.Faces[f].IsThere(); ++k)
     {
       const int u = this->Mesh.Faces[f].Vertex[k];
       const int v = this->Mesh.Faces[f].Vertex[(k + 1) % 3];
-      if (this->SquaredEdge(u, v) < this->Shortest && this->MayCollapse(u, v))
-      {
-        const bool keepsFirst = this->Mesh.StratumOf[static_cast<std::size_t>(u)] >=
-          this->Mesh.StratumOf[static_cast<std::size_t>(v)];
-        count += this->TryCollapse(keepsFirst ? u : v, keepsFirst ? v : u) ? 1 : 0;
-      }
+      count += this->SquaredEdge(u, v) < this->Shortest && this->TryCollapse(u, v) ? 1 : 0;
     }
   }
   return count;
@@ -173,17 +173,28 @@ bool InterfaceRemesher::MayCollapse(int u, int v)
   return common.size() == this->AtEdge.size();
 }
 
-Vector InterfaceRemesher::PlaceOf(int kept, int removed) const
+bool InterfaceRemesher::TryCollapse(int u, int v)
 {
-  const Vector& place = this->Mesh.Position[static_cast<std::size_t>(kept)];
-  const bool isAlike = this->Mesh.StratumOf[static_cast<std::size_t>(kept)] ==
-    this->Mesh.StratumOf[static_cast<std::size_t>(removed)];
-  return isAlike ? (place + this->Mesh.Position[static_cast<std::size_t>(removed)]) * 0.5f : place;
+  if (!this->MayCollapse(u, v))
+  {
+    return false;
+  }
+  const Stratum first = this->Mesh.StratumOf[static_cast<std::size_t>(u)];
+  const Stratum second = this->Mesh.StratumOf[static_cast<std::size_t>(v)];
+  const int kept = first >= second ? u : v;
+  const int removed = kept == u ? v : u;
+  const Vector place = this->Mesh.Position[static_cast<std::size_t>(kept)];
+  if (first != second)
+  {
+    return this->TryCollapseAt(place, kept, removed);
+  }
+  const Vector other = this->Mesh.Position[static_cast<std::size_t>(removed)];
+  return this->TryCollapseAt((place + other) * 0.5f, kept, removed) ||
+    this->TryCollapseAt(place, kept, removed) || this->TryCollapseAt(other, kept, removed);
 }
 
-bool InterfaceRemesher::TryCollapse(int kept, int removed)
+bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed)
 {
-  const Vector place = this->PlaceOf(kept, removed);
   this->Made.clear();
   this->Changed.clear();
   double worst = 1.;
@@ -260,15 +271,46 @@ void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
   }
 }
 
+int InterfaceRemesher::RemoveSlivers()
+{
+  int count = 0;
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
+  {
+    const std::array<int, 3> v = this->Mesh.Faces[f].Vertex;
+    if (!this->Mesh.Faces[f].IsThere())
+    {
+      continue;
+    }
+    const MeshTriangle t = TriangleOf(this->Mesh, v);
+    if (SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]) >= LeastAngle)
+    {
+      continue;
+    }
+    std::array<int, 3> order = { 0, 1, 2 };
+    std::sort(order.begin(), order.end(),
+      [&](int a, int b)
+      {
+        return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
+      });
+    const int shortest = order[0];
+    const int longest = order[2];
+    count += this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
+        this->TryCollapse(v[shortest], v[(shortest + 1) % 3])
+      ? 1
+      : 0;
+  }
+  return count;
+}
+
 int InterfaceRemesher::FlipEdges()
 {
   int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
     for (int k = 0; k < 3; ++k)
     {
       const InterfaceMesh::Face& face = this->Mesh.Faces[f];
-      if (face.IsThere() && this->TryFlip(face.Vertex[k], face.Vertex[(k + 1) % 3]))
+      if (face.IsThere() && this->TryFlip(face.Vertex[k], face.Vertex[(k + 1) % 3], LeastFlatCosine))
       {
         ++count;
         break;
@@ -278,7 +320,7 @@ int InterfaceRemesher::FlipEdges()
   return count;
 }
 
-bool InterfaceRemesher::TryFlip(int u, int v)
+bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
 {
   this->Mesh.FindFaces(u, v, this->AtEdge);
   if (this->AtEdge.size() != 2)
@@ -310,7 +352,7 @@ bool InterfaceRemesher::TryFlip(int u, int v)
   const VectorD normals[2] = { NormalOf(before[0]), NormalOf(before[1]) };
   const VectorD both = normals[0] + normals[1];
   this->Changed = { f, g };
-  if (CosineOf(normals[0], normals[1]) < LeastFlatCosine ||
+  if (CosineOf(normals[0], normals[1]) < flatness ||
     CosineOf(NormalOf(this->Made[0]), both) < LeastTurnCosine ||
     CosineOf(NormalOf(this->Made[1]), both) < LeastTurnCosine || this->Mesh.HasEdge(p, q) ||
     !this->Clearance.AreClear(this->Made, this->Changed, this->Memory))

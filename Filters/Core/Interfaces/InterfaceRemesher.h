@@ -6,6 +6,7 @@
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 
+#include <functional>
 #include <vector>
 
 namespace volumic
@@ -28,21 +29,28 @@ public:
   /**
    * @param shortest, longest between which edges are wanted; lengths of the workspace
    * @param tolerance nearer than that triangles are never
+   * @param goOn      asked now and then; after false no more edits are made
    */
-  InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance);
+  InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance,
+    std::function<bool()> goOn);
 
   /** All edits once. @return how many were made */
   int SplitLongEdges();
   int CollapseShortEdges();
   int FlipEdges();
+  /** Triangles with a small angle: their shortest edge is collapsed, or their longest flipped. */
+  int RemoveSlivers();
 
 private:
+  /** Whether to look at this face and those after it. */
+  bool GoesOn(std::size_t face) { return face % FacesPerQuestion != 0 || this->GoOn(); }
   bool MayCollapse(int u, int v);
-  /** Where the vertex goes that two become. */
-  Vector PlaceOf(int kept, int removed) const;
-  bool TryCollapse(int kept, int removed);
+  /** With the vertex in the middle, where both are alike, or at either end. */
+  bool TryCollapse(int u, int v);
+  bool TryCollapseAt(const Vector& place, int kept, int removed);
   void Collapse(int kept, int removed, const Vector& place);
-  bool TryFlip(int u, int v);
+  /** @param flatness cosine of the angle that there may be between the faces */
+  bool TryFlip(int u, int v, double flatness);
   void Split(int u, int v);
   float SquaredEdge(int u, int v) const
   {
@@ -50,7 +58,10 @@ private:
       this->Mesh.Position[static_cast<std::size_t>(v)]);
   }
 
+  static constexpr std::size_t FacesPerQuestion = 4096;
+
   InterfaceMesh& Mesh;
+  std::function<bool()> GoOn;
   InterfaceClearance Clearance;
   InterfaceClearance::Memory Memory;
   float Shortest; ///< squared

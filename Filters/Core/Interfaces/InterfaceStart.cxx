@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <mutex>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -16,6 +18,11 @@ namespace
 {
 using Number = LabelMap::Number;
 
+/** The pitch of a lattice, at most, in wanted edges: triangles are half as large. */
+constexpr double MostPitch = 1.7;
+/** So many voxels of an object, or one in so many, may be without a point of the lattice near. */
+constexpr std::int64_t MostWithout = 8;
+constexpr std::int64_t MostWithoutShare = 1000;
 /** Vertices keep this share of their edge from its ends. */
 constexpr float LeastShare = 0.15f;
 
@@ -66,6 +73,8 @@ public:
     }
   }
 
+  /** Has voxels be of the object whose field is the largest there. */
+  void FollowFields(Executor& executor);
   void FindMiddles(Executor& executor);
   void CutBrick(int i, int j, int k);
   InterfaceMesh Take()
@@ -95,7 +104,7 @@ private:
     const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front);
 
   const InterfaceFields& Fields;
-  const LabelMap& Map;
+  LabelMap Map;
   int Pitch;
   std::array<int, 3> Corners; ///< of cubes, along each axis
   VoxelBox Middles;           ///< of cubes
@@ -163,6 +172,27 @@ Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) const
 {
   return this->Map.Voxels[static_cast<std::size_t>(
     VoxelBox::Of(this->Map.Size).NumberOf(voxel[0], voxel[1], voxel[2]))];
+}
+
+void LatticeCutter::FollowFields(Executor& executor)
+{
+  constexpr int side = LabelBricks::Side;
+  ForBlocks(executor, static_cast<std::size_t>(this->Map.Size[2]), 1,
+    [&](std::size_t layer, std::size_t, std::size_t)
+    {
+      const int k = static_cast<int>(layer);
+      for (int j = 0; j < this->Map.Size[1]; ++j)
+      {
+        for (int i = 0; i < this->Map.Size[0]; ++i)
+        {
+          if (this->Fields.HasInterfaces(i / side, j / side, k / side))
+          {
+            this->Map.Voxels[static_cast<std::size_t>(
+              VoxelBox::Of(this->Map.Size).NumberOf(i, j, k))] = this->Fields.LargestAt(i, j, k);
+          }
+        }
+      }
+    });
 }
 
 LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
@@ -452,20 +482,93 @@ void LatticeCutter::AddTriangle(
   }
   this->Mesh.AddFace(face);
 }
+/** Whether a point of the lattice of pitch 2, all even or all odd, has a voxel's object beside it. */
+bool IsHeld(const LabelMap& map, int i, int j, int k)
+{
+  const LabelMap::Number object = map.At(i, j, k);
+  for (int z = k - 1; z <= k + 1; ++z)
+  {
+    for (int y = j - 1; y <= j + 1; ++y)
+    {
+      for (int x = i - 1; x <= i + 1; ++x)
+      {
+        if (((x ^ y) & 1) == 0 && ((y ^ z) & 1) == 0 && map.At(x, y, z) == object)
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
-InterfaceMesh MakeInterfaceStart(const InterfaceFields& fields, int pitch, Executor& executor)
+/** Whether the lattice of pitch 2 has all objects whole. */
+bool HoldsObjects(const LabelBricks& bricks, Executor& executor)
 {
-  LatticeCutter cutter(fields, pitch);
+  constexpr int side = LabelBricks::Side;
+  const LabelMap& map = bricks.Map();
+  const auto objects = static_cast<std::size_t>(map.NumberOfObjects) + 1;
+  std::vector<std::int64_t> without(objects, 0);
+  std::mutex mutex;
+  executor.For(static_cast<std::size_t>(map.Size[2]), 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<std::int64_t> own(objects, 0);
+      for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
+      {
+        for (int j = 0; j < map.Size[1]; ++j)
+        {
+          for (int i = 0; i < map.Size[0]; ++i)
+          {
+            const LabelBricks::Range range = bricks.ObjectsIn(i / side, j / side, k / side);
+            if (range.end() - range.begin() > 1 && !IsHeld(map, i, j, k))
+            {
+              ++own[map.At(i, j, k)];
+            }
+          }
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      std::transform(own.begin(), own.end(), without.begin(), without.begin(), std::plus<>());
+    });
+  for (std::size_t object = 1; object < objects; ++object)
+  {
+    const std::int64_t voxels = bricks.ExtentOf(static_cast<int>(object)).Voxels;
+    if (without[object] > std::max(MostWithout, voxels / MostWithoutShare) ||
+      2 * without[object] > voxels)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}
+
+InterfaceLattice::InterfaceLattice(
+  const InterfaceFields& fields, double edge, Executor& executor)
+  : Fields(fields)
+{
+  const std::array<double, 3>& step = fields.Step();
+  if (2. * *std::max_element(step.begin(), step.end()) <= MostPitch * edge &&
+    HoldsObjects(fields.Bricks(), executor))
+  {
+    this->Distance = 2;
+  }
+}
+
+InterfaceMesh InterfaceLattice::Start(Executor& executor) const
+{
+  LatticeCutter cutter(this->Fields, this->Distance);
+  cutter.FollowFields(executor);
   cutter.FindMiddles(executor);
-  const std::array<int, 3>& bricks = fields.Bricks().Size();
+  const std::array<int, 3>& bricks = this->Fields.Bricks().Size();
   for (int k = 0; k < bricks[2]; ++k)
   {
     for (int j = 0; j < bricks[1]; ++j)
     {
       for (int i = 0; i < bricks[0]; ++i)
       {
-        if (fields.HasInterfaces(i, j, k))
+        if (this->Fields.HasInterfaces(i, j, k))
         {
           cutter.CutBrick(i, j, k);
         }

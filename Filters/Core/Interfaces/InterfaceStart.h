@@ -10,7 +10,7 @@ namespace volumic
 {
 /**
  * First interfaces: those of the objects to which the points of a body-centred cubic lattice
- * belong, the centres of voxels and of the cubes between eight of them. Each tetrahedron of the
+ * belong. Each tetrahedron of the
  * lattice whose corners are of several objects is cut between these: with two objects by one
  * triangle or two, with more by a fan about a point inside it, from the curves that its faces show.
  * So neighbours agree on each face, and interfaces are closed, meet along lines only, and do not
@@ -19,7 +19,25 @@ namespace volumic
  * It is multi-label marching tetrahedra. Vertices on edges are where the fields of their ends'
  * objects are the same, as far as a share of the edge keeps them from its ends.
  */
-InterfaceMesh MakeInterfaceStart(const InterfaceFields& fields, int pitch, Executor& executor);
+class InterfaceLattice
+{
+public:
+  /**
+   * The coarser one of two lattices: the centres of voxels and the middles between eight of them, or
+   * every fourth voxel, of which the triangles of the start are about as large as voxels. That is
+   * taken if it has a point near each voxel of an object, but for a few, and the wanted edges are
+   * not shorter.
+   * @param edge workspace
+   */
+  InterfaceLattice(const InterfaceFields& fields, double edge, Executor& executor);
+
+  InterfaceMesh Start(Executor& executor) const;
+  int Pitch() const { return this->Distance; }
+
+private:
+  const InterfaceFields& Fields;
+  int Distance = 1; ///< of the cubes' corners, in voxels
+};
 }
 
 #endif

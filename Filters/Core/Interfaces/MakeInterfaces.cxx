@@ -2,189 +2,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/MakeInterfaces.h"
 
+#include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceStart.h"
-#include "Core/Image/VoxelNumbers.h"
-#include "Core/Labels/WrongVoxels.h"
-#include <chrono>
-#include <map>
-#include <array>
+
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
+#include <cstddef>
 
 namespace volumic
 {
 namespace
 {
-/** Rounds of edits and steps, */
-static int Steps=getenv("VS")?atoi(getenv("VS")):2; static int FirstPush=getenv("VF")?atoi(getenv("VF")):3; static int Rounds = getenv("VR")?atoi(getenv("VR")):8;
-/** then of flips and steps alone. */
-static int LastRounds = getenv("VL")?atoi(getenv("VL")):4;
+/** Rounds in which edges are split and collapsed, */
+constexpr int Rounds = 5;
+/** then those of flips and steps alone, at least and at most: */
+constexpr int LeastLastRounds = 2;
+constexpr int MostLastRounds = 5;
+/** while more voxels are on the wrong side than this share of the vertices. */
+constexpr double FewWrong = 0.01;
+/** The round from which on vertices are so near to their places that fields are changed. */
+constexpr int FirstFit = 2;
+/** Steps of vertices in a round; the first one has too many of them. */
+constexpr int Steps = 2;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
-/** No step makes an edge shorter, in the same. */
+/** No step makes an edge shorter than that, in the same. */
 constexpr double LeastShare = 0.5;
-/** Nearer triangles count as intersecting, in the mean length of edges. */
+/** Nearer triangles count as intersecting, in the same. */
 constexpr double ToleranceOfEdge = 1e-3;
 /** How far vertices go to the middle of their neighbours. */
 constexpr double StepShare = 0.7;
-/** Sweeps over the equations of the shifts. */
-constexpr int VolumeSweeps = 200;
-/** Fields are shifted at most by that, in smallest distances of voxels: their signs are to stay. */
-constexpr double MostShift = 0.08;
-/** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
-static float PushOfWrong = getenv("VW")?atof(getenv("VW")):.2f;
 
-/** Of each object the voxels that its surface has on the wrong side. */
-std::vector<std::vector<std::int64_t>> FindWrong(
-  const InterfaceMesh& mesh, const InterfaceFields& fields, Executor& executor)
+/** A round's edits. */
+void Edit(InterfaceMesh& mesh, double edge, int round, const std::function<bool()>& goOn)
 {
-  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
-  // The last one is what is about all others, and has no end.
-  std::vector<std::vector<std::int64_t>> wrong(
-    static_cast<std::size_t>(fields.Bricks().Map().NumberOfObjects));
-  ForBlocks(executor, std::min(wrong.size(), faces.size()), 1,
-    [&](std::size_t object, std::size_t, std::size_t)
-    {
-      std::vector<int> vertices;
-      IndexedSurface surface =
-        mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices);
-      for (Point& p : surface.Points)
-      {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          p[axis] /= fields.Step()[axis];
-        }
-      }
-      wrong[object] =
-        FindWrongVoxels(fields.Bricks(), static_cast<int>(object), surface);
-    });
-  return wrong;
-}
-
-/**
- * Shifts all fields so that, to first order, each object but the last gets the volume of its voxels:
- * an interface moves by half of what its two fields are shifted by.
- */
-void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
-{
-  const LabelBricks& bricks = fields.Bricks();
-  const auto last = static_cast<std::size_t>(bricks.Map().NumberOfObjects);
-  const std::array<double, 3>& step = fields.Step();
-  const double ofVoxel = step[0] * step[1] * step[2];
-  std::vector<double> missing(last + 1, 0.);
-  std::map<std::array<std::size_t, 2>, double> areas;
-  for (std::size_t object = 1; object < last; ++object)
+  InterfaceRemesher remesher(
+    mesh, ShortestShare * edge, LongestShare * edge, ToleranceOfEdge * edge, goOn);
+  if (round < Rounds)
   {
-    missing[object] =
-      ofVoxel * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
+    remesher.SplitLongEdges();
+    remesher.CollapseShortEdges();
   }
-  for (const InterfaceMesh::Face& face : mesh.Faces)
+  remesher.FlipEdges();
+  if (round >= FirstFit)
   {
-    if (face.IsThere())
-    {
-      const VectorD across = mesh.NormalOf(face);
-      const double volume =
-        Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
-      missing[face.Behind] -= volume;
-      missing[face.Front] += volume;
-      areas[{ face.Behind, face.Front }] += 0.5 * Length(across);
-    }
+    remesher.RemoveSlivers();
   }
-  std::vector<double> shifts(last + 1, 0.);
-  std::vector<double> sums(last + 1);
-  std::vector<double> weights(last + 1);
-  for (int sweep = 0; sweep < VolumeSweeps; ++sweep)
-  {
-    sums = missing;
-    std::fill(weights.begin(), weights.end(), 0.);
-    for (const auto& pair : areas)
-    {
-      const std::size_t a = pair.first[0];
-      const std::size_t b = pair.first[1];
-      const double area = 0.5 * pair.second;
-      sums[a] += area * shifts[b];
-      sums[b] += area * shifts[a];
-      weights[a] += area;
-      weights[b] += area;
-    }
-    for (std::size_t object = 1; object < last; ++object)
-    {
-      shifts[object] = weights[object] > 0. ? sums[object] / weights[object] : 0.;
-    }
-  }
-  for (std::size_t object = 1; object < last; ++object)
-  {
-    fields.Shift(static_cast<int>(object),
-      static_cast<float>(std::clamp(shifts[object], -MostShift, MostShift)));
-  }
-}
-
-/** Has interfaces pass wrong voxels on the other side, after a step. @return how many there are */
-std::size_t PushWrong(const InterfaceMesh& mesh, InterfaceFields& fields, Executor& executor)
-{
-  const LabelMap& map = fields.Bricks().Map();
-  const VoxelNumbers numbers(map.Size);
-  const std::vector<std::vector<std::int64_t>> wrong = FindWrong(mesh, fields, executor);
-  std::size_t count = 0;
-  const int outside = map.NumberOfObjects;
-  for (std::size_t object = 0; object < wrong.size(); ++object)
-  {
-    for (const std::int64_t voxel : wrong[object])
-    {
-      fields.Push(static_cast<int>(object), numbers.PlaceOf(voxel), PushOfWrong);
-      if (map.Voxels[static_cast<std::size_t>(voxel)] == outside)
-      {
-        fields.Push(outside, numbers.PlaceOf(voxel), PushOfWrong);
-      }
-    }
-    count += wrong[object].size();
-  }
-  return count;
 }
 }
 
-InterfaceMesh MakeInterfaces(InterfaceFields& fields, double edge, Executor& executor,
-  const std::function<bool(double share)>& progress)
+InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
+  Executor& executor, const std::function<bool(double share)>& goOn)
 {
-  clock_t last = clock();
-  const auto lap = [&](const char* n) { if (getenv("VT")) printf("  %s %.3f\n", n, double(clock()-last)/CLOCKS_PER_SEC); last = clock(); };
-  InterfaceMesh mesh = MakeInterfaceStart(fields, getenv("VP") ? atoi(getenv("VP")) : 1, executor);
-  lap("start");
-  const double tolerance = ToleranceOfEdge * edge;
-  int all = Rounds + LastRounds;
-  for (int round = 0; round < all && progress((round + 1.) / (all + 1.)); ++round)
+  // The first round is as much work as all others, as the start has many short edges.
+  constexpr int all = 2 * (Rounds + LeastLastRounds);
+  double share = 0.;
+  const auto mayGoOn = [&] { return goOn(share); };
+  InterfaceMesh mesh = InterfaceLattice(fields, options.Edge, executor).Start(executor);
+  std::size_t wrong = 0;
+  for (int round = 0; round < Rounds + MostLastRounds && mayGoOn(); ++round)
   {
+    const bool hasFewWrong =
+      static_cast<double>(wrong) <= FewWrong * static_cast<double>(mesh.Position.size());
+    if (round >= Rounds + LeastLastRounds && hasFewWrong)
     {
-      InterfaceRemesher remesher(mesh, ShortestShare * edge, LongestShare * edge, tolerance);
-      int a=0,b=0;
-      if (round < Rounds)
-      {
-        a=remesher.SplitLongEdges();
-        b=remesher.CollapseShortEdges();
-      }
-      lap("edits");
-      int c=remesher.FlipEdges();
-      lap("flips");
-      if (getenv("VT")) printf("round %d: splits %d collapses %d flips %d faces %zu\n", round,a,b,c,mesh.Faces.size());
+      break;
     }
+    Edit(mesh, options.Edge, round, mayGoOn);
     mesh.Compact();
-    lap("compact");
-    if (round >= FirstPush && round < all-1)
+    if (!mayGoOn())
+    {
+      break; // All steps of a round are safe together only.
+    }
+    if (round >= FirstFit)
     {
       CorrectVolumes(mesh, fields);
-      auto w=PushWrong(mesh, fields, executor);
-      if (getenv("VT")) printf("wrong %zu\n", w);
-      lap("push");
+      wrong = PushWrongVoxels(mesh, fields, options.VoxelTolerance, executor);
     }
-    MoveInterfaces(mesh, fields, round>0 ? Steps : 1, StepShare, LeastShare * edge, tolerance, executor);
-    lap("move");
+    MoveInterfaces(mesh, fields, round == 0 ? 1 : Steps, StepShare, LeastShare * options.Edge,
+      ToleranceOfEdge * options.Edge, executor);
+    share = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
-  progress(1.);
+  goOn(1.);
   return mesh;
 }
 }

@@ -11,18 +11,30 @@
 
 namespace volumic
 {
+/** How interfaces are made. */
+struct InterfaceOptions
+{
+  double Edge = 1.36; ///< mean length of edges that is wanted; workspace
+  /** How far voxels may be on the wrong side, in smallest distances of voxels. */
+  double VoxelTolerance = 0.;
+};
+
 /**
- * The interfaces of all objects of a label map, as one conforming mesh without intersections: made
- * of the lattice that its voxels are of, then remeshed to edges of one length while its vertices
- * come to lie where the fields of the objects beside them are the same.
+ * The interfaces of all objects of a label map, as one conforming mesh without intersections. Not
+ * the paper's: what evolves is no closed surface, and does not change its topology.
  *
- * @param fields   are changed where triangles cut voxels off
- * @param edge     mean length of edges that is wanted; workspace
- * @param progress told the share that is done; after false the mesh is what there is by then, safe
- *                 but rough
+ * 1. The start is cut out of a lattice (InterfaceLattice).
+ * 2. Rounds of edits (InterfaceRemesher) bring its edges to one length, while its vertices go to
+ *    where the fields of the objects beside them are the same (MoveInterfaces).
+ * 3. Meanwhile fields are shifted so that each object keeps the volume of its voxels, and changed at
+ *    voxels that triangles cut off, until these are few.
+ *
+ * @param fields   are changed, see 3
+ * @param goOn     told the share that is done, on the calling thread; after false the mesh is what
+ *                 there is by then: safe, but rough
  */
-InterfaceMesh MakeInterfaces(InterfaceFields& fields, double edge, Executor& executor,
-  const std::function<bool(double share)>& progress);
+InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
+  Executor& executor, const std::function<bool(double share)>& goOn);
 }
 
 #endif

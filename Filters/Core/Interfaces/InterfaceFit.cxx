@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceFit.h"
+
+#include "Core/Image/VoxelNumbers.h"
+#include "Core/Labels/WrongVoxels.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+/** Sweeps over the equations of the shifts. */
+constexpr int VolumeSweeps = 200;
+/** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
+constexpr float PushOfWrong = 0.25f;
+
+/** Of each object but the last the voxels that its surface has on the wrong side. */
+std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
+  const InterfaceFields& fields, double tolerance, Executor& executor)
+{
+  const LabelBricks& bricks = fields.Bricks();
+  std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
+  // The last one has no end.
+  std::vector<std::vector<std::int64_t>> wrong(
+    static_cast<std::size_t>(bricks.Map().NumberOfObjects));
+  faces.resize(wrong.size());
+  ForBlocks(executor, wrong.size(), 1,
+    [&](std::size_t object, std::size_t, std::size_t)
+    {
+      std::vector<int> vertices;
+      IndexedSurface surface = mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices);
+      for (Point& p : surface.Points)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          p[axis] /= fields.Step()[axis];
+        }
+      }
+      wrong[object] = FindWrongVoxels(bricks, static_cast<int>(object), surface);
+      if (tolerance > 0.)
+      {
+        wrong[object] = FindMissedVoxels(bricks.Map(), wrong[object], surface, tolerance);
+      }
+    });
+  return wrong;
+}
+}
+
+void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
+{
+  const LabelBricks& bricks = fields.Bricks();
+  const auto last = static_cast<std::size_t>(bricks.Map().NumberOfObjects);
+  const std::array<double, 3>& step = fields.Step();
+  const double ofVoxel = step[0] * step[1] * step[2];
+  std::vector<double> missing(last + 1, 0.);
+  std::map<std::array<std::size_t, 2>, double> areas;
+  for (std::size_t object = 1; object < last; ++object)
+  {
+    missing[object] =
+      ofVoxel * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
+  }
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    if (face.IsThere())
+    {
+      const VectorD across = mesh.NormalOf(face);
+      const double volume =
+        Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
+      missing[face.Behind] -= volume;
+      missing[face.Front] += volume;
+      areas[{ face.Behind, face.Front }] += 0.5 * Length(across);
+    }
+  }
+  std::vector<double> shifts(last + 1, 0.);
+  std::vector<double> sums(last + 1);
+  std::vector<double> weights(last + 1);
+  for (int sweep = 0; sweep < VolumeSweeps; ++sweep)
+  {
+    sums = missing;
+    std::fill(weights.begin(), weights.end(), 0.);
+    for (const auto& pair : areas)
+    {
+      const std::size_t a = pair.first[0];
+      const std::size_t b = pair.first[1];
+      const double area = 0.5 * pair.second;
+      sums[a] += area * shifts[b];
+      sums[b] += area * shifts[a];
+      weights[a] += area;
+      weights[b] += area;
+    }
+    for (std::size_t object = 1; object < last; ++object)
+    {
+      shifts[object] = weights[object] > 0. ? sums[object] / weights[object] : 0.;
+    }
+  }
+  for (std::size_t object = 1; object < last; ++object)
+  {
+    fields.Shift(static_cast<int>(object), static_cast<float>(shifts[object]));
+  }
+}
+
+std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
+  Executor& executor)
+{
+  const LabelMap& map = fields.Bricks().Map();
+  const VoxelNumbers numbers(map.Size);
+  const std::vector<std::vector<std::int64_t>> wrong =
+    FindWrong(mesh, fields, tolerance, executor);
+  const int outside = map.NumberOfObjects;
+  std::size_t count = 0;
+  for (std::size_t object = 1; object < wrong.size(); ++object)
+  {
+    for (const std::int64_t voxel : wrong[object])
+    {
+      fields.Push(static_cast<int>(object), numbers.PlaceOf(voxel), PushOfWrong);
+      if (map.Voxels[static_cast<std::size_t>(voxel)] == outside)
+      {
+        fields.Push(outside, numbers.PlaceOf(voxel), PushOfWrong);
+      }
+    }
+    count += wrong[object].size();
+  }
+  return count;
+}
+}

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInterfaceFit_h
+#define volumicInterfaceFit_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Interfaces/InterfaceFields.h"
+#include "Core/Interfaces/InterfaceMesh.h"
+
+#include <cstddef>
+
+namespace volumic
+{
+/**
+ * Shifts all fields so that, to first order, each object but the last, which is what is about the
+ * others, gets the volume of its voxels: an interface moves by half of what its two fields are
+ * shifted by. The equations, one per object, are a Laplacian whose weights are the areas between
+ * two objects.
+ */
+void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields);
+
+/**
+ * Changes fields at voxels that the mesh has on the wrong side, so that the next steps take
+ * interfaces past them.
+ * @param tolerance those nearer to the interfaces are not wrong, in smallest distances of voxels
+ * @return how many there are
+ */
+std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
+  Executor& executor);
+}
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSmallParts_h
+#define volumicSmallParts_h
+
+#include "Core/Labels/LabelMap.h"
+
+#include <cstdint>
+
+namespace volumic
+{
+/**
+ * Gives parts of objects, voxels joined by faces, edges or corners, to the object, or the outside,
+ * that they share most faces with.
+ * @param objects      those up to this number have parts; others are outside
+ * @param leastVoxels  parts of fewer voxels are given away
+ * @param keepsLargest all parts of an object but its largest, too
+ */
+void GiveAwaySmallParts(
+  LabelMap& map, int objects, std::int64_t leastVoxels, bool keepsLargest);
+}
+
+#endif
