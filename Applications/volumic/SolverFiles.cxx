@@ -225,17 +225,23 @@ std::vector<std::size_t> WriteNodes(
 {
   std::vector<std::size_t> numbers(static_cast<std::size_t>(model.Points->GetNumberOfPoints()), 0);
   std::size_t last = 0;
+  std::size_t blocks = 0;
   for (const auto& entry : surfaces)
   {
+    blocks += entry.second.Points.empty() ? 0 : 1;
     for (const vtkIdType point : entry.second.Points)
     {
       numbers[static_cast<std::size_t>(point)] = ++last;
     }
   }
-  out << "$Nodes\n" << surfaces.size() << " " << last << " 1 " << last << "\n";
+  out << "$Nodes\n" << blocks << " " << last << " 1 " << last << "\n";
   for (const auto& entry : surfaces)
   {
     const MshSurface& surface = entry.second;
+    if (surface.Points.empty())
+    {
+      continue;
+    }
     out << "2 " << surface.Number << " 0 " << surface.Points.size() << "\n";
     for (const vtkIdType point : surface.Points)
     {

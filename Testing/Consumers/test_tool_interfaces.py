@@ -120,7 +120,7 @@ class OneMeshTest(InterfacesTest):
     def test_merged(self):
         for options in ((), ("--shared-interfaces",)):
             self.make(sectors(), "a.vtp", "a.smesh", options=["--merge", *options])
-            self.assertIn(b"# region 1: liver, left kidney, a 'b', x", self.content("a.smesh"))
+            self.assertIn(b"# region 1: liver, left kidney, a 'b' ... x", self.content("a.smesh"))
         mesh = read(self.path("a.vtp"))
         self.assertEqual(mesh.GetNumberOfLines(), 0)
         sides = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))
