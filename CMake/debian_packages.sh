@@ -17,8 +17,9 @@ tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libarc
 # mpi-default-bin: mpirun, without which the tests of several ranks are skipped.
 test_packages=(dpkg-dev file locales libgtest-dev libcgal-dev libbenchmark-dev xvfb xauth
   libgl1-mesa-dri libxtst6 mpi-default-bin)
-# What more tests use where the release has it; they are skipped elsewhere.
-optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy)
+# What more tests use where the release has it; they are skipped elsewhere. (So is that of gmsh, which
+# brings half a gigabyte.)
+optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy tetgen)
 # The CT of a skull, from which the examples start.
 skull_package=invesalius-examples
 

@@ -323,7 +323,7 @@ void vtkLabelsToSurfaces::MakeSurfaces(
       labels.Frame, internals.Settings, threads);
     maker.Make(threads, show);
     surfaces = maker.Surfaces(threads);
-    interfaces->ShallowCopy(maker.Interfaces(choice.Labels, internals.BackgroundLabel));
+    interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
     volumic::AddLabelFields(choice, *image, interfaces);
     if (choice.IsMerged)
     {

@@ -33,6 +33,14 @@
  *   the label's that have their centres outside, and of others that have them inside; with Gap,
  *   those that it puts there count, too); `MissedVoxels` (vtkIdType: those of them that are further
  *   from the surface than VoxelTolerance).
+ * @par
+ * Port 1, `Interfaces`: a vtkPolyData, empty without SharedInterfaces; with it lines of two points,
+ * where interfaces meet, and then the triangles of all labels, each once. Points in double precision,
+ * with `Junction` (unsigned char: 0 on an interface, 1 on a line where interfaces meet, 2 where lines
+ * meet); `BoundaryLabels` of cells (int, 2 components: the label behind the triangle, and the one that
+ * its normal points into; BackgroundLabel outside, and of lines; with Merge the nearest label, and the
+ * outside); field data `Label`, `LabelName`, `LabelColor` and `LabelVoxels`, an entry per label. Points of blocks at port 0 have
+ * `GlobalIds` (vtkIdType): their numbers here.
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made

@@ -72,7 +72,7 @@ void CheckWithLabels(const ToolOptions& options)
   for (const std::string& name : options.Surfaces)
   {
     CheckLabelOutput(options, name);
-    hasFolder = hasFolder || OutputOf(name) == LabelOutput::Folder;
+    hasFolder = hasFolder || OutputOf(options, name) == LabelOutput::Folder;
   }
   FailIf<UsageError>(!options.Format.empty() && !hasFolder,
     "--format is that of the files in a folder: give one to write to");

@@ -43,6 +43,8 @@ set(volumic_writer_sources
   ProgressLine.cxx
   Ranks.cxx
   RunWriter.cxx
+  SolidRegions.cxx
+  SolverFiles.cxx
   StreamedWriters.cxx
   SurfaceFields.cxx
   SurfaceFormats.cxx

@@ -17,6 +17,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace tool
@@ -66,11 +67,15 @@ std::string PathIn(const std::string& folder, const LabelSurface& surface,
   return (fs::path(folder) / (surface.FileName + SuffixIn(options))).string();
 }
 
+std::string UnfinishedRemark(const LabelSurface& surface)
+{
+  return surface.IsUnfinished() ? ", UNFINISHED: " + StopReason(surface.Surface) : "";
+}
+
 SurfaceWriting WritingOf(
   const ToolOptions& options, const LabelSurface& surface, ProgressStyle style)
 {
-  return { "volumic " VOLUMIC_VERSION ", " + surface.Name +
-      (surface.IsUnfinished() ? ", UNFINISHED: " + StopReason(surface.Surface) : ""),
+  return { "volumic " VOLUMIC_VERSION ", " + surface.Name + UnfinishedRemark(surface),
     options.PieceSize, style };
 }
 
@@ -105,20 +110,31 @@ bool LabelSurface::IsUnfinished() const
   return reason == "cancelled" || reason == "time limit" || reason == "iteration limit";
 }
 
-LabelOutput OutputOf(const std::string& name)
+bool SharesInterfaces(const ToolOptions& options)
+{
+  const bool isMerged = options.HasProperty("Merge"); // to one surface, which is a file of its own
+  return options.HasProperty("SharedInterfaces") ||
+    (!isMerged && std::any_of(options.Surfaces.begin(), options.Surfaces.end(), IsOfSolids));
+}
+
+LabelOutput OutputOf(const ToolOptions& options, const std::string& name)
 {
   std::error_code failed;
   const bool isFolder =
     EndsWith(name, "/") || SuffixOf(name).empty() || fs::is_directory(name, failed);
-  return isFolder
-    ? LabelOutput::Folder
-    : (SuffixOf(name) == ".vtm" || IsScene(name) ? LabelOutput::Blocks : LabelOutput::File);
+  const std::string suffix = SuffixOf(name);
+  const bool isOfAll = SharesInterfaces(options) &&
+    (suffix == ".vtp" || suffix == ".vtk" || (IsOfSolids(name) && !options.HasProperty("Merge")));
+  return isFolder                       ? LabelOutput::Folder
+    : suffix == ".vtm" || IsScene(name) ? LabelOutput::Blocks
+    : isOfAll                           ? LabelOutput::Interfaces
+                                        : LabelOutput::File;
 }
 
 void CheckLabelOutput(const ToolOptions& options, const std::string& name)
 {
   FailIf<UsageError>(name == "-", "surfaces of labels are not written to the standard output");
-  if (OutputOf(name) == LabelOutput::Folder)
+  if (OutputOf(options, name) == LabelOutput::Folder)
   {
     FailIf<UsageError>(options.HasProperty("Merge"),
       name + ": --merge makes one surface: give it a file, not a folder");
@@ -126,7 +142,7 @@ void CheckLabelOutput(const ToolOptions& options, const std::string& name)
     FailIf<UsageError>(HasPieces(SuffixIn(options)) || SuffixIn(options) == ".pvtp",
       "--format: surfaces in a folder are not written in pieces");
   }
-  else if (OutputOf(name) == LabelOutput::File)
+  else if (OutputOf(options, name) == LabelOutput::File)
   {
     try
     {
@@ -144,7 +160,7 @@ void CheckLabelFiles(const ToolOptions& options)
   std::vector<OutputName> outputs = OtherOutputs(options);
   for (const std::string& name : options.Surfaces)
   {
-    const bool isFolder = OutputOf(name) == LabelOutput::Folder;
+    const bool isFolder = OutputOf(options, name) == LabelOutput::Folder;
     outputs.push_back({ name, isFolder ? OutputName::Kind::Place : FormOf(name), "" });
   }
   if (!options.WrittenVolume.empty())
@@ -184,26 +200,32 @@ void MadeFolders::Make(const std::string& name)
 void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurface>& surfaces,
   MadeFolders& folders)
 {
+  FailIf(SharesInterfaces(options) &&
+      std::any_of(surfaces.begin(), surfaces.end(), [&](const LabelSurface& surface)
+        { return surface.Labels.front().Layer != surfaces.front().Labels.front().Layer; }),
+    "--shared-interfaces: the labels lie in several layers of the file, of which those of one can "
+    "share interfaces; choose it with --component");
   const std::vector<std::string> inputs = InputsOf(options);
   std::vector<OutputName> outputs = OtherOutputs(options);
   for (const std::string& name : options.Surfaces)
   {
-    if (OutputOf(name) != LabelOutput::Folder)
+    if (OutputOf(options, name) != LabelOutput::Folder)
     {
       outputs.push_back({ name, FormOf(name), "" });
     }
-    if (OutputOf(name) == LabelOutput::File && surfaces.size() > 1)
+    if (OutputOf(options, name) == LabelOutput::File && surfaces.size() > 1)
     {
       const std::string stem = fs::path(name).replace_extension().string();
       throw Failure(name + ": " + std::to_string(surfaces.size()) +
         " labels have as many surfaces: give a folder (" + stem + "/ --format " +
         SuffixOf(name).substr(1) + ") or blocks (" + stem + ".vtm, " + stem +
-        ".glb), or make one of them with --merge");
+        ".glb), or make one of them with --merge, or one mesh of all with --shared-interfaces (" +
+        stem + ".vtp, .vtk, .msh, .smesh, .poly)");
     }
   }
   for (const std::string& name : options.Surfaces)
   {
-    if (OutputOf(name) != LabelOutput::Folder)
+    if (OutputOf(options, name) != LabelOutput::Folder)
     {
       continue;
     }
@@ -219,17 +241,25 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
 }
 
 void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
-  ProgressStyle style, Failures& failures)
+  vtkPolyData* interfaces, ProgressStyle style, Failures& failures)
 {
   for (const std::string& name : options.Surfaces)
   {
-    if (OutputOf(name) == LabelOutput::Blocks)
+    if (OutputOf(options, name) == LabelOutput::Blocks)
     {
       failures.Try([&] { WriteTogether(surfaces, name, style); });
       continue;
     }
+    if (OutputOf(options, name) == LabelOutput::Interfaces)
+    {
+      // All are made at once, and so as finished as the first.
+      const SurfaceWriting writing = { "volumic " VOLUMIC_VERSION +
+          UnfinishedRemark(surfaces.front()), options.PieceSize, style };
+      failures.Try([&] { WriteSurface(interfaces, name, writing); });
+      continue;
+    }
     // Of many files in a folder not each has a line of its own.
-    const bool isFolder = OutputOf(name) == LabelOutput::Folder;
+    const bool isFolder = OutputOf(options, name) == LabelOutput::Folder;
     ProgressLine line("Writing", isFolder ? style : ProgressStyle::None);
     double done = 0.0;
     for (LabelSurface& surface : surfaces)

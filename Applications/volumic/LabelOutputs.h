@@ -36,10 +36,14 @@ enum class LabelOutput
 {
   Folder, ///< it ends with a slash, is one, or has no suffix
   Blocks, ///< .vtm and .glb: one file of all
-  File    ///< of one surface
+  Interfaces, ///< one mesh of all, for meshers of solids or, where interfaces are shared, .vtp, .vtk
+  File        ///< of one surface
 };
 
-LabelOutput OutputOf(const std::string& name);
+LabelOutput OutputOf(const ToolOptions& options, const std::string& name);
+
+/** Whether the options ask for shared interfaces, or a file that needs them. */
+bool SharesInterfaces(const ToolOptions& options);
 
 /** @throws UsageError if a surface of labels cannot be written to such a name. */
 void CheckLabelOutput(const ToolOptions& options, const std::string& name);
@@ -72,10 +76,11 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
 /**
  * Write the surfaces that have points, as the options ask for.
  * @param surfaces get their Files here
+ * @param interfaces what they share, if they do
  * @param failures given what could not be written
  */
 void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
-  ProgressStyle style, Failures& failures);
+  vtkPolyData* interfaces, ProgressStyle style, Failures& failures);
 }
 
 #endif

@@ -215,7 +215,8 @@ void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   const LabelReport& report, ProgressStyle style)
 {
   Failures failures;
-  WriteLabelSurfaces(options, surfaces, style, failures);
+  WriteLabelSurfaces(
+    options, surfaces, report.Filters.Labels->GetInterfaces(), style, failures);
   if (!options.Report.empty())
   {
     failures.Try([&] { WriteText(ReportText(report), options.Report); });
@@ -325,6 +326,7 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
 {
   const Announcer announcer(options);
   ShareProperties(filters);
+  filters.Labels->SetSharedInterfaces(SharesInterfaces(options));
   const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
   LabelMap map;
   MadeFolders folders;

@@ -109,7 +109,12 @@ vtkSmartPointer<vtkPolyData> AsTriangles(vtkPolyData* surface)
 void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line)
 {
   vtkNew<XmlStreamWriter<vtkXMLPolyDataWriter>> writer;
-  WriteInline(writer.Get(), AsTriangles(surface), path, line);
+  vtkSmartPointer<vtkPolyData> written = surface;
+  if (surface->GetNumberOfLines() == 0)
+  {
+    written = AsTriangles(surface);
+  }
+  WriteInline(writer.Get(), written, path, line);
 }
 
 void WriteLegacy(vtkPolyData* surface, const std::string& path, ProgressLine& line)

@@ -20,7 +20,7 @@ namespace tool
 // The writers of VTK's own formats, with a full disk told (see FileBuffer) and no memory but some
 // megabytes, whatever the size of what they write. All throw a Failure without the file's name.
 
-/** The surface as .vtp; its cells are triangles. */
+/** The surface as .vtp; its cells are triangles, or lines too. */
 void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line);
 
 /** The surface in VTK's legacy format, binary. */

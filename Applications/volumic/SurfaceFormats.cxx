@@ -6,6 +6,7 @@
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "RunWriter.h"
+#include "SolverFiles.h"
 #include "StreamedWriters.h"
 #include "SurfaceFields.h"
 #include "SurfacePieces.h"
@@ -181,6 +182,12 @@ const SurfaceFormat* FindSurfaceFormat(const std::string& name)
     { ".stl", { WriteStl, CheckTriangles<84, 50> } },
     { ".ply", { WritePly, CheckPlyFile } },
     { ".glb", { WriteScene, nullptr } },
+    { ".msh",
+      { [](File file) { WriteMsh(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
+    { ".smesh",
+      { [](File file) { WriteSmesh(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
+    { ".poly",
+      { [](File file) { WritePoly(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
     { ".obj", { WriteWith<vtkOBJWriter>, CheckObjFile } },
     { ".iv",
       { [](File file)

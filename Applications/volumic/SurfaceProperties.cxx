@@ -214,6 +214,13 @@ std::vector<PropertyOption> MakeProperties()
       "of voxels: .5 makes noise and stairs smooth, 0 keeps each voxel"),
     LABELS_NUMBER(Gap, "gap", "LENGTH",
       "with --labels: the space between the surfaces of neighbours, in world units"),
+    { "shared-interfaces", "", "vtkLabelsToSurfaces", "SharedInterfaces",
+      "with --labels: one mesh, in which neighbours have the same triangles between them; a file "
+      "for meshers of solids, .msh, .smesh or .poly, implies it",
+      [](const FilterTrio& filters)
+      { return std::string(filters.Labels->GetSharedInterfaces() ? "on" : "off"); },
+      [](const FilterTrio& filters, const std::string&)
+      { filters.Labels->SetSharedInterfaces(true); } },
   };
 }
 }

@@ -90,12 +90,18 @@ void CheckSurfaceName(const std::string& name)
   FailIf<UsageError>(!FindSurfaceFormat(name),
     name +
       ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
-      ".obj .glb .iv .g .geo .facet .tri");
+      ".obj .glb .iv .g .geo .facet .tri .msh .smesh .poly");
 }
 
 bool IsScene(const std::string& name)
 {
   return SuffixOf(name) == ".glb";
+}
+
+bool IsOfSolids(const std::string& name)
+{
+  const std::string suffix = SuffixOf(name);
+  return suffix == ".msh" || suffix == ".smesh" || suffix == ".poly";
 }
 
 bool HasPieces(const std::string& name)

@@ -30,17 +30,21 @@ bool HasPieces(const std::string& name);
 /** Whether a file of this name holds several surfaces with their names and colours. */
 bool IsScene(const std::string& name);
 
+/** Whether a file of this name is for meshers of solids: of labels it needs shared interfaces. */
+bool IsOfSolids(const std::string& name);
+
 /** How a surface is written. */
 struct SurfaceWriting
 {
-  std::string Remark; ///< a line for the head of the file where the format has one (.stl, .ply)
+  std::string Remark; ///< a line for the head of the file where the format has one (.stl, .ply, .msh, .smesh)
   int PieceSize = 0;  ///< triangles of a piece, where there are pieces
   ProgressStyle Style = ProgressStyle::None;
 };
 
 /**
  * Write a surface in the format of the suffix. Arrays and field data go along where the format has
- * a place for them (.vtp, .pvtp, .vtk), and colours of labels (.ply, .glb).
+ * a place for them (.vtp, .pvtp, .vtk), and colours of labels (.ply, .glb). Interfaces of labels may
+ * be what is written, as .vtp, .vtk and where IsOfSolids().
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing);
 

@@ -59,6 +59,14 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Interfaces/InterfaceClearance.cxx
+  Interfaces/InterfaceFields.cxx
+  Interfaces/InterfaceFit.cxx
+  Interfaces/InterfaceMesh.cxx
+  Interfaces/InterfaceMotion.cxx
+  Interfaces/InterfaceRemesher.cxx
+  Interfaces/InterfaceStart.cxx
+  Interfaces/MakeInterfaces.cxx
   Surface/BlockOwners.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
@@ -100,14 +108,6 @@ set(volumic_core_sources
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
-  Interfaces/InterfaceClearance.cxx
-  Interfaces/InterfaceFields.cxx
-  Interfaces/InterfaceFit.cxx
-  Interfaces/InterfaceMesh.cxx
-  Interfaces/InterfaceMotion.cxx
-  Interfaces/InterfaceRemesher.cxx
-  Interfaces/InterfaceStart.cxx
-  Interfaces/MakeInterfaces.cxx
   Evolution/VerticesOfSlabs.cxx)
 set(volumic_core_headers
   Common/Blocks.h
@@ -165,6 +165,7 @@ set(volumic_core_headers
   Labels/LabelHold.h
   Labels/LabelMap.h
   Labels/LabelSides.h
+  Labels/SmallParts.h
   Labels/TouchingSurfaces.h
   Labels/WrongVoxels.h
   Mesh/CellSurface.h
@@ -189,6 +190,14 @@ set(volumic_core_headers
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
+  Interfaces/InterfaceClearance.h
+  Interfaces/InterfaceFields.h
+  Interfaces/InterfaceFit.h
+  Interfaces/InterfaceMesh.h
+  Interfaces/InterfaceMotion.h
+  Interfaces/InterfaceRemesher.h
+  Interfaces/InterfaceStart.h
+  Interfaces/MakeInterfaces.h
   Surface/ComponentNesting.h
   Surface/ComponentWatch.h
   Surface/ConnectedVertices.h

@@ -124,6 +124,16 @@ std::vector<int> LabelChoice::LabelsOf(std::size_t surface) const
   return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
 }
 
+std::vector<int> LabelChoice::FirstLabels() const
+{
+  std::vector<int> labels;
+  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
+  {
+    labels.push_back(this->LabelsOf(i).front());
+  }
+  return labels;
+}
+
 std::vector<std::string> LabelChoice::SurfaceNames() const
 {
   std::vector<std::string> names;

@@ -25,6 +25,8 @@ struct LabelChoice
   std::size_t NumberOfSurfaces() const { return this->IsMerged ? 1 : this->Labels.size(); }
   /** Of a surface. */
   std::vector<int> LabelsOf(std::size_t surface) const;
+  /** The first label of each surface. */
+  std::vector<int> FirstLabels() const;
   /** The names of all surfaces. */
   std::vector<std::string> SurfaceNames() const;
 };

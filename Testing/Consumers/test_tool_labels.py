@@ -306,6 +306,7 @@ class OptionsTest(LabelsTest):
                   "NumberOfThreads": ("--threads", "1"), "MemoryLimit": ("--memory", "3000M"),
                   "ScratchDirectory": ("--scratch", self.folder),
                   "ThinParts": ("--thin-parts",),
+                  "SharedInterfaces": ("--shared-interfaces",),
                   "SelectedComponent": ("--component", "0"), "Merge": ("--merge",)}
         before = self.report(volume, "--labels", "2")["properties"]
         self.assertEqual(set(before), set(values))
@@ -363,7 +364,7 @@ class OptionsTest(LabelsTest):
                 self.refused(f"{option}( at-points| not-at-seeds)? and --labels exclude each other",
                              "a.vti", "out/", "--labels", "1", option, *value, status=2)
         for option, *value in (
-                ("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--background", "1"),
+                ("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--shared-interfaces",), ("--background", "1"),
                 ("--voxel-tolerance", "0.5"), ("--format", "stl"), ("--label-names", "n")):
             with self.subTest(option):
                 self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value,

@@ -200,6 +200,28 @@ class LabelErrorsTest(LabelsTestCase):
             self.assertIn(word, said)
         self.assertEqual(output.GetNumberOfBlocks(), 0)
 
+    def test_shared_interfaces(self):
+        filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), FinestLevel=1)
+        self.assertEqual(testing.fetch(filter_, 1).GetNumberOfPoints(), 0)
+        self.assertEqual([filter_.SMProxy.GetOutputPortName(port) for port in (0, 1)],
+                         ["Surfaces", "Interfaces"])
+        filter_.SharedInterfaces = 1
+        blocks = self.blocks(filter_)
+        self.assertEqual(list(blocks), ["Label 3", "Label 7", "Label 12"])
+        interfaces = testing.fetch(filter_, 1)
+        sides = vtk_to_numpy(interfaces.GetCellData().GetArray("BoundaryLabels"))
+        self.assertEqual({tuple(sorted(pair)) for pair in sides.tolist()},
+                         {(0, 0), (0, 3), (0, 7), (0, 12), (3, 7)})
+        for label, block in zip(BALLS, blocks.values()):
+            numbers = vtk_to_numpy(block.GetPointData().GetArray("GlobalIds"))
+            numpy.testing.assert_allclose(testing.points(block),
+                                          testing.points(interfaces)[numbers], atol=1e-6)
+            self.assertEqual(block.GetNumberOfPolys(), (sides == label).any(1).sum())
+        with testing.CapturedMessages() as messages:
+            filter_.Gap = 1.0
+            filter_.UpdatePipeline()
+        self.assertIn("Shared Interfaces", messages.text)
+
     def test_good_bad_good(self):
         filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), FinestLevel=1)
         self.assertEqual(len(self.blocks(filter_)), 3)

@@ -21,7 +21,7 @@ from window_testing import (
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
 BASIC = ("SetInputArrayToProcess", "Labels", "BackgroundLabel", "Merge", "Smoothing",
-         "VoxelTolerance", "Gap", "FinestLevel", "EdgeLength", "Tolerance", "ThinParts")
+         "VoxelTolerance", "Gap", "SharedInterfaces", "FinestLevel", "EdgeLength", "Tolerance", "ThinParts")
 ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "NumberOfThreads",
             "MemoryLimit", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0

@@ -226,9 +226,28 @@ class LabelsTest(ReferenceTest):
                           **self.tables["Field data of a label"]},
                          arrays_of(block.GetFieldData()))
 
+    def test_arrays_of_interfaces(self):
+        voxels = (ring_voxels() > RING_ISO).astype("uint8")
+        voxels[:, :, :20] *= 2
+        surfaces = volumic.vtkLabelsToSurfaces()
+        surfaces.SetInputData(make_image(voxels, RING_SPACING))
+        surfaces.Update()
+        self.assertEqual(surfaces.GetInterfaces().GetNumberOfPoints(), 0)
+        surfaces.SharedInterfacesOn()
+        surfaces.Update()
+        interfaces = surfaces.GetInterfaces()
+        self.assertIs(interfaces, surfaces.GetOutputDataObject(1))
+        self.compare("Arrays of the interfaces", {**arrays_of(interfaces.GetPointData()),
+                                                  **arrays_of(interfaces.GetCellData())})
+        self.compare("Field data of the interfaces", arrays_of(interfaces.GetFieldData()))
+        for block in blocks_of(surfaces.GetOutput()):
+            self.assertEqual({**self.tables["Point arrays of a surface"], "GlobalIds": "idtype"},
+                             arrays_of(block.GetPointData()))
+
     def test_names_are_in_the_help_too(self):
         text = re.sub(r"[\s|]+", " ", volumic.vtkLabelsToSurfaces.__doc__)
-        for heading in ("Cell arrays of a label", "Field data of a label"):
+        for heading in ("Cell arrays of a label", "Field data of a label",
+                        "Arrays of the interfaces", "Field data of the interfaces"):
             for name in self.tables[heading]:
                 self.assertIn(f"`{name}`", text)
 
