@@ -244,9 +244,9 @@ measure_graded()
 
 measure_interfaces()
 {
-  local package_path
-  package_path=$(echo "$build"/install-vtk/lib/python3*/*-packages)
-  PYTHONPATH=$package_path:$PYTHONPATH LD_LIBRARY_PATH=$build/install-vtk/lib/$(multiarch) \
+  local package
+  package=$(find "$build/install-vtk" -type d -name volumic -path '*-packages/volumic' | head -n 1)
+  PYTHONPATH=$(dirname "$package")${PYTHONPATH:+:$PYTHONPATH} \
     "$(vtk_python)" "$folder/benchmark_interfaces.py" --judge "$build/vtk/bin/JudgeFiles" \
     --make-volume "$build/vtk/bin/MakeVolume" --repetitions "${repetitions:-1}" \
     --csv "$results/interfaces.csv" "${interface_options[@]}" || failed=yes
