@@ -38,7 +38,8 @@ COLUMNS = {
     "VolumeLargest": "vol %", "VolumeMedian": "50 %", "RatioMean": "q", "Ratio01": "q 1 %",
     "AngleInner": "angle", "AngleLeast": "of all", "Roughness": "rough", "WrongVoxels": "wrong",
     "tetgen": "TetGen", "gmsh": "gmsh"}
-CSV_COLUMNS = (*COLUMNS, "Triangles", "Lines", "Flat", "WrongJunctions", "RatioLeast", "Failure")
+CSV_COLUMNS = (*COLUMNS, "Triangles", "Lines", "Flat", "WrongJunctions", "WrongBlocks",
+               "RatioLeast", "Failure")
 # For those who asked for the maps of the issue, all of them.
 USUAL_MAPS = ("polycrystal", "tooth", "organs", "aal", "JHU")
 
@@ -129,6 +130,7 @@ def target_rows(name, measured):
         ("edges of three triangles that are no line, or lines that are none", shared["WrongLines"],
          "<=", 0),
         ("points whose Junction is wrong", shared["WrongJunctions"], "<=", 0),
+        ("blocks that are not made of the same triangles", shared["WrongBlocks"], "<=", 0),
         ("labels without a surface, as separate", shared["LostLabels"], "<=", separate["LostLabels"]),
         ("error of the volume, %", shared["VolumeLargest"], "<=", .2),
         ("radius ratio mean", shared["RatioMean"], ">=", .94),

@@ -21,14 +21,16 @@ BACKGROUND = 0
 
 class Complex:
     """Points, triangles, and of each triangle the label behind it and that in front, where its
-    normal points to; the lines that the maker tells of, and its `Junction` of points, or None."""
+    normal points to; the lines that the maker tells of, and its `Junction` of points, or None; the
+    boundaries that come with it, {label: (points, their numbers in the complex, triangles)}."""
 
-    def __init__(self, points, triangles, sides, lines=None, junction=None):
+    def __init__(self, points, triangles, sides, lines=None, junction=None, blocks=None):
         self.points = np.asarray(points, float)
         self.triangles = np.asarray(triangles, np.int64).reshape(-1, 3)
         self.sides = np.asarray(sides, int).reshape(-1, 2)
         self.lines = None if lines is None else np.asarray(lines, np.int64).reshape(-1, 2)
         self.junction = junction
+        self.blocks = blocks
 
     def labels(self):
         labels = np.unique(self.sides)
@@ -41,7 +43,7 @@ class Complex:
                           self.triangles[front == label][:, ::-1]])
 
 
-def complex_of_output(surface):
+def complex_of_output(surface, blocks=None):
     """Of a vtkPolyData as that of port 1: lines first, then triangles; `BoundaryLabels`."""
     def cells(array, size):
         return vtk_to_numpy(array.GetConnectivityArray()).reshape(-1, size)
@@ -49,7 +51,7 @@ def complex_of_output(surface):
     junction = surface.GetPointData().GetArray("Junction")
     return Complex(vtk_to_numpy(surface.GetPoints().GetData()), cells(surface.GetPolys(), 3),
                    sides[surface.GetNumberOfLines():], cells(surface.GetLines(), 2),
-                   None if junction is None else vtk_to_numpy(junction))
+                   None if junction is None else vtk_to_numpy(junction), blocks)
 
 
 def complex_of_surfaces(surfaces):
@@ -132,6 +134,24 @@ def wrong_junctions(shape):
     valence = np.bincount(shape.lines.ravel(), minlength=len(shape.points))
     expected = np.where(valence == 0, 0, np.where(valence == 2, 1, 2))
     return int((expected != shape.junction).sum())
+
+
+def _in_one_order(faces):
+    """From their least corners on, and sorted."""
+    turned = faces[np.arange(len(faces))[:, None], (faces.argmin(axis=1)[:, None] + [0, 1, 2]) % 3]
+    return turned[np.lexsort(turned.T[::-1])]
+
+
+def wrong_blocks(shape):
+    """Labels whose boundary by itself has other triangles, or other places but for their rounding."""
+    wrong = 0
+    for label in shape.labels():
+        points, numbers, triangles = shape.blocks.get(label, ([], [], []))
+        faces = shape.faces_of(label)
+        wrong += not (len(triangles) == len(faces)
+                      and (_in_one_order(numbers[triangles]) == _in_one_order(faces)).all()
+                      and (points == shape.points[numbers].astype(points.dtype)).all())
+    return wrong
 
 
 # ---- Shapes --------------------------------------------------------------------------------------
@@ -224,10 +244,14 @@ class LabelVoxels:
 
 def intersections(shape, judge):
     """Pairs of triangles that meet elsewhere than in what they share, and triangles without area;
-    by the program JudgeFiles, with CGAL's exact predicates."""
+    by the program JudgeFiles, with CGAL's exact predicates. Where boundaries by themselves have places
+    that are rounded, with these."""
+    points = shape.points
+    for places, _, _ in (shape.blocks or {}).values():
+        points = points.astype(places.dtype)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "complex.vtp")
-        write(surface_of(shape.points, shape.triangles), path)
+        write(surface_of(points, shape.triangles), path)
         names, figures = (subprocess.run([judge, word], check=True, capture_output=True,
                                          text=True).stdout.split() for word in ("--help", path))
     told = dict(zip(names, map(float, figures)))
@@ -266,6 +290,7 @@ def figures_of(shape, voxels, judge, large=1000):
         "Intersections": pairs, "Flat": flat, "Lines": len(lines),
         "WrongLines": np.nan if shape.lines is None else wrong_lines(shape),
         "WrongJunctions": np.nan if shape.junction is None else wrong_junctions(shape),
+        "WrongBlocks": np.nan if shape.blocks is None else wrong_blocks(shape),
         "RatioMean": ratios.mean(), "Ratio01": np.quantile(ratios, .01), "RatioLeast": ratios.min(),
         "AngleInner": inner.min() if len(inner) else np.nan, "AngleLeast": least.min(),
         "Roughness": np.quantile(angles, .95) if len(angles) else np.nan,

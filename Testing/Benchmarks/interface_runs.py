@@ -51,19 +51,27 @@ def our_surfaces(voxels, is_shared):
     return seconds, surfaces
 
 
+def blocks_of(surfaces):
+    """(label, block) of those that have triangles."""
+    output = surfaces.GetOutputDataObject(0)
+    blocks = [output.GetBlock(number) for number in range(output.GetNumberOfBlocks())]
+    return [(int(block.GetFieldData().GetArray("Label").GetTuple1(0)), block)
+            for block in blocks if block.GetNumberOfPolys()]
+
+
 def separate(voxels):
     """A surface for each label by itself."""
     seconds, surfaces = our_surfaces(voxels, False)
-    blocks = surfaces.GetOutputDataObject(0)
-    blocks = [blocks.GetBlock(number) for number in range(blocks.GetNumberOfBlocks())]
     return seconds, complex_of_surfaces(
-        [(int(block.GetFieldData().GetArray("Label").GetTuple1(0)), *arrays_of(block))
-         for block in blocks if block.GetNumberOfPolys()])
+        [(label, *arrays_of(block)) for label, block in blocks_of(surfaces)])
 
 
 def shared(voxels):
     seconds, surfaces = our_surfaces(voxels, True)
-    return seconds, complex_of_output(surfaces.GetOutputDataObject(1))
+    blocks = {label: (vtk_to_numpy(block.GetPoints().GetData()),
+                      vtk_to_numpy(block.GetPointData().GetGlobalIds()), arrays_of(block)[1])
+              for label, block in blocks_of(surfaces)}
+    return seconds, complex_of_output(surfaces.GetOutputDataObject(1), blocks)
 
 
 def windowed(voxels):

@@ -86,6 +86,24 @@ class TopologyTest(unittest.TestCase):
         self.assertEqual(figures.wrong_lines(shape), 3)  # one is missing, one wrong, and twice
         self.assertEqual(figures.wrong_junctions(shape), 4)
 
+    def test_blocks_are_compared_with_what_they_are_of(self):
+        shape = cubes()
+        faces = {label: shape.faces_of(label) for label in (1, 2)}
+        places = shape.points.astype(np.float32)
+
+        def wrong(**others):
+            """With so many blocks as they should be, but for what is told of the first."""
+            block = {"points": places, "numbers": np.arange(12), "faces": faces[1][::-1, [1, 2, 0]]}
+            shape.blocks = {1: tuple({**block, **others}.values()),
+                            2: (places[4:], np.arange(4, 12), faces[2] - 4)}
+            return figures.wrong_blocks(shape)
+        self.assertEqual(wrong(), 0)
+        self.assertEqual(wrong(points=places + np.float32(1e-6)), 1)
+        self.assertEqual(wrong(faces=faces[1][1:]), 1)
+        self.assertEqual(wrong(faces=faces[1][:, ::-1]), 1)
+        del shape.blocks[1]
+        self.assertEqual(figures.wrong_blocks(shape), 1)
+
     def test_twins_become_one(self):
         shape = cubes()
         labels = np.repeat((1, 2), (len(shape.faces_of(1)), len(shape.faces_of(2))))
