@@ -75,17 +75,59 @@ def tetgen(shape):
 
 # ---- gmsh ----------------------------------------------------------------------------------------
 
-def pairs_of(shape):
-    """The pairs of labels that have an interface, and which of them each triangle is of."""
-    pairs, number = np.unique(np.sort(shape.sides, axis=1), axis=0, return_inverse=True)
-    return pairs, number.ravel()
+def winding_number(place, points, faces):
+    """How often a closed surface is around the place."""
+    a, b, c = ((points - place)[faces[:, corner]] for corner in range(3))
+    lengths = [np.linalg.norm(corner, axis=1) for corner in (a, b, c)]
+    below = (np.prod(lengths, axis=0) + np.einsum("ij,ij->i", a, b) * lengths[2]
+             + np.einsum("ij,ij->i", b, c) * lengths[0] + np.einsum("ij,ij->i", c, a) * lengths[1])
+    angles = np.arctan2(np.einsum("ij,ij->i", a, np.cross(b, c)), below)
+    return angles.sum() / (2 * np.pi)
 
 
-def write_msh(shape, path):
-    """Version 2.2, a surface for each pair of labels, numbered from 1."""
+def shells_of(faces):
+    """A number for each triangle, the same of those that are connected."""
+    root = np.arange(faces.max() + 1)
+    while True:
+        roots = root[faces]
+        least = roots.min(axis=1)
+        if (roots == least[:, None]).all():
+            return least
+        np.minimum.at(root, roots, least[:, None])
+        root = root[root]
+
+
+def parts_of(points, faces):
+    """Of each triangle of a boundary the number of the part that it is of: a shell, and cavities."""
+    part = shells_of(faces)
+    shells = {shell: faces[part == shell] for shell in np.unique(part)}
+    outer = [shell for shell, of_it in shells.items() if volume_of(points, of_it) > 0]
+    for shell in set(shells) - set(outer):
+        place = points[shells[shell][0, 0]]
+        part[part == shell] = max(
+            outer, key=lambda around: winding_number(place, points, shells[around]))
+    return np.unique(part, return_inverse=True)[1]
+
+
+def part_sides(shape):
+    """As the sides of triangles, numbers of parts of labels, from 1 on; and the label of each."""
+    sides, labels = np.zeros_like(shape.sides), []
+    for label in shape.labels():
+        behind, front = (np.flatnonzero(side == label) for side in shape.sides.T)
+        part = parts_of(shape.points, shape.faces_of(label)) + len(labels) + 1
+        sides[behind, 0], sides[front, 1] = np.split(part, [len(behind)])
+        labels += [label] * (part.max() - len(labels))
+    return sides, labels
+
+
+def write_model(shape, folder):
+    """in.msh, of version 2.2, a surface for each pair of parts, and in.geo, a volume for each part:
+    one of several parts gmsh would take for a void. Better tetrahedra are not asked for."""
     points, triangles = shape.points, shape.triangles
-    surface = pairs_of(shape)[1] + 1
-    with open(path, "w", encoding="ascii") as file:
+    sides, labels = part_sides(shape)
+    pairs, surface = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
+    surface = surface.ravel() + 1
+    with open(os.path.join(folder, "in.msh"), "w", encoding="ascii") as file:
         file.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
         np.savetxt(file, np.column_stack([np.arange(len(points)) + 1, points]),
                    "%d" + " %.17g" * 3)
@@ -93,18 +135,14 @@ def write_msh(shape, path):
         np.savetxt(file, np.column_stack([np.arange(len(triangles)) + 1, surface, surface,
                                           triangles + 1]), "%d 2 2" + " %d" * 5)
         file.write("$EndElements\n")
-
-
-def write_geo(shape, path):
-    """A volume for each label: what all its surfaces enclose. Better tetrahedra are not asked for."""
-    pairs = pairs_of(shape)[0]
-    with open(path, "w", encoding="ascii") as file:
+    with open(os.path.join(folder, "in.geo"), "w", encoding="ascii") as file:
         file.write('Mesh.Optimize = 0;\nMerge "in.msh";\n')
+        for part in range(1, len(labels) + 1):
+            surfaces = ", ".join(map(str, np.flatnonzero((pairs == part).any(axis=1)) + 1))
+            file.write(f"Surface Loop({part}) = {{{surfaces}}};\nVolume({part}) = {{{part}}};\n")
         for label in shape.labels():
-            surfaces = ", ".join(map(str, np.flatnonzero((pairs == label).any(axis=1)) + 1))
-            file.write(f"Surface Loop({label}) = {{{surfaces}}};\n"
-                       f"Volume({label}) = {{{label}}};\n"
-                       f"Physical Volume({label}) = {{{label}}};\n")
+            parts = ", ".join(str(part) for part, of in enumerate(labels, 1) if of == label)
+            file.write(f"Physical Volume({label}) = {{{parts}}};\n")
 
 
 def read_tetrahedra(path):
@@ -125,8 +163,7 @@ def read_tetrahedra(path):
 
 def gmsh(shape):
     with tempfile.TemporaryDirectory() as folder:
-        write_msh(shape, os.path.join(folder, "in.msh"))
-        write_geo(shape, os.path.join(folder, "in.geo"))
+        write_model(shape, folder)
         said, failure = run(folder, "gmsh", "-3", "-nt", "1", "-format", "msh22", "-o", "out.msh",
                             "in.geo")
         errors = [line for line in said.splitlines() if line.startswith("Error")]

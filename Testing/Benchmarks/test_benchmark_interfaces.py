@@ -185,6 +185,20 @@ class SolverTest(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(solver(cubes()), "12")
 
+    def test_parts_of_labels_are_volumes(self):
+        """Label 1 in two parts, the second one with a cavity, in which label 2 is."""
+        one = cubes()
+        box = one.faces_of(1)
+        places = [one.points + (5, 0, 0), one.points * 5 - 2.1, one.points]
+        triangles = np.vstack([box, box + 12, one.faces_of(2) + 24])
+        sides = np.repeat([(1, 0), (1, 0), (2, 1)], len(box), axis=0)
+        shape = figures.Complex(np.vstack(places), triangles, sides)
+        parts, labels = interface_solvers.part_sides(shape)
+        self.assertEqual(labels, [1, 1, 2])
+        second = parts[len(box), 0]
+        np.testing.assert_array_equal(
+            parts, np.repeat([(3 - second, 0), (second, 0), (3, second)], len(box), axis=0))
+
     def test_what_crosses_is_not(self):
         shape = with_triangles(cubes(), [(12, 13, 14)], [(1, 2)],
                                [np.array([(.5, .6, .5), (1.5, .6, .5), (1.5, .7, .6)])])
