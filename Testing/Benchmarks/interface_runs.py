@@ -16,7 +16,7 @@ from volumic import vtkLabelsToSurfaces
 
 from graded_surfaces import arrays_of
 from interface_figures import (
-    BACKGROUND, complex_of_output, complex_of_surfaces, complex_of_twins, volume_of)
+    BACKGROUND, Complex, complex_of_output, complex_of_surfaces, complex_of_twins, volume_of)
 
 
 def image_of(voxels, margin=0):
@@ -95,14 +95,30 @@ def windowed(voxels):
     return seconds, complex_of_twins(points, triangles, labels)
 
 
+def sides_by_voxels(surface, voxels):
+    """The labels behind and in front of triangles that are half a side of a voxel each."""
+    points, triangles = arrays_of(surface)
+    corners = points[triangles] / voxels.spacing
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    across = .5 * normal / np.linalg.norm(normal, axis=1, keepdims=True)
+    values = np.pad(voxels.values, 1, constant_values=BACKGROUND)
+    both = corners.mean(axis=1)[:, None] + np.stack([-across, across], axis=1)
+    x, y, z = np.moveaxis(np.rint(both).astype(int) + 1, 2, 0)
+    return values[z, y, x]
+
+
 def nets(voxels):
-    """vtkSurfaceNets3D of all labels, with its smoothing."""
+    """vtkSurfaceNets3D of all labels, with its smoothing. It does not tell which of a triangle's
+    labels is behind it: the same triangles, not smoothed, are between the two voxels."""
     surfaces = vtkFiltersCore.vtkSurfaceNets3D()
     for number, label in enumerate(voxels.counts):
         surfaces.SetValue(number, label)
     surfaces.SetOutputMeshTypeToTriangles()
     seconds = run(image_of(voxels, 1), surfaces)
-    return seconds, complex_of_output(surfaces.GetOutput())
+    points, triangles = arrays_of(surfaces.GetOutput())
+    surfaces.SmoothingOff()
+    surfaces.Update()
+    return seconds, Complex(points, triangles, sides_by_voxels(surfaces.GetOutput(), voxels))
 
 
 def runs_here():

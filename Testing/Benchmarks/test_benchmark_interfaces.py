@@ -73,6 +73,10 @@ class TopologyTest(unittest.TestCase):
         shape.triangles[0] = shape.triangles[0, ::-1]
         self.assertEqual([figures.wrong_edges(shape.faces_of(label)) for label in (1, 2)], [3, 0])
 
+    def test_what_is_there_twice_is_an_error(self):
+        faces = cubes().faces_of(1)
+        self.assertEqual(figures.wrong_edges(np.vstack([faces, faces])), 18)
+
     def test_a_vertex_of_two_fans_is_pinched(self):
         one, other = cubes(), cubes()
         faces = np.vstack([one.faces_of(1), np.where(other.faces_of(2) == 11, 0,
@@ -113,6 +117,11 @@ class TopologyTest(unittest.TestCase):
         self.assertEqual((joined.sides == (1, 2)).all(axis=1).sum(), 2)
         self.assertEqual([figures.wrong_edges(joined.faces_of(label)) for label in (1, 2)], [0, 0])
 
+    def test_of_three_triangles_two_are_twins(self):
+        joined = figures.complex_of_twins(
+            np.eye(3), np.array([(0, 1, 2), (2, 1, 0), (1, 2, 0)]), np.array([1, 2, 3]))
+        self.assertEqual([tuple(sides) for sides in joined.sides], [(1, 2), (3, 0)])
+
     def test_surfaces_side_by_side_share_nothing(self):
         shape = cubes()
         apart = figures.complex_of_surfaces(
@@ -141,6 +150,13 @@ class IntersectionTest(unittest.TestCase):
         self.assertEqual(self.pairs((1, .9, .5), corners=(4, 5, 12))[0], 2)
         self.assertEqual(self.pairs((1, -.5, .5), corners=(4, 5, 12))[0], 0)
 
+    def test_places_are_rounded_as_those_of_the_blocks(self):
+        shape = with_triangles(cubes(), [(12, 13, 14)], [(2, 2)], [
+            np.array([(1 + 1e-9, .5, .7), (1 + 1e-9, .6, .7), (1 + 1e-9, .6, .8)])])
+        self.assertEqual(figures.intersections(shape, JUDGE), (0, 0))
+        shape.blocks = {1: (shape.points[:8].astype(np.float32), np.arange(8), cubes().faces_of(1))}
+        self.assertEqual(figures.intersections(shape, JUDGE), (1, 0))
+
     def test_a_triangle_without_area(self):
         self.assertEqual(self.pairs((5, 5, 5), (6, 6, 6), (7, 7, 7), corners=(12, 13, 14)), (0, 1))
 
@@ -159,23 +175,35 @@ class ShapeTest(unittest.TestCase):
         np.testing.assert_allclose(np.sort(figures.line_angles(points, lines)), (0, 90), atol=1e-12)
 
     def test_voxels(self):
-        """Cubes of 4 x 4 x 4 voxels, the second one a layer short, with voxels twice as long."""
+        """Cubes of 4 x 4 x 4 voxels, twice as high as wide, in a surface that is two layers short
+        at the end of the second one, and a layer short at the top."""
         values = np.zeros((4, 4, 8), np.int16)
         values[:, :, :4], values[:, :, 4:] = 1, 2
         voxels = figures.LabelVoxels(values, (1, 1, 2))
         shape = cubes()
-        shape.points = (shape.points * (4, 4, 4) - .5) * (1, 1, 2)
-        shape.points[8:, 0] -= 1
+        shape.points = (shape.points * (4, 4, 3) - .5) * (1, 1, 2)
+        shape.points[8:, 0] -= 2
         told = figures.label_figures(shape, voxels, 10)
-        self.assertEqual(told["WrongVoxels"], 16)
-        self.assertAlmostEqual(told["VolumeLargest"], 25)
-        self.assertAlmostEqual(told["VolumeMedian"], 12.5)
+        self.assertEqual(told["WrongVoxels"], 16 + (64 - 2 * 4 * 3))
+        self.assertAlmostEqual(told["VolumeLargest"], 100 * (1 - 24 / 64))
+        self.assertAlmostEqual(told["VolumeMedian"], (25 + told["VolumeLargest"]) / 2)
         self.assertEqual((told["WrongEdges"], told["Pinched"], told["LostLabels"]), (0, 0, 0))
+        self.assertTrue(np.isnan(figures.label_figures(shape, voxels, 64)["VolumeLargest"]))
 
     def test_a_label_without_a_surface_is_lost(self):
-        told = figures.label_figures(cubes(), figures.LabelVoxels([[[1, 2, 7, 7]]]), 10)
-        self.assertEqual(told["LostLabels"], 1)
-        self.assertGreaterEqual(told["WrongVoxels"], 2)
+        shape = cubes()
+        shape.points -= .5
+        told = figures.label_figures(shape, figures.LabelVoxels([[[1, 2, 7, 7]]]), 10)
+        self.assertEqual((told["LostLabels"], told["WrongVoxels"]), (1, 2))
+
+    def test_triangles_at_junctions_are_told_apart(self):
+        shape = cubes()
+        shape.points[4] = .9, -.5, -.4
+        told = figures.figures_of(shape, figures.LabelVoxels([[[1, 2]]]), JUDGE)
+        self.assertAlmostEqual(told["AngleInner"], 45)
+        self.assertLess(told["AngleLeast"], 44)
+        self.assertEqual((told["Vertices"], told["Triangles"], told["Lines"]), (12, 22, 4))
+        self.assertTrue(np.isnan(told["WrongBlocks"]))
 
 
 class SolverTest(unittest.TestCase):
