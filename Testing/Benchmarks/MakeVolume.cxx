@@ -7,12 +7,16 @@
  *
  *     MakeVolume resample SIZE FILE.vti OUTPUT.vti
  *     MakeVolume foam SIZE OUTPUT.vti
+ *     MakeVolume body SIZE LABELS OUTPUT.vti
  *
  * `resample`: another volume on SIZE^3 voxels of its own type, linearly interpolated, the voxels at
  * the border where they were. `foam`: one sheet that fills space, a gyroid whose cells are about 17
- * voxels wide and vary; at the iso-value 0.5, which no voxel equals, .1 vertex a voxel.
+ * voxels wide and vary; at the iso-value 0.5, which no voxel equals, .1 vertex a voxel. `body`: the
+ * label map of LabelShapes.h, at once.
  * Outputs are .vti with their data appended and raw, of which readers can take any part.
  */
+
+#include "LabelShapes.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -201,10 +205,21 @@ void MakeFoam(int size, const std::string& name)
   file.Finish();
 }
 
+void MakeBody(int size, int labels, const std::string& name)
+{
+  const volumic::support::LabelMap map = volumic::support::MakeBodyMap({ size, size, size }, labels);
+  VolumeFile file(name, size,
+    "Origin=\"0 0 0\" Spacing=\"" + Joined(map.Spacing.data(), 3) + "\"", "Int16", 2);
+  file.Append(map.Values.data(), sizeof(std::int16_t) * map.Values.size());
+  file.Finish();
+}
+
 const char* const Usage = "Usage: MakeVolume resample SIZE FILE.vti OUTPUT.vti\n"
                           "       MakeVolume foam SIZE OUTPUT.vti\n"
+                          "       MakeVolume body SIZE LABELS OUTPUT.vti\n"
                           "Writes a volume of SIZE^3 voxels, whatever the memory: another one\n"
-                          "resampled, or a foam, of .1 vertex a voxel at an iso-value of 0.5.\n";
+                          "resampled, or a foam, of .1 vertex a voxel at an iso-value of 0.5; or\n"
+                          "a map of so many labels, ellipsoids and tubes.\n";
 
 /** 0 if it is none. */
 int ToSize(const std::string& text)
@@ -223,7 +238,8 @@ int main(int argc, char** argv)
   const int size = words.size() > 1 ? ToSize(words[1]) : 0;
   const bool isFoam = words.size() == 3 && words[0] == "foam";
   const bool isResampled = words.size() == 4 && words[0] == "resample";
-  if (size == 0 || (!isFoam && !isResampled))
+  const bool isBody = words.size() == 4 && words[0] == "body" && ToSize(words[2]) > 0;
+  if (size == 0 || (!isFoam && !isResampled && !isBody))
   {
     std::cerr << Usage;
     return 2;
@@ -233,6 +249,10 @@ int main(int argc, char** argv)
     if (isFoam)
     {
       MakeFoam(size, words[2]);
+    }
+    else if (isBody)
+    {
+      MakeBody(size, ToSize(words[2]), words[3]);
     }
     else
     {

@@ -39,11 +39,16 @@ Graded triangles:
   --graded             these, and nothing else: of the skull, and of the engine and the tooth of
                        ../shared/data where that is, beside uniform ones, decimated ones, CGAL's
                        adaptive remeshing (CGAL 6) and mmgs, where there is one; 3 repetitions
+Surfaces of labels that touch:
+  --interfaces         these, and nothing else: sharing their interfaces, and not, beside
+                       vtkSurfaceNets3D (VTK 9.3) and vtkDiscreteFlyingEdges3D with
+                       vtkWindowedSincPolyDataFilter, and whether TetGen and gmsh fill them
+  --maps LIST          of polycrystal,tooth,organs,aal,JHU (default: all)
   --help               this text
 Tables are printed; all figures are left in build/benchmarks: every repetition of the pyramid in
 *.json, the surface in surface-NAME*.csv and surface-NAME.vtp, the others in growth-NAME*.csv,
 threads-NAME*.csv, model-NAME*.csv, memory-NAME*.csv, limit-NAME.csv, labels-NAME*.csv,
-graded*.csv.
+graded*.csv, interfaces*.csv.
 USAGE
 }
 
@@ -53,6 +58,8 @@ with_pyramid=yes
 with_surface=yes
 with_labels=
 with_graded=
+with_interfaces=
+interface_options=()
 volume=
 iso=
 all_scans=
@@ -83,6 +90,16 @@ take_option()
       with_pyramid=
       with_surface=
       packages+=(libeigen3-dev)
+      ;;
+    --interfaces)
+      with_interfaces=yes
+      with_pyramid=
+      with_surface=
+      packages+=(mricron-data tetgen gmsh)
+      ;;
+    --maps)
+      need_value "a value" "$@"
+      interface_options+=("$1" "$2")
       ;;
     --slow | --no-recovery) surface_options+=("$1") ;;
     --all-scans) all_scans=yes ;;
@@ -225,6 +242,16 @@ measure_graded()
     --csv "$results/graded.csv" "${scans[@]}" || failed=yes
 }
 
+measure_interfaces()
+{
+  local package
+  package=$(find "$build/install-vtk" -type d -name volumic -path '*-packages/volumic' | head -n 1)
+  PYTHONPATH=$(dirname "$package")${PYTHONPATH:+:$PYTHONPATH} \
+    "$(vtk_python)" "$folder/benchmark_interfaces.py" --judge "$build/vtk/bin/JudgeFiles" \
+    --make-volume "$build/vtk/bin/MakeVolume" --repetitions "${repetitions:-1}" \
+    --csv "$results/interfaces.csv" "${interface_options[@]}" || failed=yes
+}
+
 sed -n 's/^model name[^:]*: /Processor: /p' /proc/cpuinfo | sort -u
 if [ -n "$with_pyramid" ]; then
   pyramid=(python3 "$folder/benchmark_pyramid.py"
@@ -252,4 +279,5 @@ if [ -n "$with_surface" ]; then
 fi
 [ -z "$with_labels" ] || measure_all_labels
 [ -z "$with_graded" ] || measure_graded
+[ -z "$with_interfaces" ] || measure_interfaces
 [ -z "$failed" ] || fail "Some runs failed; see above."
