@@ -62,11 +62,13 @@ set(volumic_core_sources
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
   Interfaces/InterfaceFit.cxx
+  Interfaces/InterfaceLattice.cxx
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
   Interfaces/InterfaceRemesher.cxx
-  Interfaces/InterfaceStart.cxx
+  Interfaces/LatticeCutter.cxx
   Interfaces/MakeInterfaces.cxx
+  Interfaces/VertexTargets.cxx
   Surface/BlockOwners.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
@@ -193,11 +195,13 @@ set(volumic_core_headers
   Interfaces/InterfaceClearance.h
   Interfaces/InterfaceFields.h
   Interfaces/InterfaceFit.h
+  Interfaces/InterfaceLattice.h
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
   Interfaces/InterfaceRemesher.h
-  Interfaces/InterfaceStart.h
+  Interfaces/LatticeCutter.h
   Interfaces/MakeInterfaces.h
+  Interfaces/VertexTargets.h
   Surface/ComponentNesting.h
   Surface/ComponentWatch.h
   Surface/ConnectedVertices.h

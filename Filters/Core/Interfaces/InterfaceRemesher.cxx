@@ -23,6 +23,8 @@ constexpr double LeastAngle = 0.5;
 constexpr double LeastRatio = 0.3;
 /** Those are slivers, by the same. */
 constexpr double MostSliver = 0.15;
+/** By how much edges at corners may be longer for a while, squared. */
+constexpr double CornerSlack = 16. / 9.;
 /** By how much a flip must make the smallest angle larger, radian. */
 constexpr double LeastGain = 0.02;
 
@@ -150,6 +152,10 @@ bool InterfaceRemesher::MayCollapse(int u, int v)
   {
     return false; // Two lines would meet, or a vertex leave its own.
   }
+  if (lower == Stratum::Corner && !this->ShareObjects(u, v))
+  {
+    return false;
+  }
   this->Mesh.FindNeighbours(u, this->First);
   this->Mesh.FindNeighbours(v, this->Second);
   const auto countOf = [](const std::vector<int>& neighbours, int w)
@@ -171,6 +177,25 @@ bool InterfaceRemesher::MayCollapse(int u, int v)
   std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
     this->Second.end(), std::back_inserter(common));
   return common.size() == this->AtEdge.size();
+}
+
+bool InterfaceRemesher::ShareObjects(int u, int v)
+{
+  this->Mesh.FindObjects(u, this->First);
+  this->Mesh.FindObjects(v, this->Second);
+  this->Changed.clear();
+  std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
+    this->Second.end(), std::back_inserter(this->Changed));
+  return std::all_of(this->Changed.begin(), this->Changed.end(),
+    [&](int object)
+    {
+      return std::any_of(this->AtEdge.begin(), this->AtEdge.end(),
+        [&](int f)
+        {
+          const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
+          return face.Behind == object || face.Front == object;
+        });
+    });
 }
 
 bool InterfaceRemesher::TryCollapse(int u, int v)
@@ -197,6 +222,9 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
 {
   this->Made.clear();
   this->Changed.clear();
+  // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
+  const double longest = this->Longest *
+    (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner ? CornerSlack : 1.);
   double worst = 1.;
   bool isFair = true;
   for (const int v : { kept, removed })
@@ -227,7 +255,7 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
           else
           {
             isFair = isFair &&
-              SquaredDistance(after.Corner[k], VectorD(place)) <= this->Longest;
+              SquaredDistance(after.Corner[k], VectorD(place)) <= longest;
           }
         }
         // The normals of slivers say nothing.

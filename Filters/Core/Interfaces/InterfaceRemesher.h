@@ -20,7 +20,8 @@ namespace volumic
  * - Collapses take a vertex into another of its stratum, or of a higher one: from an interface into
  *   anything, along a junction line into one of its vertices, or its end. Vertices that have both
  *   ends as neighbours must be those of the faces at the edge (the link condition), and at most one
- *   edge of these faces may be of a junction line.
+ *   edge of these faces may be of a junction line. Two junction points must have no object in common
+ *   but those at their edge.
  * - Flips are between two faces of the same objects.
  */
 class InterfaceRemesher
@@ -45,6 +46,8 @@ private:
   /** Whether to look at this face and those after it. */
   bool GoesOn(std::size_t face) { return face % FacesPerQuestion != 0 || this->GoOn(); }
   bool MayCollapse(int u, int v);
+  /** Whether objects that are at both ends of the edge, AtEdge, are beside it: none is pinched. */
+  bool ShareObjects(int u, int v);
   /** With the vertex in the middle, where both are alike, or at either end. */
   bool TryCollapse(int u, int v);
   bool TryCollapseAt(const Vector& place, int kept, int removed);

@@ -5,7 +5,7 @@
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
-#include "Core/Interfaces/InterfaceStart.h"
+#include "Core/Interfaces/InterfaceLattice.h"
 
 #include <algorithm>
 #include <cstddef>

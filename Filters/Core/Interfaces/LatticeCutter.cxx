@@ -1,41 +1,34 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Interfaces/InterfaceStart.h"
+#include "Core/Interfaces/LatticeCutter.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <functional>
 #include <limits>
-#include <mutex>
 #include <tuple>
-#include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace volumic
 {
 namespace
 {
-using Number = LabelMap::Number;
-
-/** The pitch of a lattice, at most, in wanted edges: triangles are half as large. */
-constexpr double MostPitch = 1.7;
-/** So many voxels of an object, or one in so many, may be without a point of the lattice near. */
-constexpr std::int64_t MostWithout = 8;
-constexpr std::int64_t MostWithoutShare = 1000;
 /** Vertices keep this share of their edge from its ends. */
 constexpr float LeastShare = 0.15f;
 
-/**
- * A point of the lattice, in halves of its pitch: all even, a corner of a cube, or all odd, the
- * middle of one.
- */
-struct LatticeSite
+/** Which of the directions of the lattice's edges leads from one site to a later one. */
+std::uint64_t DirectionTo(const LatticeSite& from, const LatticeSite& to)
 {
-  std::array<int, 3> At;
-  Number Object;
-};
+  std::uint64_t code = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    code = 5 * code + static_cast<std::uint64_t>(to.At[axis] - from.At[axis] + 2);
+  }
+  return code; // below 5^3
+}
+
+bool IsBefore(const LatticeSite& a, const LatticeSite& b)
+{
+  return std::tie(a.At[2], a.At[1], a.At[0]) < std::tie(b.At[2], b.At[1], b.At[0]);
+}
+}
 
 /** The corners of a tetrahedron, and which of them are of one object. */
 struct Tetrahedron
@@ -59,62 +52,6 @@ struct Tetrahedron
   }
 };
 
-/** Cuts the tetrahedra of the lattice. */
-class LatticeCutter
-{
-public:
-  /** @param pitch in voxels, 1 or 2 */
-  LatticeCutter(const InterfaceFields& fields, int pitch)
-    : Fields(fields), Map(fields.Bricks().Map()), Pitch(pitch)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Corners[axis] = (this->Map.Size[axis] - 1) / pitch + 1;
-      this->Middles.End[axis] = this->Corners[axis] - 1;
-    }
-  }
-
-  /** Has voxels be of the object whose field is the largest there. */
-  void FollowFields(Executor& executor);
-  void FindMiddles(Executor& executor);
-  void CutBrick(int i, int j, int k);
-  InterfaceMesh Take()
-  {
-    this->Mesh.FindStrata();
-    return std::move(this->Mesh);
-  }
-
-private:
-  using Key = std::uint64_t;
-
-  /** That whose field is the largest in the middle of eight voxels. */
-  Number ObjectBetween(int i, int j, int k) const;
-  Number ObjectOf(const std::array<int, 3>& voxel) const;
-  LatticeSite SiteAt(const std::array<int, 3>& halves) const;
-  void CutAbout(const std::array<int, 3>& cube);
-  void Cut(const Tetrahedron& cell);
-  void CutInTwo(const Tetrahedron& cell);
-  void CutInMore(const Tetrahedron& cell);
-  float ValueAt(const LatticeSite& site, int object) const;
-  Vector PlaceOf(const LatticeSite& site) const;
-  Key KeyOf(const LatticeSite& site) const;
-  int VertexOn(const LatticeSite& a, const LatticeSite& b);
-  int VertexOn(const LatticeSite& a, const LatticeSite& b, const LatticeSite& c);
-  /** A triangle between the objects of two sites, which are on either side of it. */
-  void AddTriangle(
-    const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front);
-
-  const InterfaceFields& Fields;
-  LabelMap Map;
-  int Pitch;
-  std::array<int, 3> Corners; ///< of cubes, along each axis
-  VoxelBox Middles;           ///< of cubes
-  std::vector<Number> ObjectOfMiddle;
-  std::unordered_map<Key, int> OnEdge;
-  std::unordered_map<Key, int> OnFace;
-  InterfaceMesh Mesh;
-};
-
 void LatticeCutter::FindMiddles(Executor& executor)
 {
   this->ObjectOfMiddle.resize(static_cast<std::size_t>(this->Middles.Count()));
@@ -135,7 +72,7 @@ void LatticeCutter::FindMiddles(Executor& executor)
     });
 }
 
-Number LatticeCutter::ObjectBetween(int i, int j, int k) const
+LatticeCutter::Number LatticeCutter::ObjectBetween(int i, int j, int k) const
 {
   std::array<Number, 8> about;
   bool isSame = true;
@@ -169,7 +106,7 @@ Number LatticeCutter::ObjectBetween(int i, int j, int k) const
   return best;
 }
 
-Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) const
+LatticeCutter::Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) const
 {
   return this->Map.Voxels[static_cast<std::size_t>(
     VoxelBox::Of(this->Map.Size).NumberOf(voxel[0], voxel[1], voxel[2]))];
@@ -410,22 +347,6 @@ LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
   return x + static_cast<Key>(2 * this->Map.Size[0]) * (y + static_cast<Key>(2 * this->Map.Size[1]) * z);
 }
 
-/** Which of the directions of the lattice's edges leads from one site to a later one. */
-std::uint64_t DirectionTo(const LatticeSite& from, const LatticeSite& to)
-{
-  std::uint64_t code = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    code = 5 * code + static_cast<std::uint64_t>(to.At[axis] - from.At[axis] + 2);
-  }
-  return code; // below 5^3
-}
-
-bool IsBefore(const LatticeSite& a, const LatticeSite& b)
-{
-  return std::tie(a.At[2], a.At[1], a.At[0]) < std::tie(b.At[2], b.At[1], b.At[0]);
-}
-
 int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
 {
   const bool isInOrder = IsBefore(a, b);
@@ -482,100 +403,5 @@ void LatticeCutter::AddTriangle(
     std::swap(face.Vertex[1], face.Vertex[2]);
   }
   this->Mesh.AddFace(face);
-}
-/** Whether a point of the lattice of pitch 2, all even or all odd, has a voxel's object beside it. */
-bool IsHeld(const LabelMap& map, int i, int j, int k)
-{
-  const LabelMap::Number object = map.At(i, j, k);
-  for (int z = k - 1; z <= k + 1; ++z)
-  {
-    for (int y = j - 1; y <= j + 1; ++y)
-    {
-      for (int x = i - 1; x <= i + 1; ++x)
-      {
-        if (((x ^ y) & 1) == 0 && ((y ^ z) & 1) == 0 && map.At(x, y, z) == object)
-        {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
-/** Whether the lattice of pitch 2 has all objects whole. */
-bool HoldsObjects(const LabelBricks& bricks, Executor& executor)
-{
-  constexpr int side = LabelBricks::Side;
-  const LabelMap& map = bricks.Map();
-  const auto objects = static_cast<std::size_t>(map.NumberOfObjects) + 1;
-  std::vector<std::int64_t> without(objects, 0);
-  std::mutex mutex;
-  executor.For(static_cast<std::size_t>(map.Size[2]), 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<std::int64_t> own(objects, 0);
-      for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-      {
-        for (int j = 0; j < map.Size[1]; ++j)
-        {
-          for (int i = 0; i < map.Size[0]; ++i)
-          {
-            const LabelBricks::Range range = bricks.ObjectsIn(i / side, j / side, k / side);
-            if (range.end() - range.begin() > 1 && !IsHeld(map, i, j, k))
-            {
-              ++own[map.At(i, j, k)];
-            }
-          }
-        }
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      std::transform(own.begin(), own.end(), without.begin(), without.begin(), std::plus<>());
-    });
-  for (std::size_t object = 1; object < objects; ++object)
-  {
-    const std::int64_t voxels = bricks.ExtentOf(static_cast<int>(object)).Voxels;
-    if (without[object] > std::max(MostWithout, voxels / MostWithoutShare) ||
-      2 * without[object] > voxels)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-}
-
-InterfaceLattice::InterfaceLattice(
-  const InterfaceFields& fields, double edge, Executor& executor)
-  : Fields(fields)
-{
-  const std::array<double, 3>& step = fields.Step();
-  if (2. * *std::max_element(step.begin(), step.end()) <= MostPitch * edge &&
-    HoldsObjects(fields.Bricks(), executor))
-  {
-    this->Distance = 2;
-  }
-}
-
-InterfaceMesh InterfaceLattice::Start(Executor& executor) const
-{
-  LatticeCutter cutter(this->Fields, this->Distance);
-  cutter.FollowFields(executor);
-  cutter.FindMiddles(executor);
-  const std::array<int, 3>& bricks = this->Fields.Bricks().Size();
-  for (int k = 0; k < bricks[2]; ++k)
-  {
-    for (int j = 0; j < bricks[1]; ++j)
-    {
-      for (int i = 0; i < bricks[0]; ++i)
-      {
-        if (this->Fields.HasInterfaces(i, j, k))
-        {
-          cutter.CutBrick(i, j, k);
-        }
-      }
-    }
-  }
-  return cutter.Take();
 }
 }

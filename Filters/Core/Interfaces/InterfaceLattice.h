@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicInterfaceStart_h
-#define volumicInterfaceStart_h
+#ifndef volumicInterfaceLattice_h
+#define volumicInterfaceLattice_h
 
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"

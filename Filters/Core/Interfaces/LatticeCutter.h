@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLatticeCutter_h
+#define volumicLatticeCutter_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Image/VoxelBox.h"
+#include "Core/Interfaces/InterfaceFields.h"
+#include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Labels/LabelMap.h"
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+/**
+ * A point of the lattice, in halves of its pitch: all even, a corner of a cube, or all odd, the
+ * middle of one.
+ */
+struct LatticeSite
+{
+  std::array<int, 3> At;
+  LabelMap::Number Object;
+};
+
+struct Tetrahedron;
+
+/** Cuts the tetrahedra of the lattice. */
+class LatticeCutter
+{
+public:
+  /** @param pitch in voxels, 1 or 2 */
+  LatticeCutter(const InterfaceFields& fields, int pitch)
+    : Fields(fields), Map(fields.Bricks().Map()), Pitch(pitch)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Corners[axis] = (this->Map.Size[axis] - 1) / pitch + 1;
+      this->Middles.End[axis] = this->Corners[axis] - 1;
+    }
+  }
+
+  /** Has voxels be of the object whose field is the largest there. */
+  void FollowFields(Executor& executor);
+  void FindMiddles(Executor& executor);
+  void CutBrick(int i, int j, int k);
+  InterfaceMesh Take()
+  {
+    this->Mesh.FindStrata();
+    return std::move(this->Mesh);
+  }
+
+private:
+  using Number = LabelMap::Number;
+  using Key = std::uint64_t;
+
+  /** That whose field is the largest in the middle of eight voxels. */
+  Number ObjectBetween(int i, int j, int k) const;
+  Number ObjectOf(const std::array<int, 3>& voxel) const;
+  LatticeSite SiteAt(const std::array<int, 3>& halves) const;
+  void CutAbout(const std::array<int, 3>& cube);
+  void Cut(const Tetrahedron& cell);
+  void CutInTwo(const Tetrahedron& cell);
+  void CutInMore(const Tetrahedron& cell);
+  float ValueAt(const LatticeSite& site, int object) const;
+  Vector PlaceOf(const LatticeSite& site) const;
+  Key KeyOf(const LatticeSite& site) const;
+  int VertexOn(const LatticeSite& a, const LatticeSite& b);
+  int VertexOn(const LatticeSite& a, const LatticeSite& b, const LatticeSite& c);
+  /** A triangle between the objects of two sites, which are on either side of it. */
+  void AddTriangle(
+    const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front);
+
+  const InterfaceFields& Fields;
+  LabelMap Map;
+  int Pitch;
+  std::array<int, 3> Corners; ///< of cubes, along each axis
+  VoxelBox Middles;           ///< of cubes
+  std::vector<Number> ObjectOfMiddle;
+  std::unordered_map<Key, int> OnEdge;
+  std::unordered_map<Key, int> OnFace;
+  InterfaceMesh Mesh;
+};
+}
+
+#endif

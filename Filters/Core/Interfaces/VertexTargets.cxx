@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/VertexTargets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** Of the shortest edge, what a vertex may go. */
+constexpr float MostOfEdge = 0.5f;
+/** Shorter steps are none. */
+constexpr float LeastPart = 0.1f;
+/**
+ * How far a junction line's vertices go to between their neighbours: lines follow the stairs of
+ * voxels less than interfaces do.
+ */
+constexpr float LineSmoothing = 0.8f;
+/** At most, workspace. */
+constexpr float MostSmoothing = 0.3f;
+/** Keeps Newton's steps small where the fields say little, as a share of their squared slopes. */
+constexpr double Damping = 0.02;
+}
+
+Vector VertexTargets::Of(int v)
+{
+  const Vector place = this->Mesh.Position[static_cast<std::size_t>(v)];
+  this->Mesh.FindNeighbours(v, this->Neighbours);
+  float shortest = SquaredDistance(
+    place, this->Mesh.Position[static_cast<std::size_t>(this->Neighbours.front())]);
+  for (const int w : this->Neighbours)
+  {
+    shortest =
+      std::min(shortest, SquaredDistance(place, this->Mesh.Position[static_cast<std::size_t>(w)]));
+  }
+  this->Mesh.FindObjects(v, this->Objects);
+  this->FindEnds();
+  const bool isOnLine = !this->Ends.empty();
+  Vector target =
+    place + (isOnLine ? this->AlongLine(v) : this->AlongInterface(v)) * this->Share;
+  target += this->ToInterfaces(target);
+  if (isOnLine)
+  {
+    target += this->Straightening(target);
+  }
+  const Vector way = target - place;
+  const float length = Length(way);
+  const float most = MostOfEdge * std::sqrt(shortest);
+  float part = length > most ? most / length : 1.f;
+  while (part > LeastPart && this->Shortens(place, place + way * part))
+  {
+    part *= 0.5f;
+  }
+  return part > LeastPart ? place + way * part : place;
+}
+
+bool VertexTargets::Shortens(const Vector& place, const Vector& target) const
+{
+  return std::any_of(this->Neighbours.begin(), this->Neighbours.end(),
+    [&](int w)
+    {
+      const Vector& other = this->Mesh.Position[static_cast<std::size_t>(w)];
+      const float before = Length(other - place);
+      const float least = 0.5f * (before + std::min(before, this->Shortest));
+      return SquaredDistance(other, target) < least * least;
+    });
+}
+
+Vector VertexTargets::AlongInterface(int v) const
+{
+  const VectorD place(this->Mesh.Position[static_cast<std::size_t>(v)]);
+  VectorD normal;
+  VectorD sum;
+  double areas = 0.;
+  this->Mesh.ForFaces(v,
+    [&](int f)
+    {
+      const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
+      const VectorD across = this->Mesh.NormalOf(face);
+      const double area = Length(across);
+      VectorD middle;
+      for (const int w : face.Vertex)
+      {
+        middle += VectorD(this->Mesh.Position[static_cast<std::size_t>(w)]) * (1. / 3.);
+      }
+      normal += across;
+      sum += (middle - place) * area;
+      areas += area;
+    });
+  if (!(areas > 0.))
+  {
+    return Vector();
+  }
+  // The middle of faces is two thirds of the way to that of the neighbours.
+  const VectorD way = sum * (1.5 / areas);
+  const VectorD unit = Normalized(normal);
+  return Vector(way - unit * Dot(way, unit));
+}
+
+Vector VertexTargets::AlongLine(int v) const
+{
+  if (this->Ends.size() != 2)
+  {
+    return Vector();
+  }
+  const Vector along = Normalized(this->Ends[1] - this->Ends[0]);
+  return along *
+    Dot(along, this->MiddleOfEnds() - this->Mesh.Position[static_cast<std::size_t>(v)]);
+}
+
+Vector VertexTargets::Straightening(const Vector& place) const
+{
+  Vector way = this->MiddleOfEnds() - place;
+  if (this->Ends.size() == 2)
+  {
+    const Vector along = Normalized(this->Ends[1] - this->Ends[0]);
+    way -= along * Dot(along, way);
+  }
+  const float length = Length(way);
+  return length * LineSmoothing > MostSmoothing ? way * (MostSmoothing / length)
+                                                : way * LineSmoothing;
+}
+
+Vector VertexTargets::MiddleOfEnds() const
+{
+  Vector sum;
+  for (const Vector& end : this->Ends)
+  {
+    sum += end;
+  }
+  return sum * (1.f / static_cast<float>(this->Ends.size()));
+}
+
+void VertexTargets::FindEnds()
+{
+  this->Ends.clear();
+  for (std::size_t n = 0; n + 2 < this->Neighbours.size(); ++n)
+  {
+    const int w = this->Neighbours[n];
+    const bool isFirst = n == 0 || this->Neighbours[n - 1] != w;
+    if (isFirst && this->Neighbours[n + 2] == w)
+    {
+      this->Ends.push_back(this->Mesh.Position[static_cast<std::size_t>(w)]);
+    }
+  }
+}
+
+Vector VertexTargets::ToInterfaces(const Vector& place) const
+{
+  double matrix[3][3] = { { 0., 0., 0. }, { 0., 0., 0. }, { 0., 0., 0. } };
+  VectorD right;
+  const InterfaceFields::Sample first = this->Fields.Interpolate(this->Objects.front(), place);
+  double slopes = 0.;
+  for (std::size_t n = 1; n < this->Objects.size(); ++n)
+  {
+    const InterfaceFields::Sample other = this->Fields.Interpolate(this->Objects[n], place);
+    const VectorD slope(other.Gradient - first.Gradient);
+    const double difference = static_cast<double>(other.Value) - first.Value;
+    const double s[3] = { slope.X, slope.Y, slope.Z };
+    for (int a = 0; a < 3; ++a)
+    {
+      for (int b = 0; b < 3; ++b)
+      {
+        matrix[a][b] += s[a] * s[b];
+      }
+    }
+    right -= slope * difference;
+    slopes += SquaredLength(slope);
+  }
+  const double damping = Damping * slopes + 1e-6;
+  const VectorD rows[3] = { VectorD(matrix[0][0] + damping, matrix[0][1], matrix[0][2]),
+    VectorD(matrix[1][0], matrix[1][1] + damping, matrix[1][2]),
+    VectorD(matrix[2][0], matrix[2][1], matrix[2][2] + damping) };
+  const VectorD cross = Cross(rows[1], rows[2]);
+  const double determinant = Dot(rows[0], cross);
+  // Cramer's rule; the matrix is symmetric and positive.
+  return Vector(VectorD(Dot(right, cross), Dot(right, Cross(rows[2], rows[0])),
+                  Dot(right, Cross(rows[0], rows[1]))) *
+    (1. / determinant));
+}
+}

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicVertexTargets_h
+#define volumicVertexTargets_h
+
+#include "Core/Common/Vector.h"
+#include "Core/Interfaces/InterfaceFields.h"
+#include "Core/Interfaces/InterfaceMesh.h"
+
+#include <vector>
+
+namespace volumic
+{
+/**
+ * Where the vertices of interfaces go in a step: along their interface or junction line to the
+ * middle of their neighbours, by a share of the way, then to where the fields of all objects about
+ * them are the same (Newton), and no further than half of their shortest edge.
+ */
+class VertexTargets
+{
+public:
+  /** @param shortest no edge is made shorter than that; workspace */
+  VertexTargets(
+    const InterfaceMesh& mesh, const InterfaceFields& fields, double share, double shortest)
+    : Mesh(mesh), Fields(fields), Share(static_cast<float>(share)),
+      Shortest(static_cast<float>(shortest))
+  {
+  }
+
+  Vector Of(int v);
+
+private:
+  /**
+   * Whether it would make an edge too short, if the neighbour did the same: two corners of the same
+   * objects want to be in one place.
+   */
+  bool Shortens(const Vector& place, const Vector& target) const;
+  /** To the middle of its faces, by their areas, without what is across. */
+  Vector AlongInterface(int v) const;
+  /** To the middle of its two neighbours on the line, without what is across; 0 of a corner. */
+  Vector AlongLine(int v) const;
+  /**
+   * From a place some way to the straight line between the neighbours on the junction line, of a
+   * corner to the middle of its neighbours on all lines.
+   */
+  Vector Straightening(const Vector& place) const;
+  Vector MiddleOfEnds() const;
+  void FindEnds();
+  /** The least step that makes the fields of all objects about it the same. */
+  Vector ToInterfaces(const Vector& place) const;
+
+  const InterfaceMesh& Mesh;
+  const InterfaceFields& Fields;
+  float Share;
+  float Shortest;
+  std::vector<int> Neighbours; ///< of the vertex that is looked at
+  std::vector<int> Objects;    ///< about it
+  std::vector<Vector> Ends;    ///< its neighbours on junction lines
+};
+}
+
+#endif

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicInterfaceTestTools_h
+#define volumicInterfaceTestTools_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Interfaces/InterfaceFields.h"
+#include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/SurfaceCheck.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "LabelTestTools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+/** What tests of interfaces share. */
+namespace volumic
+{
+/** A map and all that interfaces are made of. */
+struct InterfaceScene
+{
+  LabelMap Map;
+  std::optional<LabelBricks> Bricks;
+  std::optional<InterfaceFields> Fields;
+
+  explicit InterfaceScene(LabelMap map) : Map(std::move(map))
+  {
+    this->Bricks.emplace(this->Map, OnThisThread());
+    this->Fields.emplace(*this->Bricks, LabelFieldOptions(), this->Map.Spacing, OnThisThread(),
+      [](double) { return true; });
+  }
+  InterfaceScene(const InterfaceScene&) = delete;
+};
+
+/** Four blocks of n voxels that meet in the middle of a cube, with nothing about it. */
+inline LabelMap FourBlocks(int n)
+{
+  const int margin = LabelBricks::Side;
+  const int side = 2 * n + 2 * margin;
+  return MakeLabelMap({ side, side, side }, 4,
+    [=](int i, int j, int k)
+    {
+      const auto isIn = [=](int at) { return at >= margin && at < side - margin; };
+      return isIn(i) && isIn(j) && isIn(k) ? 1 + (i >= side / 2) + 2 * (j >= side / 2) : 0;
+    });
+}
+
+/** Cells about points by chance, each an object of its own; about each other or about nothing. */
+inline LabelMap ManyCells(int side, int objects, unsigned seed)
+{
+  const auto next = [&seed]
+  {
+    seed = seed * 1664525u + 1013904223u;
+    return static_cast<double>(seed >> 8) / (1u << 24);
+  };
+  std::vector<std::array<double, 4>> cells(static_cast<std::size_t>(objects));
+  const int margin = LabelBricks::Side;
+  for (std::array<double, 4>& cell : cells)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] = margin + next() * (side - 2 * margin);
+    }
+    cell[3] = 3. + next() * side / 4.; // Beyond that there is nothing.
+  }
+  return MakeLabelMap({ side, side, side }, objects,
+    [&](int i, int j, int k)
+    {
+      int nearest = 0;
+      double least = 1e9;
+      for (int n = 0; n < objects; ++n)
+      {
+        const std::array<double, 4>& cell = cells[static_cast<std::size_t>(n)];
+        const double distance = std::hypot(i - cell[0], j - cell[1], k - cell[2]);
+        if (distance < least)
+        {
+          least = distance;
+          nearest = distance < cell[3] ? n + 1 : 0;
+        }
+      }
+      const auto isIn = [=](int at) { return at >= margin && at < side - margin; };
+      return isIn(i) && isIn(j) && isIn(k) ? nearest : 0;
+    });
+}
+
+/** All triangles, as they are. */
+inline IndexedSurface AllFaces(const InterfaceMesh& mesh)
+{
+  IndexedSurface all;
+  for (const Vector& p : mesh.Position)
+  {
+    all.Points.push_back({ p.X, p.Y, p.Z });
+  }
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    if (face.IsThere())
+    {
+      all.Triangles.push_back(face.Vertex);
+    }
+  }
+  return all;
+}
+
+/** What each edge has about it. */
+inline std::map<std::array<int, 2>, int> FacesAtEdges(const InterfaceMesh& mesh)
+{
+  std::map<std::array<int, 2>, int> edges;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    for (int k = 0; k < 3 && face.IsThere(); ++k)
+    {
+      const int u = face.Vertex[k];
+      const int v = face.Vertex[(k + 1) % 3];
+      ++edges[{ std::min(u, v), std::max(u, v) }];
+    }
+  }
+  return edges;
+}
+
+/**
+ * The invariants of interfaces: the surface of each object but 0 is closed, oriented and manifold,
+ * and encloses something; nothing intersects; strata are those of the faces at the edges.
+ */
+inline void ExpectSound(const InterfaceMesh& mesh)
+{
+  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
+  for (std::size_t object = 1; object < faces.size(); ++object)
+  {
+    if (faces[object].empty())
+    {
+      continue;
+    }
+    std::vector<int> vertices;
+    const IndexedSurface surface =
+      mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices);
+    EXPECT_NO_THROW(CheckInitialSurface(surface)) << "object " << object;
+    EXPECT_GT(ComputeFeatures(surface).Volume, 0.) << "object " << object;
+  }
+  EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
+  InterfaceMesh anew = mesh;
+  anew.FindStrata();
+  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
+  {
+    if (mesh.IsVertex(static_cast<int>(v)))
+    {
+      ASSERT_EQ(static_cast<int>(anew.StratumOf[v]), static_cast<int>(mesh.StratumOf[v])) << v;
+    }
+  }
+  using Edges = std::set<std::array<int, 2>>;
+  Edges lines;
+  for (const auto& edge : FacesAtEdges(mesh))
+  {
+    if (edge.second != 2)
+    {
+      EXPECT_GT(edge.second, 2);
+      lines.insert(edge.first);
+    }
+  }
+  const std::vector<std::array<int, 2>> found = mesh.FindLines();
+  EXPECT_EQ(Edges(found.begin(), found.end()), lines);
+  EXPECT_EQ(found.size(), lines.size());
+}
+
+/** Of an object, in voxels if these are cubes of side 1. */
+inline double VolumeOf(const InterfaceMesh& mesh, int object)
+{
+  std::vector<int> vertices;
+  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
+  return ComputeFeatures(
+    mesh.SurfaceOf(object, faces[static_cast<std::size_t>(object)], vertices)).Volume;
+}
+
+/** Sum over the objects but 0. */
+inline int EulerCharacteristicOf(const InterfaceMesh& mesh)
+{
+  int sum = 0;
+  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
+  for (std::size_t object = 1; object < faces.size(); ++object)
+  {
+    std::vector<int> vertices;
+    sum += ComputeFeatures(mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices))
+             .EulerCharacteristic;
+  }
+  return sum;
+}
+}
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceLattice.h"
+
+#include "Core/Interfaces/LatticeCutter.h"
+#include "Core/Labels/WrongVoxels.h"
+#include "InterfaceTestTools.h"
+
+using namespace volumic;
+
+namespace
+{
+constexpr double EdgeOfVoxels = 1.36;
+
+InterfaceMesh StartOf(const InterfaceScene& scene, int pitch)
+{
+  LatticeCutter cutter(*scene.Fields, pitch);
+  cutter.FindMiddles(OnThisThread());
+  const std::array<int, 3>& bricks = scene.Bricks->Size();
+  for (int k = 0; k < bricks[2]; ++k)
+  {
+    for (int j = 0; j < bricks[1]; ++j)
+    {
+      for (int i = 0; i < bricks[0]; ++i)
+      {
+        cutter.CutBrick(i, j, k);
+      }
+    }
+  }
+  return cutter.Take();
+}
+
+int PitchOf(const LabelMap& map, double edge = EdgeOfVoxels)
+{
+  const InterfaceScene scene(map);
+  return InterfaceLattice(*scene.Fields, edge, OnThisThread()).Pitch();
+}
+
+/** Voxels by chance, with nothing about them. */
+LabelMap Noise(int objects, unsigned seed)
+{
+  const LabelMap inner = NoisyLabelMap({ 8, 9, 7 }, objects, seed);
+  constexpr int margin = LabelBricks::Side;
+  return MakeLabelMap({ 16, 17, 15 }, objects,
+    [&](int i, int j, int k) { return inner.At(i - margin, j - margin, k - margin); });
+}
+}
+
+class InterfaceLatticeOfNoise : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(InterfaceLatticeOfNoise, IsSoundWithEitherPitch)
+{
+  for (const int objects : { 1, 2, 3, 7 })
+  {
+    SCOPED_TRACE(objects);
+    const InterfaceScene scene(Noise(objects, static_cast<unsigned>(GetParam() * 10 + objects)));
+    ExpectSound(StartOf(scene, 1));
+    ExpectSound(StartOf(scene, 2));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, InterfaceLatticeOfNoise, testing::Range(1, 4));
+
+TEST(InterfaceLattice, HasEachVoxelOnItsSide)
+{
+  const InterfaceScene scene(Noise(3, 4));
+  const InterfaceMesh mesh = StartOf(scene, 1);
+  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
+  for (int object = 1; object <= 3; ++object)
+  {
+    std::vector<int> vertices;
+    const IndexedSurface surface =
+      mesh.SurfaceOf(object, faces[static_cast<std::size_t>(object)], vertices);
+    EXPECT_TRUE(FindWrongVoxels(*scene.Bricks, object, surface).empty()) << object;
+  }
+}
+
+TEST(InterfaceLattice, IsCoarseWhereObjectsAreThick)
+{
+  EXPECT_EQ(PitchOf(FourBlocks(8)), 2);
+  EXPECT_EQ(PitchOf(FourBlocks(8), 0.7), 1); // Shorter edges want more.
+  LabelMap oblique = FourBlocks(8);
+  oblique.Spacing = { 1., 1., 2. };
+  EXPECT_EQ(PitchOf(oblique), 1);
+}
+
+TEST(InterfaceLattice, IsFineWhereSomethingWouldBeLost)
+{
+  LabelMap map = FourBlocks(8);
+  map.NumberOfObjects = 5;
+  // A rod of a voxel, along voxels that are no points of the coarse lattice, nor beside any of it.
+  const VoxelBox all = VoxelBox::Of(map.Size);
+  for (int i = 5; i < 19; ++i)
+  {
+    map.Voxels[static_cast<std::size_t>(all.NumberOf(i, 12, 11))] = 5;
+    map.Voxels[static_cast<std::size_t>(all.NumberOf(i, 12, 12))] = i % 2 == 0 ? 1 : 5;
+  }
+  const bool hasPoint = PitchOf(map) == 2;
+  const InterfaceScene scene(map);
+  std::vector<int> lost;
+  const InterfaceMesh mesh =
+    InterfaceLattice(*scene.Fields, EdgeOfVoxels, OnThisThread()).Start(OnThisThread());
+  EXPECT_FALSE(hasPoint);
+  EXPECT_EQ(mesh.FindFacesOfObjects().size(), 6u);
+  ExpectSound(mesh);
+}
+
+TEST(InterfaceLattice, CutsFourBlocksWhereTheyMeet)
+{
+  const InterfaceScene scene(FourBlocks(6));
+  const InterfaceMesh mesh = StartOf(scene, 2);
+  ExpectSound(mesh);
+  EXPECT_EQ(EulerCharacteristicOf(mesh), 4 * 2);
+  int corners = 0;
+  for (const Stratum stratum : mesh.StratumOf)
+  {
+    corners += stratum == Stratum::Corner ? 1 : 0;
+  }
+  EXPECT_GE(corners, 2); // Where the line between them ends at the outside.
+}

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceMotion.h"
+
+#include "Core/Interfaces/InterfaceLattice.h"
+#include "Core/Interfaces/InterfaceRemesher.h"
+#include "Core/Interfaces/VertexTargets.h"
+#include "InterfaceTestTools.h"
+
+using namespace volumic;
+
+namespace
+{
+/** Mean of how different the fields of the objects about a vertex are. */
+double MeanDifference(const InterfaceMesh& mesh, const InterfaceFields& fields)
+{
+  double sum = 0.;
+  std::vector<int> objects;
+  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
+  {
+    mesh.FindObjects(static_cast<int>(v), objects);
+    float least = 1e9f;
+    float most = -1e9f;
+    for (const int object : objects)
+    {
+      const float value = fields.ValueAt(object, mesh.Position[v]);
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    sum += most - least;
+  }
+  return sum / static_cast<double>(mesh.Position.size());
+}
+
+InterfaceMesh RoughMesh(const InterfaceScene& scene)
+{
+  InterfaceMesh mesh =
+    InterfaceLattice(*scene.Fields, 1.36, OnThisThread()).Start(OnThisThread());
+  InterfaceRemesher remesher(mesh, 1.1, 1.8, 1e-3, [] { return true; });
+  remesher.CollapseShortEdges();
+  remesher.FlipEdges();
+  mesh.Compact();
+  return mesh;
+}
+}
+
+TEST(InterfaceMotion, BringsVerticesToWhereFieldsAreTheSame)
+{
+  const InterfaceScene scene(ManyCells(28, 7, 3));
+  InterfaceMesh mesh = RoughMesh(scene);
+  const double before = MeanDifference(mesh, *scene.Fields);
+  for (int round = 0; round < 3; ++round)
+  {
+    MoveInterfaces(mesh, *scene.Fields, 2, 0.7, 0.6, 1e-3, OnThisThread());
+    ExpectSound(mesh);
+  }
+  EXPECT_LT(MeanDifference(mesh, *scene.Fields), 0.35 * before);
+}
+
+TEST(InterfaceMotion, TakesBackWhatWouldIntersect)
+{
+  // Thin plates: steps much too large for them are tried, with nothing to hold them back.
+  const InterfaceScene scene(MakeLabelMap({ 20, 20, 20 }, 3,
+    [](int i, int j, int k)
+    {
+      const bool isIn = std::min({ i, j, k }) >= 4 && std::max({ i, j, k }) < 16;
+      return isIn ? 1 + k % 3 : 0;
+    }));
+  InterfaceMesh mesh = RoughMesh(scene);
+  ExpectSound(mesh);
+  for (int round = 0; round < 4; ++round)
+  {
+    MoveInterfaces(mesh, *scene.Fields, 4, 1.5, 0., 1e-3, OnThisThread());
+    ExpectSound(mesh);
+  }
+}
+
+TEST(VertexTargets, GoNoFurtherThanHalfOfAnEdge)
+{
+  const InterfaceScene scene(ManyCells(24, 5, 9));
+  const InterfaceMesh mesh = RoughMesh(scene);
+  VertexTargets targets(mesh, *scene.Fields, 1., 0.5);
+  std::vector<int> neighbours;
+  for (int v = 0; v < static_cast<int>(mesh.Position.size()); ++v)
+  {
+    const Vector& place = mesh.Position[static_cast<std::size_t>(v)];
+    mesh.FindNeighbours(v, neighbours);
+    float shortest = 1e9f;
+    for (const int w : neighbours)
+    {
+      shortest =
+        std::min(shortest, Length(mesh.Position[static_cast<std::size_t>(w)] - place));
+    }
+    EXPECT_LE(Length(targets.Of(v) - place), 0.5f * shortest * 1.001f);
+  }
+}

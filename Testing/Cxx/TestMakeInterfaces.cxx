@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/MakeInterfaces.h"
+
+#include "Core/Common/StandardThreads.h"
+#include "Core/Interfaces/InterfaceFit.h"
+#include "Core/Interfaces/InterfaceRemesher.h"
+#include "InterfaceTestTools.h"
+
+using namespace volumic;
+
+namespace
+{
+InterfaceMesh Make(InterfaceScene& scene, Executor& executor = OnThisThread(),
+  const std::function<bool(double)>& goOn = [](double) { return true; })
+{
+  return MakeInterfaces(*scene.Fields, InterfaceOptions(), executor, goOn);
+}
+
+double VoxelsOf(const InterfaceScene& scene, int object)
+{
+  return static_cast<double>(scene.Bricks->ExtentOf(object).Voxels);
+}
+}
+
+TEST(MakeInterfaces, KeepsVolumes)
+{
+  InterfaceScene scene(ManyCells(40, 9, 2));
+  const InterfaceMesh mesh = Make(scene);
+  ExpectSound(mesh);
+  int large = 0;
+  for (int object = 1; object <= 9; ++object)
+  {
+    if (VoxelsOf(scene, object) > 1000.)
+    {
+      ++large;
+      EXPECT_NEAR(VolumeOf(mesh, object) / VoxelsOf(scene, object), 1., 2e-3) << object;
+    }
+  }
+  EXPECT_GT(large, 3);
+}
+
+TEST(MakeInterfaces, HasFewVoxelsOnTheWrongSide)
+{
+  InterfaceScene scene(ManyCells(40, 9, 2));
+  const InterfaceMesh mesh = Make(scene);
+  EXPECT_LT(static_cast<double>(PushWrongVoxels(mesh, *scene.Fields, 0., OnThisThread())),
+    0.03 * static_cast<double>(mesh.Position.size()));
+}
+
+TEST(MakeInterfaces, HasGoodTriangles)
+{
+  InterfaceScene scene(ManyCells(40, 9, 2));
+  const InterfaceMesh mesh = Make(scene);
+  double sum = 0.;
+  double least = 1.;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    const auto at = [&](int k)
+    { return VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[k])]); };
+    const double ratio = RadiusRatio(at(0), at(1), at(2));
+    sum += ratio;
+    bool isOff = true;
+    for (const int v : face.Vertex)
+    {
+      isOff = isOff && mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Interface;
+    }
+    least = isOff ? std::min(least, ratio) : least;
+  }
+  EXPECT_GT(sum / static_cast<double>(mesh.Faces.size()), 0.94);
+  EXPECT_GT(least, 0.5);
+}
+
+TEST(MakeInterfaces, GivesTheSameBitsWithThreads)
+{
+  InterfaceScene one(ManyCells(32, 8, 6));
+  InterfaceScene other(ManyCells(32, 8, 6));
+  const InterfaceMesh mesh = Make(one);
+  StandardThreads threads(3);
+  const InterfaceMesh same = Make(other, threads);
+  ASSERT_EQ(same.Position.size(), mesh.Position.size());
+  ASSERT_EQ(same.Faces.size(), mesh.Faces.size());
+  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
+  {
+    ASSERT_EQ(SquaredDistance(same.Position[v], mesh.Position[v]), 0.f);
+  }
+  for (std::size_t f = 0; f < mesh.Faces.size(); ++f)
+  {
+    ASSERT_EQ(same.Faces[f].Vertex, mesh.Faces[f].Vertex);
+  }
+}
+
+class StoppedInterfaces : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(StoppedInterfaces, AreSound)
+{
+  InterfaceScene scene(ManyCells(28, 6, 4));
+  int asked = 0;
+  const InterfaceMesh mesh =
+    Make(scene, OnThisThread(), [&](double) { return ++asked < GetParam(); });
+  ExpectSound(mesh);
+  EXPECT_FALSE(mesh.Faces.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(AfterQuestions, StoppedInterfaces, testing::Values(1, 2, 4, 7, 12, 20));
+
+TEST(MakeInterfaces, ToldSharesGrow)
+{
+  InterfaceScene scene(ManyCells(24, 4, 4));
+  double last = 0.;
+  Make(scene, OnThisThread(),
+    [&](double share)
+    {
+      EXPECT_GE(share, last);
+      last = share;
+      return true;
+    });
+  EXPECT_EQ(last, 1.);
+}
+
+TEST(CorrectVolumes, ShiftsInterfacesToWhatIsMissing)
+{
+  InterfaceScene scene(FourBlocks(8));
+  InterfaceMesh mesh = Make(scene);
+  // Object 1 a little smaller: half a percent.
+  for (Vector& p : mesh.Position)
+  {
+    p.X += p.X < 10.f ? 0.04f : 0.f;
+  }
+  const Vector middle(11.5f, 8.f, 11.5f);
+  const float before =
+    scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle);
+  CorrectVolumes(mesh, *scene.Fields);
+  EXPECT_GT(scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle), before);
+}

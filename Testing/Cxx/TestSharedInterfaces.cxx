@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// vtkLabelsToSurfaces with SharedInterfaces.
+
+#include "LabelImages.h"
+#include "SameOutputs.h"
+#include "SurfaceTestTools.h"
+#include "vtkLabelsToSurfaces.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace volumic;
+
+namespace
+{
+/** Two blocks side by side, labels 3 and 7, a ball of label 5 in the first, and crumbs of label 7. */
+double TouchingBlocks(int i, int j, int k)
+{
+  if (i < 3 || i >= 25 || j < 3 || j >= 17 || k < 3 || k >= 17)
+  {
+    return i == 1 && j == 1 && k == 1 ? 7 : 0;
+  }
+  return std::hypot(i - 8., j - 10., k - 10.) < 4. ? 5 : i < 14 ? 3 : 7;
+}
+
+vtkSmartPointer<vtkImageData> BlocksImage()
+{
+  return LabelImageOf(28, 20, 20, TouchingBlocks);
+}
+
+vtkSmartPointer<vtkLabelsToSurfaces> FilterOf(vtkImageData* image)
+{
+  auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
+  filter->SetInputData(image);
+  filter->SharedInterfacesOn();
+  return filter;
+}
+
+using Sides = std::array<int, 2>;
+
+/** The labels on either side of a triangle, of those behind the lines. */
+Sides SidesOf(vtkPolyData* interfaces, vtkIdType cell)
+{
+  Sides sides;
+  vtkIntArray::SafeDownCast(interfaces->GetCellData()->GetArray("BoundaryLabels"))
+    ->GetTypedTuple(cell, sides.data());
+  return sides;
+}
+
+std::set<Sides> AllSides(vtkPolyData* interfaces)
+{
+  std::set<Sides> all;
+  for (vtkIdType cell = interfaces->GetNumberOfLines(); cell < interfaces->GetNumberOfCells();
+       ++cell)
+  {
+    all.insert(SidesOf(interfaces, cell));
+  }
+  return all;
+}
+
+void ExpectClosedSurface(vtkPolyData* surface)
+{
+  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+  EXPECT_GT(EnclosedVolume(surface), 0.);
+}
+
+/** What the filter says while it is updated; empty: it has no error. */
+std::string ErrorOf(vtkLabelsToSurfaces* filter)
+{
+  MessagesOf errors(filter);
+  filter->Update();
+  return errors.Get();
+}
+}
+
+TEST(SharedInterfaces, AreThereOnceEach)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->Update();
+  vtkPolyData* interfaces = filter->GetInterfaces();
+  EXPECT_EQ(AllSides(interfaces),
+    (std::set<Sides>{ { 3, 0 }, { 7, 0 }, { 3, 5 }, { 3, 7 } }));
+  EXPECT_GT(interfaces->GetNumberOfLines(), 10); // where 3, 7 and the outside meet
+  EXPECT_EQ(SidesOf(interfaces, 0), (Sides{ 0, 0 }));
+  vtkDataArray* junction = interfaces->GetPointData()->GetArray("Junction");
+  ASSERT_TRUE(junction);
+  EXPECT_EQ(junction->GetRange()[1], 1.);
+  EXPECT_EQ(interfaces->GetFieldData()->GetArray("Label")->GetNumberOfTuples(), 3);
+  EXPECT_EQ(interfaces->GetFieldData()->GetArray("LabelColor")->GetNumberOfTuples(), 3);
+  EXPECT_EQ(interfaces->GetFieldData()->GetAbstractArray("LabelName")->GetNumberOfTuples(), 3);
+}
+
+TEST(SharedInterfaces, AreWhatBlocksAreMadeOf)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->Update();
+  vtkPolyData* interfaces = filter->GetInterfaces();
+  vtkIdType triangles = 0;
+  for (unsigned int block = 0; block < 3; ++block)
+  {
+    SCOPED_TRACE(block);
+    vtkPolyData* surface = BlockOf(filter, block);
+    ExpectClosedSurface(surface);
+    vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
+    ASSERT_TRUE(ids);
+    EXPECT_STREQ(ids->GetName(), "GlobalIds");
+    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+    {
+      std::array<double, 3> own;
+      std::array<double, 3> shared;
+      surface->GetPoint(p, own.data());
+      interfaces->GetPoint(static_cast<vtkIdType>(ids->GetComponent(p, 0)), shared.data());
+      ASSERT_EQ(own, shared);
+    }
+    EXPECT_EQ(StopReason(surface), "converged");
+    EXPECT_NEAR(FieldOf(surface, "Volume") / FieldOf(surface, "LabelVoxels"), 1., 4e-3);
+    triangles += surface->GetNumberOfPolys();
+  }
+  vtkIdType twice = 0; // Those between two labels are in two blocks.
+  for (vtkIdType cell = interfaces->GetNumberOfLines(); cell < interfaces->GetNumberOfCells();
+       ++cell)
+  {
+    twice += SidesOf(interfaces, cell)[1] != 0 ? 1 : 0;
+  }
+  EXPECT_EQ(triangles, interfaces->GetNumberOfPolys() + twice);
+}
+
+TEST(SharedInterfaces, HaveWhatIsNotChosenOutside)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->AddLabel(5);
+  filter->AddLabel(7);
+  filter->SetBackgroundLabel(-1);
+  filter->Update();
+  EXPECT_EQ(AllSides(filter->GetInterfaces()), (std::set<Sides>{ { 5, -1 }, { 7, -1 } }));
+  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfLines(), 0);
+}
+
+TEST(SharedInterfaces, AreTheWholeOutlineOfMergedLabels)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->MergeOn();
+  filter->Update();
+  EXPECT_EQ(AllSides(filter->GetInterfaces()), (std::set<Sides>{ { 3, 0 }, { 7, 0 } }));
+  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfPolys(), BlockOf(filter, 0)->GetNumberOfPolys());
+}
+
+TEST(SharedInterfaces, LeaveOutSmallParts)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 2.);
+  filter->SetKeepComponents(1);
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 1.);
+  filter->SetKeepComponents(3);
+  filter->SetMinimumComponentVolume(1.);
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 2.);
+  filter->SetMinimumComponentVolume(1.5);
+  filter->Update();
+  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 1.);
+}
+
+TEST(SharedInterfaces, AreInTheWorld)
+{
+  const auto image = BlocksImage();
+  image->SetSpacing(0.5, 0.5, 1.);
+  image->SetOrigin(100., -20., 7.);
+  vtkNew<vtkMatrix3x3> mirror;
+  mirror->SetElement(0, 0, -1.);
+  image->SetDirectionMatrix(mirror);
+  const auto filter = FilterOf(image);
+  filter->Update();
+  for (unsigned int block = 0; block < 3; ++block)
+  {
+    vtkPolyData* surface = BlockOf(filter, block);
+    ExpectClosedSurface(surface);
+    EXPECT_NEAR(FieldOf(surface, "Volume"), 0.25 * FieldOf(surface, "LabelVoxels"),
+      0.002 * FieldOf(surface, "LabelVoxels"));
+  }
+  const double* bounds = BlockOf(filter, 0)->GetBounds();
+  EXPECT_NEAR(bounds[1], 100. - 0.5 * 2.5, 0.25);
+  EXPECT_NEAR(bounds[4], 7. + 2.5, 0.4);
+}
+
+TEST(SharedInterfaces, AreSmallerWithShorterEdges)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->Update();
+  const vtkIdType coarse = filter->GetInterfaces()->GetNumberOfPolys();
+  filter->SetEdgeLength(0.8);
+  filter->Update();
+  EXPECT_GT(filter->GetInterfaces()->GetNumberOfPolys(), 2 * coarse);
+  filter->SetEdgeLength(0.);
+  filter->SetFinestLevel(1);
+  filter->Update();
+  EXPECT_LT(filter->GetInterfaces()->GetNumberOfPolys(), 0.6 * coarse);
+}
+
+TEST(SharedInterfaces, AreTheSameWithThreads)
+{
+  const auto one = FilterOf(BlocksImage());
+  one->SetNumberOfThreads(1);
+  one->Update();
+  const auto all = FilterOf(BlocksImage());
+  all->SetNumberOfThreads(0);
+  all->Update();
+  ExpectSameSurfaces(one->GetInterfaces(), all->GetInterfaces());
+  ExpectSameBlocks(one->GetOutput(), all->GetOutput());
+}
+
+TEST(SharedInterfaces, AreNoneWhereNobodyAsksForThem)
+{
+  const auto filter = LabelSurfacesOf(BlocksImage());
+  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
+  filter->SharedInterfacesOn();
+  filter->Update();
+  EXPECT_GT(filter->GetInterfaces()->GetNumberOfCells(), 0);
+  filter->SharedInterfacesOff();
+  filter->Update();
+  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
+}
+
+class SharedInterfacesErrors
+  : public testing::TestWithParam<std::pair<std::string, void (*)(vtkLabelsToSurfaces*)>>
+{
+};
+
+TEST_P(SharedInterfacesErrors, NameTheWayOut)
+{
+  const auto filter = FilterOf(BlocksImage());
+  GetParam().second(filter);
+  const std::string error = ErrorOf(filter);
+  EXPECT_NE(error.find(GetParam().first), std::string::npos) << error;
+  EXPECT_NE(error.find("Shared Interfaces off"), std::string::npos) << error;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
+  filter->SetGap(0.);
+  filter->SetTolerance(0.);
+  filter->ThinPartsOff();
+  EXPECT_EQ(ErrorOf(filter), "");
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SharedInterfacesErrors,
+  testing::Values(
+    std::make_pair(std::string("Set Gap to 0"),
+      +[](vtkLabelsToSurfaces* filter) { filter->SetGap(0.5); }),
+    std::make_pair(std::string("Set Tolerance to 0"),
+      +[](vtkLabelsToSurfaces* filter) { filter->SetTolerance(0.5); }),
+    std::make_pair(std::string("Set Thin Parts off"),
+      +[](vtkLabelsToSurfaces* filter) { filter->ThinPartsOn(); })));
+
+class StoppedSharedInterfaces : public testing::TestWithParam<double>
+{
+protected:
+  /** Stops a run once so much of it is done. */
+  static void Stop(vtkObject* caller, unsigned long, void* share, void*)
+  {
+    auto* filter = static_cast<vtkLabelsToSurfaces*>(caller);
+    if (filter->GetProgress() >= *static_cast<double*>(share))
+    {
+      filter->SetAbortExecute(1);
+    }
+  }
+};
+
+TEST_P(StoppedSharedInterfaces, AreMarkedAndMadeAnewThen)
+{
+  const auto filter = FilterOf(BlocksImage());
+  double share = GetParam();
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback(Stop);
+  stop->SetClientData(&share);
+  const unsigned long observer = filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
+  for (unsigned int block = 0; block < 3; ++block)
+  {
+    EXPECT_EQ(StopReason(BlockOf(filter, block)), "cancelled");
+    if (BlockOf(filter, block)->GetNumberOfCells() > 0)
+    {
+      ExpectClosedSurface(BlockOf(filter, block));
+    }
+  }
+  filter->RemoveObserver(observer);
+  filter->GoOn();
+  filter->Update();
+  const auto other = FilterOf(BlocksImage());
+  other->Update();
+  ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
+}
+
+INSTANTIATE_TEST_SUITE_P(At, StoppedSharedInterfaces, testing::Values(0.01, 0.2, 0.5, 0.8));
