@@ -42,6 +42,17 @@
  * outside); field data `Label`, `LabelName`, `LabelColor` and `LabelVoxels`, an entry per label. Points of blocks at port 0 have
  * `GlobalIds` (vtkIdType): their numbers here.
  *
+ * @par
+ * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Points as those of the blocks,
+ * whose point data `GlobalIds` (vtkIdType) then say which; cells are the segments of junction lines,
+ * where three labels or more meet (outside is one of them), then triangles.
+ * - cell data: `BoundaryLabels` (int, 2 components, as vtkSurfaceNets3D has them): the label behind a
+ *   triangle, and that which its normal points to, BackgroundLabel where that is outside; of a line
+ *   BackgroundLabel twice. With Merge the label behind is that of the nearest voxel.
+ * - point data: `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
+ *   meet or end.
+ * - field data: `Label`, `LabelName`, `LabelColor`, `LabelVoxels`, with an entry for each label.
+ *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made
  * of each label by itself, see Core/Labels/LabelField.h: its membership, smoothed by a Gaussian, as
@@ -182,7 +193,10 @@ public:
    * One mesh of all labels, in which neighbours have the same triangles between them, instead of
    * surfaces that overlap, or leave a gap: no pair of its triangles intersects, what is between two
    * labels is there once, at output port 1, and each block of port 0 is a closed surface of the same
-   * points. What nobody has chosen is outside. Not with Gap, Tolerance or ThinParts. Default: off.
+   * points. What nobody has chosen is outside. Volumes are those of the voxels. KeepComponents leaves
+   * parts out by their voxels, and gives these to the neighbour that has most of their faces. One
+   * process makes them, and MemoryLimit does not bound the mesh. After a run that was stopped all is
+   * made anew. Not with Gap, Tolerance or ThinParts. Default: off.
    */
   void SetSharedInterfaces(bool shared);
   bool GetSharedInterfaces();

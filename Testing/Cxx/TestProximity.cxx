@@ -125,6 +125,20 @@ TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
   }
 }
 
+TEST(TriangleTests, FindsAFoldWhicheverWayFacesAreOriented)
+{
+  const VectorD a(0, 0, 0);
+  const VectorD b(4, 0, 0);
+  const MeshTriangle f = { { 0, 1, 2 }, { a, b, { 0, 4, 0 } } };
+  for (const double side : { 1., -1. })
+  {
+    const VectorD c(1, 3 * side, 0.001);
+    EXPECT_EQ(TrianglesIntersect(f, { { 1, 0, 3 }, { b, a, c } }, 1e-9), side > 0.);
+    EXPECT_EQ(TrianglesIntersect(f, { { 0, 1, 3 }, { a, b, c } }, 1e-9), side > 0.);
+    EXPECT_EQ(TrianglesIntersect(f, { { 3, 0, 1 }, { c, a, b } }, 1e-9), side > 0.);
+  }
+}
+
 TEST(TriangleTests, AllowsSharedCornersAndEdgesOnly)
 {
   const MeshTriangle f = { { 0, 1, 2 }, { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 } } };
