@@ -20,8 +20,24 @@ constexpr double MostPitch = 1.7;
 /** So many voxels of an object, or one in so many, may be without a point of the lattice near. */
 constexpr std::int64_t MostWithout = 8;
 constexpr std::int64_t MostWithoutShare = 1000;
-/** Whether a point of the lattice of pitch 2, all even or all odd, has a voxel's object beside it. */
-bool IsHeld(const LabelMap& map, int i, int j, int k)
+using Pitches = std::array<int, 3>;
+
+/** Whether it is a corner or a middle of a cube, along axes where these are at every second voxel. */
+bool IsSite(const Pitches& pitch, const std::array<int, 3>& voxel)
+{
+  bool hasEven = false;
+  bool hasOdd = false;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const bool isOdd = (voxel[axis] & 1) != 0;
+    hasEven = hasEven || (pitch[axis] == 2 && !isOdd);
+    hasOdd = hasOdd || (pitch[axis] == 2 && isOdd);
+  }
+  return !(hasEven && hasOdd);
+}
+
+/** Whether a point of the lattice beside a voxel, or at it, has its object. */
+bool IsHeld(const LabelMap& map, const Pitches& pitch, int i, int j, int k)
 {
   const LabelMap::Number object = map.At(i, j, k);
   for (int z = k - 1; z <= k + 1; ++z)
@@ -30,7 +46,7 @@ bool IsHeld(const LabelMap& map, int i, int j, int k)
     {
       for (int x = i - 1; x <= i + 1; ++x)
       {
-        if (((x ^ y) & 1) == 0 && ((y ^ z) & 1) == 0 && map.At(x, y, z) == object)
+        if (IsSite(pitch, { x, y, z }) && map.At(x, y, z) == object)
         {
           return true;
         }
@@ -40,8 +56,8 @@ bool IsHeld(const LabelMap& map, int i, int j, int k)
   return false;
 }
 
-/** Whether the lattice of pitch 2 has all objects whole. */
-bool HoldsObjects(const LabelBricks& bricks, Executor& executor)
+/** Whether the lattice has all objects whole. */
+bool HoldsObjects(const LabelBricks& bricks, const Pitches& pitch, Executor& executor)
 {
   constexpr int side = LabelBricks::Side;
   const LabelMap& map = bricks.Map();
@@ -59,7 +75,7 @@ bool HoldsObjects(const LabelBricks& bricks, Executor& executor)
           for (int i = 0; i < map.Size[0]; ++i)
           {
             const LabelBricks::Range range = bricks.ObjectsIn(i / side, j / side, k / side);
-            if (range.end() - range.begin() > 1 && !IsHeld(map, i, j, k))
+            if (range.end() - range.begin() > 1 && !IsHeld(map, pitch, i, j, k))
             {
               ++own[map.At(i, j, k)];
             }
@@ -86,17 +102,18 @@ InterfaceLattice::InterfaceLattice(
   const InterfaceFields& fields, double edge, Executor& executor)
   : Fields(fields)
 {
-  const std::array<double, 3>& step = fields.Step();
-  if (2. * *std::max_element(step.begin(), step.end()) <= MostPitch * edge &&
-    HoldsObjects(fields.Bricks(), executor))
+  Pitches pitch;
+  std::transform(fields.Step().begin(), fields.Step().end(), pitch.begin(),
+    [edge](double step) { return 2. * step <= MostPitch * edge ? 2 : 1; });
+  if (HoldsObjects(fields.Bricks(), pitch, executor))
   {
-    this->Distance = 2;
+    this->Distances = pitch;
   }
 }
 
 InterfaceMesh InterfaceLattice::Start(Executor& executor) const
 {
-  LatticeCutter cutter(this->Fields, this->Distance);
+  LatticeCutter cutter(this->Fields, this->Distances);
   cutter.FollowFields(executor);
   cutter.FindMiddles(executor);
   const std::array<int, 3>& bricks = this->Fields.Bricks().Size();

@@ -6,6 +6,8 @@
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 
+#include <array>
+
 namespace volumic
 {
 /**
@@ -23,20 +25,20 @@ class InterfaceLattice
 {
 public:
   /**
-   * The coarser one of two lattices: the centres of voxels and the middles between eight of them, or
-   * every fourth voxel, of which the triangles of the start are about as large as voxels. That is
-   * taken if it has a point near each voxel of an object, but for a few, and the wanted edges are
-   * not shorter.
+   * The lattice whose cubes have corners at all voxels, or, along axes where voxels are not too long
+   * for the wanted edges, at every second one, if it has a point near each voxel of an object, but
+   * for a few. Triangles of the start are then about as large as they should be.
    * @param edge workspace
    */
   InterfaceLattice(const InterfaceFields& fields, double edge, Executor& executor);
 
   InterfaceMesh Start(Executor& executor) const;
-  int Pitch() const { return this->Distance; }
+  /** Of the cubes, along each axis, in voxels. */
+  const std::array<int, 3>& Pitch() const { return this->Distances; }
 
 private:
   const InterfaceFields& Fields;
-  int Distance = 1; ///< of the cubes' corners, in voxels
+  std::array<int, 3> Distances = { 1, 1, 1 };
 };
 }
 

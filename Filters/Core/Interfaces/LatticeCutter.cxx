@@ -64,43 +64,31 @@ void LatticeCutter::FindMiddles(Executor& executor)
       {
         for (int i = 0; i < this->Middles.End[0]; ++i)
         {
-          this->ObjectOfMiddle[at++] = this->Pitch == 1
-            ? this->ObjectBetween(i, j, k)
-            : this->ObjectOf({ 2 * i + 1, 2 * j + 1, 2 * k + 1 });
+          this->ObjectOfMiddle[at++] = this->ObjectBetween({ 2 * i + 1, 2 * j + 1, 2 * k + 1 });
         }
       }
     });
 }
 
-LatticeCutter::Number LatticeCutter::ObjectBetween(int i, int j, int k) const
+LatticeCutter::Number LatticeCutter::ObjectBetween(const std::array<int, 3>& halves) const
 {
   std::array<Number, 8> about;
-  bool isSame = true;
-  for (int c = 0; c < 8; ++c)
-  {
-    about[static_cast<std::size_t>(c)] =
-      this->Map.At(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
-    isSame = isSame && about[static_cast<std::size_t>(c)] == about[0];
-  }
-  if (isSame)
-  {
-    return about[0];
-  }
-  std::sort(about.begin(), about.end());
-  const auto* end = std::unique(about.begin(), about.end());
+  std::size_t count = 0;
+  this->ForVoxels(halves,
+    [&](int i, int j, int k)
+    { about[count++] = this->ObjectOf({ i, j, k }); });
+  auto* const last = about.begin() + count;
+  std::sort(about.begin(), last);
+  const auto* end = std::unique(about.begin(), last);
   Number best = about[0];
   float most = -std::numeric_limits<float>::max();
-  for (const auto* object = about.begin(); object != end; ++object)
+  for (const auto* object = about.begin(); object != end && end - about.begin() > 1; ++object)
   {
-    float sum = 0.f;
-    for (int c = 0; c < 8; ++c)
-    {
-      sum += this->Fields.At(*object, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
-    }
-    if (sum > most)
+    const float value = this->ValueAt(halves, *object);
+    if (value > most)
     {
       best = *object;
-      most = sum;
+      most = value;
     }
   }
   return best;
@@ -139,18 +127,25 @@ LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
   return { halves,
     (halves[0] & 1) != 0 ? this->ObjectOfMiddle[static_cast<std::size_t>(
                              this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
-                         : this->ObjectOf({ this->Pitch * cube[0], this->Pitch * cube[1],
-                             this->Pitch * cube[2] }) };
+                         : this->ObjectOf({ this->Pitch[0] * cube[0], this->Pitch[1] * cube[1],
+                             this->Pitch[2] * cube[2] }) };
 }
 
 void LatticeCutter::CutBrick(int i, int j, int k)
 {
-  const int side = LabelBricks::Side / this->Pitch;
-  for (int z = k * side; z < std::min((k + 1) * side, this->Corners[2]); ++z)
+  std::array<int, 3> first = { i, j, k };
+  std::array<int, 3> end;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    for (int y = j * side; y < std::min((j + 1) * side, this->Corners[1]); ++y)
+    const int side = LabelBricks::Side / this->Pitch[axis];
+    first[axis] *= side;
+    end[axis] = std::min(first[axis] + side, this->Corners[axis]);
+  }
+  for (int z = first[2]; z < end[2]; ++z)
+  {
+    for (int y = first[1]; y < end[1]; ++y)
     {
-      for (int x = i * side; x < std::min((i + 1) * side, this->Corners[0]); ++x)
+      for (int x = first[0]; x < end[0]; ++x)
       {
         this->CutAbout({ x, y, z });
       }
@@ -312,31 +307,27 @@ void LatticeCutter::CutInMore(const Tetrahedron& cell)
   }
 }
 
-float LatticeCutter::ValueAt(const LatticeSite& site, int object) const
+float LatticeCutter::ValueAt(const std::array<int, 3>& halves, int object) const
 {
-  // In halves of voxels; with a pitch of 2 all sites are voxels.
-  const int i = this->Pitch * site.At[0] >> 1;
-  const int j = this->Pitch * site.At[1] >> 1;
-  const int k = this->Pitch * site.At[2] >> 1;
-  if (this->Pitch == 2 || (site.At[0] & 1) == 0)
-  {
-    return this->Fields.At(object, i, j, k);
-  }
   float sum = 0.f;
-  for (int c = 0; c < 8; ++c)
-  {
-    sum += this->Fields.At(object, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
-  }
-  return 0.125f * sum;
+  int count = 0;
+  this->ForVoxels(halves,
+    [&](int i, int j, int k)
+    {
+      sum += this->Fields.At(object, i, j, k);
+      ++count;
+    });
+  return sum / static_cast<float>(count);
 }
 
 Vector LatticeCutter::PlaceOf(const LatticeSite& site) const
 {
-  const std::array<double, 3>& step = this->Fields.Step();
-  const double half = 0.5 * this->Pitch;
-  return Vector(static_cast<float>(half * step[0] * site.At[0]),
-    static_cast<float>(half * step[1] * site.At[1]),
-    static_cast<float>(half * step[2] * site.At[2]));
+  std::array<double, 3> place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = 0.5 * this->Pitch[axis] * this->Fields.Step()[axis] * site.At[axis];
+  }
+  return Vector(VectorD(place[0], place[1], place[2]));
 }
 
 LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
@@ -355,8 +346,8 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
   const auto found = this->OnEdge.emplace(this->KeyOf(from) * 128 + DirectionTo(from, to), -1);
   if (found.second)
   {
-    const float first = this->ValueAt(from, from.Object) - this->ValueAt(from, to.Object);
-    const float last = this->ValueAt(to, to.Object) - this->ValueAt(to, from.Object);
+    const float first = this->ValueAt(from.At, from.Object) - this->ValueAt(from.At, to.Object);
+    const float last = this->ValueAt(to.At, to.Object) - this->ValueAt(to.At, from.Object);
     const float both = first + last;
     const float share =
       std::clamp(both > 0.f ? first / both : 0.5f, LeastShare, 1.f - LeastShare);

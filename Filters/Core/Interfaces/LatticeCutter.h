@@ -33,13 +33,13 @@ struct Tetrahedron;
 class LatticeCutter
 {
 public:
-  /** @param pitch in voxels, 1 or 2 */
-  LatticeCutter(const InterfaceFields& fields, int pitch)
+  /** @param pitch along each axis, in voxels, 1 or 2 */
+  LatticeCutter(const InterfaceFields& fields, const std::array<int, 3>& pitch)
     : Fields(fields), Map(fields.Bricks().Map()), Pitch(pitch)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      this->Corners[axis] = (this->Map.Size[axis] - 1) / pitch + 1;
+      this->Corners[axis] = (this->Map.Size[axis] - 1) / pitch[axis] + 1;
       this->Middles.End[axis] = this->Corners[axis] - 1;
     }
   }
@@ -58,15 +58,39 @@ private:
   using Number = LabelMap::Number;
   using Key = std::uint64_t;
 
-  /** That whose field is the largest in the middle of eight voxels. */
-  Number ObjectBetween(int i, int j, int k) const;
+  /** That whose field is the largest at a site, of those of the voxels about it. */
+  Number ObjectBetween(const std::array<int, 3>& halves) const;
   Number ObjectOf(const std::array<int, 3>& voxel) const;
+  /** Calls visit(i, j, k) for the voxel at a site, or the two, four or eight about it. */
+  template <typename Visitor>
+  void ForVoxels(const std::array<int, 3>& halves, Visitor&& visit) const
+  {
+    std::array<int, 3> first;
+    std::array<int, 3> last;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int twice = this->Pitch[axis] * halves[axis];
+      first[axis] = twice >> 1;
+      last[axis] = first[axis] + (twice & 1);
+    }
+    for (int k = first[2]; k <= last[2]; ++k)
+    {
+      for (int j = first[1]; j <= last[1]; ++j)
+      {
+        for (int i = first[0]; i <= last[0]; ++i)
+        {
+          visit(i, j, k);
+        }
+      }
+    }
+  }
   LatticeSite SiteAt(const std::array<int, 3>& halves) const;
   void CutAbout(const std::array<int, 3>& cube);
   void Cut(const Tetrahedron& cell);
   void CutInTwo(const Tetrahedron& cell);
   void CutInMore(const Tetrahedron& cell);
-  float ValueAt(const LatticeSite& site, int object) const;
+  /** The field of an object at a site, from the voxels about it. */
+  float ValueAt(const std::array<int, 3>& halves, int object) const;
   Vector PlaceOf(const LatticeSite& site) const;
   Key KeyOf(const LatticeSite& site) const;
   int VertexOn(const LatticeSite& a, const LatticeSite& b);
@@ -77,7 +101,7 @@ private:
 
   const InterfaceFields& Fields;
   LabelMap Map;
-  int Pitch;
+  std::array<int, 3> Pitch;
   std::array<int, 3> Corners; ///< of cubes, along each axis
   VoxelBox Middles;           ///< of cubes
   std::vector<Number> ObjectOfMiddle;
