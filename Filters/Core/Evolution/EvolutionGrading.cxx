@@ -19,10 +19,10 @@ namespace volumic
 namespace
 {
 /**
- * By what the sizes may grow at most, round by round: what is measured tells little of edges twice
- * as long. The last rounds mend what has grown too far.
+ * By what the sizes may grow at most, round by round: what is measured tells little of edges many
+ * times as long. A round takes as long as the whole regularisation.
  */
-constexpr float Growths[] = { 2.f, 1.6f, 1.2f, 1.f };
+constexpr float Growths[] = { 2.5f, 1.5f, 1.1f };
 /** Passes in each block after the sizes have changed. */
 constexpr int Passes = 2;
 /** Where more than this share of a surface asks for division all of it is divided: that is faster. */
