@@ -20,11 +20,12 @@
 The paper's settings are four levels and no recovery.
 
 Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any
-scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the first
-is drawn as vessels.png, any other as vessels-NAME.png after its file; without it there is no such
-picture. --graded names any other scan, with its iso-value and a tolerance in its unit of length; it
-may be repeated, and is drawn as graded-NAME.png. --label-map names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package
-mricron-data; without it there is no picture of labels. Each picture is less than 300 kB.
+scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the
+first is drawn as vessels.png, any other as vessels-NAME.png after its file; without it there is no
+such picture. --graded names any other scan, with its iso-value and a tolerance in its unit of
+length; it may be repeated, and is drawn as graded-NAME.png. --label-map names the atlas
+JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package mricron-data; without it there is no picture
+of labels. Each picture is less than 300 kB.
 """
 
 import argparse
