@@ -9,7 +9,7 @@
     levels     the surface at the end of each level                          Cranium.inv3
     views      the finest surface from outside, and cut open                 Cranium.inv3
     triangles  its triangles, and its contour on slices                      Cranium.inv3
-    graded     its triangles, and fewer of them within a tolerance           Cranium.inv3
+    graded     its triangles, and fewer of them within a tolerance           Cranium.inv3, --graded
     thin       its triangles, and more of them where it is thin              Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
                with the paper's settings and with the defaults
@@ -20,15 +20,18 @@
 The paper's settings are four levels and no recovery.
 
 Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any
-scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the first
-is drawn as vessels.png, any other as vessels-NAME.png after its file; without it there is no such
-picture. --label-map names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package
-mricron-data; without it there is no picture of labels. Each picture is less than 300 kB.
+scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the
+first is drawn as vessels.png, any other as vessels-NAME.png after its file; without it there is no
+such picture. --graded names any other scan, with its iso-value and a tolerance in its unit of
+length; it may be repeated, and is drawn as graded-NAME.png. --label-map names the atlas
+JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package mricron-data; without it there is no picture
+of labels. Each picture is less than 300 kB.
 """
 
 import argparse
 import os
 import sys
+from functools import partial
 
 import numpy as np
 
@@ -108,11 +111,10 @@ def triangles(skull):
     return render.compose([row], [[(name,) for name in names]])
 
 
-def graded(skull):
-    tolerance = 0.5  # mm
-    surfaces = skull.run().GetOutput(), skull.run(Tolerance=tolerance).GetOutput()
-    return beside_even(skull, surfaces, [main_component(surface)[0] for surface in surfaces],
-                       f"Within a tolerance of {tolerance} mm")
+def graded(scan, tolerance=0.5, unit=" mm"):
+    surfaces = scan.run().GetOutput(), scan.run(Tolerance=tolerance).GetOutput()
+    return beside_even(scan, surfaces, [main_component(surface)[0] for surface in surfaces],
+                       f"Within a tolerance of {tolerance:g}{unit}")
 
 
 def thin(skull):
@@ -216,6 +218,11 @@ def compact(picture):
 SKULL_PICTURES = (pyramid, levels, views, triangles, graded, thin, history, evolution)
 
 
+def further_name(picture, path):
+    """Of a picture of another scan, after the first word of its file."""
+    return f"{picture}-" + os.path.basename(path).partition(".")[0].partition("_")[0]
+
+
 def write_picture(draw, scan, folder, name=None):
     """Write the picture; its size must fit a repository."""
     path = os.path.join(folder, (name or draw.__name__) + ".png")
@@ -236,6 +243,8 @@ def main():
                         help=", ".join(known))
     parser.add_argument("--vessels", nargs=2, metavar=("VOLUME", "ISO"), action="append",
                         default=[], help="may be repeated: vessels.png, then vessels-NAME.png")
+    parser.add_argument("--graded", nargs=3, metavar=("VOLUME", "ISO", "TOLERANCE"),
+                        action="append", default=[], help="may be repeated: graded-NAME.png")
     parser.add_argument("--label-map", metavar="FILE", help="for labels.png")
     parser.add_argument("--skull", nargs=2, metavar=("VOLUME", "ISO"), default=(SKULL, SKULL_ISO),
                         help="another volume in the place of the skull")
@@ -248,13 +257,17 @@ def main():
                 write_picture(draw, skull, arguments.output)
         wanted = arguments.vessels if "vessels" in arguments.only else []
         for number, (path, iso) in enumerate(wanted):
-            stem = os.path.basename(path).partition(".")[0]
             write_picture(vessels, Scan(path, float(iso)), arguments.output,
-                          f"vessels-{stem}" if number else "vessels")
+                          further_name("vessels", path) if number else "vessels")
+        for path, iso, tolerance in arguments.graded if "graded" in arguments.only else []:
+            write_picture(partial(graded, tolerance=float(tolerance), unit=""), Scan(path, float(iso)),
+                          arguments.output, further_name("graded", path))
         if "labels" in arguments.only and arguments.label_map:
             write_picture(labels, arguments.label_map, arguments.output)
         if "vessels" in arguments.only and not wanted:
             print("No --vessels: their pictures stay as they are")
+        if "graded" in arguments.only and not arguments.graded:
+            print("No --graded: the pictures of other scans stay as they are")
     except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:
         sys.exit(f"figures.py: {error}")
 

@@ -211,6 +211,7 @@ set(volumic_core_headers
   Surface/Proximity.h
   Surface/RankBlocks.h
   Surface/RankPart.h
+  Surface/ReachOfStar.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
   Surface/SizingField.h

@@ -293,7 +293,7 @@ TEST(GradedSurface, IsValidWhereItIsStopped)
   };
   const TestVolume volume = MakeVolume(48, [](double x, double y, double z)
     { return std::clamp(0.5 - 0.25 * OutsideBoxAndBall(x, y, z), 0., 1.); });
-  for (const int after : { 1, 3, 9 })
+  for (const int after : { 1, 3, 7 })
   {
     SCOPED_TRACE(after);
     StopInRegularisation monitor(after);

@@ -168,6 +168,50 @@ TEST(LocalDivision, HoldsWhatIsLeftOfAPlateThinnerThanAVoxel)
   EXPECT_LT(levels.Lost.MissingBoundary, 0.01);
 }
 
+TEST(LocalDivision, IsLeftWhereItIsStopped)
+{
+  class StopInDivision final : public Monitor
+  {
+  public:
+    explicit StopInDivision(int at) : Last(at) {}
+    bool GoOn(const Status& status) override
+    {
+      this->Asked += status.Doing == Activity::Dividing;
+      return this->Asked < this->Last;
+    }
+
+    int Asked = 0;
+
+  private:
+    int Last;
+  };
+  const TestVolume volume = VolumeOf(OutsideBoxAndBall);
+  LevelImage coarse = volume.Image;
+  coarse.Unit = std::sqrt(3.);
+  std::size_t before = 0;
+  for (const int at : { 1, 2, 3, 100 })
+  {
+    SCOPED_TRACE(at);
+    StopInDivision monitor(at);
+    SurfaceEvolution evolution(IsoHalf(), Alone, monitor);
+    evolution.StartEnclosing(coarse, 1);
+    ASSERT_EQ(evolution.Run(), StopReason::Converged);
+    evolution.SetGrading(Within(0.25));
+    const std::size_t coarsePoints = evolution.Result().Points.size();
+    ASSERT_TRUE(evolution.Divide(volume.Image, 0));
+    EXPECT_EQ(evolution.IsStopped(), at < 100);
+    EXPECT_GE(monitor.Asked, std::min(at, 3)) << "before edges are split, meanwhile, in the end";
+    const SurfaceResult divided = evolution.Result();
+    EXPECT_EQ(divided.Points.size() == coarsePoints, at == 1);
+    EXPECT_GE(divided.Points.size(), before);
+    before = divided.Points.size();
+    EXPECT_EQ(evolution.Run(), at < 100 ? StopReason::Cancelled : StopReason::Converged);
+    EXPECT_EQ(evolution.Verified().Found, 0);
+    EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
+    EXPECT_NO_THROW(CheckInitialSurface(evolution.Result()));
+  }
+}
+
 TEST(LocalDivision, OfTwoLevelsIsTheSameOnAnyThreads)
 {
   const double below = 1. / std::sqrt(3.);

@@ -474,3 +474,29 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
     }
   }
 }
+
+TEST(Proximity, FindsLargeFacesFromTheSmallOnesThatTheyCross)
+{
+  // A small ball that a face of a large one cuts, whose corners are far from it.
+  const IndexedSurface large = DividedIcosahedron({ 0., 0., 0. }, 15., 6.);
+  const int larges = static_cast<int>(large.Points.size());
+  const Triangle& cut = large.Triangles.front();
+  Point middle{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    middle[axis] = (large.Points[cut[0]][axis] + large.Points[cut[1]][axis] +
+                     large.Points[cut[2]][axis]) / 3.;
+  }
+  IndexedSurface both = large;
+  Add(both, DividedIcosahedron(middle, 1.2, 0.8));
+  LiveSurface s(both, 0.5f);
+  LargeVector<float> sizes(s.Mesh.Rings.size(), 0.5f);
+  std::fill(sizes.begin(), sizes.begin() + larges, 4.f);
+  s.Sizing = s.Sizing.Graded(sizes, 4.f, 1.f);
+  s.UpdateShape(All(s), Threads);
+  std::vector<int> smalls = All(s);
+  smalls.erase(smalls.begin(), smalls.begin() + larges);
+  const std::size_t ofAll = Proximity::FindIntersections(s, All(s), Threads).size();
+  EXPECT_GT(ofAll, 3u);
+  EXPECT_EQ(Proximity::FindIntersections(s, smalls, Threads).size(), ofAll);
+}

@@ -40,17 +40,18 @@ class FiguresTest(SharedFolderTestCase):
 
     def test_every_picture(self):
         run = self.figures("--vessels", self.small, str(RING_ISO),
-                           "--vessels", self.small, str(RING_ISO))
+                           "--vessels", self.small, str(RING_ISO),
+                           "--graded", self.small, str(RING_ISO), "0.2")
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         names = sorted([draw.__name__ + ".png" for draw in SKULL_PICTURES]
-                       + ["vessels.png", "vessels-s.png"])
+                       + ["vessels.png", "vessels-s.png", "graded-s.png"])
         self.assertEqual(sorted(os.listdir(self.output)), names)
         for name in names:
             pixels = read_pixels(os.path.join(self.output, name))
             self.assertGreater(pixels.shape[1], 0.75 * ROW_WIDTH, name)
             self.assertGreater(pixels.std(), 8, name)
         # One run serves all pictures of the same properties: default and without the pyramid.
-        self.assertEqual(run.stdout.count("default properties"), 1)
+        self.assertEqual(run.stdout.count("default properties"), 2)  # of two scans
         self.assertEqual(run.stdout.count("SnapshotInterval"), 1)
         self.assertEqual(run.stdout.count("Recovery 0, Metric 0, CoarsestLevel 3\n"), 1)
         self.assertEqual(run.stdout.count("Recovery 0, Metric 0, CoarsestLevel 2\n"), 2)  # both vessels
@@ -60,6 +61,14 @@ class FiguresTest(SharedFolderTestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(os.listdir(self.path("alone")), ["pyramid.png"])
         self.assertNotIn("Evolving", run.stdout)
+        self.assertNotIn("No --graded", run.stdout)
+
+    def test_tells_which_pictures_stay(self):
+        run = self.figures("--only", "graded", "vessels", "--output", self.path("some"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(os.listdir(self.path("some")), ["graded.png"])
+        self.assertIn("No --vessels", run.stdout)
+        self.assertIn("No --graded", run.stdout)
 
     def test_refused(self):
         for arguments, code, reason in (

@@ -19,17 +19,20 @@ namespace volumic
 namespace
 {
 /**
- * By what the sizes may grow at most, round by round: what is measured tells little of edges twice
- * as long. The last rounds mend what has grown too far.
+ * By what the sizes may grow at most, round by round: what is measured tells little of edges many
+ * times as long. A round takes as long as the whole regularisation.
  */
-constexpr float Growths[] = { 2.f, 1.6f, 1.2f, 1.f };
+constexpr float Growths[] = { 2.5f, 1.5f, 1.1f };
 /** Passes in each block after the sizes have changed. */
 constexpr int Passes = 2;
 /** Where more than this share of a surface asks for division all of it is divided: that is faster. */
 constexpr double MostDivided = 0.5;
+/** Of a division's progress, once it is known where it is wanted. */
+constexpr double HalfDivided = 0.5;
 }
 
-void SurfaceEvolution::Implementation::ApplySizes(const std::vector<int>& changed)
+void SurfaceEvolution::Implementation::ApplySizes(
+  const std::vector<int>& changed, const BlockVisits& visits)
 {
   // What is known of a star that has another size now was found within another reach.
   SurfaceState& s = this->State;
@@ -49,7 +52,7 @@ void SurfaceEvolution::Implementation::ApplySizes(const std::vector<int>& change
   s.UpdateShape(stars, this->Threads);
   if (this->HasEdgeTooLong())
   {
-    this->SplitLongEdges();
+    this->SplitLongEdges(visits);
   }
 }
 
@@ -76,7 +79,13 @@ bool SurfaceEvolution::Implementation::DivideWhereWanted(double delta)
   }
   // The mesh stays: what is to have shorter edges is split.
   this->MakeBlocks();
-  this->ApplySizes(divided);
+  BlockVisits visits;
+  visits.Doing = Monitor::Activity::Dividing;
+  visits.From = visits.To = HalfDivided;
+  if (this->GoOn(visits.Doing, HalfDivided))
+  {
+    this->ApplySizes(divided, visits);
+  }
   this->LabelComponents();
   return true;
 }
@@ -93,7 +102,9 @@ void SurfaceEvolution::Implementation::DivideNear(const LostBoundary& lost)
       static_cast<float>(index[1] * image.Step[1]), static_cast<float>(index[2] * image.Step[2]));
   }
   GradedSizes sizes(this->State, *this->TheField, this->WantedGrading, this->Threads);
-  this->ApplySizes(sizes.ShrinkNear(places));
+  BlockVisits visits;
+  visits.IsAsked = false;
+  this->ApplySizes(sizes.ShrinkNear(places), visits);
 }
 
 void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
@@ -112,15 +123,18 @@ void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
     s.WasActive[v] = s.Active[v];
     s.Velocity[v] = Vector();
   }
+  BlockVisits visits;
+  visits.Doing = Monitor::Activity::Regularising;
+  visits.To = visits.From;
   for (const float growth : Growths)
   {
-    if (!this->GoOn(Monitor::Activity::Regularising, 0.))
+    if (!this->GoOn(visits.Doing, visits.To))
     {
       break;
     }
-    this->ApplySizes(sizes.Adjust(growth));
-    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, Passes,
-      Monitor::Activity::Regularising, 0., 0.);
+    this->ApplySizes(sizes.Adjust(growth), visits);
+    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, Passes, visits.Doing,
+      visits.From, visits.To);
   }
   for (const int v : this->OwnVertices())
   {

@@ -126,7 +126,9 @@ struct SurfaceEvolution::Implementation
   bool HasEdgeTooLong() const;
   int CountIntersecting();
   void Verify();
-  void SplitLongEdges();
+  void SplitLongEdges(); ///< All of them, whoever asks to stop.
+  /** @param visits whom they ask whether to go on; where they are stopped some edges are left */
+  void SplitLongEdges(BlockVisits visits);
   float LongestEdge(); ///< On all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
@@ -210,7 +212,8 @@ struct SurfaceEvolution::Implementation
   /** The same about parts that are lost, so that these can be enclosed beside it. */
   void DivideNear(const LostBoundary& lost);
   void Grade(const Dynamics& dynamics);
-  void ApplySizes(const std::vector<int>& changed);
+  /** @param visits that split edges, see SplitLongEdges */
+  void ApplySizes(const std::vector<int>& changed, const BlockVisits& visits);
   void DeleteInsideOut();
   void DeleteThoseInsideOut();
   void DeleteDegenerate();

@@ -333,11 +333,16 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
 
 void SurfaceEvolution::Implementation::SplitLongEdges()
 {
+  BlockVisits visits;
+  visits.IsAsked = false;
+  this->SplitLongEdges(std::move(visits));
+}
+
+void SurfaceEvolution::Implementation::SplitLongEdges(BlockVisits visits)
+{
   // Verification relies on it that no edge is longer than the constraints allow. One whose split
   // would make needles stays, as in an iteration, and what moves it waits: see HasHugeEdge.
-  BlockVisits visits;
   visits.OnlyActive = false;
-  visits.IsAsked = false;
   visits.Visit = [this](BlockVisit& visit, SurfaceIteration&)
   {
     Remesher remesher(this->State, nullptr, false, &visit.Share);
@@ -350,7 +355,8 @@ void SurfaceEvolution::Implementation::SplitLongEdges()
   do
   {
     this->VisitBlocks(visits);
-  } while (this->IsOnAnyRank(this->State.Counts.Splits > 0) &&
+  } while (!(visits.IsAsked && this->Stopped) &&
+    this->IsOnAnyRank(this->State.Counts.Splits > 0) &&
     this->IsOnAnyRank(this->HasEdgeTooLong()));
 }
 }

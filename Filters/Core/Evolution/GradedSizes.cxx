@@ -5,6 +5,7 @@
 #include "Core/Common/Blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -117,25 +118,47 @@ float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal
   return sign * furthest;
 }
 
-float GradedSizes::DistanceAt(const Vector& position, const Vector& normal) const
+template <typename Look>
+void GradedSizes::VisitMiddles(std::size_t begin, std::size_t end, const Look& look) const
 {
-  return std::abs(this->SignedDistanceAt(position, normal));
+  const LargeVector<Vector>& place = this->State.Mesh.Position;
+  this->State.Mesh.VisitFaces(begin, end,
+    [&](int a, int b, int c)
+    {
+      look((place[a] + place[b] + place[c]) * (1.f / 3.f), std::array<int, 3>{ a, b, c });
+      for (const auto& [u, v] : { std::pair<int, int>{ a, b }, { b, c }, { c, a } })
+      {
+        if (u < v) // Of the two faces at an edge one.
+        {
+          look((place[u] + place[v]) * 0.5f, std::array<int, 2>{ u, v });
+        }
+      }
+    });
 }
 
-float GradedSizes::LargestDistanceAbout(int v, float enough) const
+template <typename OfMiddle>
+GradedSizes::Largest GradedSizes::LargestAbout(const OfMiddle& of) const
 {
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const Ring& ring = mesh.Rings[v];
-  const Vector p = mesh.Position[v];
-  const Vector normal = this->State.Normal[v].Axis();
-  float largest = 0.f;
-  for (int i = 0; i < ring.Count && largest < enough; ++i)
-  {
-    const Vector a = mesh.Position[ring.Item[i]];
-    const Vector b = mesh.Position[ring.Next(i)];
-    largest = std::max({ largest, this->DistanceAt((p + a + b) * (1.f / 3.f), normal),
-      this->DistanceAt((p + a) * 0.5f, normal) });
-  }
+  // Threads meet at vertices: in which order they do does not matter.
+  Largest largest(this->State.Mesh.Rings.size());
+  this->Threads.For(largest.size(), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      this->VisitMiddles(begin, end,
+        [&](const Vector& middle, const auto& corners)
+        {
+          const float distance =
+            of(this->SignedDistanceAt(middle, this->State.Normal[corners[0]].Axis()), corners);
+          for (const int v : corners)
+          {
+            float before = largest[v].load(std::memory_order_relaxed);
+            while (before < distance &&
+              !largest[v].compare_exchange_weak(before, distance, std::memory_order_relaxed))
+            {
+            }
+          }
+        });
+    });
   return largest;
 }
 
@@ -179,16 +202,12 @@ float GradedSizes::ThicknessAt(int v) const
   return std::min(this->WayToWall(v, -1.f, from, most), this->WayToWall(v, 1.f, from, most));
 }
 
-float GradedSizes::WantedSize(int v, float growth) const
+float GradedSizes::WantedSize(int v, float distance, float growth) const
 {
-  const float now = this->State.Sizing.At(v);
   const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
-  // By more than LeastChange no size shrinks, and the least not at all.
-  const float enough = now > this->Least ? aimed / (LeastChange * LeastChange) : aimed;
-  const float distance = this->LargestDistanceAbout(v, enough);
   const float change = distance > 0.f ? std::sqrt(aimed / distance) : growth;
-  const float size =
-    std::clamp(now * std::clamp(change, LeastChange, growth), this->Least, this->Most);
+  const float size = std::clamp(
+    this->State.Sizing.At(v) * std::clamp(change, LeastChange, growth), this->Least, this->Most);
   return size > this->Least ? this->MostBetweenWalls(v, size) : size;
 }
 
@@ -218,38 +237,16 @@ LargeVector<float> GradedSizes::Limited(const LargeVector<float>& sizes) const
   return limited;
 }
 
-float GradedSizes::LargestSagAbout(int v, const LargeVector<float>& offsets) const
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const Ring& ring = mesh.Rings[v];
-  const Vector p = mesh.Position[v];
-  const Vector normal = this->State.Normal[v].Axis();
-  float largest = 0.f;
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    const int a = ring.Item[i];
-    const int b = ring.Next(i);
-    const float atCentre =
-      this->SignedDistanceAt((p + mesh.Position[a] + mesh.Position[b]) * (1.f / 3.f), normal);
-    const float atMiddle = this->SignedDistanceAt((p + mesh.Position[a]) * 0.5f, normal);
-    largest =
-      std::max({ largest, std::abs(atCentre - (offsets[v] + offsets[a] + offsets[b]) * (1.f / 3.f)),
-        std::abs(atMiddle - (offsets[v] + offsets[a]) * 0.5f) });
-  }
-  return largest;
-}
-
-float GradedSizes::RefinedSize(int v, const LargeVector<float>& offsets) const
+float GradedSizes::RefinedSize(int v, float offset, float sag) const
 {
   float size = this->State.Sizing.At(v);
-  if (std::abs(offsets[v]) > MostOffset * static_cast<float>(this->TheField.Image().Unit))
+  if (std::abs(offset) > MostOffset * static_cast<float>(this->TheField.Image().Unit))
   {
     return this->Least;
   }
   if (this->Wanted.HasTolerance())
   {
     const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
-    const float sag = this->LargestSagAbout(v, offsets);
     size *= sag > aimed ? std::sqrt(aimed / sag) : 1.f;
   }
   return size > this->Least ? this->MostBetweenWalls(v, size) : this->Least;
@@ -270,7 +267,19 @@ std::vector<int> GradedSizes::Refine()
         }
       }
     });
-  return this->Change([&](int v) { return this->RefinedSize(v, offsets); });
+  // How far the middles would be if their corners were moved onto the isopotential.
+  const auto sag = [&offsets](float distance, const auto& corners)
+  {
+    float moved = 0.f;
+    for (const int v : corners)
+    {
+      moved += offsets[v];
+    }
+    return std::abs(distance - moved / static_cast<float>(corners.size()));
+  };
+  const Largest sags =
+    this->Wanted.HasTolerance() ? this->LargestAbout(sag) : Largest(offsets.size());
+  return this->Change([&](int v) { return this->RefinedSize(v, offsets[v], sags[v]); });
 }
 
 std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& places)
@@ -286,7 +295,9 @@ std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& places)
 
 std::vector<int> GradedSizes::Adjust(float growth)
 {
-  return this->Change([&](int v) { return this->WantedSize(v, growth); });
+  const Largest distances =
+    this->LargestAbout([](float distance, const auto&) { return std::abs(distance); });
+  return this->Change([&](int v) { return this->WantedSize(v, distances[v], growth); });
 }
 
 std::vector<int> GradedSizes::Change(const std::function<float(int v)>& wanted)
@@ -337,25 +348,14 @@ Fit GradedSizes::Measure() const
     [&](std::size_t block, std::size_t begin, std::size_t end)
     {
       Sum& sum = sums[block];
-      const auto look = [&](const Vector& place, int v)
-      {
-        const float distance = this->DistanceAt(place, s.Normal[v].Axis());
-        sum.Largest = std::max(sum.Largest, distance);
-        sum.Within += distance <= tolerance;
-        ++sum.All;
-      };
-      s.Mesh.VisitFaces(begin, end,
-        [&](int a, int b, int c)
+      this->VisitMiddles(begin, end,
+        [&](const Vector& middle, const auto& corners)
         {
-          const LargeVector<Vector>& place = s.Mesh.Position;
-          look((place[a] + place[b] + place[c]) * (1.f / 3.f), a);
-          for (const auto& [u, v] : { std::pair<int, int>{ a, b }, { b, c }, { c, a } })
-          {
-            if (u < v) // Of the two faces at an edge one.
-            {
-              look((place[u] + place[v]) * 0.5f, u);
-            }
-          }
+          const float distance =
+            std::abs(this->SignedDistanceAt(middle, s.Normal[corners[0]].Axis()));
+          sum.Largest = std::max(sum.Largest, distance);
+          sum.Within += distance <= tolerance;
+          ++sum.All;
         });
     });
   Sum all;

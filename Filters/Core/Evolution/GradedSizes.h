@@ -8,6 +8,8 @@
 #include "Core/Image/Field.h"
 #include "Core/Surface/SurfaceState.h"
 
+#include <atomic>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -54,13 +56,24 @@ public:
   float ThicknessAt(int v) const;
 
 private:
-  /** From a point of the surface with this normal, at most Furthest(). */
-  float DistanceAt(const Vector& position, const Vector& normal) const;
-  /** The same, negative on the object's side of the isopotential. */
+  /** Of each vertex, written by many threads. */
+  using Largest = LargeVector<std::atomic<float>>;
+
+  /**
+   * From a point of the surface with this normal, at most Furthest(); negative on the object's side
+   * of the isopotential.
+   */
   float SignedDistanceAt(const Vector& position, const Vector& normal) const;
   float Furthest() const;
-  /** Of the faces about a vertex, and its edges; no more are looked at where it is enough. */
-  float LargestDistanceAbout(int v, float enough) const;
+  /**
+   * Calls look(place, corners) for the centroid of each face and the middle of each edge; those of
+   * all ranges are all.
+   */
+  template <typename Look>
+  void VisitMiddles(std::size_t begin, std::size_t end, const Look& look) const;
+  /** About each vertex the largest that `of` makes of a middle's SignedDistanceAt and corners. */
+  template <typename OfMiddle>
+  Largest LargestAbout(const OfMiddle& of) const;
   /**
    * How far the next side of the object (side -1), or of the air (1), is along the normal: at least
    * `from`, at most `most`.
@@ -68,14 +81,10 @@ private:
   float WayToWall(int v, float side, float from, float most) const;
   /** What the thickness of the object, or of the air in it, allows. */
   float MostBetweenWalls(int v, float size) const;
-  float WantedSize(int v, float growth) const;
-  /**
-   * How far the middles of the faces and edges about a vertex would be from the isopotential, if
-   * their corners were moved onto it.
-   * @param offsets of all vertices, the SignedDistanceAt() them
-   */
-  float LargestSagAbout(int v, const LargeVector<float>& offsets) const;
-  float RefinedSize(int v, const LargeVector<float>& offsets) const;
+  /** @param distance of what is furthest from the isopotential about it */
+  float WantedSize(int v, float distance, float growth) const;
+  /** @param offset its SignedDistanceAt @param sag the distance, once the offsets are gone */
+  float RefinedSize(int v, float offset, float sag) const;
   /** Gives all vertices what `wanted` tells, as far as the gradation allows. @return see Adjust */
   std::vector<int> Change(const std::function<float(int v)>& wanted);
   /**

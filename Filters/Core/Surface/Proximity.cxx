@@ -4,6 +4,7 @@
 
 #include "Core/Common/Blocks.h"
 #include "Core/Mesh/TriangleTests.h"
+#include "Core/Surface/ReachOfStar.h"
 #include "Core/Surface/StarFaces.h"
 
 #include <algorithm>
@@ -184,6 +185,12 @@ public:
 
   bool IsFirstOf(const std::array<int, 3>& f, const std::array<int, 3>& g) const
   {
+    // No more than what the stars of any pair ask for, which are not all to be read here.
+    float most = 0.f;
+    for (const int corner : { f[0], f[1], f[2], g[0], g[1], g[2] })
+    {
+      most = std::max(most, SizingField::ReachInDelta * this->State.Sizing.At(corner));
+    }
     for (int a : f)
     {
       for (int b : g)
@@ -191,7 +198,7 @@ public:
         const int x = std::min(a, b);
         const int y = std::max(a, b);
         if ((x < this->V || (x == this->V && y < this->W)) &&
-          ((this->State.Marks[x] | this->State.Marks[y]) & IsListed) && this->IsWithinReach(x, y) &&
+          ((this->State.Marks[x] | this->State.Marks[y]) & IsListed) && this->IsWithinReach(x, y, most) &&
           this->State.AreOpposed(x, y))
         {
           return false;
@@ -202,9 +209,10 @@ public:
   }
 
 private:
-  bool IsWithinReach(int x, int y) const
+  bool IsWithinReach(int x, int y, float most) const
   {
-    const float reach = std::min(this->State.Sizing.Reach(x), this->State.Sizing.Reach(y));
+    const float reach =
+      std::min({ most, this->State.Sizing.Reach(x), this->State.Sizing.Reach(y) });
     return SquaredDistance(this->State.Mesh.Position[x], this->State.Mesh.Position[y]) <=
       RoundedReach * reach * reach;
   }
@@ -341,8 +349,9 @@ void Search::Examine(int v, Proximity::Findings& found)
   SurfaceState& state = this->State;
   const SurfaceMesh& mesh = state.Mesh;
   const float delta = state.Sizing.At(v);
-  const float reach = state.Sizing.Reach(v);
-  const float further = reach + (state.IsSlow[v] ? Proximity::FurtherReachInDelta * delta : 0.f);
+  const float most = state.Sizing.Reach(v);
+  const ReachOfStar reaches(state, v);
+  const float further = most + (state.IsSlow[v] ? Proximity::FurtherReachInDelta * delta : 0.f);
   const float near = PairReach * delta;
   const float least = ReachSlack * delta;
   std::optional<StarFaces> own; // Few vertices need it, those that do need it often.
@@ -355,7 +364,7 @@ void Search::Examine(int v, Proximity::Findings& found)
     return *own;
   };
   bool anything = false;
-  float slack = further - reach + least;
+  float slack = further - most + least;
   if (state.AreOpposed(v, v))
   {
     anything = true;
@@ -364,6 +373,7 @@ void Search::Examine(int v, Proximity::Findings& found)
   this->VisitOpposed(v, further,
     [&](int w, float squared)
     {
+      const float reach = reaches.With(w, squared);
       if (squared > reach * reach)
       {
         slack = std::min(slack, std::sqrt(squared) - reach + least);
