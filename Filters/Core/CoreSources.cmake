@@ -66,6 +66,7 @@ set(volumic_core_sources
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
   Interfaces/InterfaceRemesher.cxx
+  Interfaces/InterfaceSlivers.cxx
   Interfaces/LatticeCutter.cxx
   Interfaces/MakeInterfaces.cxx
   Interfaces/VertexTargets.cxx
@@ -201,6 +202,7 @@ set(volumic_core_headers
   Interfaces/InterfaceRemesher.h
   Interfaces/LatticeCutter.h
   Interfaces/MakeInterfaces.h
+  Interfaces/TriangleShape.h
   Interfaces/VertexTargets.h
   Surface/ComponentNesting.h
   Surface/ComponentWatch.h

@@ -3,6 +3,7 @@
 #include "Core/Interfaces/InterfaceRemesher.h"
 
 #include "Core/Interfaces/InterfaceLattice.h"
+#include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;

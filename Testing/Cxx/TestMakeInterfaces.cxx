@@ -4,7 +4,7 @@
 
 #include "Core/Common/StandardThreads.h"
 #include "Core/Interfaces/InterfaceFit.h"
-#include "Core/Interfaces/InterfaceRemesher.h"
+#include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;

@@ -17,7 +17,7 @@ namespace
 struct BricksOfObject
 {
   std::vector<std::size_t> Bricks;
-  LargeVector<float> Values;
+  std::vector<float> Values;
 };
 
 BricksOfObject CopyBricks(const LabelField& field, const LabelBricks& map, int object)
@@ -93,7 +93,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   }
   std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
   this->Objects.resize(this->First.back());
-  this->Values.resize(this->First.back() * VoxelsOfBrick);
+  MakeZeroed(this->Values, this->First.back() * VoxelsOfBrick);
   std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
   for (std::size_t object = 0; object < count; ++object)
   {

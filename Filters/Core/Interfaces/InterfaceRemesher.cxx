@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceRemesher.h"
 
+#include "Core/Interfaces/TriangleShape.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -15,10 +17,6 @@ namespace
 constexpr double LeastTurnCosine = 0.4;
 /** Cosine of the angle between two faces whose edge is flipped. */
 constexpr double LeastFlatCosine = 0.85;
-/** The same where one of them is a sliver. */
-constexpr double LeastSliverCosine = 0.5;
-/** Triangles with a smaller angle are slivers, radian. */
-constexpr double LeastAngle = 0.5;
 /** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
 constexpr double LeastRatio = 0.3;
 /** Those are slivers, by the same. */
@@ -27,42 +25,6 @@ constexpr double MostSliver = 0.15;
 constexpr double CornerSlack = 16. / 9.;
 /** By how much a flip must make the smallest angle larger, radian. */
 constexpr double LeastGain = 0.02;
-
-double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c)
-{
-  const auto angle = [](const VectorD& at, const VectorD& p, const VectorD& q)
-  {
-    const VectorD first = p - at;
-    const VectorD second = q - at;
-    return std::atan2(Length(Cross(first, second)), Dot(first, second));
-  };
-  return std::min({ angle(a, b, c), angle(b, c, a), angle(c, a, b) });
-}
-
-double RadiusRatio(const MeshTriangle& t)
-{
-  return volumic::RadiusRatio(t.Corner[0], t.Corner[1], t.Corner[2]);
-}
-
-VectorD NormalOf(const MeshTriangle& t)
-{
-  return Cross(t.Corner[1] - t.Corner[0], t.Corner[2] - t.Corner[0]);
-}
-
-double CosineOf(const VectorD& a, const VectorD& b)
-{
-  const double lengths = Length(a) * Length(b);
-  return lengths > 0. ? Dot(a, b) / lengths : 0.;
-}
-}
-
-double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
-{
-  const double ab = Length(b - a);
-  const double bc = Length(c - b);
-  const double ca = Length(a - c);
-  const double product = ab * bc * ca * (ab + bc + ca);
-  return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
 }
 
 InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest,
@@ -297,37 +259,6 @@ void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
   {
     this->Clearance.Change(f);
   }
-}
-
-int InterfaceRemesher::RemoveSlivers()
-{
-  int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
-  {
-    const std::array<int, 3> v = this->Mesh.Faces[f].Vertex;
-    if (!this->Mesh.Faces[f].IsThere())
-    {
-      continue;
-    }
-    const MeshTriangle t = TriangleOf(this->Mesh, v);
-    if (SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]) >= LeastAngle)
-    {
-      continue;
-    }
-    std::array<int, 3> order = { 0, 1, 2 };
-    std::sort(order.begin(), order.end(),
-      [&](int a, int b)
-      {
-        return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
-      });
-    const int shortest = order[0];
-    const int longest = order[2];
-    count += this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
-        this->TryCollapse(v[shortest], v[(shortest + 1) % 3])
-      ? 1
-      : 0;
-  }
-  return count;
 }
 
 int InterfaceRemesher::FlipEdges()

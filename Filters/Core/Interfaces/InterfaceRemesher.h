@@ -39,7 +39,10 @@ public:
   int SplitLongEdges();
   int CollapseShortEdges();
   int FlipEdges();
-  /** Triangles with a small angle: their shortest edge is collapsed, or their longest flipped. */
+  /**
+   * Triangles with a small angle: their longest edge is flipped, or their shortest collapsed, or one
+   * of their vertices moved to between its neighbours.
+   */
   int RemoveSlivers();
 
 private:
@@ -54,6 +57,8 @@ private:
   void Collapse(int kept, int removed, const Vector& place);
   /** @param flatness cosine of the angle that there may be between the faces */
   bool TryFlip(int u, int v, double flatness);
+  /** To between its neighbours, or some of the way, if its worst triangle is better then. */
+  bool TryMove(int v);
   void Split(int u, int v);
   float SquaredEdge(int u, int v) const
   {
@@ -75,9 +80,6 @@ private:
   std::vector<int> Second;
   std::vector<MeshTriangle> Made;
 };
-
-/** Twice the radius of the inner circle over that of the outer one: 1 of a regular triangle. */
-double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c);
 }
 
 #endif

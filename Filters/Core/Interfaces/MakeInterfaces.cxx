@@ -14,9 +14,9 @@ namespace volumic
 {
 namespace
 {
-/** Rounds in which edges are split and collapsed, */
+/** Rounds in which short edges are collapsed, */
 constexpr int Rounds = 5;
-/** then those of flips and steps alone, at least and at most: */
+/** then those of splits, flips and steps alone, at least and at most: */
 constexpr int LeastLastRounds = 2;
 constexpr int MostLastRounds = 5;
 /** while more voxels are on the wrong side than this share of the vertices. */
@@ -28,6 +28,8 @@ constexpr int Steps = 2;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
+/** In the last rounds those are split that steps have drawn out. */
+constexpr double LongestLast = 1.8;
 /** No step makes an edge shorter than that, in the same. */
 constexpr double LeastShare = 0.5;
 /** Nearer triangles count as intersecting, in the same. */
@@ -38,11 +40,12 @@ constexpr double StepShare = 0.7;
 /** A round's edits. */
 void Edit(InterfaceMesh& mesh, double edge, int round, const std::function<bool()>& goOn)
 {
+  const double longest = round < Rounds ? LongestShare : LongestLast;
   InterfaceRemesher remesher(
-    mesh, ShortestShare * edge, LongestShare * edge, ToleranceOfEdge * edge, goOn);
+    mesh, ShortestShare * edge, longest * edge, ToleranceOfEdge * edge, goOn);
+  remesher.SplitLongEdges();
   if (round < Rounds)
   {
-    remesher.SplitLongEdges();
     remesher.CollapseShortEdges();
   }
   remesher.FlipEdges();
@@ -84,6 +87,15 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     MoveInterfaces(mesh, fields, round == 0 ? 1 : Steps, StepShare, LeastShare * options.Edge,
       ToleranceOfEdge * options.Edge, executor);
     share = std::min(1., static_cast<double>(all / 2 + round) / all);
+  }
+  // Of the last steps some slivers are left; without them volumes are a little different again.
+  Edit(mesh, options.Edge, Rounds + MostLastRounds, mayGoOn);
+  mesh.Compact();
+  if (mayGoOn())
+  {
+    CorrectVolumes(mesh, fields);
+    MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
+      executor);
   }
   goOn(1.);
   return mesh;

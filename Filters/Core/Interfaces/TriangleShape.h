@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicTriangleShape_h
+#define volumicTriangleShape_h
+
+#include "Core/Common/Vector.h"
+#include "Core/Mesh/TriangleTests.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+/** Twice the radius of the inner circle over that of the outer one: 1 of a regular triangle. */
+inline double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
+{
+  const double ab = Length(b - a);
+  const double bc = Length(c - b);
+  const double ca = Length(a - c);
+  const double product = ab * bc * ca * (ab + bc + ca);
+  return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
+}
+
+/** Radian. */
+inline double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c)
+{
+  const auto angle = [](const VectorD& at, const VectorD& p, const VectorD& q)
+  {
+    const VectorD first = p - at;
+    const VectorD second = q - at;
+    return std::atan2(Length(Cross(first, second)), Dot(first, second));
+  };
+  return std::min({ angle(a, b, c), angle(b, c, a), angle(c, a, b) });
+}
+
+inline double RadiusRatio(const MeshTriangle& t)
+{
+  return RadiusRatio(t.Corner[0], t.Corner[1], t.Corner[2]);
+}
+
+inline VectorD NormalOf(const MeshTriangle& t)
+{
+  return Cross(t.Corner[1] - t.Corner[0], t.Corner[2] - t.Corner[0]);
+}
+
+inline double CosineOf(const VectorD& a, const VectorD& b)
+{
+  const double lengths = Length(a) * Length(b);
+  return lengths > 0. ? Dot(a, b) / lengths : 0.;
+}
+}
+
+#endif
