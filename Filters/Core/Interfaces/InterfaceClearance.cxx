@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace volumic
 {
@@ -35,6 +36,11 @@ struct Box
   }
 };
 
+bool Has(const PlacedFace& face, int v)
+{
+  return face.Vertex[0] == v || face.Vertex[1] == v || face.Vertex[2] == v;
+}
+
 bool IsFaceApart(const Vector& a, const Vector& b, const Vector& c, const Vector& low,
   const Vector& high)
 {
@@ -44,6 +50,59 @@ bool IsFaceApart(const Vector& a, const Vector& b, const Vector& c, const Vector
     (a.Y > high.Y && b.Y > high.Y && c.Y > high.Y) ||
     (a.Z < low.Z && b.Z < low.Z && c.Z < low.Z) || (a.Z > high.Z && b.Z > high.Z && c.Z > high.Z);
 }
+}
+
+PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
+{
+  return { TriangleOf(mesh, face.Vertex), face.Behind, face.Front };
+}
+
+bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
+{
+  struct Turn
+  {
+    double Angle;
+    LabelMap::Number Before; ///< the object at smaller angles
+    LabelMap::Number After;
+  };
+  std::vector<Turn> turns;
+  VectorD axis;
+  VectorD first;
+  VectorD second;
+  for (const PlacedFace& face : faces)
+  {
+    int at = 0;
+    while (face.Vertex[at] == u || face.Vertex[at] == v)
+    {
+      ++at;
+    }
+    // From the opposite vertex on, the edge is gone along in the one direction or the other.
+    const bool isForward = face.Vertex[(at + 1) % 3] == u;
+    const VectorD& from = face.Corner[(at + (isForward ? 1 : 2)) % 3];
+    if (turns.empty())
+    {
+      axis = Normalized(face.Corner[(at + (isForward ? 2 : 1)) % 3] - from);
+    }
+    const VectorD way = face.Corner[at] - from;
+    const VectorD across = way - axis * Dot(axis, way);
+    if (turns.empty())
+    {
+      first = across;
+      second = Cross(axis, across);
+    }
+    turns.push_back({ std::atan2(Dot(second, across), Dot(first, across)),
+      isForward ? face.Behind : face.Front, isForward ? face.Front : face.Behind });
+  }
+  std::sort(turns.begin(), turns.end(),
+    [](const Turn& a, const Turn& b) { return a.Angle < b.Angle; });
+  for (std::size_t n = 0; n < turns.size(); ++n)
+  {
+    if (turns[n].After != turns[(n + 1) % turns.size()].Before)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices)
@@ -171,17 +230,17 @@ int InterfaceClearance::FindIntersecting(int face, int first, Memory& memory) co
   return -1;
 }
 
-bool InterfaceClearance::AreClear(const std::vector<MeshTriangle>& triangles,
+bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   const std::vector<int>& replaced, Memory& memory) const
 {
-  if (triangles.empty())
+  if (faces.empty())
   {
     return true;
   }
-  Box all(triangles.front());
+  Box all(faces.front());
   std::vector<Box> boxes;
   const float thick = static_cast<float>(this->Tolerance);
-  for (const MeshTriangle& triangle : triangles)
+  for (const PlacedFace& triangle : faces)
   {
     boxes.emplace_back(triangle);
     all.Add(boxes.back());
@@ -189,28 +248,65 @@ bool InterfaceClearance::AreClear(const std::vector<MeshTriangle>& triangles,
     boxes.back().High += Vector(thick, thick, thick);
   }
   this->FindNear(all.Low, all.High, 0, memory);
-  for (std::size_t n = 0; n < triangles.size(); ++n)
+  for (std::size_t n = 0; n < faces.size(); ++n)
   {
-    for (std::size_t m = n + 1; m < triangles.size(); ++m)
+    for (std::size_t m = n + 1; m < faces.size(); ++m)
     {
-      if (TrianglesIntersect(triangles[n], triangles[m], this->Tolerance))
+      if (TrianglesIntersect(faces[n], faces[m], this->Tolerance))
       {
         return false;
       }
     }
   }
+  std::vector<int> others;
   for (const int face : memory.Near)
   {
     if (std::find(replaced.begin(), replaced.end(), face) != replaced.end())
     {
       continue;
     }
+    others.push_back(face);
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
     const Vector* at = this->Mesh.Position.data();
-    for (std::size_t n = 0; n < triangles.size(); ++n)
+    for (std::size_t n = 0; n < faces.size(); ++n)
     {
       if (!IsFaceApart(at[v[0]], at[v[1]], at[v[2]], boxes[n].Low, boxes[n].High) &&
-        TrianglesIntersect(triangles[n], TriangleOf(this->Mesh, v), this->Tolerance))
+        TrianglesIntersect(faces[n], TriangleOf(this->Mesh, v), this->Tolerance))
+      {
+        return false;
+      }
+    }
+  }
+  return this->AreInOrderAtLines(faces, others);
+}
+
+bool InterfaceClearance::AreInOrderAtLines(
+  const std::vector<PlacedFace>& faces, const std::vector<int>& others) const
+{
+  std::vector<PlacedFace> about;
+  for (const PlacedFace& face : faces)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const int u = face.Vertex[k];
+      const int v = face.Vertex[(k + 1) % 3];
+      if (this->Mesh.StratumOf[static_cast<std::size_t>(u)] == Stratum::Interface ||
+        this->Mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Interface)
+      {
+        continue;
+      }
+      about.clear();
+      std::copy_if(faces.begin(), faces.end(), std::back_inserter(about),
+        [&](const PlacedFace& other) { return Has(other, u) && Has(other, v); });
+      for (const int other : others)
+      {
+        const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
+        if (there.Has(u) && there.Has(v))
+        {
+          about.push_back(PlacedFaceOf(this->Mesh, there));
+        }
+      }
+      if (about.size() > 2 && !AreInOrder(u, v, about))
       {
         return false;
       }

@@ -15,6 +15,21 @@ namespace volumic
 /** Corners of a triangle that there is not yet, and the vertices that they are. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 
+/** A face that there is, or may be. */
+struct PlacedFace : MeshTriangle
+{
+  LabelMap::Number Behind;
+  LabelMap::Number Front;
+};
+PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
+
+/**
+ * Whether faces that share an edge are about it in the order that their objects want: what one has
+ * on its one side the next one has on that side, too. Where one has been turned past another,
+ * objects overlap, though nothing intersects.
+ */
+bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces);
+
 /** Which triangles of interfaces are near others, and whether they intersect them. */
 class InterfaceClearance
 {
@@ -49,11 +64,17 @@ public:
   void FindNear(const Vector& low, const Vector& high, int first, Memory& memory) const;
   /** A face that this one intersects, of those from `first` on; -1: none. */
   int FindIntersecting(int face, int first, Memory& memory) const;
-  /** Whether triangles may take the place of some faces: they intersect nothing else, nor each other. */
-  bool AreClear(const std::vector<MeshTriangle>& triangles, const std::vector<int>& replaced,
+  /**
+   * Whether faces may take the place of some: they intersect nothing else, nor each other, and are
+   * in order at junction lines.
+   */
+  bool AreClear(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced,
     Memory& memory) const;
 
 private:
+  /** @param others faces that stay, among them all that share an edge with these */
+  bool AreInOrderAtLines(
+    const std::vector<PlacedFace>& faces, const std::vector<int>& others) const;
   void Insert(int v) { this->Grid.Insert(v, this->Mesh.Position[static_cast<std::size_t>(v)]); }
 
   const InterfaceMesh& Mesh;

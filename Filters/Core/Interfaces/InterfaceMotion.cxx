@@ -25,7 +25,7 @@ public:
   Verification(
     InterfaceMesh& mesh, const std::vector<Vector>& before, double tolerance, Executor& executor)
     : Mesh(mesh), Before(before), Clearance(mesh, tolerance), Threads(executor),
-      IsBack(mesh.Position.size(), 0)
+      Lines(mesh.FindLines()), IsBack(mesh.Position.size(), 0)
   {
   }
 
@@ -107,6 +107,7 @@ private:
           }
         }
       });
+    this->TakeBackOutOfOrder(back);
     for (const std::array<int, 2>& pair : Joined(this->Threads, ofBlocks))
     {
       for (const int f : pair)
@@ -118,6 +119,29 @@ private:
       }
     }
     this->Follow(back);
+  }
+
+  /** Vertices of faces that have been turned past others about an edge that they share. */
+  void TakeBackOutOfOrder(std::vector<int>& back)
+  {
+    std::vector<int> faces;
+    std::vector<PlacedFace> placed;
+    for (const std::array<int, 2>& edge : this->Lines)
+    {
+      this->Mesh.FindFaces(edge[0], edge[1], faces);
+      placed.clear();
+      for (const int f : faces)
+      {
+        placed.push_back(PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]));
+      }
+      for (std::size_t n = 0; !AreInOrder(edge[0], edge[1], placed) && n < faces.size(); ++n)
+      {
+        for (const int v : placed[n].Vertex)
+        {
+          this->TakeBack(v, back);
+        }
+      }
+    }
   }
 
   /** What has been taken back is where it is found from now on. */
@@ -145,6 +169,7 @@ private:
   const std::vector<Vector>& Before;
   InterfaceClearance Clearance;
   Executor& Threads;
+  std::vector<std::array<int, 2>> Lines;
   std::vector<unsigned char> IsBack;
 };
 }

@@ -195,7 +195,7 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
       [&](int f)
       {
         const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-        const MeshTriangle before = TriangleOf(this->Mesh, face.Vertex);
+        const PlacedFace before = PlacedFaceOf(this->Mesh, face);
         worst = std::min(worst, RadiusRatio(before));
         if (face.Has(kept) && face.Has(removed))
         {
@@ -206,7 +206,7 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
           return;
         }
         this->Changed.push_back(f);
-        MeshTriangle after = before;
+        PlacedFace after = before;
         for (int k = 0; k < 3; ++k)
         {
           if (after.Vertex[k] == v)
@@ -300,7 +300,7 @@ bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
     TriangleOf(this->Mesh, second.Vertex) };
   std::replace(first.Vertex.begin(), first.Vertex.end(), v, q);
   std::replace(second.Vertex.begin(), second.Vertex.end(), u, p);
-  this->Made = { TriangleOf(this->Mesh, first.Vertex), TriangleOf(this->Mesh, second.Vertex) };
+  this->Made = { PlacedFaceOf(this->Mesh, first), PlacedFaceOf(this->Mesh, second) };
   const auto smallest = [](const MeshTriangle& t)
   { return SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]); };
   if (std::min(smallest(this->Made[0]), smallest(this->Made[1])) <

@@ -78,7 +78,7 @@ private:
   std::vector<int> Changed;
   std::vector<int> First;
   std::vector<int> Second;
-  std::vector<MeshTriangle> Made;
+  std::vector<PlacedFace> Made;
 };
 }
 

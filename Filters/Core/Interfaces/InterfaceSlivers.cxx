@@ -83,8 +83,7 @@ bool InterfaceRemesher::TryMove(int v)
     this->Mesh.ForFaces(v,
       [&](int f)
       {
-        MeshTriangle t =
-          TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+        PlacedFace t = PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]);
         const VectorD old = NormalOf(t);
         before = std::min(before, RadiusRatio(t));
         *std::find_if(t.Corner, t.Corner + 3, [&](const VectorD& corner)
