@@ -206,9 +206,9 @@ class ShapeTest(unittest.TestCase):
         self.assertTrue(np.isnan(told["WrongBlocks"]))
 
 
+@unittest.skipUnless(interface_solvers.solvers_here(), "neither TetGen nor gmsh is installed")
 class SolverTest(unittest.TestCase):
     def test_cubes_are_filled(self):
-        self.assertTrue(interface_solvers.solvers_here(), "neither TetGen nor gmsh is installed")
         for name, solver in interface_solvers.solvers_here().items():
             with self.subTest(name):
                 self.assertEqual(solver(cubes()), "12")
