@@ -130,6 +130,8 @@ def folded_edges(shape):
     _, edge, faces = np.unique(_keys(np.sort(ends, axis=1)), return_inverse=True,
                                return_counts=True)
     at = np.flatnonzero(faces[edge] > 2)
+    if len(at) == 0:
+        return 0
     ends, third, edge = ends[at], third[at], edge[at]
     # Angles about the edge from its lesser end to the other: where the normal points they grow.
     is_ahead = ends[:, 0] < ends[:, 1]

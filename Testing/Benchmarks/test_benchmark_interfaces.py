@@ -78,15 +78,15 @@ class TopologyTest(unittest.TestCase):
         self.assertEqual(figures.wrong_edges(np.vstack([faces, faces])), 18)
 
     def test_labels_that_overlap_at_a_line_are_told(self):
-        """The interface leans over the top of the second cube, which nothing crosses."""
-        shape = cubes()
-        self.assertEqual(figures.folded_edges(shape), 0)
-        for lean, folded in ((-.2, 0), (.2, 0)):
-            leaning = cubes()
-            leaning.points[[5, 7], 0] += lean
-            self.assertEqual(figures.folded_edges(leaning), folded)
+        for lean in (-.2, 0, .2):  # the interface's upper edge
+            shape = cubes()
+            shape.points[[5, 7], 0] += lean
+            self.assertEqual(figures.folded_edges(shape), 0)
+        below = cubes()
+        below.points[[5, 7], 2] = -1
+        self.assertGreater(figures.folded_edges(below), 0)
         is_interface = (shape.sides == (1, 2)).all(axis=1)
-        shape.sides[is_interface] = 2, 1  # turned over, so that both labels are on both sides
+        shape.sides[is_interface] = 2, 1
         self.assertEqual(figures.folded_edges(shape), 4)
 
     def test_a_vertex_of_two_fans_is_pinched(self):
