@@ -8,7 +8,8 @@ vtkWindowedSincPolyDataFilter, all judged by the same code, all labels of a map 
 `s` is processor seconds, of one thread, the median of the repetitions, by turns; `time` is that over
 the separate surfaces'. `crossing` are pairs of triangles that meet elsewhere than in corners and edges
 that they share, counted by CGAL. `open` are edges where the boundary of a label is not closed,
-oriented and manifold, summed over the labels, and `pinched` the vertices where it touches itself.
+oriented and manifold, summed over the labels, `folded` those of three triangles or more around which
+labels overlap, and `pinched` the vertices where it touches itself.
 `lines` are edges of three triangles or more that are told to be no line, and lines that are no such
 edge. `vol %` is the largest error of a label's volume against its voxels, of labels of over 1000, and
 the median. `q` is the radius ratio of triangles; `angle` the least one, degrees, of triangles that have
@@ -35,7 +36,7 @@ from interface_solvers import solvers_here
 
 COLUMNS = {
     "Seconds": "s", "Time": "time", "Vertices": "vertices", "Intersections": "crossing",
-    "WrongEdges": "open", "Pinched": "pinched", "WrongLines": "lines", "LostLabels": "lost",
+    "WrongEdges": "open", "Folded": "folded", "Pinched": "pinched", "WrongLines": "lines", "LostLabels": "lost",
     "VolumeLargest": "vol %", "VolumeMedian": "50 %", "RatioMean": "q", "Ratio01": "q 1 %",
     "AngleInner": "angle", "AngleLeast": "of all", "Roughness": "rough", "WrongVoxels": "wrong",
     "tetgen": "TetGen", "gmsh": "gmsh"}
@@ -128,6 +129,7 @@ def target_rows(name, measured):
         ("pairs of triangles that cross", shared["Intersections"], "<=", 0),
         ("triangles without area", shared["Flat"], "<=", 0),
         ("edges where a label is not closed", shared["WrongEdges"], "<=", 0),
+        ("edges at which labels overlap", shared["Folded"], "<=", 0),
         ("vertices where a label touches itself", shared["Pinched"], "<=", 0),
         ("edges of three triangles that are no line, or lines that are none", shared["WrongLines"],
          "<=", 0),

@@ -122,6 +122,36 @@ def edges_of_many(shape):
     return edges[faces > 2]
 
 
+def folded_edges(shape):
+    """Edges of three triangles or more around which two in a row have another label in front of the
+    one than behind the other: what is between them is of both, though nothing crosses."""
+    ends = directed_edges(shape.triangles)
+    third = shape.triangles[:, [2, 0, 1]].ravel()
+    _, edge, faces = np.unique(_keys(np.sort(ends, axis=1)), return_inverse=True,
+                               return_counts=True)
+    at = np.flatnonzero(faces[edge] > 2)
+    if len(at) == 0:
+        return 0
+    ends, third, edge = ends[at], third[at], edge[at]
+    # Angles about the edge from its lesser end to the other: where the normal points they grow.
+    is_ahead = ends[:, 0] < ends[:, 1]
+    axis = np.diff(shape.points[np.sort(ends, axis=1)], axis=1)[:, 0]
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    across = shape.points[third] - shape.points[ends[:, 0]]
+    _, first, of_edge = np.unique(edge, return_index=True, return_inverse=True)
+    u = np.cross(axis, across)[first][of_edge]
+    v = np.cross(axis, u)
+    angle = np.arctan2(np.einsum("ij,ij->i", across, u) * np.linalg.norm(v, axis=1),
+                       -np.einsum("ij,ij->i", across, v) * np.linalg.norm(u, axis=1))
+    below, above = np.where(is_ahead[:, None], shape.sides[at // 3], shape.sides[at // 3][:, ::-1]).T
+    order = np.lexsort((angle, of_edge))
+    starts = np.searchsorted(of_edge[order], np.arange(len(first)))
+    following = np.arange(len(order)) + 1
+    following[np.append(starts[1:], len(order)) - 1] = starts
+    is_wrong = above[order] != below[order[following]]
+    return len(np.unique(of_edge[order][is_wrong]))
+
+
 def wrong_lines(shape):
     """Edges of three triangles or more that are no line, and lines that are no such edge."""
     lines = np.sort(shape.lines, axis=1)
@@ -287,7 +317,7 @@ def figures_of(shape, voxels, judge, large=1000):
     inner = least[~at_junction[shape.triangles].any(axis=1)]
     return {
         "Vertices": len(np.unique(shape.triangles)), "Triangles": len(shape.triangles),
-        "Intersections": pairs, "Flat": flat, "Lines": len(lines),
+        "Intersections": pairs, "Flat": flat, "Folded": folded_edges(shape), "Lines": len(lines),
         "WrongLines": np.nan if shape.lines is None else wrong_lines(shape),
         "WrongJunctions": np.nan if shape.junction is None else wrong_junctions(shape),
         "WrongBlocks": np.nan if shape.blocks is None else wrong_blocks(shape),

@@ -121,7 +121,7 @@ def part_sides(shape):
 
 def write_model(shape, folder):
     """in.msh, of version 2.2, a surface for each pair of parts, and in.geo, a volume for each part:
-    one of several parts gmsh would take for a void. Better tetrahedra are not asked for."""
+    one of several parts gmsh would take for a void. Few tetrahedra are asked for, good or not."""
     points, triangles = shape.points, shape.triangles
     sides, labels = part_sides(shape)
     pairs, surface = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
@@ -135,7 +135,7 @@ def write_model(shape, folder):
                                           triangles + 1]), "%d 2 2" + " %d" * 5)
         file.write("$EndElements\n")
     with open(os.path.join(folder, "in.geo"), "w", encoding="ascii") as file:
-        file.write('Mesh.Optimize = 0;\nMerge "in.msh";\n')
+        file.write('Merge "in.msh";\nMesh.Optimize = 0;\nMesh.MeshSizeExtendFromBoundary = 0;\n')
         for part in range(1, len(labels) + 1):
             surfaces = ", ".join(map(str, np.flatnonzero((pairs == part).any(axis=1)) + 1))
             file.write(f"Surface Loop({part}) = {{{surfaces}}};\nVolume({part}) = {{{part}}};\n")
@@ -166,7 +166,9 @@ def gmsh(shape):
         said, failure = run(folder, "gmsh", "-3", "-nt", "1", "-format", "msh22", "-o", "out.msh",
                             "in.geo")
         if failure:
-            return "facets intersect" if "overlap" in said or "intersect" in said else failure
+            errors = [line.split(":", 1)[-1] for line in said.splitlines() if line[:5] == "Error"]
+            return ("facets intersect" if "overlap" in said or "intersect" in said
+                    else failure + "".join(errors[:1])[:50])
         return answer(shape, *read_tetrahedra(os.path.join(folder, "out.msh")))
 
 

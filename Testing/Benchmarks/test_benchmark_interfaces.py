@@ -77,6 +77,18 @@ class TopologyTest(unittest.TestCase):
         faces = cubes().faces_of(1)
         self.assertEqual(figures.wrong_edges(np.vstack([faces, faces])), 18)
 
+    def test_labels_that_overlap_at_a_line_are_told(self):
+        for lean in (-.2, 0, .2):  # the interface's upper edge
+            shape = cubes()
+            shape.points[[5, 7], 0] += lean
+            self.assertEqual(figures.folded_edges(shape), 0)
+        below = cubes()
+        below.points[[5, 7], 2] = -1
+        self.assertGreater(figures.folded_edges(below), 0)
+        is_interface = (shape.sides == (1, 2)).all(axis=1)
+        shape.sides[is_interface] = 2, 1
+        self.assertEqual(figures.folded_edges(shape), 4)
+
     def test_a_vertex_of_two_fans_is_pinched(self):
         one, other = cubes(), cubes()
         faces = np.vstack([one.faces_of(1), np.where(other.faces_of(2) == 11, 0,
@@ -206,9 +218,9 @@ class ShapeTest(unittest.TestCase):
         self.assertTrue(np.isnan(told["WrongBlocks"]))
 
 
+@unittest.skipUnless(interface_solvers.solvers_here(), "neither TetGen nor gmsh is installed")
 class SolverTest(unittest.TestCase):
     def test_cubes_are_filled(self):
-        self.assertTrue(interface_solvers.solvers_here(), "neither TetGen nor gmsh is installed")
         for name, solver in interface_solvers.solvers_here().items():
             with self.subTest(name):
                 self.assertEqual(solver(cubes()), "12")
