@@ -44,6 +44,7 @@ set(volumic_writer_sources
   Ranks.cxx
   RunWriter.cxx
   SolidRegions.cxx
+  SolidShells.cxx
   SolverFiles.cxx
   StreamedWriters.cxx
   SurfaceFields.cxx
