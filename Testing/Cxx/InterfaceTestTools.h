@@ -4,6 +4,7 @@
 #define volumicInterfaceTestTools_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 #include "Core/Mesh/SelfIntersections.h"
@@ -129,7 +130,8 @@ inline std::map<std::array<int, 2>, int> FacesAtEdges(const InterfaceMesh& mesh)
 
 /**
  * The invariants of interfaces: the surface of each object but 0 is closed, oriented and manifold,
- * and encloses something; nothing intersects; strata are those of the faces at the edges.
+ * and encloses something; nothing intersects; strata are those of the faces at the edges, which are
+ * about lines in the order of their objects.
  */
 inline void ExpectSound(const InterfaceMesh& mesh)
 {
@@ -169,6 +171,17 @@ inline void ExpectSound(const InterfaceMesh& mesh)
   const std::vector<std::array<int, 2>> found = mesh.FindLines();
   EXPECT_EQ(Edges(found.begin(), found.end()), lines);
   EXPECT_EQ(found.size(), lines.size());
+  for (const std::array<int, 2>& line : found)
+  {
+    std::vector<int> about;
+    mesh.FindFaces(line[0], line[1], about);
+    std::vector<PlacedFace> placed;
+    for (const int f : about)
+    {
+      placed.push_back(PlacedFaceOf(mesh, mesh.Faces[static_cast<std::size_t>(f)]));
+    }
+    EXPECT_TRUE(AreInOrder(line[0], line[1], placed)) << line[0] << ' ' << line[1];
+  }
 }
 
 /** Of an object, in voxels if these are cubes of side 1. */

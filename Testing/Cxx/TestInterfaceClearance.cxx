@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/InterfaceClearance.h"
+
+#include "InterfaceTestTools.h"
+
+using namespace volumic;
+
+namespace
+{
+/** Four faces about an edge along z, at angles of degrees, between objects 1, 2, 3 and 4. */
+InterfaceMesh FacesAt(const std::array<double, 4>& angles)
+{
+  InterfaceMesh mesh;
+  mesh.AddVertex(Vector(0.f, 0.f, 0.f), Stratum::Line);
+  mesh.AddVertex(Vector(0.f, 0.f, 1.f), Stratum::Line);
+  for (int n = 0; n < 4; ++n)
+  {
+    const double angle = angles[static_cast<std::size_t>(n)] * std::acos(-1.) / 180.;
+    const int outer = mesh.AddVertex(Vector(static_cast<float>(std::cos(angle)),
+                                       static_cast<float>(std::sin(angle)), 0.5f),
+      Stratum::Interface);
+    // Object n + 1 is at smaller angles, the next one at larger ones.
+    const auto before = static_cast<LabelMap::Number>(n + 1);
+    const auto after = static_cast<LabelMap::Number>((n + 1) % 4 + 1);
+    mesh.AddFace(before < after ? InterfaceMesh::Face{ { outer, 0, 1 }, before, after }
+                                : InterfaceMesh::Face{ { outer, 1, 0 }, after, before });
+  }
+  return mesh;
+}
+
+bool AreInOrderAbout(const InterfaceMesh& mesh, int u, int v)
+{
+  std::vector<PlacedFace> faces;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    faces.push_back(PlacedFaceOf(mesh, face));
+  }
+  return AreInOrder(u, v, faces);
+}
+}
+
+TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)
+{
+  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 0., 90., 180., 270. }), 0, 1));
+  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 0., 90., 180., 270. }), 1, 0));
+  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 300., 20., 30., 299. }), 0, 1));
+  EXPECT_FALSE(AreInOrderAbout(FacesAt({ 0., 181., 180., 270. }), 0, 1));
+  EXPECT_FALSE(AreInOrderAbout(FacesAt({ 0., 90., 180., 10. }), 1, 0));
+}
+
+TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
+{
+  const InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
+  InterfaceClearance clearance(mesh, 1e-3);
+  clearance.Reset(2.);
+  InterfaceClearance::Memory memory;
+  std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[1]) };
+  EXPECT_TRUE(clearance.AreClear(made, { 1 }, memory));
+  made.front().Corner[0] = VectorD(-0.9, 0.3, 0.5); // Before that of 180 degrees.
+  EXPECT_TRUE(clearance.AreClear(made, { 1 }, memory));
+  made.front().Corner[0] = VectorD(-0.9, -0.3, 0.5); // Beyond it, without any crossing.
+  EXPECT_FALSE(clearance.AreClear(made, { 1 }, memory));
+}
+
+TEST(InterfaceClearance, FindsWhatIntersectsAFace)
+{
+  InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
+  const int first = mesh.AddVertex(Vector(0.4f, -0.2f, 0.5f), Stratum::Interface);
+  mesh.AddVertex(Vector(0.4f, 0.2f, 0.5f), Stratum::Interface);
+  mesh.AddVertex(Vector(0.6f, 0.2f, 0.5f), Stratum::Interface);
+  const int across = mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
+  InterfaceClearance clearance(mesh, 1e-3);
+  clearance.Reset(2.);
+  InterfaceClearance::Memory memory;
+  EXPECT_EQ(clearance.FindIntersecting(across, 0, memory), 0);
+  EXPECT_EQ(clearance.FindIntersecting(0, 1, memory), across);
+  EXPECT_EQ(clearance.FindIntersecting(across, 1, memory), -1);
+  EXPECT_EQ(clearance.FindIntersecting(2, 0, memory), -1);
+}
