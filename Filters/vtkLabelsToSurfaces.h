@@ -34,15 +34,6 @@
  *   those that it puts there count, too); `MissedVoxels` (vtkIdType: those of them that are further
  *   from the surface than VoxelTolerance).
  * @par
- * Port 1, `Interfaces`: a vtkPolyData, empty without SharedInterfaces; with it lines of two points,
- * where interfaces meet, and then the triangles of all labels, each once. Points in double precision,
- * with `Junction` (unsigned char: 0 on an interface, 1 on a line where interfaces meet, 2 where lines
- * meet); `BoundaryLabels` of cells (int, 2 components: the label behind the triangle, and the one that
- * its normal points into; BackgroundLabel outside, and of lines; with Merge the nearest label, and the
- * outside); field data `Label`, `LabelName`, `LabelColor` and `LabelVoxels`, an entry per label. Points of blocks at port 0 have
- * `GlobalIds` (vtkIdType): their numbers here.
- *
- * @par
  * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Points as those of the blocks,
  * whose point data `GlobalIds` (vtkIdType) then say which; cells are the segments of junction lines,
  * where three labels or more meet (outside is one of them), then triangles.
@@ -194,9 +185,11 @@ public:
    * surfaces that overlap, or leave a gap: no pair of its triangles intersects, what is between two
    * labels is there once, at output port 1, and each block of port 0 is a closed surface of the same
    * points. What nobody has chosen is outside. Volumes are those of the voxels. KeepComponents leaves
-   * parts out by their voxels, and gives these to the neighbour that has most of their faces. One
-   * process makes them, and MemoryLimit does not bound the mesh. After a run that was stopped all is
-   * made anew. Not with Gap, Tolerance or ThinParts. Default: off.
+   * parts out by their voxels, and gives these to the neighbour that has most of their faces. The
+   * first process makes them, and listens to its own AbortExecute alone; MemoryLimit does not bound
+   * the mesh. A run that was stopped hands over all surfaces as they are by then, or, before there
+   * are any, empty blocks; afterwards all is made anew. Not with Gap, Tolerance or ThinParts.
+   * Default: off.
    */
   void SetSharedInterfaces(bool shared);
   bool GetSharedInterfaces();

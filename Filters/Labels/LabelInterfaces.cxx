@@ -13,7 +13,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkIdTypeArray.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -77,13 +76,15 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
   const LabelSettings& settings, HostThreads& threads)
   : Settings(settings), Space(image, static_cast<Metric>(settings.Metric))
 {
+  LabelSurfaceMaker::PlanOf(settings, image); // Lengths have the same limits.
   const auto keep = static_cast<KeepComponentsType>(settings.KeepComponents);
   if (keep != KeepComponentsType::AllComponents)
   {
     const double ofVoxel =
       map.Spacing[0] * map.Spacing[1] * map.Spacing[2] * std::pow(this->Space.WorldUnit(), 3.0);
-    GiveAwaySmallParts(map, objects,
-      static_cast<std::int64_t>(std::ceil(settings.MinimumComponentVolume / ofVoxel)),
+    const double least = std::min(std::ceil(settings.MinimumComponentVolume / ofVoxel),
+      static_cast<double>(map.Voxels.size()) + 1.0);
+    GiveAwaySmallParts(map, objects, static_cast<std::int64_t>(least),
       keep == KeepComponentsType::LargestComponent);
   }
   this->Map = Padded(map, objects);

@@ -30,6 +30,7 @@ public:
    * @param map     objects up to `objects` are the labels', others are outside
    * @param image   its geometry is the map's
    * Settings must outlive it.
+   * @throws std::invalid_argument as LabelSurfaceMaker.
    */
   LabelInterfaceMaker(LabelMap map, int objects, vtkImageData* image,
     const LabelSettings& settings, HostThreads& threads);

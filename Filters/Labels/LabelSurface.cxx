@@ -125,6 +125,21 @@ LabelFieldOptions LabelSurfaceMaker::FieldOptions(
   return options;
 }
 
+EdgeLengthPlan LabelSurfaceMaker::PlanOf(const LabelSettings& settings, vtkImageData* image)
+{
+  if (settings.EdgeLength == 0.0)
+  {
+    return {};
+  }
+  // Fields get as much room as their levels need, whatever the size of the image.
+  constexpr int enough = 1 << 12;
+  vtkNew<vtkImageData> frame;
+  frame->SetDimensions(enough, enough, enough);
+  frame->SetSpacing(image->GetSpacing());
+  PyramidOptions pyramid;
+  return PlanEdgeLength(settings.EdgeLength, SurfaceOptions().SamplingRatio, frame, pyramid);
+}
+
 LabelSurfaceMaker::LabelSurfaceMaker(
   const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings)
   : Bricks(bricks)
@@ -134,17 +149,7 @@ LabelSurfaceMaker::LabelSurfaceMaker(
   , Lowered(static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1)
 {
   this->Options = FieldOptions(settings, bricks.Map());
-  if (settings.EdgeLength != 0.0)
-  {
-    // Fields get as much room as their levels need, whatever the size of the image.
-    constexpr int enough = 1 << 12;
-    vtkNew<vtkImageData> frame;
-    frame->SetDimensions(enough, enough, enough);
-    frame->SetSpacing(image->GetSpacing());
-    PyramidOptions pyramid;
-    this->Plan =
-      PlanEdgeLength(settings.EdgeLength, SurfaceOptions().SamplingRatio, frame, pyramid);
-  }
+  this->Plan = PlanOf(settings, image);
 }
 
 SegmentationVolume LabelSurfaceMaker::MakeVolume(

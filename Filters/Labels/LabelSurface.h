@@ -53,6 +53,11 @@ public:
   /** How the fields of objects are made. */
   static LabelFieldOptions FieldOptions(const LabelSettings& settings, const LabelMap& map);
 
+  /**
+   * @throws std::invalid_argument naming the lengths that are possible, if EdgeLength is none.
+   */
+  static EdgeLengthPlan PlanOf(const LabelSettings& settings, vtkImageData* image);
+
   /** Where objects meet by threes: first of all objects, before any surface is made. */
   bool HasClaims() const { return this->Bricks.HasContested(); }
   void AddClaim(int object, HostThreads& threads);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 using namespace volumic;
 
@@ -60,6 +61,22 @@ TEST(SmallParts, AreAllButTheLargest)
   GiveAwaySmallParts(map, 3, 0, true);
   EXPECT_EQ(VoxelsOf(map, 1), 64);
   EXPECT_EQ(VoxelsOf(map, 3), 1); // It is the largest of its object.
+}
+
+TEST(SmallParts, GoToNothingThatGoes)
+{
+  LabelMap map = Parts();
+  GiveAwaySmallParts(map, 3, 1000000, false);
+  EXPECT_EQ(VoxelsOf(map, 0), static_cast<long>(map.Voxels.size()));
+  // Two voxels of 1 in some of 3 in 2: all of it is 2 then.
+  map = MakeLabelMap({ 9, 9, 9 }, 3,
+    [](int i, int j, int k)
+    {
+      const bool isNear = std::abs(i - 4) < 2 && std::abs(j - 4) < 2 && std::abs(k - 4) < 2;
+      return i == 4 && j == 4 && k > 3 && k < 6 ? 1 : isNear ? 3 : 2;
+    });
+  GiveAwaySmallParts(map, 3, 100, false);
+  EXPECT_EQ(VoxelsOf(map, 2), 729);
 }
 
 TEST(SmallParts, AreNotLookedForBeyondTheObjects)

@@ -2,17 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceFields.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Labels/BoundaryRows.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace volumic
 {
 namespace
 {
+/** One of so many is a large part. */
+constexpr std::int64_t LargePart = 8;
+
 /** The values of one object: brick after brick. */
 struct BricksOfObject
 {
@@ -70,18 +75,32 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   std::vector<BricksOfObject> made(count);
   std::atomic<std::size_t> done{ 0 };
   std::atomic<bool> goesOn{ true };
-  ForBlocks(executor, count, 1,
-    [&](std::size_t n, std::size_t, std::size_t)
+  const auto make = [&](int object, Executor& threads)
+  {
+    if (goesOn && bricks.ExtentOf(object).Voxels > 0)
     {
-      const int object = order[n];
-      if (goesOn && bricks.ExtentOf(object).Voxels > 0)
-      {
-        const LabelField field = MakeLabelField(bricks, object, options, OnThisThread());
-        made[static_cast<std::size_t>(object)] = CopyBricks(field, bricks, object);
-      }
-      const double share = static_cast<double>(++done) / static_cast<double>(count);
-      goesOn = goOn(share) && goesOn;
-    });
+      const LabelField field = MakeLabelField(bricks, object, options, threads);
+      made[static_cast<std::size_t>(object)] = CopyBricks(field, bricks, object);
+    }
+    if (!goOn(static_cast<double>(++done) / static_cast<double>(count)))
+    {
+      goesOn = false;
+    }
+  };
+  std::int64_t rest = 0;
+  for (const int object : order)
+  {
+    rest += bricks.ExtentOf(object).Bricks.Count();
+  }
+  // Those that are a large part of what is left by all threads, the others side by side.
+  std::size_t first = 0;
+  for (; first < count && LargePart * bricks.ExtentOf(order[first]).Bricks.Count() > rest; ++first)
+  {
+    rest -= bricks.ExtentOf(order[first]).Bricks.Count();
+    make(order[first], executor);
+  }
+  ForBlocks(executor, count - first, 1,
+    [&](std::size_t n, std::size_t, std::size_t) { make(order[first + n], OnThisThread()); });
   this->Shifts.assign(count, 0.f);
   this->First.assign(static_cast<std::size_t>(VoxelBox::Of(bricks.Size()).Count()) + 1, 0);
   for (const BricksOfObject& of : made)
@@ -223,8 +242,8 @@ InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& p
   Sample sample;
   sample.Value =
     between(layer[0], layer[1], share[2]) + this->Shifts[static_cast<std::size_t>(object)];
-  const float x = between(
-    between(along[0][0], along[0][1], share[1]), between(along[1][0], along[1][1], share[1]), share[2]);
+  const float x = between(between(along[0][0], along[0][1], share[1]),
+    between(along[1][0], along[1][1], share[1]), share[2]);
   const float y = between(row[0][1] - row[0][0], row[1][1] - row[1][0], share[2]);
   sample.Gradient = Vector(x / static_cast<float>(this->Lengths[0]),
     y / static_cast<float>(this->Lengths[1]),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceFit.h"
 
+#include "Core/Common/Blocks.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Labels/WrongVoxels.h"
 
@@ -19,6 +20,22 @@ namespace
 constexpr int VolumeSweeps = 200;
 /** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
 constexpr float PushOfWrong = 0.25f;
+
+/** Where fields differ less from place to place nothing is said by how much. */
+constexpr double LeastSlope = 0.3;
+
+/** How fast half of the difference of its fields grows across a face. */
+double SlopeAt(
+  const InterfaceMesh& mesh, const InterfaceFields& fields, const InterfaceMesh::Face& face)
+{
+  Vector middle;
+  for (const int v : face.Vertex)
+  {
+    middle += mesh.Position[static_cast<std::size_t>(v)] * (1.f / 3.f);
+  }
+  return 0.5 * Length(fields.Interpolate(face.Behind, middle).Gradient -
+                 fields.Interpolate(face.Front, middle).Gradient);
+}
 
 /** Of each object but 0 the voxels that its surface has on the wrong side. */
 std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
@@ -77,7 +94,8 @@ void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
         Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
       missing[face.Behind] -= volume;
       missing[face.Front] += volume;
-      areas[{ face.Behind, face.Front }] += 0.5 * Length(across);
+      areas[{ face.Behind, face.Front }] +=
+        0.5 * Length(across) / std::max(SlopeAt(mesh, fields, face), LeastSlope);
     }
   }
   std::vector<double> shifts(count, 0.);

@@ -14,8 +14,8 @@ namespace volumic
 /**
  * Shifts all fields so that, to first order, each object but 0, which is what is about the
  * others, gets the volume of its voxels: an interface moves by half of what its two fields are
- * shifted by. The equations, one per object, are a Laplacian whose weights are the areas between
- * two objects.
+ * shifted by, over the slope of half of their difference. The equations, one per object, are a
+ * Laplacian whose weights are the areas between two objects.
  */
 void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields);
 

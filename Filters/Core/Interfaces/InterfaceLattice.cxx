@@ -105,7 +105,7 @@ InterfaceLattice::InterfaceLattice(
   Pitches pitch;
   std::transform(fields.Step().begin(), fields.Step().end(), pitch.begin(),
     [edge](double step) { return 2. * step <= MostPitch * edge ? 2 : 1; });
-  if (HoldsObjects(fields.Bricks(), pitch, executor))
+  if (pitch != this->Distances && HoldsObjects(fields.Bricks(), pitch, executor))
   {
     this->Distances = pitch;
   }

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <new>
+#include <utility>
 
 namespace volumic
 {
@@ -33,6 +36,11 @@ void InterfaceMesh::Unlink(int corner, int v)
 
 int InterfaceMesh::AddFace(const Face& face)
 {
+  constexpr std::size_t most = std::numeric_limits<int>::max() / 3;
+  if (this->Faces.size() >= most)
+  {
+    throw std::bad_alloc(); // Corners would have no numbers.
+  }
   const int number = static_cast<int>(this->Faces.size());
   this->Faces.push_back(face);
   this->Next.resize(3 * this->Faces.size());
@@ -231,6 +239,22 @@ double InterfaceMesh::LongestEdge() const
     }
   }
   return std::sqrt(static_cast<double>(longest));
+}
+
+double InterfaceMesh::MeanEdge() const
+{
+  double sum = 0.;
+  double count = 0.;
+  for (const Face& face : this->Faces)
+  {
+    for (int k = 0; k < 3 && face.IsThere(); ++k)
+    {
+      sum += Length(this->Position[static_cast<std::size_t>(face.Vertex[k])] -
+        this->Position[static_cast<std::size_t>(face.Vertex[(k + 1) % 3])]);
+      count += 1.;
+    }
+  }
+  return count > 0. ? sum / count : 0.;
 }
 
 void InterfaceMesh::Compact()

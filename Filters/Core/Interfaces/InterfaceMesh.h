@@ -95,6 +95,7 @@ public:
 
   VectorD NormalOf(const Face& face) const; ///< twice the area long
   double LongestEdge() const;
+  double MeanEdge() const; ///< of the faces' edges
 
   /** Takes what is removed out of all arrays. */
   void Compact();

@@ -15,6 +15,7 @@ namespace volumic
 namespace
 {
 constexpr std::size_t BlockSize = 1024;
+constexpr std::size_t MostBlocks = 64;
 /** Cosine of the angle by which a face may turn. */
 constexpr double LeastTurnCosine = 0.3;
 
@@ -92,8 +93,10 @@ private:
   void TakeBackIntersecting(const std::vector<int>& faces, bool isFirst, std::vector<int>& back)
   {
     this->Follow(back);
-    std::vector<std::vector<std::array<int, 2>>> ofBlocks((faces.size() + BlockSize - 1) / BlockSize);
-    ForBlocks(this->Threads, faces.size(), BlockSize,
+    // Each block remembers what it has seen of all faces.
+    const std::size_t size = std::max(BlockSize, faces.size() / MostBlocks + 1);
+    std::vector<std::vector<std::array<int, 2>>> ofBlocks((faces.size() + size - 1) / size);
+    ForBlocks(this->Threads, faces.size(), size,
       [&](std::size_t block, std::size_t begin, std::size_t end)
       {
         InterfaceClearance::Memory memory;

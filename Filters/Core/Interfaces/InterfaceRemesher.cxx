@@ -29,8 +29,8 @@ constexpr double LeastGain = 0.02;
 
 InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest,
   double tolerance, std::function<bool()> goOn)
-  : Mesh(mesh), GoOn(std::move(goOn)), Clearance(mesh, tolerance), Shortest(static_cast<float>(shortest * shortest)),
-    Longest(static_cast<float>(longest * longest))
+  : Mesh(mesh), GoOn(std::move(goOn)), Clearance(mesh, tolerance),
+    Shortest(static_cast<float>(shortest * shortest)), Longest(static_cast<float>(longest * longest))
 {
   this->Clearance.Reset(std::max(mesh.LongestEdge(), longest));
 }

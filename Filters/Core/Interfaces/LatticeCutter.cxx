@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/LatticeCutter.h"
 
+#include "Core/Common/Blocks.h"
+
 #include <algorithm>
 #include <limits>
 #include <tuple>
@@ -72,6 +74,16 @@ void LatticeCutter::FindMiddles(Executor& executor)
 
 LatticeCutter::Number LatticeCutter::ObjectBetween(const std::array<int, 3>& halves) const
 {
+  constexpr int side = LabelBricks::Side;
+  std::array<int, 3> voxel;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    voxel[axis] = this->Pitch[axis] * halves[axis] >> 1;
+  }
+  if (!this->Fields.HasInterfaces(voxel[0] / side, voxel[1] / side, voxel[2] / side))
+  {
+    return this->ObjectOf(voxel); // All about it is the same.
+  }
   std::array<Number, 8> about;
   std::size_t count = 0;
   this->ForVoxels(halves,
@@ -155,8 +167,8 @@ void LatticeCutter::CutBrick(int i, int j, int k)
 
 void LatticeCutter::CutAbout(const std::array<int, 3>& cube)
 {
-  // Each tetrahedron has one edge between corners of cubes, and one between middles of cubes: it belongs to
-  // the lower end of the former.
+  // Each tetrahedron has one edge between corners of cubes, and one between middles of cubes: it
+  // belongs to the lower end of the former.
   for (int axis = 0; axis < 3; ++axis)
   {
     const int first = (axis + 1) % 3;
@@ -335,7 +347,8 @@ LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
   const Key x = static_cast<Key>(site.At[0]);
   const Key y = static_cast<Key>(site.At[1]);
   const Key z = static_cast<Key>(site.At[2]);
-  return x + static_cast<Key>(2 * this->Map.Size[0]) * (y + static_cast<Key>(2 * this->Map.Size[1]) * z);
+  return x +
+    static_cast<Key>(2 * this->Map.Size[0]) * (y + static_cast<Key>(2 * this->Map.Size[1]) * z);
 }
 
 int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)

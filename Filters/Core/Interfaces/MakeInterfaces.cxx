@@ -30,6 +30,8 @@ constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
 /** In the last rounds those are split that steps have drawn out. */
 constexpr double LongestLast = 1.8;
+/** How much longer than they are edges are made in a round. */
+constexpr double MostGrowth = 3.;
 /** No step makes an edge shorter than that, in the same. */
 constexpr double LeastShare = 0.5;
 /** Nearer triangles count as intersecting, in the same. */
@@ -38,12 +40,18 @@ constexpr double ToleranceOfEdge = 1e-3;
 constexpr double StepShare = 0.7;
 
 /** A round's edits. */
-void Edit(InterfaceMesh& mesh, double edge, int round, const std::function<bool()>& goOn)
+void Edit(InterfaceMesh& mesh, double wanted, int round, const std::function<bool()>& goOn)
 {
-  const double longest = round < Rounds ? LongestShare : LongestLast;
-  InterfaceRemesher remesher(
-    mesh, ShortestShare * edge, longest * edge, ToleranceOfEdge * edge, goOn);
-  remesher.SplitLongEdges();
+  // What is searched near goes with the square of the lengths: they grow by rounds.
+  const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
+  const double longest = (round < Rounds ? LongestShare : LongestLast) * edge;
+  const auto remesherOf = [&]
+  {
+    return InterfaceRemesher(
+      mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
+  };
+  remesherOf().SplitLongEdges();
+  InterfaceRemesher remesher = remesherOf(); // Its grid is one for edges as they are now.
   if (round < Rounds)
   {
     remesher.CollapseShortEdges();

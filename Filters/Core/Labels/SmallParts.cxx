@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/SmallParts.h"
 
+#include "Core/Image/VoxelBox.h"
 #include "Core/Image/VoxelNumbers.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -23,12 +25,12 @@ struct LabelPart
   std::vector<std::int64_t> Voxels;
 };
 
-/** All parts of objects up to a number, in the order of their first voxels. */
+/** All parts of objects from one number to another, in the order of their first voxels. */
 class PartFinder
 {
 public:
-  PartFinder(const LabelMap& map, int objects)
-    : Map(map), Objects(objects), Numbers(map.Size), IsFound(map.Voxels.size(), 0)
+  PartFinder(const LabelMap& map, int first, int last)
+    : Map(map), First(first), Last(last), Numbers(map.Size), IsFound(map.Voxels.size(), 0)
   {
   }
 
@@ -38,7 +40,7 @@ public:
     for (std::size_t v = 0; v < this->Map.Voxels.size(); ++v)
     {
       const Number object = this->Map.Voxels[v];
-      if (object != 0 && object <= this->Objects && this->IsFound[v] == 0)
+      if (object >= this->First && object <= this->Last && this->IsFound[v] == 0)
       {
         parts.push_back(this->PartOf(static_cast<std::int64_t>(v)));
       }
@@ -77,13 +79,17 @@ private:
   }
 
   const LabelMap& Map;
-  int Objects;
+  int First;
+  int Last;
   VoxelNumbers Numbers;
   std::vector<unsigned char> IsFound;
 };
 
-/** What it shares most faces with; of several the one with the smallest number. */
-Number NeighbourOf(const LabelPart& part, const LabelMap& map)
+/**
+ * What it shares most faces with, of objects that have voxels yet, or 0, the outside; of several the
+ * one with the smallest number.
+ */
+Number NeighbourOf(const LabelPart& part, const LabelMap& map, int objects)
 {
   const VoxelNumbers numbers(map.Size);
   std::map<Number, std::int64_t> faces;
@@ -97,19 +103,30 @@ Number NeighbourOf(const LabelPart& part, const LabelMap& map)
         std::array<int, 3> near = at;
         near[axis] += step;
         const Number other = map.At(near[0], near[1], near[2]);
-        faces[other] += other != part.Object ? 1 : 0;
+        if (other != part.Object)
+        {
+          ++faces[other > objects ? Number(0) : other];
+        }
       }
     }
   }
   return std::max_element(faces.begin(), faces.end(),
     [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
+
+void Give(LabelMap& map, const LabelPart& part, Number object)
+{
+  for (const std::int64_t voxel : part.Voxels)
+  {
+    map.Voxels[static_cast<std::size_t>(voxel)] = object;
+  }
+}
 }
 
 void GiveAwaySmallParts(
   LabelMap& map, int objects, std::int64_t leastVoxels, bool keepsLargest)
 {
-  const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
+  const std::vector<LabelPart> parts = PartFinder(map, 1, objects).Find();
   std::vector<std::size_t> largest(static_cast<std::size_t>(objects) + 1, parts.size());
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
@@ -119,20 +136,25 @@ void GiveAwaySmallParts(
       of = n;
     }
   }
-  std::vector<Number> given(parts.size());
+  // All at once, so that none is given to one that goes, too.
+  constexpr Number nobodys = std::numeric_limits<Number>::max();
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     const bool isSmall = static_cast<std::int64_t>(parts[n].Voxels.size()) < leastVoxels;
-    given[n] = isSmall || (keepsLargest && largest[parts[n].Object] != n)
-      ? NeighbourOf(parts[n], map)
-      : parts[n].Object;
-  }
-  for (std::size_t n = 0; n < parts.size(); ++n)
-  {
-    for (const std::int64_t voxel : parts[n].Voxels)
+    if (isSmall || (keepsLargest && largest[parts[n].Object] != n))
     {
-      map.Voxels[static_cast<std::size_t>(voxel)] = given[n];
+      Give(map, parts[n], nobodys);
     }
+  }
+  const std::vector<LabelPart> given = PartFinder(map, nobodys, nobodys).Find();
+  std::vector<Number> to;
+  for (const LabelPart& part : given)
+  {
+    to.push_back(NeighbourOf(part, map, objects));
+  }
+  for (std::size_t n = 0; n < given.size(); ++n)
+  {
+    Give(map, given[n], to[n]);
   }
 }
 }

@@ -11,7 +11,7 @@ namespace volumic
 {
 /**
  * Gives parts of objects, voxels joined by faces, edges or corners, to the object, or the outside,
- * that they share most faces with.
+ * that they share most faces with, of those that are left.
  * @param objects      those up to this number have parts; others are outside
  * @param leastVoxels  parts of fewer voxels are given away
  * @param keepsLargest all parts of an object but its largest, too
