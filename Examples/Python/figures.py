@@ -16,6 +16,7 @@
     evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
     vessels    the paper's figure 6, with recovery and without               --vessels
     labels     surfaces of a label map                                       --label-map
+    interfaces one mesh of labels that touch                                 made grains
 
 The paper's settings are four levels and no recovery.
 
@@ -37,6 +38,7 @@ import numpy as np
 
 import render
 from history_chart import comparison_chart
+from interface_picture import interface_picture
 from label_picture import label_picture
 from pipeline import SKULL, SKULL_ISO
 from pyramid_picture import grey_window, index_bounds, pyramid_picture
@@ -192,6 +194,10 @@ def labels(path):
     return label_picture(path, panel_width(4))
 
 
+def interfaces(_):
+    return interface_picture(panel_width(2))
+
+
 def all_levels_row(surface, coarsest, frame, bounds):
     """Panels and captions of all levels from the coarsest, empty where there is no surface."""
     counts = {level: count for level, count, _ in iterations(surface)}
@@ -236,7 +242,7 @@ def write_picture(draw, scan, folder, name=None):
 
 def main():
     folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Documentation")
-    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels"]
+    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels", "interfaces"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
     parser.add_argument("--only", nargs="+", choices=known, default=known, metavar="PICTURE",
@@ -264,6 +270,8 @@ def main():
                           arguments.output, further_name("graded", path))
         if "labels" in arguments.only and arguments.label_map:
             write_picture(labels, arguments.label_map, arguments.output)
+        if "interfaces" in arguments.only:
+            write_picture(interfaces, None, arguments.output)
         if "vessels" in arguments.only and not wanted:
             print("No --vessels: their pictures stay as they are")
         if "graded" in arguments.only and not arguments.graded:

@@ -44,7 +44,7 @@ class FiguresTest(SharedFolderTestCase):
                            "--graded", self.small, str(RING_ISO), "0.2")
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         names = sorted([draw.__name__ + ".png" for draw in SKULL_PICTURES]
-                       + ["vessels.png", "vessels-s.png", "graded-s.png"])
+                       + ["vessels.png", "vessels-s.png", "graded-s.png", "interfaces.png"])
         self.assertEqual(sorted(os.listdir(self.output)), names)
         for name in names:
             pixels = read_pixels(os.path.join(self.output, name))
