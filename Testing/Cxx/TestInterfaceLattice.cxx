@@ -111,6 +111,31 @@ TEST(InterfaceLattice, IsFineWhereSomethingWouldBeLost)
   ExpectSound(mesh);
 }
 
+TEST(InterfaceLattice, DoesNotBridgeGapsOfAVoxel)
+{
+  // Along each axis, at voxels that are no points of the coarse lattice, and at those that are.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const int gap : { 11, 12 })
+    {
+      SCOPED_TRACE(10 * axis + gap);
+      const InterfaceScene scene(MakeLabelMap({ 24, 24, 24 }, 2,
+        [&](int i, int j, int k)
+        {
+          const std::array<int, 3> at = { i, j, k };
+          const bool isIn = std::min({ i, j, k }) >= 4 && std::max({ i, j, k }) < 20;
+          return !isIn || at[axis] == gap ? 0 : at[axis] < gap ? 1 : 2;
+        }));
+      const InterfaceLattice lattice(*scene.Fields, EdgeOfVoxels, OnThisThread());
+      EXPECT_EQ(lattice.Pitch(), (Pitches{ 2, 2, 2 }));
+      const InterfaceMesh mesh = lattice.Start(OnThisThread());
+      ExpectSound(mesh);
+      EXPECT_TRUE(mesh.FindLines().empty());
+      EXPECT_EQ(mesh.FindFacesOfObjects().size(), 3u);
+    }
+  }
+}
+
 TEST(InterfaceLattice, CutsFourBlocksWhereTheyMeet)
 {
   const InterfaceScene scene(FourBlocks(6));

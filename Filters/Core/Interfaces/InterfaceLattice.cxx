@@ -115,6 +115,7 @@ InterfaceMesh InterfaceLattice::Start(Executor& executor) const
 {
   LatticeCutter cutter(this->Fields, this->Distances);
   cutter.FollowFields(executor);
+  cutter.KeepGaps();
   cutter.FindMiddles(executor);
   const std::array<int, 3>& bricks = this->Fields.Bricks().Size();
   for (int k = 0; k < bricks[2]; ++k)

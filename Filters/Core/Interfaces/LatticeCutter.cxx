@@ -133,6 +133,82 @@ void LatticeCutter::FollowFields(Executor& executor)
     });
 }
 
+void LatticeCutter::KeepGaps()
+{
+  constexpr int side = LabelBricks::Side;
+  const bool areSites = this->Pitch == std::array<int, 3>{ 2, 2, 2 }; // also middles of cubes
+  for (int k = 0; k < this->Map.Size[2]; ++k)
+  {
+    for (int j = 0; j < this->Map.Size[1]; ++j)
+    {
+      for (int i = 0; i < this->Map.Size[0]; ++i)
+      {
+        const std::array<int, 3> voxel = { i, j, k };
+        bool isSite = areSites && (i & 1) == 1 && (j & 1) == 1 && (k & 1) == 1;
+        bool isCorner = true;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          isCorner = isCorner && voxel[axis] % this->Pitch[axis] == 0;
+        }
+        isSite = isSite || isCorner;
+        for (int axis = 0; axis < 3 && isSite &&
+             this->Fields.HasInterfaces(i / side, j / side, k / side);
+             ++axis)
+        {
+          if (this->Pitch[axis] == 2 && voxel[axis] + 2 < this->Map.Size[axis])
+          {
+            this->KeepGapAt(voxel, axis);
+          }
+        }
+      }
+    }
+  }
+}
+
+void LatticeCutter::KeepGapAt(const std::array<int, 3>& voxel, int axis)
+{
+  std::array<int, 3> middle = voxel;
+  ++middle[axis];
+  std::array<int, 3> next = middle;
+  ++next[axis];
+  const Number own = this->ObjectOf(voxel);
+  const Number other = this->ObjectOf(next);
+  const Number between = this->ObjectOf(middle);
+  if (own == other || between == own || between == other)
+  {
+    return;
+  }
+  const bool isFirstLess = this->Fields.At(own, voxel[0], voxel[1], voxel[2]) <=
+    this->Fields.At(other, next[0], next[1], next[2]);
+  for (const std::array<int, 3>& end : { isFirstLess ? voxel : next, isFirstLess ? next : voxel })
+  {
+    if (this->MayChange(end))
+    {
+      this->Map.Voxels[static_cast<std::size_t>(
+        VoxelBox::Of(this->Map.Size).NumberOf(end[0], end[1], end[2]))] = between;
+      return;
+    }
+  }
+}
+
+bool LatticeCutter::MayChange(const std::array<int, 3>& voxel) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const int step : { -this->Pitch[axis], this->Pitch[axis] })
+    {
+      std::array<int, 3> near = voxel;
+      near[axis] += step;
+      if (VoxelBox::Of(this->Map.Size).Contains(near) &&
+        this->ObjectOf(near) == this->ObjectOf(voxel))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
 {
   const std::array<int, 3> cube = { halves[0] >> 1, halves[1] >> 1, halves[2] >> 1 };

@@ -46,6 +46,11 @@ public:
 
   /** Has voxels be of the object whose field is the largest there. */
   void FollowFields(Executor& executor);
+  /**
+   * Where an edge of the lattice passes over a voxel of a third object, one of its ends, the one less
+   * deep in its object, becomes of that: so thin gaps are not bridged. After FollowFields().
+   */
+  void KeepGaps();
   void FindMiddles(Executor& executor);
   void CutBrick(int i, int j, int k);
   InterfaceMesh Take()
@@ -58,6 +63,9 @@ private:
   using Number = LabelMap::Number;
   using Key = std::uint64_t;
 
+  /** The end of an edge that may be of another object: not the last one of its own about it. */
+  bool MayChange(const std::array<int, 3>& voxel) const;
+  void KeepGapAt(const std::array<int, 3>& voxel, int axis);
   /** That whose field is the largest at a site, of those of the voxels about it. */
   Number ObjectBetween(const std::array<int, 3>& halves) const;
   Number ObjectOf(const std::array<int, 3>& voxel) const;
