@@ -258,6 +258,8 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
       }
     }
   }
+  const bool isAtLine = std::any_of(faces.begin(), faces.end(),
+    [this](const PlacedFace& face) { return this->IsAtLine(face); });
   std::vector<int> others;
   for (const int face : memory.Near)
   {
@@ -265,7 +267,10 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
     {
       continue;
     }
-    others.push_back(face);
+    if (isAtLine)
+    {
+      others.push_back(face);
+    }
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
     const Vector* at = this->Mesh.Position.data();
     for (std::size_t n = 0; n < faces.size(); ++n)
@@ -277,7 +282,16 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
       }
     }
   }
-  return this->AreInOrderAtLines(faces, others);
+  return !isAtLine || this->AreInOrderAtLines(faces, others);
+}
+
+bool InterfaceClearance::IsAtLine(const PlacedFace& face) const
+{
+  return std::count_if(face.Vertex, face.Vertex + 3,
+           [this](int v)
+           {
+             return this->Mesh.StratumOf[static_cast<std::size_t>(v)] != Stratum::Interface;
+           }) > 1;
 }
 
 bool InterfaceClearance::AreInOrderAtLines(

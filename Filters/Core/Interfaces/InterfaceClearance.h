@@ -72,6 +72,8 @@ public:
     Memory& memory) const;
 
 private:
+  /** Whether one of its edges may be of a junction line. */
+  bool IsAtLine(const PlacedFace& face) const;
   /** @param others faces that stay, among them all that share an edge with these */
   bool AreInOrderAtLines(
     const std::vector<PlacedFace>& faces, const std::vector<int>& others) const;

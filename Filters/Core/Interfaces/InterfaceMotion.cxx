@@ -137,9 +137,13 @@ private:
       {
         placed.push_back(PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]));
       }
-      for (std::size_t n = 0; !AreInOrder(edge[0], edge[1], placed) && n < faces.size(); ++n)
+      if (AreInOrder(edge[0], edge[1], placed))
       {
-        for (const int v : placed[n].Vertex)
+        continue;
+      }
+      for (const PlacedFace& face : placed)
+      {
+        for (const int v : face.Vertex)
         {
           this->TakeBack(v, back);
         }
