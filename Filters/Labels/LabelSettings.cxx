@@ -51,14 +51,15 @@ void LabelSettings::Check(double unit) const
   {
     Refuse("Shared Interfaces are asked for and a Gap of ", this->Gap,
       ": neighbours have the same triangles, or space between them. Set Gap to 0, or Shared "
-      "Interfaces off.");
+      "Interfaces off (files for meshers of solids, .msh, .smesh and .poly, need them).");
   }
   if (this->SharedInterfaces && (this->Grading.Tolerance > 0.0 || this->Grading.ThinParts))
   {
     Refuse(this->Grading.ThinParts ? "Thin Parts are" : "A Tolerance is",
       " asked for and Shared Interfaces, whose triangles have one size. Set ",
       this->Grading.ThinParts ? "Thin Parts off" : "Tolerance to 0",
-      ", or Shared Interfaces off; a shorter Edge Length makes all triangles smaller.");
+      ", or Shared Interfaces off (files for meshers of solids, .msh, .smesh and .poly, need them); "
+      "a shorter Edge Length makes all triangles smaller.");
   }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);

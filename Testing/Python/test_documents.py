@@ -69,7 +69,7 @@ class LinksTest(unittest.TestCase):
         self.assertEqual(there, shown)
         scripted = {draw.__name__ + ".png" for draw in SKULL_PICTURES}
         for name in there - scripted:  # a name per scan; windows, which are not pictures of data
-            self.assertRegex(name, "^(vessels|graded|labels|paraview)")
+            self.assertRegex(name, "^(vessels|graded|labels|interfaces|paraview)")
 
     def test_links_lead_somewhere(self):
         for document in DOCUMENTS:
