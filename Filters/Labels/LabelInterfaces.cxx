@@ -3,6 +3,7 @@
 #include "Labels/LabelInterfaces.h"
 
 #include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/VoxelNumbers.h"
 #include "Core/Interfaces/MakeInterfaces.h"
 #include "Core/Labels/SmallParts.h"
 #include "Core/Labels/WrongVoxels.h"
@@ -47,28 +48,59 @@ double EdgeOf(const LabelSettings& settings, const Workspace& space)
 }
 }
 
-LabelMap LabelInterfaceMaker::Padded(const LabelMap& map, int objects)
+VoxelBox LabelInterfaceMaker::BoxOf(const LabelMap& map, int objects)
+{
+  VoxelBox box;
+  const VoxelBox all = VoxelBox::Of(map.Size);
+  ForRowsOf(all, all,
+    [&](std::int64_t first, std::int64_t count)
+    {
+      const auto isObject = [&](LabelMap::Number object) { return object > 0 && object <= objects; };
+      const auto* row = map.Voxels.data() + first;
+      const auto* begin = std::find_if(row, row + count, isObject);
+      if (begin == row + count)
+      {
+        return;
+      }
+      const auto* end = row + count;
+      while (!isObject(end[-1]))
+      {
+        --end;
+      }
+      const std::array<int, 3> at = VoxelNumbers(map.Size).PlaceOf(first);
+      const VoxelBox part = { { static_cast<int>(begin - row), at[1], at[2] },
+        { static_cast<int>(end - row), at[1] + 1, at[2] + 1 } };
+      box = box.With(part);
+    });
+  for (int& first : box.First)
+  {
+    first -= first % Margin; // Whole bricks, so that what is about does not matter.
+  }
+  return box;
+}
+
+LabelMap LabelInterfaceMaker::Padded(const LabelMap& map, int objects, const VoxelBox& box)
 {
   LabelMap padded;
   padded.Spacing = map.Spacing;
   padded.NumberOfObjects = objects;
   for (int axis = 0; axis < 3; ++axis)
   {
-    padded.Size[axis] = map.Size[axis] + 2 * Margin;
+    const int bricks = (box.Length(axis) + Margin - 1) / Margin;
+    padded.Size[axis] = (bricks + 2) * Margin;
   }
   const VoxelBox all = VoxelBox::Of(padded.Size);
   padded.Voxels.resize(static_cast<std::size_t>(all.Count()), 0);
-  const LabelMap::Number* from = map.Voxels.data();
-  for (int k = 0; k < map.Size[2]; ++k)
-  {
-    for (int j = 0; j < map.Size[1]; ++j)
+  ForRowsOf(box, VoxelBox::Of(map.Size),
+    [&](std::int64_t first, std::int64_t count)
     {
-      std::transform(from, from + map.Size[0],
-        padded.Voxels.begin() + all.NumberOf(Margin, j + Margin, k + Margin),
+      const std::array<int, 3> at = VoxelNumbers(map.Size).PlaceOf(first);
+      const LabelMap::Number* from = map.Voxels.data() + first;
+      std::transform(from, from + count,
+        padded.Voxels.begin() +
+          all.NumberOf(Margin, at[1] - box.First[1] + Margin, at[2] - box.First[2] + Margin),
         [&](LabelMap::Number object) { return object > objects ? LabelMap::Number(0) : object; });
-      from += map.Size[0];
-    }
-  }
+    });
   return padded;
 }
 
@@ -87,7 +119,9 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
     GiveAwaySmallParts(map, objects, static_cast<std::int64_t>(least),
       keep == KeepComponentsType::LargestComponent);
   }
-  this->Map = Padded(map, objects);
+  const VoxelBox box = BoxOf(map, objects);
+  this->First = box.First;
+  this->Map = Padded(map, objects, box);
   threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
 }
 
@@ -127,7 +161,8 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const LabelSurfaceMaker::Pr
 Point LabelInterfaceMaker::InWorkspace(const Vector& place) const
 {
   const std::array<double, 3>& step = this->Space.Step();
-  return { place.X - Margin * step[0], place.Y - Margin * step[1], place.Z - Margin * step[2] };
+  return { place.X + (this->First[0] - Margin) * step[0],
+    place.Y + (this->First[1] - Margin) * step[1], place.Z + (this->First[2] - Margin) * step[2] };
 }
 
 LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& faces) const

@@ -3,6 +3,7 @@
 #ifndef volumicLabelInterfaces_h
 #define volumicLabelInterfaces_h
 
+#include "Core/Image/VoxelBox.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 #include "Core/Labels/LabelBricks.h"
@@ -14,6 +15,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -49,13 +51,16 @@ public:
   vtkSmartPointer<vtkPolyData> Interfaces(const std::vector<int>& labels, int outside) const;
 
 private:
-  /** The map with a margin, and 0 for all that is no object of a label. */
-  static LabelMap Padded(const LabelMap& map, int objects);
+  /** What is about all objects, from the first voxel of a brick on. */
+  static VoxelBox BoxOf(const LabelMap& map, int objects);
+  /** That part of the map with a margin, and 0 for all that is no object of a label. */
+  static LabelMap Padded(const LabelMap& map, int objects, const VoxelBox& box);
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
 
   const LabelSettings& Settings;
-  LabelMap Map;
+  std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the box
+  LabelMap Map; ///< of the box, with its margin
   Workspace Space;
   std::optional<LabelBricks> Bricks;
   std::optional<InterfaceFields> Fields;

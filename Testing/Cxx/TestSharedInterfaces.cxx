@@ -207,6 +207,29 @@ TEST(SharedInterfaces, AreInTheWorld)
   EXPECT_NEAR(bounds[4], 7. + 2.5, 0.4);
 }
 
+TEST(SharedInterfaces, DoNotDependOnWhatIsAboutThem)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->SetKeepComponents(1);
+  filter->Update();
+  const auto image = LabelImageOf(52, 44, 39,
+    [](int i, int j, int k) { return TouchingBlocks(i - 12, j - 8, k - 4); });
+  image->SetOrigin(-12., -8., -4.);
+  const auto other = FilterOf(image);
+  other->SetKeepComponents(1);
+  other->Update();
+  ASSERT_EQ(filter->GetInterfaces()->GetNumberOfPoints(),
+    other->GetInterfaces()->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < filter->GetInterfaces()->GetNumberOfPoints(); ++p)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_NEAR(filter->GetInterfaces()->GetPoint(p)[axis],
+        other->GetInterfaces()->GetPoint(p)[axis], 1e-9);
+    }
+  }
+}
+
 TEST(SharedInterfaces, AreSmallerWithShorterEdges)
 {
   const auto filter = FilterOf(BlocksImage());
