@@ -88,8 +88,13 @@ TEST(SmallParts, AreNotLookedForBeyondTheObjects)
 
 TEST(SmallParts, JoinedByACornerAreOne)
 {
-  LabelMap map = MakeLabelMap({ 6, 6, 6 }, 1,
-    [](int i, int j, int k) { return i == j && j == k && i > 0 && i < 5 ? 1 : 0; });
-  GiveAwaySmallParts(map, 1, 4, false);
-  EXPECT_EQ(VoxelsOf(map, 1), 4);
+  // Along either diagonal: the first voxel is at one of the ends, or beyond others.
+  for (const int sign : { 1, -1 })
+  {
+    LabelMap map = MakeLabelMap({ 6, 6, 6 }, 1,
+      [=](int i, int j, int k)
+      { return j == k && j > 0 && j < 5 && i == (sign > 0 ? j : 5 - j) ? 1 : 0; });
+    GiveAwaySmallParts(map, 1, 4, false);
+    EXPECT_EQ(VoxelsOf(map, 1), 4) << sign;
+  }
 }
