@@ -34,8 +34,16 @@ namespace volumic
 {
 namespace
 {
-/** Voxels of nothing about the map: a brick, so that nothing is cut off by its end. */
-constexpr int Margin = LabelBricks::Side;
+/**
+ * Voxels of nothing about the objects: whole bricks, as far as the Gaussian reaches, less the brick
+ * beyond the map that fields have.
+ */
+int MarginFor(double sigma)
+{
+  constexpr int side = LabelBricks::Side;
+  const int reach = static_cast<int>(std::ceil(3.0 * sigma)) - side;
+  return std::max(1, (reach + side - 1) / side) * side;
+}
 /** Of the whole work. */
 constexpr double FieldShare = 0.4;
 
@@ -74,20 +82,21 @@ VoxelBox LabelInterfaceMaker::BoxOf(const LabelMap& map, int objects)
     });
   for (int& first : box.First)
   {
-    first -= first % Margin; // Whole bricks, so that what is about does not matter.
+    first -= first % LabelBricks::Side; // Whole bricks, so that what is about does not matter.
   }
   return box;
 }
 
-LabelMap LabelInterfaceMaker::Padded(const LabelMap& map, int objects, const VoxelBox& box)
+LabelMap LabelInterfaceMaker::Padded(
+  const LabelMap& map, int objects, const VoxelBox& box, int margin)
 {
+  constexpr int side = LabelBricks::Side;
   LabelMap padded;
   padded.Spacing = map.Spacing;
   padded.NumberOfObjects = objects;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const int bricks = (box.Length(axis) + Margin - 1) / Margin;
-    padded.Size[axis] = (bricks + 2) * Margin;
+    padded.Size[axis] = (box.Length(axis) + side - 1) / side * side + 2 * margin;
   }
   const VoxelBox all = VoxelBox::Of(padded.Size);
   padded.Voxels.resize(static_cast<std::size_t>(all.Count()), 0);
@@ -98,7 +107,7 @@ LabelMap LabelInterfaceMaker::Padded(const LabelMap& map, int objects, const Vox
       const LabelMap::Number* from = map.Voxels.data() + first;
       std::transform(from, from + count,
         padded.Voxels.begin() +
-          all.NumberOf(Margin, at[1] - box.First[1] + Margin, at[2] - box.First[2] + Margin),
+          all.NumberOf(margin, at[1] - box.First[1] + margin, at[2] - box.First[2] + margin),
         [&](LabelMap::Number object) { return object > objects ? LabelMap::Number(0) : object; });
     });
   return padded;
@@ -120,8 +129,10 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
       keep == KeepComponentsType::LargestComponent);
   }
   const VoxelBox box = BoxOf(map, objects);
-  this->First = box.First;
-  this->Map = Padded(map, objects, box);
+  const int margin = MarginFor(LabelSurfaceMaker::FieldOptions(settings, map).Sigma);
+  std::transform(box.First.begin(), box.First.end(), this->First.begin(),
+    [margin](int first) { return first - margin; });
+  this->Map = Padded(map, objects, box, margin);
   threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
 }
 
@@ -161,8 +172,8 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const LabelSurfaceMaker::Pr
 Point LabelInterfaceMaker::InWorkspace(const Vector& place) const
 {
   const std::array<double, 3>& step = this->Space.Step();
-  return { place.X + (this->First[0] - Margin) * step[0],
-    place.Y + (this->First[1] - Margin) * step[1], place.Z + (this->First[2] - Margin) * step[2] };
+  return { place.X + this->First[0] * step[0], place.Y + this->First[1] * step[1],
+    place.Z + this->First[2] * step[2] };
 }
 
 LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& faces) const

@@ -54,12 +54,13 @@ private:
   /** What is about all objects, from the first voxel of a brick on. */
   static VoxelBox BoxOf(const LabelMap& map, int objects);
   /** That part of the map with a margin, and 0 for all that is no object of a label. */
-  static LabelMap Padded(const LabelMap& map, int objects, const VoxelBox& box);
+  static LabelMap Padded(
+    const LabelMap& map, int objects, const VoxelBox& box, int margin);
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
 
   const LabelSettings& Settings;
-  std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the box
+  std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the image that is that of Map
   LabelMap Map; ///< of the box, with its margin
   Workspace Space;
   std::optional<LabelBricks> Bricks;

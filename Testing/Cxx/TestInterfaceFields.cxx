@@ -41,6 +41,28 @@ TEST(InterfaceFields, AreInterpolatedWithTheirGradient)
   EXPECT_EQ(scene.Fields->ValueAt(2, Vector(10.f, 11.f, 12.f)), scene.Fields->At(2, 10, 11, 12));
 }
 
+TEST(InterfaceFields, OfTheOutsideAreOppositeToThoseOfTheOneObjectInIt)
+{
+  // Sizes of whole bricks, and others: the map's end is not seen.
+  for (const int side : { 28, 27, 25 })
+  {
+    const InterfaceScene scene(MakeLabelMap({ side, side, side }, 1,
+      [=](int i, int j, int k)
+      { return std::min({ i, j, k }) >= 4 && std::max({ i, j, k }) < side - 4 ? 1 : 0; }));
+    for (int k = 2; k < side - 2; ++k)
+    {
+      for (int j = 2; j < side - 2; ++j)
+      {
+        for (int i = 2; i < side - 2; ++i)
+        {
+          ASSERT_NEAR(scene.Fields->At(0, i, j, k), -scene.Fields->At(1, i, j, k), 0.1)
+            << side << ": " << i << ' ' << j << ' ' << k;
+        }
+      }
+    }
+  }
+}
+
 TEST(InterfaceFields, PushAVoxelToItsOwnSide)
 {
   InterfaceScene scene(FourBlocks(6));

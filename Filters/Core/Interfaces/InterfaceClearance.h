@@ -42,12 +42,6 @@ public:
 
   /** Lays its grid afresh. @param longest of the edges, about */
   void Reset(double longest);
-  void Add(int v)
-  {
-    this->Grid.Resize(this->Mesh.Position.size());
-    this->Reach.resize(this->Mesh.Position.size(), 0.f);
-    this->Insert(v);
-  }
   void Remove(int v) { this->Grid.Remove(v); }
   void Move(int v) { this->Grid.Move(v, this->Mesh.Position[static_cast<std::size_t>(v)]); }
   /** To be called of each face that is new, or has another corner, or a corner elsewhere. */

@@ -67,8 +67,8 @@ public:
   void Push(int object, const std::array<int, 3>& voxel, float by);
 
   /**
-   * Adds a number to the whole field of an object. All of these together stay so small that signs at
-   * voxels, which are a Margin of LabelFieldOptions from 0, do not change.
+   * Adds a number to the whole field of an object, between the voxels; all of these together stay
+   * within MostShift.
    */
   void Shift(int object, float by)
   {

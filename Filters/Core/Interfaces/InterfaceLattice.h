@@ -12,9 +12,9 @@ namespace volumic
 {
 /**
  * First interfaces: those of the objects to which the points of a body-centred cubic lattice
- * belong. Each tetrahedron of the
- * lattice whose corners are of several objects is cut between these: with two objects by one
- * triangle or two, with more by a fan about a point inside it, from the curves that its faces show.
+ * belong. Each tetrahedron of the lattice whose corners are of several objects is cut between these:
+ * with two objects by one triangle or two, with more by a fan about a point inside it, from the
+ * curves that its faces show.
  * So neighbours agree on each face, and interfaces are closed, meet along lines only, and do not
  * intersect, by construction; the surface of each object is a manifold.
  *

@@ -13,8 +13,6 @@ namespace volumic
 {
 namespace
 {
-/** Cosine of the angle by which an edit may turn a face. */
-constexpr double LeastTurnCosine = 0.4;
 /** Cosine of the angle between two faces whose edge is flipped. */
 constexpr double LeastFlatCosine = 0.85;
 /** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
@@ -32,7 +30,16 @@ InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, doubl
   : Mesh(mesh), GoOn(std::move(goOn)), Clearance(mesh, tolerance),
     Shortest(static_cast<float>(shortest * shortest)), Longest(static_cast<float>(longest * longest))
 {
-  this->Clearance.Reset(std::max(mesh.LongestEdge(), longest));
+}
+
+void InterfaceRemesher::LayGrid()
+{
+  if (!this->HasGrid)
+  {
+    this->Clearance.Reset(
+      std::max(this->Mesh.LongestEdge(), std::sqrt(static_cast<double>(this->Longest))));
+    this->HasGrid = true;
+  }
 }
 
 int InterfaceRemesher::SplitLongEdges()
@@ -63,6 +70,7 @@ int InterfaceRemesher::SplitLongEdges()
       ++count;
     }
   }
+  this->HasGrid = this->HasGrid && count == 0;
   return count;
 }
 
@@ -73,24 +81,18 @@ void InterfaceRemesher::Split(int u, int v)
                           this->Mesh.Position[static_cast<std::size_t>(v)]) * 0.5f;
   const int added = this->Mesh.AddVertex(
     middle, this->AtEdge.size() > 2 ? Stratum::Line : Stratum::Interface);
-  const std::size_t count = this->AtEdge.size();
-  for (std::size_t n = 0; n < count; ++n)
+  for (const int f : this->AtEdge)
   {
-    const int f = this->AtEdge[n];
     InterfaceMesh::Face half = this->Mesh.Faces[static_cast<std::size_t>(f)];
     std::replace(half.Vertex.begin(), half.Vertex.end(), u, added);
     this->Mesh.ReplaceVertex(f, v, added);
-    this->AtEdge.push_back(this->Mesh.AddFace(half));
-  }
-  this->Clearance.Add(added);
-  for (const int f : this->AtEdge)
-  {
-    this->Clearance.Change(f);
+    this->Mesh.AddFace(half);
   }
 }
 
 int InterfaceRemesher::CollapseShortEdges()
 {
+  this->LayGrid();
   int count = 0;
   for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
@@ -263,6 +265,7 @@ void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
 
 int InterfaceRemesher::FlipEdges()
 {
+  this->LayGrid();
   int count = 0;
   for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {

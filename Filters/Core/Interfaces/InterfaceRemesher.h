@@ -46,6 +46,8 @@ public:
   int RemoveSlivers();
 
 private:
+  /** For edits that are tried against what is near; splits change nothing for anybody. */
+  void LayGrid();
   /** Whether to look at this face and those after it. */
   bool GoesOn(std::size_t face) { return face % FacesPerQuestion != 0 || this->GoOn(); }
   bool MayCollapse(int u, int v);
@@ -67,10 +69,13 @@ private:
   }
 
   static constexpr std::size_t FacesPerQuestion = 4096;
+  /** Cosine of the angle by which an edit may turn a face. */
+  static constexpr double LeastTurnCosine = 0.4;
 
   InterfaceMesh& Mesh;
   std::function<bool()> GoOn;
   InterfaceClearance Clearance;
+  bool HasGrid = false; ///< of the mesh as it is
   InterfaceClearance::Memory Memory;
   float Shortest; ///< squared
   float Longest;  ///< squared

@@ -13,9 +13,7 @@ namespace volumic
 {
 namespace
 {
-/** Cosine of the angle by which an edit may turn a face. */
-constexpr double LeastTurnCosine = 0.4;
-/** The same where one of them is a sliver. */
+/** Cosine of the angle between two faces of which one is a sliver, and whose edge is flipped. */
 constexpr double LeastSliverCosine = 0.5;
 /** Triangles with a smaller angle are slivers, radian. */
 constexpr double LeastAngle = 0.5;
@@ -23,6 +21,7 @@ constexpr double LeastAngle = 0.5;
 
 int InterfaceRemesher::RemoveSlivers()
 {
+  this->LayGrid();
   int count = 0;
   for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {

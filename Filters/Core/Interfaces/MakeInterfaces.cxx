@@ -3,9 +3,9 @@
 #include "Core/Interfaces/MakeInterfaces.h"
 
 #include "Core/Interfaces/InterfaceFit.h"
+#include "Core/Interfaces/InterfaceLattice.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
-#include "Core/Interfaces/InterfaceLattice.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -45,13 +45,9 @@ void Edit(InterfaceMesh& mesh, double wanted, int round, const std::function<boo
   // What is searched near goes with the square of the lengths: they grow by rounds.
   const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
   const double longest = (round < Rounds ? LongestShare : LongestLast) * edge;
-  const auto remesherOf = [&]
-  {
-    return InterfaceRemesher(
-      mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
-  };
-  remesherOf().SplitLongEdges();
-  InterfaceRemesher remesher = remesherOf(); // Its grid is one for edges as they are now.
+  InterfaceRemesher remesher(
+    mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
+  remesher.SplitLongEdges();
   if (round < Rounds)
   {
     remesher.CollapseShortEdges();

@@ -10,7 +10,7 @@ namespace volumic
 {
 void LabelSides::CopyMembership(int i, int j, int k, int count, float* values) const
 {
-  std::fill(values, values + count, 0.f);
+  std::fill(values, values + count, this->Object == 0 ? 1.f : 0.f); // Outside the map all is 0.
   const std::array<int, 3>& size = this->Map->Size;
   if (j < 0 || k < 0 || j >= size[1] || k >= size[2])
   {
