@@ -6,6 +6,7 @@ By real mouse and keys: while ParaView plays events, it takes none during a run.
 seen in pictures of the window.
 """
 
+import contextlib
 import ctypes
 import os
 import re
@@ -27,9 +28,11 @@ EXTENT = [-100, 100] * 3  # A run takes seconds.
 FOLDER = "FOLDER"
 
 # Runs in the window: shows a volume, tells of each run of a filter, and answers what a file asks,
-# as soon as nothing else is done.
+# as soon as nothing else is done. A run that has begun to iterate does nothing but report while
+# there is a file to hold it: the hand has its time, however fast or slow the machine is.
 IN_THE_WINDOW = f"""
 import os
+import time
 from paraview import servermanager, simple
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 
@@ -61,6 +64,9 @@ def watch(manager, event):
                 if ", iteration" in (caller.GetProgressText() or "") and not told:
                     told.add(1)
                     tell("Iterations have begun.")
+                    while os.path.exists(os.path.join({FOLDER!r}, "hold")):
+                        time.sleep(0.02)
+                        caller.UpdateProgress(caller.GetProgress())
             def end(caller, event):
                 told.clear()
                 tell("Run ended:", facts(caller.GetOutputDataObject(0)))
@@ -148,6 +154,17 @@ class LiveSession(gui.Session):
             self.output += self.wait_for("\n", 1)
         self.output = self.output[found.end():]
         return found[1]
+
+    @contextlib.contextmanager
+    def run_held(self):
+        """The next run stays where its iterations begin till the context is left."""
+        path = os.path.join(self._folder.name, "hold")
+        with open(path, "w", encoding="utf-8"):
+            pass
+        try:
+            yield
+        finally:
+            os.remove(path)
 
     def next_run(self):
         """StopReason, points, triangles and edges that are no good of a run, at its end."""
@@ -269,9 +286,12 @@ class AbortWindowTest(unittest.TestCase):
         self.assertEqual(end, self.whole)
 
     def test_stops_a_run_and_shows_the_surface_as_it_is(self):
-        self.hand.press(self.make_filter())
-        self.session.line_with("Iterations have begun")
-        self.hand.press(self.wait_for(abort_button, "during"))
+        apply = self.make_filter()
+        with self.session.run_held():
+            self.hand.press(apply)
+            self.session.line_with("Iterations have begun")
+            self.hand.press(self.wait_for(abort_button, "during"))
+            time.sleep(1)  # till the press has arrived
         reason, points, _, bad_edges = self.session.next_run()
         self.assertEqual((reason, bad_edges), ("cancelled", 0))
         self.assertGreater(points, 100)
@@ -285,18 +305,20 @@ class AbortWindowTest(unittest.TestCase):
         x, y = self.make_filter()
         box = self.place_of_preview()
         before = self.picture("before")
-        self.hand.press((x, y))
-        self.session.line_with("Iterations have begun")
-        # Apply, Reset, Delete and Help; File; Preview.
-        others = [(x + 82 * n, y) for n in range(4)] + [(20, 8), box]
-        for place in others:
-            self.hand.press(place)
-        place = self.wait_for(abort_button, "others")
-        self.hand.press((place[0] + 60, place[1]))
-        self.hand.press((x, y), times=2)
-        self.hand.shortcut("o")
-        self.session.output += self.session.wait_for("\n", 0.1)
-        self.assertNotIn("Run ended", self.session.output, "all this was during the run")
+        with self.session.run_held():
+            self.hand.press((x, y))
+            self.session.line_with("Iterations have begun")
+            # Apply, Reset, Delete and Help; File; Preview.
+            others = [(x + 82 * n, y) for n in range(4)] + [(20, 8), box]
+            for place in others:
+                self.hand.press(place)
+            place = self.wait_for(abort_button, "others")
+            self.hand.press((place[0] + 60, place[1]))
+            self.hand.press((x, y), times=2)
+            self.hand.shortcut("o")
+            time.sleep(1)  # till all has arrived
+            self.session.output += self.session.wait_for("\n", 0.1)
+            self.assertNotIn("Run ended", self.session.output, "all this was during the run")
         self.assertEqual(self.session.next_run(), self.whole)
         self.assertEqual(self.session.ask("(len(simple.GetSources()), "
                                           "simple.GetActiveSource().Preview, points_in_view())"),
