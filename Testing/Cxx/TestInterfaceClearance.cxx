@@ -53,14 +53,14 @@ TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
 {
   const InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
   InterfaceClearance clearance(mesh, 1e-3);
-  clearance.Reset(2.);
-  InterfaceClearance::Memory memory;
+  clearance.Reset();
+  std::vector<int> near;
   std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[1]) };
-  EXPECT_TRUE(clearance.AreClear(made, { 1 }, memory));
+  EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
   made.front().Corner[0] = VectorD(-0.9, 0.3, 0.5); // Before that of 180 degrees.
-  EXPECT_TRUE(clearance.AreClear(made, { 1 }, memory));
+  EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
   made.front().Corner[0] = VectorD(-0.9, -0.3, 0.5); // Beyond it, without any crossing.
-  EXPECT_FALSE(clearance.AreClear(made, { 1 }, memory));
+  EXPECT_FALSE(clearance.AreClear(made, { 1 }, near));
 }
 
 TEST(InterfaceClearance, FindsWhatIntersectsAFace)
@@ -71,10 +71,38 @@ TEST(InterfaceClearance, FindsWhatIntersectsAFace)
   mesh.AddVertex(Vector(0.6f, 0.2f, 0.5f), Stratum::Interface);
   const int across = mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
   InterfaceClearance clearance(mesh, 1e-3);
-  clearance.Reset(2.);
-  InterfaceClearance::Memory memory;
-  EXPECT_EQ(clearance.FindIntersecting(across, 0, memory), 0);
-  EXPECT_EQ(clearance.FindIntersecting(0, 1, memory), across);
-  EXPECT_EQ(clearance.FindIntersecting(across, 1, memory), -1);
-  EXPECT_EQ(clearance.FindIntersecting(2, 0, memory), -1);
+  clearance.Reset();
+  std::vector<int> near;
+  EXPECT_EQ(clearance.FindIntersecting(across, 0, near), 0);
+  EXPECT_EQ(clearance.FindIntersecting(0, 1, near), across);
+  EXPECT_EQ(clearance.FindIntersecting(across, 1, near), -1);
+  EXPECT_EQ(clearance.FindIntersecting(2, 0, near), -1);
+}
+
+TEST(InterfaceClearance, FollowsFacesThatChange)
+{
+  // Two small faces far from each other, and a third one that is stretched between them.
+  InterfaceMesh mesh;
+  for (int n = 0; n < 3; ++n)
+  {
+    const float x = 20.f * static_cast<float>(n);
+    const int first = mesh.AddVertex(Vector(x, 0.f, 0.f), Stratum::Interface);
+    mesh.AddVertex(Vector(x + 1.f, 0.f, 0.f), Stratum::Interface);
+    mesh.AddVertex(Vector(x, 1.f, 0.f), Stratum::Interface);
+    mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
+  }
+  InterfaceClearance clearance(mesh, 1e-3);
+  clearance.Reset();
+  std::vector<int> near;
+  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), -1);
+  mesh.Position[6] = Vector(0.2f, 0.2f, -1.f);
+  mesh.Position[7] = Vector(0.2f, 0.2f, 1.f);
+  mesh.Position[8] = Vector(40.f, -9.f, 0.f);
+  clearance.Change(2);
+  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), 2) << "longer than any face before";
+  EXPECT_EQ(clearance.FindIntersecting(2, 0, near), 0);
+  EXPECT_EQ(clearance.FindIntersecting(1, 0, near), -1);
+  mesh.RemoveFace(2);
+  clearance.Change(2);
+  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), -1) << "it is no more";
 }

@@ -10,46 +10,43 @@ namespace volumic
 {
 namespace
 {
-/** A point of a triangle is at most so far from the nearest corner, in its longest edge. */
-constexpr double ReachOfEdge = 0.5773503;
+/** The side of a cell of the grid, in the mean longest side of a box. */
+constexpr float CellOfBox = 1.f;
 
-struct Box
+TriangleBox BoxOf(const MeshTriangle& t)
 {
-  Vector Low;
-  Vector High;
+  return { Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]) };
+}
 
-  explicit Box(const MeshTriangle& t)
-    : Low(static_cast<float>(std::min({ t.Corner[0].X, t.Corner[1].X, t.Corner[2].X })),
-        static_cast<float>(std::min({ t.Corner[0].Y, t.Corner[1].Y, t.Corner[2].Y })),
-        static_cast<float>(std::min({ t.Corner[0].Z, t.Corner[1].Z, t.Corner[2].Z }))),
-      High(static_cast<float>(std::max({ t.Corner[0].X, t.Corner[1].X, t.Corner[2].X })),
-        static_cast<float>(std::max({ t.Corner[0].Y, t.Corner[1].Y, t.Corner[2].Y })),
-        static_cast<float>(std::max({ t.Corner[0].Z, t.Corner[1].Z, t.Corner[2].Z })))
-  {
-  }
-  void Add(const Box& other)
-  {
-    this->Low = Vector(std::min(this->Low.X, other.Low.X), std::min(this->Low.Y, other.Low.Y),
-      std::min(this->Low.Z, other.Low.Z));
-    this->High = Vector(std::max(this->High.X, other.High.X),
-      std::max(this->High.Y, other.High.Y), std::max(this->High.Z, other.High.Z));
-  }
-};
+float LongestSide(const TriangleBox& box)
+{
+  const Vector sides = box.High - box.Low;
+  return std::max({ sides.X, sides.Y, sides.Z });
+}
+
+Vector MiddleOf(const TriangleBox& box)
+{
+  return (box.Low + box.High) * 0.5f;
+}
 
 bool Has(const PlacedFace& face, int v)
 {
   return face.Vertex[0] == v || face.Vertex[1] == v || face.Vertex[2] == v;
 }
-
-bool IsFaceApart(const Vector& a, const Vector& b, const Vector& c, const Vector& low,
-  const Vector& high)
-{
-  return (a.X < low.X && b.X < low.X && c.X < low.X) ||
-    (a.X > high.X && b.X > high.X && c.X > high.X) ||
-    (a.Y < low.Y && b.Y < low.Y && c.Y < low.Y) ||
-    (a.Y > high.Y && b.Y > high.Y && c.Y > high.Y) ||
-    (a.Z < low.Z && b.Z < low.Z && c.Z < low.Z) || (a.Z > high.Z && b.Z > high.Z && c.Z > high.Z);
 }
+
+TriangleBox::TriangleBox(const Vector& a, const Vector& b, const Vector& c)
+  : Low(std::min({ a.X, b.X, c.X }), std::min({ a.Y, b.Y, c.Y }), std::min({ a.Z, b.Z, c.Z })),
+    High(std::max({ a.X, b.X, c.X }), std::max({ a.Y, b.Y, c.Y }), std::max({ a.Z, b.Z, c.Z }))
+{
+}
+
+void TriangleBox::Add(const TriangleBox& other)
+{
+  this->Low = Vector(std::min(this->Low.X, other.Low.X), std::min(this->Low.Y, other.Low.Y),
+    std::min(this->Low.Z, other.Low.Z));
+  this->High = Vector(std::max(this->High.X, other.High.X), std::max(this->High.Y, other.High.Y),
+    std::max(this->High.Z, other.High.Z));
 }
 
 PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
@@ -121,34 +118,36 @@ InterfaceClearance::InterfaceClearance(const InterfaceMesh& mesh, double toleran
 {
 }
 
-void InterfaceClearance::Reset(double longest)
+void InterfaceClearance::Reset()
 {
-  const std::vector<Vector>& positions = this->Mesh.Position;
-  Vector low;
-  Vector high;
-  if (!positions.empty())
+  const std::vector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
+  const Vector* at = this->Mesh.Position.data();
+  this->Boxes.resize(faces.size());
+  this->Reach = 0.f;
+  TriangleBox all;
+  double sides = 0.;
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
   {
-    low = high = positions.front();
-  }
-  for (const Vector& p : positions)
-  {
-    low = Vector(std::min(low.X, p.X), std::min(low.Y, p.Y), std::min(low.Z, p.Z));
-    high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
-  }
-  this->LongestReach = static_cast<float>(ReachOfEdge * longest + this->Tolerance);
-  this->Grid.Reset(low, high, static_cast<float>(std::max(longest, 1e-6)));
-  this->Grid.Resize(positions.size());
-  for (int v = 0; v < static_cast<int>(positions.size()); ++v)
-  {
-    if (this->Mesh.IsVertex(v))
+    if (faces[f].IsThere())
     {
-      this->Insert(v);
+      const std::array<int, 3>& v = faces[f].Vertex;
+      const TriangleBox& box = this->Boxes[f] = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
+      count == 0 ? void(all = box) : all.Add(box);
+      sides += LongestSide(box);
+      this->Reach = std::max(this->Reach, 0.5f * LongestSide(box));
+      ++count;
     }
   }
-  this->Reach.assign(positions.size(), 0.f);
-  for (int face = 0; face < static_cast<int>(this->Mesh.Faces.size()); ++face)
+  const float side = static_cast<float>(sides / static_cast<double>(std::max<std::size_t>(count, 1)));
+  this->Grid.Reset(all.Low, all.High, std::max(CellOfBox * side, 1e-6f));
+  this->Grid.Resize(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
   {
-    this->Change(face);
+    if (faces[f].IsThere())
+    {
+      this->Grid.Insert(static_cast<int>(f), MiddleOf(this->Boxes[f]));
+    }
   }
 }
 
@@ -157,67 +156,42 @@ void InterfaceClearance::Change(int face)
   const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
   if (v[0] < 0)
   {
+    this->Grid.Remove(face);
     return;
   }
   const Vector* at = this->Mesh.Position.data();
-  const float longest = std::max({ SquaredDistance(at[v[0]], at[v[1]]),
-    SquaredDistance(at[v[1]], at[v[2]]), SquaredDistance(at[v[2]], at[v[0]]) });
-  const float reach = static_cast<float>(ReachOfEdge * std::sqrt(longest) + this->Tolerance);
-  this->LongestReach = std::max(this->LongestReach, reach);
-  for (const int w : v)
-  {
-    float& of = this->Reach[static_cast<std::size_t>(w)];
-    of = std::max(of, reach);
-  }
+  TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
+  box = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
+  this->Reach = std::max(this->Reach, 0.5f * LongestSide(box));
+  this->Grid.Move(face, MiddleOf(box));
 }
 
 void InterfaceClearance::FindNear(
-  const Vector& low, const Vector& high, int first, Memory& memory) const
+  const Vector& low, const Vector& high, int first, std::vector<int>& near) const
 {
-  memory.Seen.resize(this->Mesh.Faces.size(), 0);
-  memory.Near.clear();
-  ++memory.Now;
-  const Vector margin(this->LongestReach, this->LongestReach, this->LongestReach);
+  near.clear();
   const float tolerance = static_cast<float>(this->Tolerance);
   const Vector thick(tolerance, tolerance, tolerance);
   const Vector from = low - thick;
   const Vector to = high + thick;
-  this->Grid.VisitBox(low - margin, high + margin,
-    [&](int w)
+  const Vector margin(this->Reach, this->Reach, this->Reach);
+  this->Grid.VisitBox(from - margin, to + margin,
+    [&](int face)
     {
-      const Vector& p = this->Mesh.Position[static_cast<std::size_t>(w)];
-      const float reach = this->Reach[static_cast<std::size_t>(w)];
-      if (p.X < low.X - reach || p.X > high.X + reach || p.Y < low.Y - reach ||
-        p.Y > high.Y + reach || p.Z < low.Z - reach || p.Z > high.Z + reach)
+      if (face >= first && !this->Boxes[static_cast<std::size_t>(face)].IsApart(from, to))
       {
-        return;
+        near.push_back(face);
       }
-      this->Mesh.ForFaces(w,
-        [&](int face)
-        {
-          int& seen = memory.Seen[static_cast<std::size_t>(face)];
-          if (face < first || seen == memory.Now)
-          {
-            return;
-          }
-          seen = memory.Now;
-          const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
-          const Vector* at = this->Mesh.Position.data();
-          if (!IsFaceApart(at[v[0]], at[v[1]], at[v[2]], from, to))
-          {
-            memory.Near.push_back(face);
-          }
-        });
     });
 }
 
-int InterfaceClearance::FindIntersecting(int face, int first, Memory& memory) const
+int InterfaceClearance::FindIntersecting(int face, int first, std::vector<int>& near) const
 {
   const MeshTriangle triangle =
     TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
-  const Box box(triangle);
-  this->FindNear(box.Low, box.High, first, memory);
-  for (const int other : memory.Near)
+  const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
+  this->FindNear(box.Low, box.High, first, near);
+  for (const int other : near)
   {
     if (other != face &&
       TrianglesIntersect(triangle,
@@ -231,23 +205,23 @@ int InterfaceClearance::FindIntersecting(int face, int first, Memory& memory) co
 }
 
 bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
-  const std::vector<int>& replaced, Memory& memory) const
+  const std::vector<int>& replaced, std::vector<int>& near) const
 {
   if (faces.empty())
   {
     return true;
   }
-  Box all(faces.front());
-  std::vector<Box> boxes;
+  TriangleBox all = BoxOf(faces.front());
+  std::vector<TriangleBox> boxes;
   const float thick = static_cast<float>(this->Tolerance);
   for (const PlacedFace& triangle : faces)
   {
-    boxes.emplace_back(triangle);
+    boxes.push_back(BoxOf(triangle));
     all.Add(boxes.back());
     boxes.back().Low -= Vector(thick, thick, thick);
     boxes.back().High += Vector(thick, thick, thick);
   }
-  this->FindNear(all.Low, all.High, 0, memory);
+  this->FindNear(all.Low, all.High, 0, near);
   for (std::size_t n = 0; n < faces.size(); ++n)
   {
     for (std::size_t m = n + 1; m < faces.size(); ++m)
@@ -261,7 +235,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   const bool isAtLine = std::any_of(faces.begin(), faces.end(),
     [this](const PlacedFace& face) { return this->IsAtLine(face); });
   std::vector<int> others;
-  for (const int face : memory.Near)
+  for (const int face : near)
   {
     if (std::find(replaced.begin(), replaced.end(), face) != replaced.end())
     {
@@ -272,10 +246,10 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
       others.push_back(face);
     }
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
-    const Vector* at = this->Mesh.Position.data();
+    const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
     for (std::size_t n = 0; n < faces.size(); ++n)
     {
-      if (!IsFaceApart(at[v[0]], at[v[1]], at[v[2]], boxes[n].Low, boxes[n].High) &&
+      if (!box.IsApart(boxes[n].Low, boxes[n].High) &&
         TrianglesIntersect(faces[n], TriangleOf(this->Mesh, v), this->Tolerance))
       {
         return false;

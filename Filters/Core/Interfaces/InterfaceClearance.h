@@ -15,6 +15,22 @@ namespace volumic
 /** Corners of a triangle that there is not yet, and the vertices that they are. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 
+/** What a triangle lies in. */
+struct TriangleBox
+{
+  Vector Low;
+  Vector High;
+
+  TriangleBox() = default;
+  TriangleBox(const Vector& a, const Vector& b, const Vector& c);
+  void Add(const TriangleBox& other);
+  bool IsApart(const Vector& low, const Vector& high) const
+  {
+    return this->High.X < low.X || this->Low.X > high.X || this->High.Y < low.Y ||
+      this->Low.Y > high.Y || this->High.Z < low.Z || this->Low.Z > high.Z;
+  }
+};
+
 /** A face that there is, or may be. */
 struct PlacedFace : MeshTriangle
 {
@@ -40,30 +56,21 @@ public:
    */
   InterfaceClearance(const InterfaceMesh& mesh, double tolerance);
 
-  /** Lays its grid afresh. @param longest of the edges, about */
-  void Reset(double longest);
-  void Remove(int v) { this->Grid.Remove(v); }
-  void Move(int v) { this->Grid.Move(v, this->Mesh.Position[static_cast<std::size_t>(v)]); }
-  /** To be called of each face that is new, or has another corner, or a corner elsewhere. */
+  /** Lays its grid afresh. */
+  void Reset();
+  /** To be called of each face that has another corner, a corner elsewhere, or is removed. */
   void Change(int face);
 
-  /** What one thread remembers while it looks at faces. */
-  struct Memory
-  {
-    std::vector<int> Seen; ///< of each face, when
-    int Now = 0;
-    std::vector<int> Near; ///< what was found last
-  };
-  /** Faces from `first` on that may come near a box, in Memory::Near. */
-  void FindNear(const Vector& low, const Vector& high, int first, Memory& memory) const;
-  /** A face that this one intersects, of those from `first` on; -1: none. */
-  int FindIntersecting(int face, int first, Memory& memory) const;
+  /** Faces from `first` on whose boxes come near a box. */
+  void FindNear(const Vector& low, const Vector& high, int first, std::vector<int>& near) const;
+  /** A face that this one intersects, of those from `first` on; -1: none. @param near room for it */
+  int FindIntersecting(int face, int first, std::vector<int>& near) const;
   /**
    * Whether faces may take the place of some: they intersect nothing else, nor each other, and are
-   * in order at junction lines.
+   * in order at junction lines. @param near room for it
    */
   bool AreClear(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced,
-    Memory& memory) const;
+    std::vector<int>& near) const;
 
 private:
   /** Whether one of its edges may be of a junction line. */
@@ -71,12 +78,11 @@ private:
   /** @param others faces that stay, among them all that share an edge with these */
   bool AreInOrderAtLines(
     const std::vector<PlacedFace>& faces, const std::vector<int>& others) const;
-  void Insert(int v) { this->Grid.Insert(v, this->Mesh.Position[static_cast<std::size_t>(v)]); }
 
   const InterfaceMesh& Mesh;
   double Tolerance;
-  float LongestReach = 0.f;
-  std::vector<float> Reach; ///< of each vertex, how far a face goes at most of which it is nearest
+  std::vector<TriangleBox> Boxes; ///< of each face, which the grid has at its middle
+  float Reach = 0.f;              ///< half of the longest side of a box, at least
   VertexGrid Grid;
 };
 }

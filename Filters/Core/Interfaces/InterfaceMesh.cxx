@@ -226,21 +226,6 @@ VectorD InterfaceMesh::NormalOf(const Face& face) const
   return Cross(b - a, c - a);
 }
 
-double InterfaceMesh::LongestEdge() const
-{
-  float longest = 0.f;
-  for (const Face& face : this->Faces)
-  {
-    for (int k = 0; k < 3 && face.IsThere(); ++k)
-    {
-      longest = std::max(longest,
-        SquaredDistance(this->Position[static_cast<std::size_t>(face.Vertex[k])],
-          this->Position[static_cast<std::size_t>(face.Vertex[(k + 1) % 3])]));
-    }
-  }
-  return std::sqrt(static_cast<double>(longest));
-}
-
 double InterfaceMesh::MeanEdge() const
 {
   double sum = 0.;

@@ -94,7 +94,6 @@ public:
     int object, const std::vector<int>& faces, std::vector<int>& vertices) const;
 
   VectorD NormalOf(const Face& face) const; ///< twice the area long
-  double LongestEdge() const;
   double MeanEdge() const; ///< of the faces' edges
 
   /** Takes what is removed out of all arrays. */

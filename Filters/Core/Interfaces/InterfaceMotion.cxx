@@ -45,7 +45,7 @@ public:
     {
       this->TakeBackTurned(f, back);
     }
-    this->Clearance.Reset(this->Mesh.LongestEdge());
+    this->Clearance.Reset();
     // Each round takes back a vertex more, or is the last one.
     for (bool isFirst = true; isFirst || !faces.empty(); isFirst = false)
     {
@@ -99,11 +99,11 @@ private:
     ForBlocks(this->Threads, faces.size(), size,
       [&](std::size_t block, std::size_t begin, std::size_t end)
       {
-        InterfaceClearance::Memory memory;
+        std::vector<int> near;
         for (std::size_t n = begin; n < end; ++n)
         {
           const int other =
-            this->Clearance.FindIntersecting(faces[n], isFirst ? faces[n] : 0, memory);
+            this->Clearance.FindIntersecting(faces[n], isFirst ? faces[n] : 0, near);
           if (other >= 0)
           {
             ofBlocks[block].push_back({ faces[n], other });
@@ -156,7 +156,6 @@ private:
   {
     for (const int v : back)
     {
-      this->Clearance.Move(v);
       this->Mesh.ForFaces(v, [&](int f) { this->Clearance.Change(f); });
     }
   }

@@ -36,8 +36,7 @@ void InterfaceRemesher::LayGrid()
 {
   if (!this->HasGrid)
   {
-    this->Clearance.Reset(
-      std::max(this->Mesh.LongestEdge(), std::sqrt(static_cast<double>(this->Longest))));
+    this->Clearance.Reset();
     this->HasGrid = true;
   }
 }
@@ -232,7 +231,7 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
   isFair = isFair &&
     std::all_of(this->Made.begin(), this->Made.end(),
       [least](const MeshTriangle& triangle) { return RadiusRatio(triangle) >= least; });
-  if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Memory))
+  if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
   {
     return false;
   }
@@ -254,9 +253,7 @@ void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
       this->Mesh.ReplaceVertex(f, removed, kept);
     }
   }
-  this->Clearance.Remove(removed);
   this->Mesh.Position[static_cast<std::size_t>(kept)] = place;
-  this->Clearance.Move(kept);
   for (const int f : this->Changed)
   {
     this->Clearance.Change(f);
@@ -317,7 +314,7 @@ bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
   if (CosineOf(normals[0], normals[1]) < flatness ||
     CosineOf(NormalOf(this->Made[0]), both) < LeastTurnCosine ||
     CosineOf(NormalOf(this->Made[1]), both) < LeastTurnCosine || this->Mesh.HasEdge(p, q) ||
-    !this->Clearance.AreClear(this->Made, this->Changed, this->Memory))
+    !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
   {
     return false;
   }

@@ -76,11 +76,11 @@ private:
   std::function<bool()> GoOn;
   InterfaceClearance Clearance;
   bool HasGrid = false; ///< of the mesh as it is
-  InterfaceClearance::Memory Memory;
   float Shortest; ///< squared
   float Longest;  ///< squared
   std::vector<int> AtEdge;
   std::vector<int> Changed;
+  std::vector<int> Near;
   std::vector<int> First;
   std::vector<int> Second;
   std::vector<PlacedFace> Made;

@@ -85,18 +85,16 @@ bool InterfaceRemesher::TryMove(int v)
         PlacedFace t = PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]);
         const VectorD old = NormalOf(t);
         before = std::min(before, RadiusRatio(t));
-        *std::find_if(t.Corner, t.Corner + 3, [&](const VectorD& corner)
-          { return SquaredDistance(corner, place) == 0.; }) = VectorD(target);
+        t.Corner[std::find(t.Vertex, t.Vertex + 3, v) - t.Vertex] = VectorD(target);
         after = std::min(after, RadiusRatio(t));
         isFair = isFair && CosineOf(old, NormalOf(t)) > LeastTurnCosine;
         this->Changed.push_back(f);
         this->Made.push_back(t);
       });
     if (isFair && after > before &&
-      this->Clearance.AreClear(this->Made, this->Changed, this->Memory))
+      this->Clearance.AreClear(this->Made, this->Changed, this->Near))
     {
       this->Mesh.Position[static_cast<std::size_t>(v)] = target;
-      this->Clearance.Move(v);
       for (const int f : this->Changed)
       {
         this->Clearance.Change(f);

@@ -21,16 +21,16 @@ inline double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
   return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
 }
 
-/** Radian. */
+/** Radian: it is opposite the shortest edge. */
 inline double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c)
 {
-  const auto angle = [](const VectorD& at, const VectorD& p, const VectorD& q)
-  {
-    const VectorD first = p - at;
-    const VectorD second = q - at;
-    return std::atan2(Length(Cross(first, second)), Dot(first, second));
-  };
-  return std::min({ angle(a, b, c), angle(b, c, a), angle(c, a, b) });
+  const double ab = SquaredDistance(a, b);
+  const double bc = SquaredDistance(b, c);
+  const double ca = SquaredDistance(c, a);
+  const VectorD& at = ab <= bc && ab <= ca ? c : bc <= ca ? a : b;
+  const VectorD first = (&at == &a ? b : a) - at;
+  const VectorD second = (&at == &c ? b : c) - at;
+  return std::atan2(Length(Cross(first, second)), Dot(first, second));
 }
 
 inline double RadiusRatio(const MeshTriangle& t)
