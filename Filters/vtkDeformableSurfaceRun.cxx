@@ -209,8 +209,8 @@ volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVe
   if (this->Internals->Ranks->NumberOfRanks() > 1)
   {
     request.Ranks = this->Internals->Ranks.get();
-    request.Together = [this](const std::function<void()>& part)
-    { this->Internals->Alone->Together(part); };
+    request.OnAllRanks = [this](const std::function<void()>& work)
+    { this->Internals->Alone->OnAllRanks(work); };
   }
   return request;
 }

@@ -100,7 +100,7 @@ private:
   std::vector<int> Objects; ///< of each item
   std::vector<double> Sizes;
   LabelCourse State;
-  LabelPart Others; ///< what they had done when they told last
+  LabelProgress Others; ///< what they had done when they told last
   std::vector<std::uint8_t> IsDue;
   std::vector<int> RankOf; ///< of each item that is due
   std::vector<LabelSurface> Surfaces;
@@ -164,7 +164,7 @@ std::vector<std::size_t> Making::ShareOut()
 
 bool Making::Tell(bool isThrough)
 {
-  LabelPart all = this->State.Here();
+  LabelProgress all = this->State.Here();
   all.Add(this->Others);
   if (!this->Progress(this->Before + this->Whole * this->State.Share(all), this->State.Text(all)))
   {
@@ -172,13 +172,13 @@ bool Making::Tell(bool isThrough)
   }
   struct Word
   {
-    LabelPart Done;
+    LabelProgress Done;
     bool IsStopped;
     bool IsThrough;
   };
   const std::vector<Word> words =
     GatherValues(this->Ranks, Word{ this->State.Here(), this->State.IsStopped, isThrough });
-  this->Others = LabelPart();
+  this->Others = LabelProgress();
   bool areThrough = true;
   for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
   {
@@ -196,7 +196,7 @@ bool Making::Tell(bool isThrough)
 void Making::Do(const std::string& title, const Work& work)
 {
   const std::vector<std::size_t> own = this->ShareOut();
-  this->Others = LabelPart();
+  this->Others = LabelProgress();
   this->State.Expect(title, this->IsDue, own);
   this->Tell();
   const auto doItem = [&](std::size_t item, int numberOfThreads, HostThreads& threads)

@@ -8,10 +8,11 @@
 namespace volumic
 {
 /**
- * Told the share of a piece of work that is done, in [0, 1]; false asks to stop. Called on the
- * thread that does the work, never from within an executor.
+ * By which work asks, now and then, whether to go on: it tells the share of it that is done, in
+ * [0, 1]; the answer false means stop. Asked on the thread that does the work, never from within an
+ * executor.
  */
-using Checkpoint = std::function<bool(double share)>;
+using ProgressQuestion = std::function<bool(double share)>;
 
 /** For work that nobody follows. */
 inline bool NeverStop(double)

@@ -27,7 +27,7 @@ constexpr double Mebibytes(std::size_t bytes)
 }
 
 /** What one drops at a time; mappings begin and end with whole pages, which are smaller. */
-constexpr std::size_t ScratchChunk = 2 * Mebibyte;
+constexpr std::size_t ScratchStep = 2 * Mebibyte;
 
 /**
  * The directory that files are made in, as an absolute path: the given one, or, where that is

@@ -67,8 +67,8 @@ struct SurfaceEvolution::Implementation
   Communicator* Ranks = &OnThisRank();
   // Once a level has begun:
   std::unique_ptr<SurfaceBlocks> Blocks;
-  std::unique_ptr<RankBlocks> Parts;             ///< Whose the blocks are; of one rank all.
-  std::unique_ptr<SurfaceComponents> Components; ///< Of the surface in these parts.
+  std::unique_ptr<RankBlocks> Piece; ///< Of this rank; one alone has the whole surface.
+  std::unique_ptr<SurfaceComponents> Components; ///< Of all pieces.
   std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
   Vector GridLow, GridHigh;              ///< As the grid was laid last.
   struct
@@ -113,7 +113,7 @@ struct SurfaceEvolution::Implementation
   bool Ask(
     bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share);
   bool GoOn(Monitor::Activity doing, double share);
-  Checkpoint CheckpointOf(Monitor::Activity doing, double from = 0., double to = 1.);
+  ProgressQuestion QuestionOf(Monitor::Activity doing, double from = 0., double to = 1.);
   bool HasIteration() const;
   double Lap();
   void Enter(const LevelImage& image, int level);
@@ -140,13 +140,13 @@ struct SurfaceEvolution::Implementation
   void MakeBlocks(Communicator& sharers = OnThisRank());
   void ForgetBlocks(); ///< Their places are anyone's again.
   std::vector<int> OwnVertices() const;
-  // From a surface that is whole on rank 0 to one that is in parts, with so many divisions.
-  bool LayOutInParts(int divisions);
-  void DivideInParts();
+  // From a surface that is whole on rank 0 to one that is in pieces, with so many divisions.
+  bool LayOutInPieces(int divisions);
+  void DivideInPieces();
   void SpreadWhole();
   void SpreadMesh();
-  void LayGridOfPart();
-  std::vector<Proximity::FacePair> FindIntersectionsInParts();
+  void LayGridOfPiece();
+  std::vector<Proximity::FacePair> FindIntersectionsInPieces();
   /** @param isSound it has been made well: its edges need not be legal already */
   void Take(const IndexedSurface& surface, bool isSound);
   void TakeRemeshed(const IndexedSurface& surface);
@@ -177,9 +177,9 @@ struct SurfaceEvolution::Implementation
   double Volume();
 
   // On several ranks: EvolutionRanks.cxx.
-  /** Those that have parts of the surface as it is now: one while it is whole. */
-  Communicator& Sharers() const { return this->Parts ? this->Parts->Sharers() : OnThisRank(); }
-  bool IsInParts() const { return this->Parts && this->Parts->AreShared(); }
+  /** Those that have pieces of the surface as it is now: one while it is whole. */
+  Communicator& Sharers() const { return this->Piece ? this->Piece->Sharers() : OnThisRank(); }
+  bool IsInPieces() const { return this->Piece && this->Piece->AreShared(); }
   void BeginVisits();
   void EndVisits();
   bool IsFirstRank() const { return this->Ranks->Rank() == 0; }

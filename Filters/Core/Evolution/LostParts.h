@@ -17,7 +17,7 @@ struct LostPartCover
   int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
   IndexedSurface Surface; ///< Closed, manifold, inward for cavities; workspace.
   LostBoundary Boundary;  ///< Of all that were found.
-  bool IsStopped = false; ///< The checkpoint said stop: nothing is told, there is no surface.
+  bool IsStopped = false; ///< The answer was to stop: nothing is told, there is no surface.
 };
 
 /**
@@ -39,8 +39,8 @@ struct LostPartCover
  * the cover and with the boundary.
  */
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const Checkpoint& goOn = NeverStop,
-  const RankRows* part = nullptr);
+  int minimumSize, Executor& executor, const ProgressQuestion& goOn = NeverStop,
+  const RankRows* rows = nullptr);
 }
 
 #endif

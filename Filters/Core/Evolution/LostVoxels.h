@@ -32,12 +32,12 @@ public:
    * The state's edges must not be longer than its sizing allows.
    * @param minimumSize voxels; what has fewer is left out
    * @param goOn        told the share that is done now and then; once it says no nothing is found
-   * @param part        those of its rows are found, in parts of the whole image; null: all
+   * @param rows        those of its rows are found, in parts of the whole image; null: all
    */
   LostVoxels(const SurfaceState& state, const Field& field, PartKind kind, int minimumSize,
-    Executor& executor, const Checkpoint& goOn, const RankRows* part = nullptr);
+    Executor& executor, const ProgressQuestion& goOn, const RankRows* rows = nullptr);
 
-  /** The checkpoint said stop. */
+  /** The answer was to stop. */
   bool IsStopped() const { return this->Stopped; }
   /** Parts of the image are numbered from 0 in the order of their first voxels. */
   int NumberOfParts() const { return this->Parts; }
@@ -48,7 +48,8 @@ private:
   using PartsOfSlabs = std::vector<std::vector<SetPiece>>;
 
   PartsOfSlabs Search(const SurfaceState& state, const Field& field, PartKind kind,
-    std::int64_t minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows& own);
+    std::int64_t minimumSize, Executor& executor, const ProgressQuestion& goOn,
+    const RankRows& own);
   /** What the slabs of all ranks have found, each for itself, becomes parts of the whole. */
   void JoinParts(PartsOfSlabs& parts, std::int64_t minimumSize, const RankRows& own,
     Executor& executor);

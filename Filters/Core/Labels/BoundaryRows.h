@@ -42,7 +42,7 @@ public:
   template <typename Visitor>
   void For(Executor& executor, Visitor&& visit) const
   {
-    ForBlocks(executor, static_cast<std::size_t>(this->Count[2]), 1,
+    ForSpans(executor, static_cast<std::size_t>(this->Count[2]), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       { this->ForLayer(static_cast<int>(layer), visit); });
   }

@@ -73,7 +73,7 @@ public:
 private:
   std::vector<ClosePair> AllPairs;
   std::vector<FacePair> AllIntersections;
-  std::vector<Findings> OfBlocks; ///< Of the last list; kept for their memory.
+  std::vector<Findings> OfSpans; ///< Of the last list; kept for their memory.
 };
 }
 

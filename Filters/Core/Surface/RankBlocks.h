@@ -33,7 +33,7 @@ public:
   /** All are of rank 0 until owners are chosen. */
   RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator& ranks);
 
-  /** Those that have a part of the surface; one alone has all of it. */
+  /** Those that have a piece of the surface; one alone has all of it. */
   Communicator& Sharers() const { return this->Ranks; }
   bool AreShared() const { return this->Ranks.NumberOfRanks() > 1; }
 
@@ -54,7 +54,7 @@ public:
   bool IsOwnVertex(int v) const { return this->IsOwn(this->State.Block[v]); }
 
   /**
-   * From a surface that is whole on rank 0 to one that each rank has its part of. `low`, `high`:
+   * From a surface that is whole on rank 0 to one that each rank has its piece of. `low`, `high`:
    * the box of the grid, the same on all ranks.
    */
   void Scatter(const Vector& low, const Vector& high);
@@ -101,9 +101,9 @@ private:
   std::vector<T> OfOwn(const std::vector<T>& ofBlocks) const;
   template <typename T>
   std::vector<T> InOrder(const std::vector<std::vector<T>>& ofRanks) const;
-  Message SendParts(const SurfaceMesh& mesh,
+  Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
-  void BeginParts(const Sizes& sizes, const Vector& low, const Vector& high);
+  void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
   bool IsNearOwn(const Vector& position) const;

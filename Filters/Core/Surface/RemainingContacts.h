@@ -37,7 +37,7 @@ struct RemainingContacts
 /**
  * The grid of the state must be up to date. The same for any executor. Cost: O(vertices).
  *
- * @param isOwn where ranks have parts of the surface (RankPart): of the pairs those whose smaller
+ * @param isOwn where ranks have pieces of the surface (RankPiece): of the pairs those whose smaller
  *              vertex is own are told, and which of the own vertices are held. Empty: all
  */
 RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& field,

@@ -5,7 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Surface/ConnectedVertices.h"
-#include "Core/Surface/RankPart.h"
+#include "Core/Surface/RankPiece.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace volumic
 {
 /**
- * The components of a surface, of which each rank has a part (RankPart), or one has all: their
+ * The components of a surface, of which each rank has a piece (RankPiece), or one has all: their
  * labels, and which of them must go. All that is said of them is the same on all ranks, for any
  * number of them, and for any executor.
  *
@@ -31,8 +31,8 @@ namespace volumic
 class SurfaceComponents
 {
 public:
-  explicit SurfaceComponents(const RankPart& part)
-    : Part(part)
+  explicit SurfaceComponents(const RankPiece& piece)
+    : Piece(piece)
   {
   }
 
@@ -105,7 +105,7 @@ private:
   std::vector<int> LabelsOf(const std::vector<int>& roots) const;
   void Remove(SurfaceState& state, const std::vector<int>& roots);
 
-  const RankPart Part;
+  const RankPiece Piece;
   ConnectedVertices Connected;
   LargeVector<std::uint8_t> Marks; ///< By vertex: Own or 0.
   std::vector<OwnSet> Sets;

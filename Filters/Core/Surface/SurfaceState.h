@@ -182,7 +182,7 @@ public:
    * Some vertices of a whole mesh that all ranks have put behind theirs, so that it has `first` and
    * the places after it. @return them, here
    */
-  std::vector<int> AddPart(const SurfaceMesh& mesh, int first, const std::vector<int>& vertices);
+  std::vector<int> AddPiece(const SurfaceMesh& mesh, int first, const std::vector<int>& vertices);
   /** Forgets a vertex that another rank has removed. */
   void Forget(int v);
 
