@@ -16,8 +16,8 @@
 namespace volumic
 {
 /**
- * Vertices with a mark. Where the others take no memory (MakeZeroed) it stays so: what is told of a
- * piece says nothing of others.
+ * The vertices that have a mark. Nothing is written for others, so that the zeroed memory of places
+ * that no vertex has (MakeZeroed) stays untouched and takes no room.
  */
 struct MarkedVertices
 {
