@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelSurfaces.h"
 
-#include "Host/SideBySide.h"
+#include "Core/Common/StandardThreads.h"
 #include "Input/SurfaceFile.h"
 #include "Labels/LabelCourse.h"
 
@@ -225,30 +225,37 @@ void Making::Do(const std::string& title, const Work& work)
   {
     rest -= this->Sizes[*small];
   }
-  SideBySide large({ own.begin(), small },
-    [&](std::size_t item) { doItem(item, this->NumberOfThreads, this->Threads); });
-  SideBySide others({ small, own.end() },
-    [&](std::size_t item)
-    {
-      HostThreads one(1);
-      doItem(item, 1, one);
-    });
-  try
+  const auto tell = [this]
   {
-    const auto tell = [this] { this->Tell(); };
-    // On the calling thread, which tells of each iteration, or, if others listen, beside it.
-    const bool isOne = this->Ranks.NumberOfRanks() == 1;
-    large.Run(isOne ? 0 : 1, tell);
-    others.Run(most, tell);
-    while (!isOne && this->Tell(true))
+    try
     {
-      std::this_thread::sleep_for(SideBySide::Pause);
+      this->Tell();
     }
-  }
-  catch (...)
+    catch (...)
+    {
+      this->State.IsStopped = true; // Those that are under way are waited for.
+      throw;
+    }
+  };
+  // On the calling thread, which tells of each iteration, or, if others listen, beside it.
+  const bool isOne = this->Ranks.NumberOfRanks() == 1;
+  const auto large = static_cast<std::size_t>(small - own.begin());
+  StandardThreads(isOne ? 1 : 2)
+    .ForEach(
+      large, [&](std::size_t i) { doItem(own[i], this->NumberOfThreads, this->Threads); }, tell);
+  const std::size_t others = own.size() - large;
+  StandardThreads(static_cast<int>(std::min(others, static_cast<std::size_t>(most))) + 1)
+    .ForEach(
+      others,
+      [&](std::size_t i)
+      {
+        HostThreads one(1);
+        doItem(own[large + i], 1, one);
+      },
+      tell);
+  while (!isOne && this->Tell(true))
   {
-    this->State.IsStopped = true; // Those that are under way are waited for.
-    throw;
+    std::this_thread::sleep_for(StandardThreads::Pause);
   }
 }
 
