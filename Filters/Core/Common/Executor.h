@@ -31,7 +31,7 @@ class Executor
 public:
   virtual ~Executor() = default;
 
-  /** `grain`: number of items under which a chunk is not worth a thread. */
+  /** @param grain the number of items under which a chunk is not worth a thread */
   virtual void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) = 0;
 

@@ -43,11 +43,11 @@ public:
     int Level = 0;           ///< Level that is running; 0 is the finest.
     Activity Doing = Activity::Iterating;
     int Iteration = 0;       ///< Iterations done on this level.
-    int Sweep = 0;           ///< Of the level, from 1; 0 before the first.
-    int Block = 0;           ///< Visits of blocks in this sweep, and
+    int Sweep = 0;           ///< Number of the level's sweep, from 1; 0 before the first.
+    int Block = 0;           ///< Blocks that were visited in this sweep, and
     int Blocks = 0;          ///< how many there are at most.
     int Vertices = 0;        ///< Vertices of the surface now.
-    int ActiveVertices = 0;  ///< Of them, those that are not frozen.
+    int ActiveVertices = 0;  ///< How many of them are not frozen.
     double Fraction = 0;     ///< Estimate of the share of this level that is done, in [0, 1]. It
                              ///< never becomes less.
   };

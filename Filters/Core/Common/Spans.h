@@ -13,9 +13,9 @@
 namespace volumic
 {
 /**
- * For lists that threads fill at once: what each span of [0, n) begins at if its items follow
- * those of the spans before, and the number of all as the last entry. countIn(begin, end): items
- * of a span.
+ * For lists that threads fill at once: the place at which the items of each span of [0, n) begin,
+ * if they follow those of the spans before, and the number of all as the last entry.
+ * countIn(begin, end) tells how many items a span has.
  */
 template <typename CountIn>
 std::vector<std::size_t> FirstOfSpans(
@@ -39,7 +39,7 @@ std::size_t CountInSpans(Executor& executor, std::size_t n, std::size_t size, Co
   return FirstOfSpans(executor, n, size, countIn).back();
 }
 
-/** All lists as one, in their order; its memory is used again. They are emptied. */
+/** Joins lists, which are emptied, in their order; the memory of `all` is used again. */
 template <typename T, typename Allocator>
 void Concatenate(
   Executor& executor, std::vector<std::vector<T>>& lists, std::vector<T, Allocator>& all)

@@ -19,10 +19,10 @@ namespace volumic
  */
 using LevelProgress = std::function<bool(double share)>;
 
-/** Some voxels of a level, in an array of their own; all of them where no box is named. */
+/** Some voxels of a level that lie in an array of their own; all of them where no box is named. */
 struct LevelPiece
 {
-  /** Meant to convert: most levels are whole. */
+  /** Not explicit: most levels are whole, and are given as they are. */
   LevelPiece(const LevelGeometry& level) : Level(level), Box(VoxelsOf(level)) {}
   LevelPiece(const LevelGeometry& level, const VoxelBox& box) : Level(level), Box(box) {}
 
