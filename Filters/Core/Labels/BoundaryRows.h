@@ -23,7 +23,7 @@ class BoundaryRows
 public:
   BoundaryRows(const LabelBricks& bricks, int object);
 
-  /** In voxels of the map; of whole bricks. */
+  /** The box, in voxels of the map, which is one of whole bricks. */
   const VoxelBox& Box() const { return this->Voxels; }
 
   /** The same voxels and those so many further along an axis, to whole bricks; within the box. */
